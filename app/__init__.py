@@ -1,0 +1,1 @@
+"""What happens: state, time, threads, browsers and cables."""

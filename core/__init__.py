@@ -1,0 +1,1 @@
+"""What is true: pure mathematics and values of walking delta robots; numpy only."""

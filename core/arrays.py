@@ -1,0 +1,53 @@
+"""Read-only float and boolean arrays for frozen values."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from core.errors import InputError
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+
+def frozen_floats(values: ArrayLike, shape: Sequence[int | None], name: str) -> Floats:
+    """Copies `values` into a read-only float array of the wanted shape.
+
+    Args:
+        values: anything numpy can read as numbers.
+        shape: wanted length of each axis; None where any length will do.
+        name: what the array is, for the message.
+
+    Returns:
+        A C-contiguous read-only float64 array.
+
+    Raises:
+        InputError: wrong number of axes or wrong length, or a number that is not finite.
+    """
+    array = np.array(values, dtype=np.float64, order="C")
+    _require_shape(array.shape, shape, name)
+    if not np.isfinite(array).all():
+        index = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
+        raise InputError(f"{name} holds {array[index]} at {index}; every number must be finite.", name)
+    array.setflags(write=False)
+    return array
+
+
+def frozen_bools(values: ArrayLike, shape: Sequence[int | None], name: str) -> Bools:
+    """Copies `values` into a read-only boolean array of the wanted shape (see `frozen_floats`)."""
+    array = np.array(values, dtype=np.bool_, order="C")
+    _require_shape(array.shape, shape, name)
+    array.setflags(write=False)
+    return array
+
+
+def _require_shape(actual: tuple[int, ...], wanted: Sequence[int | None], name: str) -> None:
+    matches = len(actual) == len(wanted) and all(
+        w is None or a == w for a, w in zip(actual, wanted, strict=True)
+    )
+    if not matches:
+        text = " × ".join("any" if w is None else str(w) for w in wanted)
+        raise InputError(f"{name} has shape {actual}; it must be {text}.", name)

@@ -1,0 +1,37 @@
+"""The one exception tree: every refusal names what happened, the limit and the remedy."""
+
+from __future__ import annotations
+
+
+class FootfallError(Exception):
+    """An expected refusal with a sentence for the user.
+
+    Args:
+        sentence: what happened, the number with its unit, the limit, and what to do.
+        where: the file, line, field, foot or sample that it is about.
+    """
+
+    def __init__(self, sentence: str, where: str | None = None) -> None:
+        super().__init__(sentence)
+        self.sentence = sentence
+        self.where = where
+
+
+class InputError(FootfallError):
+    """Bad usage or bad input: a file, a field or an option that cannot be used."""
+
+
+class InfeasibleError(FootfallError):
+    """The robot cannot do what was asked."""
+
+
+class CheckError(FootfallError):
+    """A check failed: the plan is not fit to send, or a result was not confirmed."""
+
+
+class RobotError(FootfallError):
+    """The robot or its cable did not do what was expected."""
+
+
+class StateError(FootfallError):
+    """The request does not fit the present state (not approved, not armed, already running)."""

@@ -1,0 +1,108 @@
+"""What a check found, the verdict it adds up to, and a person's approval of it."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import asdict, dataclass
+from datetime import datetime
+from enum import StrEnum
+
+from core.errors import StateError
+
+
+class Severity(StrEnum):
+    """Errors block approval; warnings do not."""
+
+    ERROR = "error"
+    WARNING = "warning"
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One rule broken at one place.
+
+    Args:
+        rule: short name of the rule, for example `stroke`.
+        severity: error or warning.
+        sentence: foot, time, value, limit and a way out, in words.
+        value: what was found, SI.
+        limit: the bound that it broke, SI.
+        sample: index of the knot, 0-based, where there is one.
+        foot: index of the foot, 0-based, where there is one.
+        actuator: index of the motor within the foot, 0-based, where there is one.
+    """
+
+    rule: str
+    severity: Severity
+    sentence: str
+    value: float
+    limit: float
+    sample: int | None = None
+    foot: int | None = None
+    actuator: int | None = None
+
+
+@dataclass(frozen=True)
+class RuleMargin:
+    """How far the worst place of a rule stays from its limit (negative: broken), SI."""
+
+    rule: str
+    margin: float
+    unit: str
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Every rule's outcome for exactly these waypoints.
+
+    Args:
+        waypoints_hash: content hash of the waypoints that were checked.
+        findings: what was found, errors first.
+        margins: the distance to the limit of each rule, also where nothing was found.
+    """
+
+    waypoints_hash: str
+    findings: tuple[Finding, ...]
+    margins: tuple[RuleMargin, ...]
+
+    @property
+    def passed(self) -> bool:
+        """Whether no error stands."""
+        return all(f.severity is not Severity.ERROR for f in self.findings)
+
+    @property
+    def content_hash(self) -> str:
+        """SHA-256 over everything in the verdict."""
+        return hashlib.sha256(json.dumps(asdict(self), sort_keys=True).encode()).hexdigest()
+
+
+@dataclass(frozen=True)
+class Approval:
+    """A person's word that these waypoints may move the robot.
+
+    Args:
+        verdict_hash: content hash of the verdict that was approved.
+        waypoints_hash: content hash of the waypoints.
+        by: the person's name.
+        when: ISO 8601 time with its offset.
+    """
+
+    verdict_hash: str
+    waypoints_hash: str
+    by: str
+    when: str
+
+
+def approve(verdict: Verdict, by: str, when: datetime) -> Approval:
+    """Binds a person to a verdict without errors.
+
+    Raises:
+        StateError: an error stands, or no name was given.
+    """
+    if not by.strip():
+        raise StateError("An approval needs the name of the person who gives it.", "by")
+    if not verdict.passed:
+        errors = [f for f in verdict.findings if f.severity is Severity.ERROR]
+        raise StateError(f"{len(errors)} errors stand, the first: {errors[0].sentence}", "verdict")
+    return Approval(verdict.content_hash, verdict.waypoints_hash, by.strip(), when.isoformat())

@@ -1,0 +1,189 @@
+"""The robot's parameters as one frozen value, read from one file a variant."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass
+from importlib import resources
+from typing import Any
+
+import numpy as np
+
+from core.arrays import Floats, frozen_floats
+from core.errors import InputError
+
+
+@dataclass(frozen=True)
+class LegGeometry:
+    """A linear-delta leg (thesis Table 2.1), m.
+
+    Args:
+        base_radius: u_b, distance of a motor from the module's centre.
+        platform_radius: u_p, distance of a rod's end from the platform's centre.
+        link_length: l, length of a rod.
+    """
+
+    base_radius: float
+    platform_radius: float
+    link_length: float
+
+    @property
+    def reach_radius(self) -> float:
+        """u_t = u_b − u_p of (2.7), the radius of the spheres' centres, m."""
+        return self.base_radius - self.platform_radius
+
+
+@dataclass(frozen=True)
+class StrokeLimits:
+    """What a motor can do: m, m/s, m/s²."""
+
+    travel: float
+    lower: float
+    upper: float
+    speed: float
+    acceleration: float
+
+
+@dataclass(frozen=True)
+class ModelMasses:
+    """Point masses of the optimisation's model, kg."""
+
+    body: float
+    foot: float
+
+
+@dataclass(frozen=True)
+class BodyShape:
+    """Sizes that only pictures need, m."""
+
+    plate_across: float
+    plate_thickness: float
+    motor_width: float
+    motor_length: float
+    rod_diameter: float
+    rod_spacing: float
+    foot_diameter: float
+    shoe_diameter: float
+    board: tuple[float, float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class RobotModel:
+    """n linear-delta modules in a ring.
+
+    The robot's frame has its origin on the body axis in the actuator plane, z up; module i stands at
+    `azimuths[i]` and its own frame has y pointing outwards.
+
+    Args:
+        name: the parameters file's name.
+        title: what a person reads.
+        wired: whether the real robot's cable carries these motors.
+        azimuths: (legs,) rad.
+        radius: distance of a module's centre from the body axis, m.
+        leg: geometry of every leg.
+        stroke: limits of every motor.
+        com_height: centre of mass above the actuator plane, m.
+        sole_depth: floor below the platform of a standing foot, m.
+        masses: point masses of the optimisation's model.
+        mass_sets: every named set of masses as it stands in the file, kg.
+        shape: sizes for pictures.
+        colours: a colour a foot, `#rrggbb`.
+    """
+
+    name: str
+    title: str
+    wired: bool
+    azimuths: Floats
+    radius: float
+    leg: LegGeometry
+    stroke: StrokeLimits
+    com_height: float
+    sole_depth: float
+    masses: ModelMasses
+    mass_sets: dict[str, dict[str, float]]
+    shape: BodyShape
+    colours: tuple[str, ...]
+
+    @property
+    def leg_count(self) -> int:
+        """Number of legs."""
+        return int(self.azimuths.shape[0])
+
+    @property
+    def motor_count(self) -> int:
+        """Number of motors, three a leg."""
+        return 3 * self.leg_count
+
+    @property
+    def total_model_mass(self) -> float:
+        """Body and feet of the optimisation's model, kg."""
+        return self.masses.body + self.leg_count * self.masses.foot
+
+    @property
+    def R_robot_from_module(self) -> Floats:
+        """(legs, 3, 3) rotation from each module's frame (y outwards) into the robot's."""
+        outwards_angle = self.azimuths - np.pi / 2
+        cosine, sine = np.cos(outwards_angle), np.sin(outwards_angle)
+        rotation = np.zeros((self.leg_count, 3, 3))
+        rotation[:, 0, 0], rotation[:, 0, 1] = cosine, -sine
+        rotation[:, 1, 0], rotation[:, 1, 1] = sine, cosine
+        rotation[:, 2, 2] = 1.0
+        return rotation
+
+    @property
+    def module_centres_robot(self) -> Floats:
+        """(legs, 3) centre of each module in the robot's frame, m."""
+        zeros = np.zeros(self.leg_count)
+        return self.radius * np.stack([np.cos(self.azimuths), np.sin(self.azimuths), zeros], axis=-1)
+
+
+ROBOT_NAMES = ("deltawalker", "hexapod", "dodecapod")
+"""Parameter files that come with the program."""
+
+
+def load_robot(name: str) -> RobotModel:
+    """Reads a robot's parameters file.
+
+    Raises:
+        InputError: there is no robot of that name, or its file lacks something.
+    """
+    if name not in ROBOT_NAMES:
+        raise InputError(f"There is no robot “{name}”; choose one of {', '.join(ROBOT_NAMES)}.", "robot")
+    text = resources.files("robot_description").joinpath(f"{name}.toml").read_text("utf-8")
+    return robot_from_table(tomllib.loads(text), f"{name}.toml")
+
+
+def robot_from_table(table: dict[str, Any], where: str) -> RobotModel:
+    """Builds the model from a parsed parameters file.
+
+    Raises:
+        InputError: a section or number is missing or does not fit.
+    """
+    try:
+        shape = dict(table["shape"])
+        colours = tuple(shape.pop("colours"))
+        board = tuple(shape.pop("board"))
+        azimuths = np.radians(frozen_floats(table["ring"]["azimuths_deg"], (None,), "azimuths_deg"))
+        azimuths.setflags(write=False)
+        model = RobotModel(
+            name=table["name"],
+            title=table["title"],
+            wired=bool(table["wired"]),
+            azimuths=azimuths,
+            radius=float(table["ring"]["radius"]),
+            leg=LegGeometry(**table["leg"]),
+            stroke=StrokeLimits(**table["stroke"]),
+            com_height=float(table["body"]["com_height"]),
+            sole_depth=float(table["body"]["sole_depth"]),
+            masses=ModelMasses(**table["mass"]["model"]),
+            mass_sets={key: dict(value) for key, value in table["mass"].items()},
+            shape=BodyShape(board=board, **shape),
+            colours=colours,
+        )
+    except (KeyError, TypeError) as error:
+        raise InputError(
+            f"{where} does not describe a robot: {error} is missing or unknown.", where
+        ) from error
+    if len(colours) != model.leg_count:
+        raise InputError(f"{where}: {len(colours)} colours for {model.leg_count} legs.", where)
+    return model

@@ -1,0 +1,1 @@
+"""What the robot is: parameters, and the builder that makes meshes and URDF from them."""

@@ -1,0 +1,1 @@
+"""What is computed: optimisation problems, solvers and the worker processes that run them."""

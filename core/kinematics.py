@@ -112,7 +112,7 @@ def walker_strokes(model: RobotModel, feet_world: Floats, pose: BodyPose) -> Flo
     """
     feet_module = feet_in_modules(model, feet_world, pose)
     strokes = strokes_from_foot(model.leg, feet_module)
-    outside = ~_within(strokes, model.stroke).all(axis=-1)
+    outside = np.asarray(~_within(strokes, model.stroke).all(axis=-1))
     if outside.any():
         _raise_unreachable(model, feet_module, feet_world, outside)
     return strokes

@@ -1,0 +1,106 @@
+"""Support polygon, static stability margin and centre of pressure."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from core.arrays import Bools, Floats
+
+GRAVITY = 9.81
+"""Standard gravity as the published program has it, m/s²."""
+
+
+def support_polygon(points: Floats) -> Floats:
+    """Convex hull of standing feet, counter-clockwise (Andrew's monotone chain).
+
+    Args:
+        points: (k, 2) ground projections, m.
+
+    Returns:
+        (m, 2) vertices; fewer than three where the feet do not span an area.
+    """
+    ordered = sorted({(float(x), float(y)) for x, y in points})
+    if len(ordered) < 3:
+        return np.array(ordered).reshape(-1, 2)
+    lower = _half_hull(ordered)
+    upper = _half_hull(ordered[::-1])
+    return np.array(lower[:-1] + upper[:-1])
+
+
+def _half_hull(ordered: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    chain: list[tuple[float, float]] = []
+    for point in ordered:
+        while len(chain) >= 2 and _turn(chain[-2], chain[-1], point) <= 0:
+            chain.pop()
+        chain.append(point)
+    return chain
+
+
+def _turn(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float]) -> float:
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def polygon_margin(polygon: Floats, point: Floats) -> float:
+    """Signed distance of a point to a convex polygon's edge: positive inside, m.
+
+    Outside, and for a polygon without area, it is minus the distance to the nearest edge or vertex.
+
+    Args:
+        polygon: (m, 2) vertices counter-clockwise.
+        point: (2,).
+    """
+    if len(polygon) == 0:
+        return float("-inf")
+    starts = polygon
+    edges = np.roll(polygon, -1, axis=0) - starts
+    lengths = np.maximum(np.linalg.norm(edges, axis=1), 1e-300)
+    relative = point - starts
+    inside = (edges[:, 0] * relative[:, 1] - edges[:, 1] * relative[:, 0]) / lengths
+    if len(polygon) >= 3 and (inside >= 0).all():
+        return float(inside.min())
+    fraction = np.clip((relative * edges).sum(axis=1) / lengths**2, 0.0, 1.0)
+    nearest = starts + fraction[:, None] * edges
+    return -float(np.linalg.norm(point - nearest, axis=1).min())
+
+
+def stability_margins(points_xy: Floats, feet_world: Floats, contact: Bools) -> Floats:
+    """Margin of a ground point at each knot; with the centre of mass it is the static stability margin.
+
+    Args:
+        points_xy: (n, 2) m.
+        feet_world: (n, legs, 3) m.
+        contact: (n, legs) true where a foot stands.
+
+    Returns:
+        (n,) signed distance to the support polygon's edge, m.
+    """
+    margins = [
+        polygon_margin(support_polygon(feet[standing, :2]), point)
+        for point, feet, standing in zip(points_xy, feet_world, contact, strict=True)
+    ]
+    return np.array(margins)
+
+
+def centre_of_pressure(
+    body_world: Floats,
+    body_acceleration: Floats,
+    feet_acceleration: Floats,
+    body_mass: float,
+    foot_mass: float,
+) -> Floats:
+    """Where the ground pushes (DOMAIN.md 12): p_xy − z_b · Σ m_i a_i,xy / Σ m_i (g + a_i,z).
+
+    Args:
+        body_world: (n, 3) the body's point, z above the standing feet's platforms, m.
+        body_acceleration: (n, 3) m/s².
+        feet_acceleration: (n, legs, 3) m/s².
+        body_mass: kg.
+        foot_mass: of each foot, kg.
+
+    Returns:
+        (n, 2) m.
+    """
+    inertia = body_mass * body_acceleration + foot_mass * feet_acceleration.sum(axis=1)
+    total = body_mass + foot_mass * feet_acceleration.shape[1]
+    vertical = inertia[:, 2] + total * GRAVITY
+    return np.asarray(body_world[:, :2] - body_world[:, 2:3] * inertia[:, :2] / vertical[:, None])

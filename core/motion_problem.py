@@ -131,7 +131,13 @@ class MotionProblem:
 
 
 def standing_pose(model: RobotModel, plane_height: float, shift_xy: tuple[float, float]) -> RestPose:
-    """Every foot under its module's centre, the body axis at `shift_xy` and the plane at `plane_height`, m."""
-    shift = np.array([shift_xy[0], shift_xy[1], 0.0])
-    body = shift + [0.0, 0.0, plane_height + model.com_height]
-    return RestPose(body, model.module_centres_robot + shift)
+    """Every foot under its module's centre, with the body axis shifted.
+
+    Args:
+        model: the robot.
+        plane_height: of the actuator plane above the standing feet's platforms, m.
+        shift_xy: where the body axis stands in the world, m.
+    """
+    x, y = shift_xy
+    body = np.array([x, y, plane_height + model.com_height])
+    return RestPose(body, model.module_centres_robot + np.array([x, y, 0.0]))

@@ -1,0 +1,1 @@
+"""Gaits and segment definitions that come with the program, as data."""

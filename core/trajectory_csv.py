@@ -1,0 +1,183 @@
+"""Trajectory CSV in and out, in the layout of the lab's own files.
+
+30 rows × N knots: body xyz (z of the centre of mass), feet 1 to 4 xyz, then their velocities, SI, under a
+header `Column1,…,ColumnN`. What the layout cannot say travels in a companion JSON bound by the CSV's hash.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from core.arrays import Bools, Floats
+from core.errors import InputError
+from core.trajectory import Trajectory, difference_velocities
+
+COMPANION_FORMAT = "footfall-trajectory"
+DEFAULT_INTERVAL = 0.4
+"""Time between knots where no companion says otherwise, s."""
+STANDING_HEIGHT = 0.00025 + 1e-6
+"""A foot at rest below this height stands, where no companion says: 0.25 mm and the checks' tolerance, m."""
+
+
+@dataclass(frozen=True, eq=False)
+class TrajectoryFile:
+    """A trajectory as read, and what had to be assumed.
+
+    Args:
+        trajectory: the motion.
+        assumptions: sentences; empty where the companion said everything.
+    """
+
+    trajectory: Trajectory
+    assumptions: tuple[str, ...]
+
+
+def format_trajectory_csv(trajectory: Trajectory) -> str:
+    """Writes header and rows; numbers so that they read back to the last bit."""
+    body_velocity = trajectory.body_velocity
+    feet_velocity = trajectory.feet_velocity
+    if body_velocity is None:
+        body_velocity = difference_velocities(trajectory.times, trajectory.body_world)
+    if feet_velocity is None:
+        feet_velocity = difference_velocities(trajectory.times, trajectory.feet_world)
+    n = trajectory.knot_count
+    positions = np.concatenate([trajectory.body_world, trajectory.feet_world.reshape(n, -1)], axis=1)
+    velocities = np.concatenate([body_velocity, feet_velocity.reshape(n, -1)], axis=1)
+    header = ",".join(f"Column{k + 1}" for k in range(n))
+    rows = np.concatenate([positions, velocities], axis=1).T
+    return "\n".join([header, *(",".join(repr(float(v)) for v in row) for row in rows)]) + "\n"
+
+
+def format_companion(trajectory: Trajectory, csv_text: str) -> str:
+    """JSON with what the CSV cannot say, bound to it by hash."""
+    content = {
+        "format": COMPANION_FORMAT,
+        "version": 1,
+        "csv_sha256": _digest(csv_text),
+        "legs": trajectory.leg_count,
+        "times": trajectory.times.tolist(),
+        "heading": trajectory.heading.tolist(),
+        "contact": trajectory.contact.astype(int).tolist(),
+    }
+    return json.dumps(content) + "\n"
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def parse_trajectory_csv(text: str, name: str, companion_text: str | None = None) -> TrajectoryFile:
+    """Reads a trajectory file in any of the lab's layouts.
+
+    Args:
+        text: the CSV's text.
+        name: the file's name, for messages.
+        companion_text: text of the companion JSON, where there is one.
+
+    Raises:
+        InputError: naming line and column of what is wrong.
+    """
+    table, first_line = _parse_table(text, name)
+    companion, assumptions = _companion(companion_text, text, name)
+    legs = int(companion.get("legs", 4)) if companion else 4
+    size = 3 + 3 * legs
+    if table.shape[0] not in (size, 2 * size):
+        raise InputError(
+            f"{name}: {table.shape[0]} rows of numbers from line {first_line} on; {legs} feet "
+            f"have {size} (positions) or {2 * size} (positions and velocities).",
+            name,
+        )
+    if table.shape[1] < 2:
+        raise InputError(f"{name}: one knot; a trajectory needs at least two columns.", name)
+    return _assemble(table, legs, companion, assumptions)
+
+
+def _assemble(
+    table: Floats, legs: int, companion: dict[str, Any] | None, assumptions: list[str]
+) -> TrajectoryFile:
+    n, size = table.shape[1], 3 + 3 * legs
+    columns = table.T
+    body, feet = columns[:, :3], columns[:, 3:size].reshape(n, legs, 3)
+    times = np.asarray(companion["times"] if companion else np.arange(n) * DEFAULT_INTERVAL, np.float64)
+    heading = np.asarray(companion["heading"] if companion else np.zeros(n), np.float64)
+    if table.shape[0] == 2 * size:
+        body_velocity = columns[:, size : size + 3]
+        feet_velocity = columns[:, size + 3 :].reshape(n, legs, 3)
+    else:
+        body_velocity = difference_velocities(times, body)
+        feet_velocity = difference_velocities(times, feet)
+        assumptions.append("Velocities are missing; they are differences of the positions.")
+    contact = np.array(companion["contact"], dtype=np.bool_) if companion else _standing(feet)
+    trajectory = Trajectory(times, body, heading, feet, contact, body_velocity, feet_velocity)
+    return TrajectoryFile(trajectory, tuple(assumptions))
+
+
+def _standing(feet: Floats) -> Bools:
+    """A foot stands where it lies within the standing height and keeps still towards a neighbouring knot."""
+    low = np.abs(feet[..., 2]) <= STANDING_HEIGHT
+    still = np.linalg.norm(np.diff(feet, axis=0), axis=-1) <= STANDING_HEIGHT
+    padded = np.concatenate([still[:1] & False, still, still[:1] & False])
+    return np.asarray(low & (padded[1:] | padded[:-1]))
+
+
+def _companion(text: str | None, csv_text: str, name: str) -> tuple[dict[str, Any] | None, list[str]]:
+    assumed = (
+        f"{DEFAULT_INTERVAL} s between knots, heading 0, and a foot stands where it rests within "
+        f"{STANDING_HEIGHT * 1000:.2f} mm of z = 0."
+    )
+    if text is None:
+        return None, [f"{name} has no companion file; assumed: {assumed}"]
+    try:
+        content: dict[str, Any] = json.loads(text)
+        if content.get("format") != COMPANION_FORMAT or content.get("version") != 1:
+            return None, [f"The companion of {name} is of an unknown format; assumed: {assumed}"]
+    except (json.JSONDecodeError, AttributeError):
+        return None, [f"The companion of {name} is not JSON; assumed: {assumed}"]
+    if content.get("csv_sha256") != _digest(csv_text):
+        return None, [f"The companion of {name} belongs to another version of it; assumed: {assumed}"]
+    return content, []
+
+
+def _parse_table(text: str, name: str) -> tuple[Floats, int]:
+    lines = text.replace("\r\n", "\n").rstrip("\n").split("\n")
+    first = 1 if _is_header(lines[0]) else 0
+    rows: list[list[float]] = []
+    for number, line in enumerate(lines[first:], first + 1):
+        fields = line.rstrip(",").split(",")
+        row = [_number(field, f"{name}:{number}", column) for column, field in enumerate(fields, 1)]
+        if rows and len(row) != len(rows[0]):
+            raise InputError(
+                f"{name}, line {number}: {len(row)} numbers; the lines before have {len(rows[0])}.",
+                f"{name}:{number}",
+            )
+        rows.append(row)
+    if not rows:
+        raise InputError(f"{name} holds no numbers; a trajectory file has 15 or 30 rows of them.", name)
+    return np.array(rows), first + 1
+
+
+def _is_header(line: str) -> bool:
+    """Whether a line is words (`Column1,…`) or counts 0, 1, 2, … as the lab's files do."""
+    fields = line.rstrip(",").split(",")
+    if all(field.strip().strip('"').isidentifier() for field in fields):
+        return not any(field.strip().lower() in ("nan", "inf", "infinity") for field in fields)
+    try:
+        numbers = [float(field) for field in fields]
+    except ValueError:
+        return False
+    return len(numbers) > 1 and numbers == list(range(len(numbers)))
+
+
+def _number(field: str, where: str, column: int) -> float:
+    try:
+        number = float(field)
+    except ValueError:
+        raise InputError(f"{where}, column {column}: “{field}” is not a number.", where) from None
+    if not np.isfinite(number):
+        raise InputError(f"{where}, column {column}: {field} is not a finite number.", where)
+    return number

@@ -1,0 +1,159 @@
+"""An emulated robot on a real line: the firmware's virtual time laid over the real one."""
+
+from __future__ import annotations
+
+import random
+import threading
+import time
+from collections.abc import Iterable, Sequence
+from enum import StrEnum
+
+from app.bridge.firmware import Firmware
+from app.bridge.ports import Port, PtyPort, TcpPort
+from app.bridge.profiles import PROFILES, ProfileName
+from core.wire import MOTORS, RESET_MM
+
+NAP = 0.001
+"""Waits shorter than this are not worth a sleep, s."""
+
+WORST_LAG = 0.5
+"""After falling further behind than this (a suspended machine), time is not caught up, s."""
+
+FAULT_AT_WAYPOINT = 3
+FAULT_AFTER = 0.4
+"""A fault asked for beforehand strikes this long after that many waypoints were taken, s."""
+
+DROP_CHANCE = 0.002
+STUCK_MOTOR = 4
+
+
+class Fault(StrEnum):
+    """What can go wrong on request; drop and stuck-motor last, the others strike once."""
+
+    STALL = "stall"
+    UNPLUG = "unplug"
+    RESET = "reset"
+    DROP = "drop"
+    STUCK_MOTOR = "stuck-motor"
+
+
+class EmulatedRobot:
+    """A robot that a host can open at `device`.
+
+    Args:
+        firmware: the program; give it a start pose or a profile of your own.
+        port: the line; closed with the robot.
+        speed: seconds of the robot in a second.
+        faults: what shall go wrong in the first run.
+
+    Attributes:
+        firmware: messages taken, completions and fault state, to be read at any time.
+    """
+
+    def __init__(
+        self, firmware: Firmware, port: Port, *, speed: float = 1.0, faults: Iterable[Fault] = ()
+    ) -> None:
+        self.firmware = firmware
+        self._port = port
+        self._speed = speed
+        self._pending = set(faults)
+        self._asked: list[Fault] = []
+        self._dropping = False
+        self._random = random.Random(0)
+        self._closing = threading.Event()
+        self._thread = threading.Thread(target=self._live, name="emulated robot", daemon=True)
+        self._thread.start()
+
+    @property
+    def device(self) -> str:
+        """What a host opens: a path, or `socket://…`."""
+        return self._port.device
+
+    def inject(self, fault: Fault) -> None:
+        """Makes something go wrong at once."""
+        self._asked.append(fault)
+
+    def close(self) -> None:
+        """Ends the robot and hangs up; doing it twice does no harm."""
+        self._closing.set()
+        self._thread.join()
+        self._port.close()
+
+    def _live(self) -> None:
+        program = self.firmware.run()
+        start = time.monotonic()
+        while not self._closing.is_set():
+            next(program)
+            wait = start + self.firmware.now / self._speed - time.monotonic()
+            if wait < -WORST_LAG:
+                start -= wait
+            if wait >= NAP:
+                self._closing.wait(wait)
+            self._exchange()
+            self._strike()
+
+    def _exchange(self) -> None:
+        board = self.firmware.board
+        sent = b"".join(self._pass_on(chunk.data) for chunk in board.take_sent())
+        if sent:
+            self._port.write(sent)
+        board.inbox += self._port.read()
+
+    def _pass_on(self, data: bytes) -> bytes:
+        if not self._dropping or self._random.random() > DROP_CHANCE * len(data):
+            return data
+        hole = self._random.randrange(len(data))
+        return data[:hole] + data[hole + 1 :]
+
+    def _strike(self) -> None:
+        if self._pending and self._is_time():
+            self._asked.extend(sorted(self._pending))
+            self._pending.clear()
+        while self._asked:
+            self._apply(self._asked.pop(0))
+
+    def _is_time(self) -> bool:
+        if self._pending & {Fault.DROP, Fault.STUCK_MOTOR}:
+            return True
+        taken = [m.time for m in self.firmware.messages if m.strokes_mm is not None]
+        return len(taken) >= FAULT_AT_WAYPOINT and (
+            self.firmware.now >= taken[FAULT_AT_WAYPOINT - 1] + FAULT_AFTER
+        )
+
+    def _apply(self, fault: Fault) -> None:
+        match fault:
+            case Fault.STALL:
+                self.firmware.stall("The program was stalled on request.")
+            case Fault.RESET:
+                self.firmware.reset()
+            case Fault.UNPLUG:
+                self._port.close()
+            case Fault.DROP:
+                self._dropping = True
+            case Fault.STUCK_MOTOR:
+                self.firmware.board.motors.jam(STUCK_MOTOR, self.firmware.board.now_us)
+
+
+def start_emulator(
+    profile: ProfileName | str = ProfileName.PUBLISHED,
+    speed: float = 1.0,
+    *,
+    tcp: int | None = None,
+    faults: Iterable[Fault] = (),
+    strokes_mm: Sequence[float] = (RESET_MM,) * MOTORS,
+) -> EmulatedRobot:
+    """Starts an emulated robot, which boots like the real one (5 s, then a move to 0.5 mm).
+
+    Args:
+        profile: timing of its input and output.
+        speed: seconds of the robot in a second.
+        tcp: port to listen on, 0 for a free one; None for a pseudo-terminal.
+        faults: what shall go wrong in the first run.
+        strokes_mm: stroke of each motor at power-on.
+
+    Raises:
+        InputError: the TCP port is taken.
+    """
+    port: Port = PtyPort() if tcp is None else TcpPort(tcp)
+    firmware = Firmware(PROFILES[ProfileName(profile)], strokes_mm)
+    return EmulatedRobot(firmware, port, speed=speed, faults=faults)

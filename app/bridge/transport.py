@@ -1,0 +1,121 @@
+"""The host's end of the cable: a serial device or a socket, read at once and written with a deadline."""
+
+from __future__ import annotations
+
+import errno
+import os
+import selectors
+import threading
+from collections.abc import Callable
+
+import serial
+
+from core.errors import RobotError
+
+BAUD = 9600
+"""As the sketch asks for; the board's own USB ignores it. Never 1200, which starts the boot loader."""
+
+WRITE_DEADLINE = 0.5
+"""A message of 110 bytes that is not out after this long never will be, s."""
+
+CHUNK_BYTES = 65536
+
+
+class Transport:
+    """An open line to the robot.
+
+    Args:
+        device: path of a serial device, or `socket://HOST:PORT`.
+        on_data: called by the reader's thread with what arrived; must return at once.
+        on_lost: called once by the reader's thread with a sentence when the line hangs up by itself.
+
+    Raises:
+        RobotError: the device is absent, busy or not allowed; the sentence says what to do.
+    """
+
+    def __init__(self, device: str, on_data: Callable[[bytes], None], on_lost: Callable[[str], None]) -> None:
+        self.device = device
+        self._port = _open(device)
+        self._on_data = on_data
+        self._on_lost = on_lost
+        self._closing = threading.Event()
+        self._wake_read, self._wake_write = os.pipe()
+        self._thread = threading.Thread(target=self._read_all, name="robot reader", daemon=True)
+        self._thread.start()
+
+    def write(self, data: bytes) -> None:
+        """Sends a whole message.
+
+        Raises:
+            RobotError: the line took no bytes in time, or has hung up.
+        """
+        try:
+            self._port.write(data)
+        except serial.SerialTimeoutException as error:
+            raise RobotError(
+                f"{self.device} took no message for {WRITE_DEADLINE} s. Check the cable and the robot's power.",
+                self.device,
+            ) from error
+        except (serial.SerialException, OSError) as error:
+            raise RobotError(_hung_up(self.device), self.device) from error
+
+    def close(self) -> None:
+        """Closes the line; doing it twice does no harm."""
+        if self._closing.is_set():
+            return
+        self._closing.set()
+        os.write(self._wake_write, b"x")
+        if threading.current_thread() is not self._thread:
+            self._thread.join()
+        self._port.close()
+        os.close(self._wake_read)
+        os.close(self._wake_write)
+
+    def _read_all(self) -> None:
+        with selectors.DefaultSelector() as selector:
+            selector.register(self._port.fileno(), selectors.EVENT_READ)
+            selector.register(self._wake_read, selectors.EVENT_READ)
+            while not self._closing.is_set():
+                selector.select()
+                if self._closing.is_set():
+                    return
+                data = self._read()
+                if data is None:
+                    self._on_lost(_hung_up(self.device))
+                    return
+                self._on_data(data)
+
+    def _read(self) -> bytes | None:
+        try:
+            return os.read(self._port.fileno(), CHUNK_BYTES) or None
+        except BlockingIOError:
+            return b""
+        except OSError:
+            return None
+
+
+def _open(device: str) -> serial.SerialBase:
+    try:
+        return serial.serial_for_url(
+            device, baudrate=BAUD, timeout=0, write_timeout=WRITE_DEADLINE, exclusive=True
+        )
+    except (serial.SerialException, OSError, ValueError) as error:
+        raise RobotError(_refusal(device, error), device) from error
+
+
+def _refusal(device: str, error: Exception) -> str:
+    text = str(error).lower()
+    number = getattr(error, "errno", None)
+    if "lock" in text or number == errno.EBUSY:
+        return f"{device} is in use by another program. Close that program, then connect again."
+    if number == errno.EACCES:
+        return f"{device} may not be opened by this user. Ask for the right to use serial ports (dialout)."
+    if device.startswith("socket://"):
+        return f"Nothing answers at {device}. Start the robot's server there, or correct host and port."
+    if number == errno.ENOENT or "no such file" in text:
+        return f"There is no device {device}. Plug the robot in, or choose another device."
+    return f"{device} cannot be opened as a serial line: {error}. Choose another device."
+
+
+def _hung_up(device: str) -> str:
+    return f"{device} has hung up. Check cable and power, then connect again."

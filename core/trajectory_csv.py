@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -163,14 +164,13 @@ def _parse_table(text: str, name: str) -> tuple[Floats, int]:
 
 def _is_header(line: str) -> bool:
     """Whether a line is words (`Column1,…`) or counts 0, 1, 2, … as the lab's files do."""
-    fields = line.rstrip(",").split(",")
-    if all(field.strip().strip('"').isidentifier() for field in fields):
-        return not any(field.strip().lower() in ("nan", "inf", "infinity") for field in fields)
-    try:
-        numbers = [float(field) for field in fields]
-    except ValueError:
-        return False
-    return len(numbers) > 1 and numbers == list(range(len(numbers)))
+    numbers = []
+    for field in line.rstrip(",").split(","):
+        with suppress(ValueError):
+            numbers.append(float(field))
+    if not numbers:
+        return True
+    return len(numbers) > 1 and numbers == list(range(line.rstrip(",").count(",") + 1))
 
 
 def _number(field: str, where: str, column: int) -> float:

@@ -1,0 +1,259 @@
+"""The rules that a plan must keep before a person may approve it; each returns findings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Bools, Floats
+from core.findings import Finding, RuleMargin, Severity, Verdict
+from core.leg import foot_from_strokes
+from core.manual import stance_slip
+from core.robot import RobotModel
+from core.support import centre_of_pressure, stability_margins
+from core.trajectory import Trajectory
+from core.waypoint_path import deaf_seconds
+from core.waypoints import Waypoints
+
+TOLERANCE = 1e-6
+"""What a limit may be passed by before it counts, m."""
+BALANCE_RESERVE = 0.001
+"""Below this distance to the polygon's edge the check warns, m."""
+SLIP_LIMIT = 0.0005
+"""A standing foot that slides further gets a warning, m."""
+CLEARANCE_LIMIT = 0.001
+"""A swing that rises less gets a warning, m."""
+TRAVEL_LIMIT = 0.001
+"""A plan that ends further from where the document says is wrong, m."""
+DEAF_LIMIT = 2.5
+"""A plan during which Stop takes longer gets a warning, s."""
+STANDING_DEPTH = 0.0005
+"""Feet within this of the deepest one are taken to stand where only waypoints are known, m."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What one rule found, and its distance to the limit."""
+
+    margin: RuleMargin
+    findings: tuple[Finding, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class CheckedPlan:
+    """What the rules look at.
+
+    Args:
+        model: the robot.
+        trajectory: the plan in the world frame.
+        waypoints: what would be sent.
+        expected_travel: (2,) the body's displacement that the document asks for, m; None where unknown.
+        is_draft: whether the plan was only drawn, not computed by hand table or optimiser.
+    """
+
+    model: RobotModel
+    trajectory: Trajectory
+    waypoints: Waypoints
+    expected_travel: Floats | None = None
+    is_draft: bool = False
+
+
+def check_plan(plan: CheckedPlan) -> Verdict:
+    """Every rule on a plan, for exactly these waypoints."""
+    rules = (_stroke(plan.model, plan.waypoints), _deafness(plan.model, plan.waypoints))
+    outcomes = [*rules, *(rule(plan) for rule in (_balance, _clearance, _slip, _motor_speed))]
+    if plan.expected_travel is not None:
+        outcomes.append(_travel(plan, plan.expected_travel))
+    findings = [finding for outcome in outcomes for finding in outcome.findings]
+    if plan.is_draft:
+        findings.append(
+            Finding(
+                "computed",
+                Severity.ERROR,
+                "This plan is only drawn from the timeline. Click Optimise and check its result.",
+                0.0,
+                1.0,
+            )
+        )
+    return _verdict(plan.waypoints, findings, outcomes)
+
+
+def check_waypoints(model: RobotModel, waypoints: Waypoints) -> Verdict:
+    """What waypoints alone can show: range, deafness, and balance by forward kinematics."""
+    outcomes = [
+        _stroke(model, waypoints),
+        _deafness(model, waypoints),
+        _standing_balance(model, waypoints),
+    ]
+    findings = [finding for outcome in outcomes for finding in outcome.findings]
+    return _verdict(waypoints, findings, outcomes)
+
+
+def _verdict(waypoints: Waypoints, findings: Sequence[Finding], outcomes: Sequence[Outcome]) -> Verdict:
+    ordered = sorted(findings, key=lambda f: (f.severity is not Severity.ERROR, f.rule, f.sample or 0))
+    return Verdict(waypoints.content_hash, tuple(ordered), tuple(outcome.margin for outcome in outcomes))
+
+
+def _stroke(model: RobotModel, waypoints: Waypoints) -> Outcome:
+    lower, upper = model.stroke.lower, model.stroke.upper
+    room = np.minimum(waypoints.strokes - lower, upper - waypoints.strokes)
+    findings = []
+    for sample, foot, actuator in np.argwhere(room < -TOLERANCE):
+        value = float(waypoints.strokes[sample, foot, actuator])
+        findings.append(
+            Finding(
+                "stroke",
+                Severity.ERROR,
+                f"Motor {actuator + 1} of foot {foot + 1} would go to {value * 1000:.2f} mm at sample "
+                f"{sample + 1}; its range is {lower * 1000:.1f} to {upper * 1000:.1f} mm. Shorten the step "
+                "or change the body's height.",
+                value,
+                lower if value < lower else upper,
+                int(sample),
+                int(foot),
+                int(actuator),
+            )
+        )
+    return Outcome(RuleMargin("stroke", float(room.min()), "m"), tuple(findings))
+
+
+def _deafness(model: RobotModel, waypoints: Waypoints) -> Outcome:
+    seconds = deaf_seconds(model, waypoints)
+    margin = RuleMargin("deafness", DEAF_LIMIT - seconds, "s")
+    if seconds <= DEAF_LIMIT:
+        return Outcome(margin)
+    sentence = (
+        f"The longest move keeps the robot from hearing Stop for {seconds:.1f} s; more than {DEAF_LIMIT} s. "
+        "Cut long moves with --stop-bound."
+    )
+    return Outcome(margin, (Finding("deafness", Severity.WARNING, sentence, seconds, DEAF_LIMIT),))
+
+
+def _balance(plan: CheckedPlan) -> Outcome:
+    """Ground point inside the support polygon.
+
+    Of a motion whose forces were solved it is the centre of pressure (DOMAIN.md 12); of every other the
+    centre of mass (static stability margin), since the firmware sets its own speeds.
+    """
+    t = plan.trajectory
+    points, what = t.body_world[:, :2], "centre of mass"
+    if t.contact_forces is not None and t.body_velocity is not None and t.feet_velocity is not None:
+        steps = np.diff(t.times)
+        masses = plan.model.masses
+        moving = centre_of_pressure(
+            t.body_world[:-1],
+            np.diff(t.body_velocity, axis=0) / steps[:, None],
+            np.diff(t.feet_velocity, axis=0) / steps[:, None, None],
+            masses.body,
+            masses.foot,
+        )
+        points, what = np.concatenate([moving, t.body_world[-1:, :2]]), "centre of pressure"
+    margins = stability_margins(points, t.feet_world, t.contact)
+    return _balance_outcome(margins, t.times, t.contact, what)
+
+
+def _balance_outcome(margins: Floats, times: Floats, contact: Bools, what: str) -> Outcome:
+    findings = []
+    for first, last in _stretches(margins < BALANCE_RESERVE):
+        worst = first + int(margins[first : last + 1].argmin())
+        value = float(margins[worst])
+        tips = value < -TOLERANCE
+        standing = ", ".join(str(foot + 1) for foot in np.nonzero(contact[worst])[0]) or "none"
+        sentence = (
+            f"At {times[worst]:.1f} s the {what} is {abs(value) * 1000:.2f} mm "
+            f"{'outside' if tips else 'inside'} the edge of the support polygon of feet {standing} "
+            f"({times[first]:.1f} to {times[last]:.1f} s): "
+            f"{'the robot tips' if tips else 'there is hardly any reserve'}. "
+            "Shift the body before the step, or ask the optimiser for a stability margin."
+        )
+        severity, limit = (Severity.ERROR, 0.0) if tips else (Severity.WARNING, BALANCE_RESERVE)
+        findings.append(Finding("balance", severity, sentence, value, limit, worst))
+    return Outcome(RuleMargin("balance", float(margins.min()), "m"), tuple(findings))
+
+
+def _stretches(flags: Bools) -> list[tuple[int, int]]:
+    """First and last index of each run of true values."""
+    edges = np.diff(np.concatenate([[0], flags.astype(np.int8), [0]]))
+    starts, ends = np.nonzero(edges > 0)[0], np.nonzero(edges < 0)[0]
+    return [(int(a), int(b) - 1) for a, b in zip(starts, ends, strict=True)]
+
+
+def _standing_balance(model: RobotModel, waypoints: Waypoints) -> Outcome:
+    feet_module = foot_from_strokes(model.leg, waypoints.strokes)
+    turned = np.einsum("lij,nlj->nli", model.R_robot_from_module, feet_module)
+    feet_robot = turned + model.module_centres_robot
+    height = feet_robot[..., 2] - feet_robot[..., 2].min(axis=1, keepdims=True)
+    standing = np.asarray(height <= STANDING_DEPTH)
+    margins = stability_margins(np.zeros((waypoints.count, 2)), feet_robot, standing)
+    times = np.cumsum(waypoints.durations) - waypoints.durations[0]
+    return _balance_outcome(margins, times, standing, "centre of mass")
+
+
+def _clearance(plan: CheckedPlan) -> Outcome:
+    t = plan.trajectory
+    smallest, findings = np.inf, []
+    for foot in range(t.leg_count):
+        for first, last in _stretches(np.asarray(~t.contact[:, foot])):
+            rise = float(t.feet_world[first : last + 1, foot, 2].max())
+            smallest = min(smallest, rise - CLEARANCE_LIMIT)
+            if rise < CLEARANCE_LIMIT - TOLERANCE:
+                sentence = (
+                    f"Foot {foot + 1} rises only {rise * 1000:.1f} mm in its swing from "
+                    f"{t.times[first]:.1f} s; less than {CLEARANCE_LIMIT * 1000:.0f} mm drags. Ask for more clearance."
+                )
+                findings.append(
+                    Finding("clearance", Severity.WARNING, sentence, rise, CLEARANCE_LIMIT, first, foot)
+                )
+    margin = float(smallest) if np.isfinite(smallest) else 0.0
+    return Outcome(RuleMargin("clearance", margin, "m"), tuple(findings))
+
+
+def _slip(plan: CheckedPlan) -> Outcome:
+    slips = stance_slip(plan.trajectory.feet_world, plan.trajectory.contact)
+    findings = [
+        Finding(
+            "slip",
+            Severity.WARNING,
+            f"Foot {foot + 1} slides {slip * 1000:.1f} mm while it stands; more than "
+            f"{SLIP_LIMIT * 1000:.1f} mm. An optimised gait keeps standing feet still.",
+            float(slip),
+            SLIP_LIMIT,
+            None,
+            foot,
+        )
+        for foot, slip in enumerate(slips)
+        if slip > SLIP_LIMIT
+    ]
+    return Outcome(RuleMargin("slip", SLIP_LIMIT - float(slips.max()), "m"), tuple(findings))
+
+
+def _motor_speed(plan: CheckedPlan) -> Outcome:
+    moves = np.abs(np.diff(plan.waypoints.strokes, axis=0))
+    speeds = moves / np.maximum(plan.waypoints.durations[1:], 1e-9)[:, None, None]
+    limit = plan.model.stroke.speed
+    margin = RuleMargin("motor_speed", limit - float(speeds.max(initial=0.0)), "m/s")
+    if margin.margin >= -TOLERANCE:
+        return Outcome(margin)
+    sample, foot, actuator = (int(i) for i in np.unravel_index(int(speeds.argmax()), speeds.shape))
+    value = float(speeds[sample, foot, actuator])
+    sentence = (
+        f"Motor {actuator + 1} of foot {foot + 1} would need {value * 1000:.1f} mm/s after sample "
+        f"{sample + 1}; motors make {limit * 1000:.0f} mm/s, so the robot takes longer than planned there."
+    )
+    finding = Finding("motor_speed", Severity.WARNING, sentence, value, limit, sample, foot, actuator)
+    return Outcome(margin, (finding,))
+
+
+def _travel(plan: CheckedPlan, expected: Floats) -> Outcome:
+    body = plan.trajectory.body_world
+    gap = float(np.linalg.norm(body[-1, :2] - body[0, :2] - expected))
+    margin = RuleMargin("travel", TRAVEL_LIMIT - gap, "m")
+    if gap <= TRAVEL_LIMIT:
+        return Outcome(margin)
+    sentence = (
+        f"The body ends {gap * 1000:.1f} mm from where the gait says; at most {TRAVEL_LIMIT * 1000:.0f} mm "
+        "is allowed. Optimise again, or correct the step."
+    )
+    return Outcome(margin, (Finding("travel", Severity.ERROR, sentence, gap, TRAVEL_LIMIT),))

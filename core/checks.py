@@ -14,8 +14,8 @@ from core.manual import stance_slip
 from core.robot import RobotModel
 from core.support import centre_of_pressure, stability_margins
 from core.trajectory import Trajectory
-from core.waypoint_path import deaf_seconds
 from core.waypoints import Waypoints
+from core.wire_timing import stop_delay
 
 TOLERANCE = 1e-6
 """What a limit may be passed by before it counts, m."""
@@ -62,7 +62,7 @@ class CheckedPlan:
 
 def check_plan(plan: CheckedPlan) -> Verdict:
     """Every rule on a plan, for exactly these waypoints."""
-    rules = (_stroke(plan.model, plan.waypoints), _deafness(plan.model, plan.waypoints))
+    rules = (_stroke(plan.model, plan.waypoints), _deafness(plan.waypoints))
     outcomes = [*rules, *(rule(plan) for rule in (_balance, _clearance, _slip, _motor_speed))]
     if plan.expected_travel is not None:
         outcomes.append(_travel(plan, plan.expected_travel))
@@ -84,7 +84,7 @@ def check_waypoints(model: RobotModel, waypoints: Waypoints) -> Verdict:
     """What waypoints alone can show: range, deafness, and balance by forward kinematics."""
     outcomes = [
         _stroke(model, waypoints),
-        _deafness(model, waypoints),
+        _deafness(waypoints),
         _standing_balance(model, waypoints),
     ]
     findings = [finding for outcome in outcomes for finding in outcome.findings]
@@ -119,8 +119,8 @@ def _stroke(model: RobotModel, waypoints: Waypoints) -> Outcome:
     return Outcome(RuleMargin("stroke", float(room.min()), "m"), tuple(findings))
 
 
-def _deafness(model: RobotModel, waypoints: Waypoints) -> Outcome:
-    seconds = deaf_seconds(model, waypoints)
+def _deafness(waypoints: Waypoints) -> Outcome:
+    seconds = stop_delay(waypoints)
     margin = RuleMargin("deafness", DEAF_LIMIT - seconds, "s")
     if seconds <= DEAF_LIMIT:
         return Outcome(margin)
@@ -201,7 +201,8 @@ def _clearance(plan: CheckedPlan) -> Outcome:
             if rise < CLEARANCE_LIMIT - TOLERANCE:
                 sentence = (
                     f"Foot {foot + 1} rises only {rise * 1000:.1f} mm in its swing from "
-                    f"{t.times[first]:.1f} s; less than {CLEARANCE_LIMIT * 1000:.0f} mm drags. Ask for more clearance."
+                    f"{t.times[first]:.1f} s; less than {CLEARANCE_LIMIT * 1000:.0f} mm drags. "
+                    "Ask for more clearance."
                 )
                 findings.append(
                     Finding("clearance", Severity.WARNING, sentence, rise, CLEARANCE_LIMIT, first, foot)

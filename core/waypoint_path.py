@@ -1,7 +1,6 @@
-"""From trajectories to waypoints, and the time that the firmware takes over them.
+"""From trajectories to waypoints, and which of them the path needs.
 
-The firmware moves every motor along a straight line in motor space to each waypoint and stops there, all
-motors arriving together, in T = 2d/15 s below 15 mm and 1 s + d/15 above (d the longest way, mm).
+The firmware moves all motors along a straight line in motor space to each waypoint and stops there.
 """
 
 from __future__ import annotations
@@ -15,8 +14,9 @@ from core.errors import InputError
 from core.robot import RobotModel
 from core.trajectory import Trajectory
 from core.waypoints import Waypoints
+from core.wire_timing import ARRIVAL_THRESHOLD, LONGEST_SCAN, RAMP_SPEED, largest_moves, ramp_time
 
-SCAN_SECONDS = 0.27
+TYPICAL_SCAN = 0.27
 """Time of the firmware's error scan in the profile that matches the published 30 s an iteration."""
 
 
@@ -28,31 +28,6 @@ def waypoints_from_trajectory(model: RobotModel, trajectory: Trajectory) -> Wayp
     """
     steps = np.diff(trajectory.times)
     return Waypoints(trajectory.strokes(model), np.concatenate([steps[:1], steps]))
-
-
-def ramp_seconds(model: RobotModel, distance: float) -> float:
-    """Time of one ramp (PROTOCOL.md 3): 2d/v below v²/a, v/a + d/v above.
-
-    Args:
-        model: for the motors' speed v and acceleration a.
-        distance: longest way of any motor, m.
-    """
-    speed, acceleration = model.stroke.speed, model.stroke.acceleration
-    if distance < speed * speed / acceleration:
-        return 2 * distance / speed
-    return speed / acceleration + distance / speed
-
-
-def move_lengths(waypoints: Waypoints) -> Floats:
-    """(n − 1,) longest way of any motor from each waypoint to the next, m."""
-    return np.asarray(np.abs(np.diff(waypoints.strokes, axis=0)).max(axis=(1, 2)))
-
-
-def deaf_seconds(model: RobotModel, waypoints: Waypoints) -> float:
-    """How long the robot hears nothing at worst, Stop included: one scan and the longest ramp, s."""
-    lengths = move_lengths(waypoints)
-    longest = float(lengths.max()) if len(lengths) else 0.0
-    return SCAN_SECONDS + ramp_seconds(model, longest)
 
 
 def merge_waypoints(waypoints: Waypoints, tolerance: float) -> Waypoints:
@@ -86,21 +61,19 @@ def _stays_near(strokes: Floats, first: int, last: int, tolerance: float) -> boo
     return in_order and float(np.abs(inner - fractions[:, None] * way).max()) <= tolerance
 
 
-def cut_moves(model: RobotModel, waypoints: Waypoints, bound: float) -> Waypoints:
+def cut_moves(waypoints: Waypoints, bound: float) -> Waypoints:
     """Cuts moves into equal parts so that the robot is never deaf longer than a bound.
 
     Args:
-        model: for the motors' speed and acceleration.
         waypoints: what to cut.
         bound: longest deafness, s.
 
     Raises:
         InputError: the bound leaves no move longer than the firmware's 1 mm threshold.
     """
-    speed = model.stroke.speed
-    longest = (bound - SCAN_SECONDS) * speed / 2
-    if not (math.isfinite(bound) and longest > 0.001):
-        least = SCAN_SECONDS + 2 * 0.001 / speed
+    longest = (bound - LONGEST_SCAN) * RAMP_SPEED / 2 - ARRIVAL_THRESHOLD
+    if not (math.isfinite(bound) and longest > ARRIVAL_THRESHOLD):
+        least = LONGEST_SCAN + 4 * ARRIVAL_THRESHOLD / RAMP_SPEED
         raise InputError(
             f"The stop bound is {bound} s; it must be longer than {least:.2f} s.", "--stop-bound"
         )
@@ -115,10 +88,10 @@ def cut_moves(model: RobotModel, waypoints: Waypoints, bound: float) -> Waypoint
     return Waypoints(np.array(strokes), np.array(durations))
 
 
-def estimate_seconds(model: RobotModel, waypoints: Waypoints) -> float:
+def estimate_seconds(waypoints: Waypoints) -> float:
     """About how long the robot takes over all waypoints: a scan each, a second one after each ramp, s."""
-    total = SCAN_SECONDS * waypoints.count
-    for length in move_lengths(waypoints):
-        if length > 0.001:
-            total += SCAN_SECONDS + ramp_seconds(model, float(length))
+    total = TYPICAL_SCAN * waypoints.count
+    for length in largest_moves(waypoints):
+        if length > ARRIVAL_THRESHOLD:
+            total += TYPICAL_SCAN + ramp_time(float(length))
     return total

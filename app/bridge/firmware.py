@@ -6,7 +6,7 @@ over what the host has sent before each step, and takes what the board has sent 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import repeat
 
@@ -239,7 +239,7 @@ class Firmware:
         else:
             self._complete()
 
-    def _scan(self) -> Iterator[None]:
+    def _scan(self) -> Generator[None, None, bool]:
         board = self.board
         board.write(b"E, ")
         reached = True

@@ -53,7 +53,7 @@ class Transport:
             self._port.write(data)
         except serial.SerialTimeoutException as error:
             raise RobotError(
-                f"{self.device} took no message for {WRITE_DEADLINE} s. Check the cable and the robot's power.",
+                f"{self.device} took no message for {WRITE_DEADLINE} s. Check cable and power.",
                 self.device,
             ) from error
         except (serial.SerialException, OSError) as error:

@@ -1,0 +1,163 @@
+"""One message on its way: believed by what the robot says about it, not by counting lines (PROTOCOL 5.2)."""
+
+from __future__ import annotations
+
+from enum import Enum, auto
+
+from app.bridge.stopping import STOP_PAYLOAD
+from core.wire import QUANTUM_MM, THRESHOLD_MM, name_motor, payload_of
+from core.wire_lines import (
+    Echo,
+    EndOfTrajectories,
+    Execute,
+    Line,
+    NewData,
+    Telemetry,
+    TrajectoryPoint,
+    numbers_equal,
+)
+from core.wire_timing import ramp_time
+
+COAST_MM = 0.1
+"""A motor within the threshold coasts on at 3 mm/s for at most two readings before it is released."""
+
+ARRIVAL_MM = THRESHOLD_MM + QUANTUM_MM + COAST_MM
+"""Distance of a measured stroke from its target within which a waypoint counts as reached, mm."""
+
+ECHO_DEADLINE = 2.0
+"""An idle robot takes a message within one pass of its loop, 32 ms with slow input and output, s."""
+
+EXTRA_TIME, RAMP_FACTOR = 3.5, 2.0
+"""Slack for scans and further small ramps: any move of the recordings takes less than half of it."""
+
+
+class Stage(Enum):
+    """What is to be seen next."""
+
+    ECHO = auto()
+    POINT = auto()
+    END = auto()
+    MEASURE = auto()
+
+
+MOVE = (Stage.ECHO, Stage.POINT, Stage.END, Stage.MEASURE)
+"""A waypoint that is to be reached."""
+
+STORE = (Stage.ECHO, Stage.POINT)
+"""A waypoint given to a stopped robot, which keeps it for later."""
+
+RESTART = (Stage.ECHO, Stage.END, Stage.MEASURE)
+"""A reset, or the end of a stop."""
+
+
+def arrival_deadline(distance_mm: float) -> float:
+    """Time in s within which a move of `distance_mm` must have arrived."""
+    return RAMP_FACTOR * ramp_time(distance_mm / 1000.0) + EXTRA_TIME
+
+
+class Delivery:
+    """Follows a message through its stages.
+
+    Args:
+        message: what was sent.
+        target_mm: strokes that it leads to.
+        stages: what must be seen, in order.
+        sent_at: time of sending, s.
+        distance_mm: largest distance to go.
+        early_end: an end line before the echo counts too (a robot that was not stopped after all).
+
+    Attributes:
+        failure: why the message must be given up, or None.
+    """
+
+    def __init__(
+        self,
+        message: bytes,
+        target_mm: tuple[float, ...],
+        stages: tuple[Stage, ...],
+        sent_at: float,
+        distance_mm: float,
+        *,
+        early_end: bool = False,
+    ) -> None:
+        self.payload = payload_of(message)
+        self.target_mm = target_mm
+        self.failure: str | None = None
+        self._left = list(stages)
+        self._sent_at = sent_at
+        self._deadline = sent_at + arrival_deadline(distance_mm)
+        self._early_end = early_end
+        self._executing = False
+
+    @property
+    def arrived(self) -> bool:
+        """Whether everything was seen."""
+        return not self._left and self.failure is None
+
+    def see(self, line: Line) -> None:
+        """Takes the next line from the robot."""
+        if not self._left or self.failure is not None:
+            return
+        self._executing = self._executing or isinstance(line, Execute)
+        match self._left[0]:
+            case Stage.ECHO:
+                self._await_echo(line)
+            case Stage.POINT:
+                self._await_point(line)
+            case Stage.END:
+                self._await_end(line)
+            case Stage.MEASURE:
+                self._await_measurement(line)
+
+    def check(self, now: float, measured_mm: tuple[float, ...]) -> None:
+        """Fails the delivery if its time is over."""
+        if not self._left or self.failure is not None:
+            return
+        if self._left[0] is Stage.ECHO and now > self._sent_at + ECHO_DEADLINE:
+            self.failure = f"The robot did not take a message within {ECHO_DEADLINE} s."
+        elif now > self._deadline:
+            seconds = self._deadline - self._sent_at
+            self.failure = f"Not reached within {seconds:.1f} s: {self.describe_distance(measured_mm)}."
+
+    def describe_distance(self, measured_mm: tuple[float, ...]) -> str:
+        """Names the motor that is farthest from its target, and how far."""
+        distances = [abs(t - m) for t, m in zip(self.target_mm, measured_mm, strict=True)]
+        worst = distances.index(max(distances))
+        return (
+            f"{name_motor(worst)} stands at {measured_mm[worst]:.2f} mm, {distances[worst]:.2f} mm from its "
+            f"{self.target_mm[worst]:.2f} mm (limit {THRESHOLD_MM} mm)"
+        )
+
+    def _await_echo(self, line: Line) -> None:
+        if isinstance(line, EndOfTrajectories) and self._early_end:
+            self._left = [stage for stage in self._left if stage is not Stage.END]
+        if not isinstance(line, Echo) or (line.payload == STOP_PAYLOAD != self.payload):
+            return
+        if line.payload == self.payload:
+            self._left.pop(0)
+        else:
+            self.failure = f"The robot read “{line.payload[:40]}” where “{self.payload[:40]}” was sent."
+
+    def _await_point(self, line: Line) -> None:
+        if isinstance(line, TrajectoryPoint):
+            if line.index == 0 and numbers_equal(self.target_mm, line.strokes_mm):
+                self._left.pop(0)
+            else:
+                self.failure = "The robot read other strokes than were sent."
+        elif isinstance(line, NewData | EndOfTrajectories):
+            self.failure = "The robot did not confirm the strokes that it was sent."
+
+    def _await_end(self, line: Line) -> None:
+        if isinstance(line, EndOfTrajectories):
+            self._left.pop(0)
+        elif isinstance(line, NewData) and not self._executing:
+            self.failure = "The robot took the message but does not move: it still holds an old stop."
+
+    def _await_measurement(self, line: Line) -> None:
+        if not isinstance(line, Telemetry):
+            return
+        if all(abs(t - s) <= ARRIVAL_MM for t, s in zip(self.target_mm, line.strokes_mm, strict=True)):
+            self._left.pop(0)
+        else:
+            place = self.describe_distance(line.strokes_mm)
+            self.failure = f"The robot says that it arrived, but {place}."

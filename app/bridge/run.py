@@ -1,0 +1,161 @@
+"""The sequence of messages of one run: the slow way to the start pose, then the approved waypoints."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.bridge.states import RunPhase, RunPlan, RunProgress
+from core.errors import StateError
+from core.wire import HIGHEST_MM, LOWEST_MM, THRESHOLD_MM, encode_waypoint, strokes_to_mm
+from core.wire_timing import ramp_time
+
+START_MOVE_MM = 3.0
+"""Largest move of a motor in one message on the way to the start pose."""
+
+
+@dataclass(frozen=True)
+class Move:
+    """One message of a run: where it leads in mm, its phase, and whether a pause may end there."""
+
+    message: bytes
+    target_mm: tuple[float, ...]
+    phase: RunPhase
+    hold_ok: bool
+
+
+def start_targets(measured_mm: tuple[float, ...], first_mm: tuple[float, ...]) -> list[tuple[float, ...]]:
+    """Cuts the way from where the motors stand to the first waypoint.
+
+    Args:
+        measured_mm: (12,) measured strokes.
+        first_mm: (12,) strokes of the first waypoint.
+
+    Returns:
+        Targets at most 3 mm apart and more than the firmware's 1 mm, the last one the first waypoint;
+        none when every motor is within 1 mm of it already.
+    """
+    here, there = np.array(measured_mm), np.array(first_mm)
+    distance = float(np.abs(there - here).max())
+    if distance <= THRESHOLD_MM:
+        return []
+    count = math.ceil(distance / START_MOVE_MM)
+    between = [here + (there - here) * (i / count) for i in range(1, count)]
+    limited = [np.clip(row, LOWEST_MM, HIGHEST_MM) for row in between]
+    return [*(strokes_to_mm(row / 1000.0) for row in limited), first_mm]
+
+
+def plan_moves(plan: RunPlan, measured_mm: tuple[float, ...]) -> list[Move]:
+    """Encodes every message of a run before the first is sent.
+
+    Raises:
+        StateError: the approval is of other waypoints than these.
+        InputError: a stroke cannot be sent.
+    """
+    if plan.approval.waypoints_hash != plan.waypoints.content_hash:
+        raise StateError(
+            "These waypoints are not the ones that were approved. Check and approve them, then send again.",
+            "approval",
+        )
+    waypoints = plan.waypoints
+    streamed = [
+        Move(encode_waypoint(strokes, duration), strokes_to_mm(strokes), RunPhase.STREAMING, hold)
+        for strokes, duration, hold in zip(
+            waypoints.strokes, waypoints.durations.tolist(), plan.hold_ok, strict=True
+        )
+    ]
+    return [*_start_moves(measured_mm, streamed[0]), *streamed]
+
+
+def _start_moves(measured_mm: tuple[float, ...], first: Move) -> list[Move]:
+    here, moves = measured_mm, []
+    for target in start_targets(measured_mm, first.target_mm):
+        farthest = max(abs(t - h) for t, h in zip(target, here, strict=True))
+        message = encode_waypoint(np.array(target) / 1000.0, ramp_time(farthest / 1000.0))
+        hold = first.hold_ok and target == first.target_mm
+        moves.append(Move(message, target, RunPhase.START_POSE, hold))
+        here = target
+    return moves
+
+
+class Run:
+    """How far the messages of a plan have got.
+
+    Args:
+        plan: approved waypoints.
+        measured_mm: where the motors stand.
+        run_id: name of the run.
+        by: who sends it.
+        now: time, s.
+
+    Raises:
+        StateError, InputError: see `plan_moves`.
+    """
+
+    def __init__(
+        self, plan: RunPlan, measured_mm: tuple[float, ...], run_id: str, by: str, now: float
+    ) -> None:
+        self._moves = plan_moves(plan, measured_mm)
+        self._start_count = len(self._moves) - plan.waypoints.count
+        self._count = plan.waypoints.count
+        self._sent = 0
+        self._reached = 0
+        self._began = now
+        self._ended: float | None = None
+        self.run_id = run_id
+        self.by = by
+
+    @property
+    def finished(self) -> bool:
+        """Whether the last waypoint was reached."""
+        return self._reached == len(self._moves)
+
+    @property
+    def may_hold(self) -> bool:
+        """Whether a pause may end at the pose that was reached last."""
+        return self._reached > 0 and self._moves[self._reached - 1].hold_ok
+
+    @property
+    def place(self) -> str:
+        """Where the run is, for a person."""
+        if self._sent <= self._start_count:
+            return "on the way to the start pose"
+        return f"at waypoint {self._sent - self._start_count} of {self._count}"
+
+    @property
+    def last_reached_mm(self) -> tuple[float, ...]:
+        """Target that was reached last, mm."""
+        return self._moves[max(self._reached - 1, 0)].target_mm
+
+    def next_move(self) -> Move:
+        """Returns the next message's move and counts it as sent."""
+        move = self._moves[self._sent]
+        self._sent += 1
+        return move
+
+    def arrive(self) -> None:
+        """Counts the move in flight as reached."""
+        self._reached += 1
+
+    def end(self, now: float) -> None:
+        """Stops the run's clock; only the first end counts."""
+        self._ended = now if self._ended is None else self._ended
+
+    def elapsed(self, now: float) -> float:
+        """Time since the run began, until its end, s."""
+        return (now if self._ended is None else self._ended) - self._began
+
+    def progress(self, now: float) -> RunProgress:
+        """What to show of the run."""
+        streaming = self._sent > self._start_count
+        return RunProgress(
+            run_id=self.run_id,
+            by=self.by,
+            phase=RunPhase.STREAMING if streaming else RunPhase.START_POSE,
+            sent=max(self._sent - self._start_count, 0),
+            reached=max(self._reached - self._start_count, 0),
+            count=self._count,
+            elapsed=self.elapsed(now),
+        )

@@ -1,0 +1,136 @@
+"""What the bridge tells about link, robot and run: words, values and the plan it is given."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from core.errors import InputError
+from core.findings import Approval
+from core.waypoints import Waypoints
+
+
+class LinkState(StrEnum):
+    """Whether bytes come and go."""
+
+    DISCONNECTED = "disconnected"
+    CONNECTING = "connecting"
+    READY = "ready"
+    LOST = "lost"
+
+
+class RobotState(StrEnum):
+    """What the robot is doing, as far as it can be known."""
+
+    UNKNOWN = "unknown"
+    DISARMED = "disarmed"
+    ARMED = "armed"
+    MOVING = "moving"
+    PAUSING = "pausing"
+    PAUSED = "paused"
+    STOPPING = "stopping"
+    STOPPED = "stopped"
+    DONE = "done"
+    FAULT = "fault"
+
+
+IN_RUN = frozenset({RobotState.MOVING, RobotState.PAUSING, RobotState.PAUSED})
+"""States in which a run or a reset is under way."""
+
+
+class RunPhase(StrEnum):
+    """Part of a run: on the way to the first waypoint, or through the approved ones."""
+
+    START_POSE = "start pose"
+    STREAMING = "streaming"
+
+
+class Direction(StrEnum):
+    """Which way bytes went."""
+
+    TO_ROBOT = "to robot"
+    FROM_ROBOT = "from robot"
+
+
+@dataclass(frozen=True)
+class RunPlan:
+    """What a person approved for the robot.
+
+    Args:
+        waypoints: strokes to reach one after the other.
+        approval: must be of exactly these waypoints.
+        hold_ok: for each waypoint whether all feet are down there, so that a pause may end at it.
+    """
+
+    waypoints: Waypoints
+    approval: Approval
+    hold_ok: tuple[bool, ...]
+
+    def __post_init__(self) -> None:
+        if len(self.hold_ok) != self.waypoints.count:
+            raise InputError(
+                f"{len(self.hold_ok)} hold marks for {self.waypoints.count} waypoints; give one for each.",
+                "hold_ok",
+            )
+
+
+@dataclass(frozen=True)
+class RunProgress:
+    """How far a run has come.
+
+    Args:
+        run_id: made when the run began.
+        by: who sent it.
+        phase: start pose or streaming.
+        sent: number of approved waypoints sent so far; the last has index `sent - 1`.
+        reached: number of approved waypoints that were confirmed as reached.
+        count: number of approved waypoints.
+        elapsed: time since the run began, until its end, s.
+    """
+
+    run_id: str
+    by: str
+    phase: RunPhase
+    sent: int
+    reached: int
+    count: int
+    elapsed: float
+
+
+@dataclass(frozen=True)
+class RobotSnapshot:
+    """Everything there is to show about the robot at one moment.
+
+    Args:
+        link: state of the cable.
+        robot: state of the robot.
+        sentence: what that means and what can be done.
+        strokes: (12,) measured strokes in m, or None before the first telemetry.
+        run: the run that is under way or was the last.
+        stop_text: “stopped at 12.4 s by NAME” as long as the stop stands.
+        unknown_lines: lines that fit no kind, since connecting.
+        device: what is or was connected.
+        last_error: sentence of the last fault or loss.
+        measured_scan: longest error scan seen since connecting, s (see `core.wire_timing.stop_delay`).
+    """
+
+    link: LinkState
+    robot: RobotState
+    sentence: str
+    strokes: tuple[float, ...] | None
+    run: RunProgress | None
+    stop_text: str | None
+    unknown_lines: int
+    device: str | None
+    last_error: str | None
+    measured_scan: float | None
+
+
+@dataclass(frozen=True)
+class Transition:
+    """A change of state with its cause, and the time of the bridge's clock in s."""
+
+    time: float
+    link: LinkState
+    robot: RobotState
+    cause: str

@@ -1,0 +1,92 @@
+"""What is known of the robot from its lines alone: strokes, whether it idles, whether it stands still."""
+
+from __future__ import annotations
+
+from core.wire_lines import (
+    Blank,
+    CurrentPoint,
+    ErrorsChecked,
+    Execute,
+    Line,
+    NewData,
+    SetupMoving,
+    Telemetry,
+    UnknownLine,
+)
+
+STILL_MM = 0.05
+"""Readings that differ less are of a motor that stands: four counts of the converter."""
+
+STILL_TIME = 0.3
+FRESH_TIME = 0.5
+"""Standing still is believed after 0.3 s of equal readings, the last at most 0.5 s old."""
+
+
+class Watch:
+    """Follows the lines of one connection.
+
+    Args:
+        now: time of the connection, s.
+
+    Attributes:
+        strokes_mm: last measured strokes, or None.
+        last_byte: time of the last byte, s.
+        idle_lines: telemetry lines since the robot last worked at a move.
+        unknown_lines: lines of no known kind.
+        longest_scan: longest error scan, s, or None.
+        last_line: last line that tells more than that the robot is alive.
+        readings: telemetry lines so far.
+    """
+
+    def __init__(self, now: float) -> None:
+        self.strokes_mm: tuple[float, ...] | None = None
+        self.last_byte = now
+        self.idle_lines = 0
+        self.unknown_lines = 0
+        self.longest_scan: float | None = None
+        self.last_line: Line | None = None
+        self.readings = 0
+        self._still_from: tuple[float, ...] | None = None
+        self._still_since = now
+        self._last_reading = now
+        self._scan_began: float | None = None
+
+    def heard(self, now: float) -> None:
+        """Bytes arrived."""
+        self.last_byte = now
+
+    def stands_still(self, now: float) -> bool:
+        """Whether every motor has been where it is for 0.3 s, by readings that are still coming in."""
+        fresh = now - self._last_reading <= FRESH_TIME
+        return self._still_from is not None and fresh and self._last_reading - self._still_since >= STILL_TIME
+
+    def see(self, line: Line, now: float) -> None:
+        """Takes the next line."""
+        match line:
+            case Telemetry():
+                self._see_strokes(line.strokes_mm, now)
+                return
+            case Execute() | SetupMoving():
+                self.idle_lines = 0
+            case CurrentPoint():
+                self._scan_began = now
+            case ErrorsChecked() if self._scan_began is not None:
+                self.longest_scan = max(self.longest_scan or 0.0, now - self._scan_began)
+            case UnknownLine():
+                self.unknown_lines += 1
+            case _:
+                pass
+        if not isinstance(line, Blank | NewData):
+            self.last_line = line
+
+    def _see_strokes(self, strokes_mm: tuple[float, ...], now: float) -> None:
+        self.strokes_mm = strokes_mm
+        self.readings += 1
+        self.idle_lines += 1
+        self._last_reading = now
+        still = self._still_from is not None and all(
+            abs(a - b) <= STILL_MM for a, b in zip(self._still_from, strokes_mm, strict=True)
+        )
+        if not still:
+            self._still_from = strokes_mm
+            self._still_since = now

@@ -1,0 +1,51 @@
+"""The sentences that go with the bridge's states."""
+
+from __future__ import annotations
+
+from app.bridge.states import RobotState
+
+SENTENCES: dict[RobotState, str] = {
+    RobotState.UNKNOWN: "What the robot does is not known.",
+    RobotState.DISARMED: "The robot answers and stands still. Arm it to let it move.",
+    RobotState.ARMED: "The robot is armed: sending a plan moves it.",
+    RobotState.MOVING: "The robot is moving.",
+    RobotState.PAUSING: "The robot goes on to the next pose with all feet down and pauses there.",
+    RobotState.PAUSED: "The robot stands with all feet down. Resume goes on.",
+    RobotState.STOPPING: "Stop was sent. It takes effect when the running ramp is over.",
+    RobotState.STOPPED: "The robot stands still and stays so. Clear it, then arm it again.",
+    RobotState.DONE: "The plan is done. Arm the robot for another run.",
+    RobotState.FAULT: "The run ended with a fault. Clear it, then arm the robot again.",
+}
+
+NOT_CONNECTED = "No robot is connected."
+CONNECTING = (
+    "Waiting for the robot. Its board may restart when it is connected; its motors may then move "
+    "for about 8 s."
+)
+CLEARING = "Clearing the stop; no motor moves."
+RESTARTED = "The robot restarted by itself and moves its motors to 0.5 mm."
+NOT_STOPPED = "NOT STOPPED: the robot has not confirmed the stop. Use the power switch."
+
+
+def silent_sentence(silence: float, limit: float, place: str) -> str:
+    """Says that an answering robot fell silent."""
+    return (
+        f"The robot has been silent for {silence:.1f} s {place} (limit {limit} s). "
+        "If it moves, use its power switch; then connect again."
+    ).replace("  ", " ")
+
+
+def stranger_sentence(device: str | None, limit: float) -> str:
+    """Says that nothing like the robot is on the line."""
+    return (
+        f"Nothing on {device} answered like the robot within {limit:.0f} s. "
+        "Check device and power, then connect again."
+    )
+
+
+def displaced_sentence(distance_mm: float, limit_mm: float) -> str:
+    """Says that a paused robot was moved."""
+    return (
+        f"A motor stands {distance_mm:.2f} mm from where the run paused (limit {limit_mm:.2f} mm). "
+        "Stop, clear, and send the plan anew."
+    )

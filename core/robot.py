@@ -54,10 +54,13 @@ class ModelMasses:
 
 @dataclass(frozen=True)
 class BodyShape:
-    """Sizes that only pictures need, m."""
+    """Sizes that only pictures need, m; heights are of undersides above the actuator plane."""
 
     plate_across: float
     plate_thickness: float
+    lower_plate_height: float
+    upper_plate_height: float
+    board_height: float
     motor_width: float
     motor_length: float
     rod_diameter: float

@@ -1,0 +1,148 @@
+"""The embedded Viser client and its web socket, behind our own port.
+
+The client is the installed package's one HTML file, with our head script and style put in; the socket is
+relayed, message by message, to Viser on loopback.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import hashlib
+from collections.abc import Coroutine
+from importlib import resources
+from typing import Protocol
+
+import websockets
+from fastapi import APIRouter, Request, Response, WebSocket
+from starlette.websockets import WebSocketDisconnect, WebSocketState
+from websockets.asyncio.client import ClientConnection, connect
+from websockets.typing import Subprotocol
+
+CONTENT_SECURITY = "; ".join(
+    [
+        "default-src 'none'",
+        "script-src 'self' 'unsafe-inline' 'wasm-unsafe-eval'",
+        "worker-src blob:",
+        "connect-src 'self' ws: blob: data:",
+        "img-src 'self' data: blob:",
+        "style-src 'self' 'unsafe-inline'",
+        "font-src 'self' data:",
+        "frame-ancestors 'self'",
+        "base-uri 'none'",
+        "form-action 'none'",
+    ]
+)
+"""For the client's page only; the rest of the studio can be strict."""
+
+REFUSED_MESSAGES = (b"ShareUrlRequest", b"ShareUrlDisconnect")
+"""Client messages that would open the scene to the outside world; they are dropped."""
+
+TRY_AGAIN_LATER = 1013
+WAITING_MESSAGES = 8
+"""Messages from Viser that may wait for a slow browser before Viser itself is held up."""
+
+
+class ViserScene(Protocol):
+    """What the relay needs to know of the scene."""
+
+    @property
+    def port(self) -> int:
+        """Port of Viser on loopback."""
+
+
+def make_viser_router(scene: ViserScene) -> APIRouter:
+    """Serves the client at `/viser/` and relays its web socket at `/viser/ws`.
+
+    Args:
+        scene: the running scene; its port is read at each connection.
+    """
+    router = APIRouter()
+    page = client_page()
+    tag = f'"{hashlib.sha256(page).hexdigest()[:16]}"'
+    headers = {
+        "Content-Security-Policy": CONTENT_SECURITY,
+        "Cache-Control": "no-cache",
+        "X-Content-Type-Options": "nosniff",
+        "ETag": tag,
+    }
+
+    @router.get("/viser/", include_in_schema=False)
+    async def client(request: Request) -> Response:
+        if request.headers.get("if-none-match") == tag:
+            return Response(status_code=304, headers=headers)
+        return Response(page, media_type="text/html; charset=utf-8", headers=headers)
+
+    @router.websocket("/viser/ws")
+    async def socket(browser: WebSocket) -> None:
+        await relay(browser, scene.port)
+
+    return router
+
+
+def client_page() -> bytes:
+    """The installed client's page with our script and style first in its head."""
+    built = resources.files("viser").joinpath("client", "build", "index.html").read_text("utf-8")
+    ours = resources.files("app").joinpath("static", "preview")
+    script = ours.joinpath("viser_frame.js").read_text("utf-8")
+    style = ours.joinpath("viser_frame.css").read_text("utf-8")
+    addition = f"<script>{script}</script><style>{style}</style>"
+    return built.replace("<head>", f"<head>{addition}", 1).encode()
+
+
+async def relay(browser: WebSocket, port: int) -> None:
+    """Passes messages between a browser and Viser until either closes; each side holds up the other."""
+    offered = [Subprotocol(name) for name in browser.scope.get("subprotocols", [])]
+    try:
+        viser = await connect(
+            f"ws://127.0.0.1:{port}",
+            subprotocols=offered or None,
+            max_size=None,
+            max_queue=WAITING_MESSAGES,
+            compression=None,
+            ping_interval=None,
+            proxy=None,
+        )
+    except (OSError, websockets.WebSocketException):
+        await browser.close(TRY_AGAIN_LATER, "The 3D scene does not answer.")
+        return
+    async with viser:
+        await browser.accept(viser.subprotocol)
+        await _run_both(_to_viser(browser, viser), _to_browser(viser, browser))
+    if browser.application_state is not WebSocketState.DISCONNECTED:
+        with contextlib.suppress(RuntimeError, WebSocketDisconnect):
+            await browser.close()
+
+
+async def _run_both(*directions: Coroutine[None, None, None]) -> None:
+    tasks = [asyncio.ensure_future(direction) for direction in directions]
+    try:
+        await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+    finally:
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+
+
+async def _to_viser(browser: WebSocket, viser: ClientConnection) -> None:
+    while True:
+        message = await browser.receive()
+        if message["type"] == "websocket.disconnect":
+            return
+        data = message.get("bytes") or message.get("text")
+        if data is not None and not is_refused(data):
+            await viser.send(data)
+
+
+async def _to_browser(viser: ClientConnection, browser: WebSocket) -> None:
+    async for data in viser:
+        if isinstance(data, bytes):
+            await browser.send_bytes(data)
+        else:
+            await browser.send_text(data)
+
+
+def is_refused(data: bytes | str) -> bool:
+    """Whether a client's message must not reach Viser (the names stand as they are in its MessagePack)."""
+    raw = data.encode() if isinstance(data, str) else data
+    return any(name in raw for name in REFUSED_MESSAGES)

@@ -1,0 +1,147 @@
+"""What stands in the scene beside the robot: light, floor, camera, and the marks that the page draws with.
+
+The page fills the marks itself (points, colours, visibility), so each browser shows its own plan.
+"""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import viser
+from numpy.typing import NDArray
+
+from app.scene.poses import COM_NODE, FLOOR_GAP
+from core.arrays import Floats
+from core.robot import RobotModel
+
+Colour = tuple[int, int, int]
+
+INK: Colour = (27, 36, 48)
+GOOD: Colour = (31, 138, 91)
+
+FLOOR_THEMES: dict[str, tuple[Colour, Colour]] = {
+    "light": ((203, 210, 220), (243, 245, 248)),
+    "dark": ((58, 67, 82), (24, 29, 37)),
+}
+"""Colours of the floor's lines near and far, by the page's theme."""
+
+CELL = 0.02
+"""Distance of the floor's lines, m."""
+
+VIEW_DIRECTION = (0.42, -1.0, 0.46)
+"""From the robot to the camera at first sight."""
+
+FIELD_OF_VIEW = np.radians(32)
+
+
+def add_light(server: viser.ViserServer) -> None:
+    """Soft light from above and one lamp; environment map and shadows cost too much without a GPU."""
+    server.scene.configure_environment_map(hdri=None)
+    server.scene.configure_default_lights(enabled=False, cast_shadow=False)
+    server.scene.add_light_hemisphere(
+        "/light/sky", sky_color=(255, 255, 255), ground_color=(205, 212, 222), intensity=2.1
+    )
+    server.scene.add_light_directional("/light/lamp", intensity=1.7, position=(0.5, -1.0, 2.0))
+
+
+def add_floor(server: viser.ViserServer, model: RobotModel) -> None:
+    """Lines `sole_depth` under the standing platforms, fading outwards, once for each theme."""
+    reach = _reach(model) * 3.4
+    points = _grid_points(reach, -model.sole_depth)
+    distance = np.linalg.norm(points[..., :2], axis=-1, keepdims=True)
+    fade = np.clip(distance / reach, 0, 1)
+    for theme, (near, far) in FLOOR_THEMES.items():
+        colours = np.array(near) * (1 - fade) + np.array(far) * fade
+        server.scene.add_line_segments(
+            f"/floor/{theme}",
+            points,
+            colours.astype(np.uint8),
+            thickness=1.0,
+            thickness_units="screen",
+            visible=theme == "light",
+        )
+
+
+def add_overlay(server: viser.ViserServer, model: RobotModel) -> None:
+    """Hidden marks: support polygon and its edge, centre-of-mass trace and point, swings and footholds."""
+    floor = -model.sole_depth
+    triangle = np.array([[0, 0, floor], [1e-3, 0, floor], [0, 1e-3, floor]], dtype=np.float32)
+    server.scene.add_mesh_simple(
+        "/overlay/polygon",
+        triangle,
+        np.array([[0, 1, 2]], dtype=np.uint32),
+        color=GOOD,
+        opacity=0.16,
+        side="double",
+        cast_shadow=False,
+        receive_shadow=False,
+        visible=False,
+    )
+    _add_lines(server, "/overlay/polygon_edge", GOOD, 2.5)
+    _add_lines(server, "/overlay/com_trace", INK, 2.0)
+    for leg, colour in enumerate(model.colours):
+        rgb = (int(colour[1:3], 16), int(colour[3:5], 16), int(colour[5:7], 16))
+        _add_lines(server, f"/overlay/swing{leg + 1}", rgb, 2.5)
+        _add_lines(server, f"/overlay/foothold{leg + 1}", rgb, 2.0)
+    disc, faces = _disc(0.003, 20)
+    server.scene.add_mesh_simple(
+        COM_NODE,
+        disc,
+        faces,
+        color=INK,
+        side="double",
+        cast_shadow=False,
+        receive_shadow=False,
+        position=(0, 0, floor + 3 * FLOOR_GAP),
+        visible=False,
+    )
+
+
+def set_camera(server: viser.ViserServer, model: RobotModel) -> None:
+    """Looks at the robot from the front right, so that it fills the view."""
+    direction = np.array(VIEW_DIRECTION) / np.linalg.norm(VIEW_DIRECTION)
+    target = np.array([0.0, 0.0, 0.036])
+    camera = server.initial_camera
+    camera.fov = float(FIELD_OF_VIEW)
+    camera.near, camera.far = 0.01, 20.0
+    camera.look_at = target
+    camera.position = target + direction * _reach(model) * 4.6
+
+
+def _reach(model: RobotModel) -> float:
+    # Outermost shoe and plate.
+    return max(model.radius + model.shape.shoe_diameter, model.shape.plate_across / 2) + 0.01
+
+
+def _grid_points(reach: float, height: float) -> Floats:
+    """(k, 2, 3) the lines of a round grid, in pieces so that their colour can fade along them."""
+    count = int(reach / CELL)
+    pieces = []
+    for line in range(-count, count + 1):
+        offset = line * CELL
+        half = np.sqrt(max(reach**2 - offset**2, 0.0))
+        along = np.linspace(-half, half, 9)
+        for start, end in itertools.pairwise(along):
+            pieces.append([[start, offset, height], [end, offset, height]])
+            pieces.append([[offset, start, height], [offset, end, height]])
+    return np.array(pieces)
+
+
+def _add_lines(server: viser.ViserServer, path: str, colour: Colour, thickness: float) -> None:
+    server.scene.add_line_segments(
+        path,
+        np.zeros((1, 2, 3), dtype=np.float32),
+        colour,
+        thickness=thickness,
+        thickness_units="screen",
+        visible=False,
+    )
+
+
+def _disc(radius: float, sections: int) -> tuple[NDArray[np.float32], NDArray[np.uint32]]:
+    angles = np.linspace(0, 2 * np.pi, sections, endpoint=False)
+    rim = np.stack([radius * np.cos(angles), radius * np.sin(angles), np.zeros(sections)], axis=-1)
+    index = np.arange(sections)
+    faces = np.stack([np.full(sections, sections), index, np.roll(index, -1)], axis=-1)
+    return np.vstack([rim, np.zeros(3)]).astype(np.float32), faces.astype(np.uint32)

@@ -1,0 +1,144 @@
+"""The Viser server that holds the 3D scene; it listens on loopback only and is reached through our port."""
+
+from __future__ import annotations
+
+import threading
+
+import numpy as np
+import rich
+import viser
+
+from app.scene.furniture import add_floor, add_light, add_overlay, set_camera
+from app.scene.nodes import Surface, link_surfaces
+from app.scene.poses import ROBOT_ROOT, PoseBlob, pose_frames
+from core.errors import StateError
+from core.motion_problem import standing_pose
+from core.robot import RobotModel, load_robot
+
+LOOPBACK = "127.0.0.1"
+
+
+class SceneServer:
+    """Starts and stops Viser and keeps one robot in its scene.
+
+    Every client sees the same nodes; what a plan looks like at a time is played in each browser.
+    """
+
+    def __init__(self) -> None:
+        self._server: viser.ViserServer | None = None
+        self._robot_name: str | None = None
+        self._lock = threading.Lock()
+
+    def start(self) -> None:
+        """Starts listening on any free port of the loopback interface."""
+        with self._lock:
+            if self._server is not None:
+                return
+            # Viser prints a table on standard output, which is the command line's alone.
+            rich.get_console().quiet = True
+            server = viser.ViserServer(host=LOOPBACK, port=0, label="Footfall Studio", verbose=False)
+            server.gui.configure_theme(show_logo=False, show_share_button=False)
+            add_light(server)
+            self._server = server
+
+    def stop(self) -> None:
+        """Stops listening; a scene that was never started is left alone."""
+        with self._lock:
+            if self._server is not None:
+                self._server.stop()
+            self._server, self._robot_name = None, None
+
+    @property
+    def port(self) -> int:
+        """Port that Viser listens on.
+
+        Raises:
+            StateError: the scene is not running.
+        """
+        return self._running().get_port()
+
+    @property
+    def robot_name(self) -> str | None:
+        """Name of the robot in the scene, or None."""
+        return self._robot_name
+
+    def show(self, robot_name: str) -> None:
+        """Puts a standing robot into the scene in place of any other.
+
+        Raises:
+            InputError: there is no robot of that name.
+            StateError: the scene is not running.
+        """
+        model = load_robot(robot_name)
+        surfaces = link_surfaces(robot_name)
+        with self._lock:
+            server = self._running()
+            if self._robot_name == robot_name:
+                return
+            with server.atomic():
+                _remove_robot(server)
+                add_floor(server, model)
+                set_camera(server, model)
+                _add_robot(server, surfaces)
+                add_overlay(server, model)
+                _place(server, standing_blob(model), 0.0)
+            self._robot_name = robot_name
+
+    def place(self, blob: PoseBlob, time: float) -> None:
+        """Moves the nodes to a plan's pose: the slow way, for browsers whose client can't be reached.
+
+        Args:
+            blob: of the robot that is shown.
+            time: s of the plan; the nearest frame is shown.
+
+        Raises:
+            StateError: the scene is not running, or shows another robot.
+        """
+        with self._lock:
+            server = self._running()
+            if blob.robot != self._robot_name:
+                raise StateError(f"The scene shows {self._robot_name}, not the {blob.robot}.", "robot")
+            with server.atomic():
+                _place(server, blob, time)
+
+    def _running(self) -> viser.ViserServer:
+        if self._server is None:
+            raise StateError("The 3D scene is not running; start the studio first.", "scene")
+        return self._server
+
+
+def standing_blob(model: RobotModel) -> PoseBlob:
+    """One frame of the robot standing still in the middle of its strokes' range."""
+    depth = model.leg.link_length**2 - model.leg.reach_radius**2
+    rest = standing_pose(model, float(np.sqrt(depth)) + model.stroke.travel / 2, (0.0, 0.0))
+    return pose_frames(model, np.zeros(1), rest.body_world[None], np.zeros(1), rest.feet_world[None])
+
+
+def _remove_robot(server: viser.ViserServer) -> None:
+    for path in (ROBOT_ROOT, "/overlay", "/floor"):
+        server.scene.remove_by_name(path)
+
+
+def _add_robot(server: viser.ViserServer, surfaces: dict[str, tuple[Surface, ...]]) -> None:
+    server.scene.add_frame(ROBOT_ROOT, show_axes=False)
+    for path, parts in surfaces.items():
+        if len(parts) == 1:
+            _add_surface(server, path, parts[0])
+            continue
+        server.scene.add_frame(path, show_axes=False)
+        for index, part in enumerate(parts):
+            _add_surface(server, f"{path}/part{index}", part)
+
+
+def _add_surface(server: viser.ViserServer, path: str, part: Surface) -> None:
+    server.scene.add_mesh_simple(
+        path, part.vertices, part.faces, color=part.colour, cast_shadow=False, receive_shadow=False
+    )
+
+
+def _place(server: viser.ViserServer, blob: PoseBlob, time: float) -> None:
+    frame = blob.frames[int(np.abs(blob.times - time).argmin())]
+    for name, pose in zip(blob.names, frame, strict=True):
+        node = server.scene.get_handle_by_name(name)
+        if node is not None:
+            node.wxyz, node.position = pose[:4], pose[4:]

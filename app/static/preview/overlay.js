@@ -1,0 +1,120 @@
+/**
+ * What lies on the floor under the robot, as updates of the marks that the server put into the scene.
+ *
+ * Floor marks: support polygon of the current sample, coloured by its margin; trace and point of the centre of
+ * mass; each foot's swings and footholds. Heights in m; the floor is `SOLE_DEPTH` under a standing platform.
+ */
+
+const SOLE_DEPTH = 0.018;
+const GAP = 0.0004;
+const RING_RADIUS = 0.0125;
+const RING_PIECES = 20;
+const GOOD = [31, 138, 91];
+const CAUTION = [183, 121, 31];
+const BAD = [192, 54, 44];
+const INK = { light: [27, 36, 48], dark: [214, 221, 231] };
+
+/** Convex hull of [x, y] points, counter-clockwise (monotone chain). */
+export function hull(points) {
+  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  if (sorted.length < 3) return sorted;
+  const turn = (a, b, c) => (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  const half = (ordered) => {
+    const chain = [];
+    for (const point of ordered) {
+      while (chain.length >= 2 && turn(chain.at(-2), chain.at(-1), point) <= 0) chain.pop();
+      chain.push(point);
+    }
+    return chain.slice(0, -1);
+  };
+  return [...half(sorted), ...half(sorted.reverse())];
+}
+
+/** [x, y, z] points joined one to the next, as the n × 2 × 3 values of line pieces. */
+export function pieces(points, closed = false) {
+  const last = closed ? points.length : points.length - 1;
+  const values = new Float32Array(Math.max(last, 1) * 6);
+  for (let i = 0; i < last; i += 1) {
+    values.set(points[i], 6 * i);
+    values.set(points[(i + 1) % points.length], 6 * i + 3);
+  }
+  return values;
+}
+
+/** Index of the sample that is current at a time: the last one not after it. */
+export function sampleAt(times, time) {
+  let low = 0;
+  let high = times.length - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (times[middle] <= time + 1e-6) low = middle;
+    else high = middle - 1;
+  }
+  return low;
+}
+
+/** Colour of a support polygon by its margin (m). */
+export function marginColour(margin, caution) {
+  if (margin < 0) return BAD;
+  return margin < caution ? CAUTION : GOOD;
+}
+
+const floorPoint = ([x, y], layer) => [x, y, -SOLE_DEPTH + layer * GAP];
+
+/** Updates that show one sample's support polygon: [node, properties] pairs. */
+export function polygonUpdates(overlay, sample, caution) {
+  const standing = overlay.feet[sample].filter((_, foot) => overlay.contact[sample][foot]);
+  const corners = hull(standing.map(([x, y]) => [x, y]));
+  const colour = Uint8Array.from(marginColour(overlay.margins[sample], caution));
+  const edge = corners.map((corner) => floorPoint(corner, 2));
+  const area = corners.length >= 3 ? corners : [[0, 0], [0, 0], [0, 0]];
+  const vertices = Float32Array.from(area.flatMap((corner) => floorPoint(corner, 1)));
+  const faces = new Uint32Array((area.length - 2) * 3);
+  for (let i = 0; i < area.length - 2; i += 1) faces.set([0, i + 1, i + 2], 3 * i);
+  return [
+    ["/overlay/polygon", { vertices, faces, color: [...colour] }],
+    ["/overlay/polygon_edge", { points: pieces(edge, corners.length > 2), colors: colour }],
+  ];
+}
+
+/** Updates for everything that stays the same all through a plan: [node, properties] pairs. */
+export function planUpdates(overlay, theme) {
+  const ink = Uint8Array.from(INK[theme]);
+  const trace = overlay.com.map((point) => floorPoint(point, 3));
+  const updates = [
+    ["/overlay/com_trace", { points: pieces(trace), colors: ink }],
+    ["/overlay/com", { color: [...ink] }],
+  ];
+  for (let foot = 0; foot < overlay.feet[0].length; foot += 1) {
+    updates.push([`/overlay/swing${foot + 1}`, { points: swings(overlay, foot) }]);
+    updates.push([`/overlay/foothold${foot + 1}`, { points: footholds(overlay, foot) }]);
+  }
+  return updates;
+}
+
+/** A foot's sole while it swings, from the knot where it leaves to the knot where it lands. */
+function swings(overlay, foot) {
+  const parts = [];
+  for (let i = 0; i + 1 < overlay.times.length; i += 1) {
+    if (overlay.contact[i][foot] && overlay.contact[i + 1][foot]) continue;
+    for (const [x, y, z] of [overlay.feet[i][foot], overlay.feet[i + 1][foot]]) {
+      parts.push(x, y, z - SOLE_DEPTH + 2 * GAP);
+    }
+  }
+  return parts.length ? Float32Array.from(parts) : new Float32Array(6);
+}
+
+/** A ring at each place where a foot comes to stand after a swing. */
+function footholds(overlay, foot) {
+  const rings = [];
+  for (let i = 1; i < overlay.times.length; i += 1) {
+    if (!overlay.contact[i][foot] || overlay.contact[i - 1][foot]) continue;
+    const [x, y] = overlay.feet[i][foot];
+    const ring = Array.from({ length: RING_PIECES }, (_, piece) => {
+      const angle = (2 * Math.PI * piece) / RING_PIECES;
+      return floorPoint([x + RING_RADIUS * Math.cos(angle), y + RING_RADIUS * Math.sin(angle)], 2);
+    });
+    rings.push(...pieces(ring, true));
+  }
+  return rings.length ? Float32Array.from(rings) : new Float32Array(6);
+}

@@ -1,0 +1,45 @@
+"""Writes the URDF files and meshes of all robots: `python -m robot_description.builder [folder]`."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+
+import trimesh
+
+from core.robot import ROBOT_NAMES, RobotModel, load_robot
+from robot_description import parts, urdf
+
+
+def meshes(models: Iterable[RobotModel]) -> dict[str, trimesh.Trimesh]:
+    """Every mesh that the models' URDF files name, by name; parts are shared where sizes are."""
+    found: dict[str, trimesh.Trimesh] = {}
+    for model in models:
+        for make in (parts.board, parts.board_parts, parts.motor, parts.knee, parts.rod, parts.foot):
+            found.setdefault(make.__name__, make(model))
+        found[urdf.plate_mesh(model)] = parts.plate(model)
+    return found
+
+
+def built_files() -> dict[str, bytes]:
+    """Content of every file that the builder makes, by its path in this folder."""
+    models = [load_robot(name) for name in ROBOT_NAMES]
+    files = {f"{model.name}.urdf": urdf.urdf_text(model).encode() for model in models}
+    for name, mesh in meshes(models).items():
+        files[f"meshes/{name}.stl"] = bytes(trimesh.exchange.stl.export_stl(mesh))
+    return files
+
+
+def main(arguments: list[str]) -> int:
+    """Writes the files into the named folder, or beside this module."""
+    folder = Path(arguments[0]) if arguments else Path(__file__).parent
+    for path, content in built_files().items():
+        target = folder / path
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_bytes(content)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,158 @@
+"""Row constraints of the motion itself: integration, forces, torque, speeds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from casadi import SX, vertcat
+
+from core.arrays import Floats
+from core.robot import RobotModel
+from core.support import GRAVITY
+from solver_jobs.constraint import Family, Situation, outside
+from solver_jobs.variables import MM, Symbols
+
+
+@dataclass(frozen=True)
+class Integration:
+    """Exact double integrator, accelerations constant between knots, (3.7).
+
+    p_{k+1} = p_k + dt·(v_k + v_{k+1})/2; the acceleration a_k = (v_{k+1} − v_k)/dt is no unknown.
+    """
+
+    family: Family = Family.DYNAMICS
+    unit: str = "mm"
+
+    def rows(self, symbols: Symbols, model: RobotModel) -> SX:
+        """Three rows a point and interval, mm."""
+        rows = []
+        for p, v in zip(symbols.position, symbols.velocity, strict=True):
+            mean = (v[:, :-1] + v[:, 1:]) / 2
+            rows.append(p[:, 1:] - p[:, :-1] - symbols.sample_time * mean)
+        return vertcat(*rows)
+
+    def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
+        """Equality."""
+        return np.zeros(1), np.zeros(1)
+
+    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
+        """The gap between two knots, mm."""
+        return outside(values, lower, upper)
+
+
+@dataclass(frozen=True)
+class ForceBalance:
+    """The sum of (3.2) over body and feet, internal forces gone: Σ m_i (a_i + g) = Σ λ_i."""
+
+    family: Family = Family.DYNAMICS
+    unit: str = "N"
+
+    def rows(self, symbols: Symbols, model: RobotModel) -> SX:
+        """Three rows an interval, N."""
+        change = model.masses.body * _change(symbols.velocity[0])
+        for velocity in symbols.velocity[1:]:
+            change += model.masses.foot * _change(velocity)
+        contact = symbols.force[0]
+        for force in symbols.force[1:]:
+            contact = contact + force
+        return change / (MM * symbols.sample_time) - contact[:, :-1]
+
+    def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
+        """Equality to minus the weight."""
+        weight = np.array([0.0, 0.0, situation.problem.model.total_model_mass * GRAVITY])
+        return -weight, -weight
+
+    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
+        """The force that is missing, N."""
+        return outside(values, lower, upper)
+
+
+def _change(velocity: SX) -> SX:
+    return velocity[:, 1:] - velocity[:, :-1]
+
+
+@dataclass(frozen=True)
+class BodyTorque:
+    """No torque about the body's point, (3.15): Σ λ^(i) × (p^(i) − p^(b)) = 0 at every knot but the last.
+
+    The rows are divided by the robot's weight: mm by which the centre of pressure is off.
+    """
+
+    family: Family = Family.BODY_TORQUE
+    unit: str = "mm"
+
+    def rows(self, symbols: Symbols, model: RobotModel) -> SX:
+        """Three rows an interval, mm."""
+        body = symbols.position[0][:, :-1]
+        torque = SX.zeros(*body.shape)
+        for force, foot in zip(symbols.force, symbols.position[1:], strict=True):
+            fx, fy, fz = _axes(force[:, :-1])
+            rx, ry, rz = _axes(foot[:, :-1] - body)
+            torque += vertcat(fy * rz - fz * ry, fz * rx - fx * rz, fx * ry - fy * rx)
+        return torque / (model.total_model_mass * GRAVITY)
+
+    def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
+        """Equality."""
+        return np.zeros(1), np.zeros(1)
+
+    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
+        """How far off the centre of pressure is, mm."""
+        return outside(values, lower, upper)
+
+
+def _axes(vectors: SX) -> tuple[SX, SX, SX]:
+    return vectors[0, :], vectors[1, :], vectors[2, :]
+
+
+@dataclass(frozen=True)
+class FootSpeed:
+    """Speed of every foot, (3.10), squared: ‖v‖² ≤ v_max²."""
+
+    family: Family = Family.FOOT_SPEED
+    unit: str = "mm/s"
+
+    def rows(self, symbols: Symbols, model: RobotModel) -> SX:
+        """A row a foot and knot, mm²/s²."""
+        return vertcat(*(_squared(velocity) for velocity in symbols.velocity[1:]))
+
+    def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
+        """At most the limit squared."""
+        return _squared_limit(situation.problem.limits.foot_speed)
+
+    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
+        """Speed above the limit, mm/s."""
+        return _speed_excess(values, upper)
+
+
+@dataclass(frozen=True)
+class BodySpeed:
+    """Speed of the body, squared; without it the optimum throws the body about."""
+
+    family: Family = Family.BODY_SPEED
+    unit: str = "mm/s"
+
+    def rows(self, symbols: Symbols, model: RobotModel) -> SX:
+        """A row a knot, mm²/s²."""
+        return _squared(symbols.velocity[0])
+
+    def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
+        """At most the limit squared."""
+        return _squared_limit(situation.problem.limits.body_speed)
+
+    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
+        """Speed above the limit, mm/s."""
+        return _speed_excess(values, upper)
+
+
+def _squared(vectors: SX) -> SX:
+    x, y, z = _axes(vectors)
+    return x**2 + y**2 + z**2
+
+
+def _squared_limit(speed: float) -> tuple[Floats, Floats]:
+    return np.array([-np.inf]), np.array([(speed * MM) ** 2])
+
+
+def _speed_excess(values: Floats, upper: Floats) -> Floats:
+    return np.asarray(np.maximum(np.sqrt(np.maximum(values, 0.0)) - np.sqrt(upper), 0.0))

@@ -1,0 +1,164 @@
+"""Row constraints of reach and stability: workspace in its two forms, stability margin."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from casadi import SX, sqrt, vertcat
+
+from core.arrays import Floats
+from core.motion_problem import CYLINDER, CylinderWorkspace
+from core.robot import RobotModel
+from core.support import GRAVITY
+from solver_jobs.constraint import Family, Situation, outside
+from solver_jobs.leg_equations import squared_offsets
+from solver_jobs.variables import MM, Symbols
+
+
+def feet_from_modules(symbols: Symbols, model: RobotModel) -> list[SX]:
+    """(3, n) each foot from its module's centre in the world's axes, heading 0, mm."""
+    centres = model.module_centres_robot + [0.0, 0.0, -model.com_height]
+    body = symbols.position[0]
+    return [
+        foot - body - SX(centre * MM) @ SX.ones(1, body.shape[1])
+        for foot, centre in zip(symbols.position[1:], centres, strict=True)
+    ]
+
+
+@dataclass(frozen=True)
+class CylinderDisc:
+    """Horizontal part of the cylinder, (3.16): squared distance to the module's centre ≤ radius²."""
+
+    cylinder: CylinderWorkspace = CYLINDER
+    family: Family = Family.WORKSPACE
+    unit: str = "mm"
+
+    def rows(self, symbols: Symbols, model: RobotModel) -> SX:
+        """A row a foot and knot, mm²."""
+        feet = feet_from_modules(symbols, model)
+        return vertcat(*(foot[0, :] ** 2 + foot[1, :] ** 2 for foot in feet))
+
+    def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
+        """At most the radius squared."""
+        return np.array([-np.inf]), np.array([(self.cylinder.radius * MM) ** 2])
+
+    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
+        """Distance outside the cylinder, mm."""
+        return np.asarray(np.maximum(np.sqrt(np.maximum(values, 0.0)) - np.sqrt(upper), 0.0))
+
+
+@dataclass(frozen=True)
+class CylinderHeight:
+    """Vertical part of the cylinder, P (13) and (14): −below ≤ z + depth ≤ above under the plane."""
+
+    cylinder: CylinderWorkspace = CYLINDER
+    family: Family = Family.WORKSPACE
+    unit: str = "mm"
+
+    def rows(self, symbols: Symbols, model: RobotModel) -> SX:
+        """A row a foot and knot, mm."""
+        return vertcat(*(foot[2, :] for foot in feet_from_modules(symbols, model)))
+
+    def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
+        """Floor and lid under the actuator plane."""
+        middle = -self.cylinder.depth
+        low, high = middle - self.cylinder.below, middle + self.cylinder.above
+        return np.array([low * MM]), np.array([high * MM])
+
+    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
+        """Distance outside the cylinder, mm."""
+        return outside(values, lower, upper)
+
+
+@dataclass(frozen=True)
+class StrokeUpper:
+    """No motor beyond its upper stroke: d_i + (z + upper)² ≤ l², the form of h_i ≤ upper without a root."""
+
+    family: Family = Family.WORKSPACE
+    unit: str = "mm"
+
+    def rows(self, symbols: Symbols, model: RobotModel) -> SX:
+        """Three rows a foot and knot, mm²."""
+        return _stroke_rows(symbols, model, model.stroke.upper)
+
+    def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
+        """At most 0 after l² was taken off."""
+        return np.array([-np.inf]), np.zeros(1)
+
+    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
+        """About how far the motor is out of its stroke, mm."""
+        return outside(values, lower, upper) / _ROD_SLOPE
+
+
+@dataclass(frozen=True)
+class StrokeLower:
+    """No motor below its lower stroke: d_i + (z + lower)² ≥ l², the form of h_i ≥ lower without a root."""
+
+    family: Family = Family.WORKSPACE
+    unit: str = "mm"
+
+    def rows(self, symbols: Symbols, model: RobotModel) -> SX:
+        """Three rows a foot and knot, mm²."""
+        return _stroke_rows(symbols, model, model.stroke.lower)
+
+    def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
+        """At least 0 after l² was taken off."""
+        return np.zeros(1), np.array([np.inf])
+
+    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
+        """About how far the motor is out of its stroke, mm."""
+        return outside(values, lower, upper) / _ROD_SLOPE
+
+
+_ROD_SLOPE = 90.0
+"""d(d_i + (z + h)²)/dh at the middle of the workspace, mm, to speak of mm of stroke."""
+
+
+def _stroke_rows(symbols: Symbols, model: RobotModel, stroke: float) -> SX:
+    rows: list[SX] = []
+    turns = model.R_robot_from_module
+    for foot, turn in zip(feet_from_modules(symbols, model), turns, strict=True):
+        module = SX(turn.T) @ foot
+        offsets = squared_offsets(model.leg.reach_radius * MM, [module[0, :], module[1, :], module[2, :]])
+        height = (module[2, :] + stroke * MM) ** 2 - (model.leg.link_length * MM) ** 2
+        rows.extend(offset + height for offset in offsets)
+    return vertcat(*rows)
+
+
+@dataclass(frozen=True)
+class StabilityMargin:
+    """Centre of pressure Σ λ_z p / Σ λ_z inside every edge of the support polygon by the margin.
+
+    For the edge from a standing foot to the next one round the ring, with its inward normal n:
+    Σ_m λ_z,m (n·(p_m − p_i) − margin) ≥ 0, divided by the robot's weight, mm. Which foot comes next is a
+    parameter, and rows of swinging feet are unbounded, so that the structure does not know the timeline.
+    """
+
+    family: Family = Family.MARGIN
+    unit: str = "mm"
+
+    def rows(self, symbols: Symbols, model: RobotModel) -> SX:
+        """A row a foot and interval, mm."""
+        feet = [(p[0, :-1], p[1, :-1]) for p in symbols.position[1:]]
+        weights = [force[2, :-1] / (model.total_model_mass * GRAVITY) for force in symbols.force]
+        rows: list[SX] = []
+        for (x, y), successor in zip(feet, symbols.successor, strict=True):
+            ahead = successor[:, :-1]
+            edge_x = sum((ahead[j, :] * other[0] for j, other in enumerate(feet)), -x)
+            edge_y = sum((ahead[j, :] * other[1] for j, other in enumerate(feet)), -y)
+            length = sqrt(edge_x**2 + edge_y**2)
+            row = SX(0)
+            for weight, (other_x, other_y) in zip(weights, feet, strict=True):
+                inside = (edge_x * (other_y - y) - edge_y * (other_x - x)) / length
+                row = row + weight * (inside - symbols.margin)
+            rows.append(row)
+        return vertcat(*rows)
+
+    def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
+        """At least 0 where the edge's first foot stands."""
+        return np.where(situation.contact[:-1], 0.0, -np.inf), np.array([np.inf])
+
+    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
+        """By how much the margin is missed, mm."""
+        return outside(values, lower, upper)

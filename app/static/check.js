@@ -1,0 +1,109 @@
+/** The Check section: every rule's outcome, where each finding sits, and the approval of exactly this plan. */
+
+import { api } from "./api.js";
+import { byId, h, onPress, setAllowed } from "./dom.js";
+import { clockTime, readable, ruleName, shortHash } from "./format.js";
+import { needOperator } from "./operator.js";
+import { attempt, toast } from "./toasts.js";
+
+function findingItem(finding, goTo) {
+  const place = [finding.foot !== null && `foot ${finding.foot + 1}`, finding.actuator !== null && finding.actuator !== undefined && `motor ${finding.actuator + 1}`,
+    finding.sample !== null && `sample ${finding.sample + 1}`].filter(Boolean).join(", ");
+  return h("li", { class: "finding" }, h("span", { class: "dot", data: { tone: finding.severity === "error" ? "bad" : "caution" } }),
+    h("span", {}, h("b", { text: finding.severity === "error" ? "Error: " : "Warning: " }), finding.sentence),
+    h("span", { class: "where" }, place && h("span", { text: place }),
+      finding.sample !== null && h("button", { class: "link", text: "go to", "aria-label": `Go to ${place}`, on: { click: () => goTo(finding) } })));
+}
+
+function marginList(margins) {
+  const rows = margins.flatMap(({ rule, margin, unit }) => {
+    const shown = readable(margin, unit);
+    return [h("dt", { text: ruleName(rule), title: "How far the worst place stays from this rule's limit" }),
+      h("dd", { text: shown.value, data: margin < 0 ? { broken: "" } : {} }), h("dd", { class: "unit", text: shown.unit })];
+  });
+  return [h("h3", { text: "Room left to each limit" }), h("dl", { class: "margins" }, ...rows)];
+}
+
+function summary(view, before) {
+  const { verdict } = view;
+  if (!verdict) {
+    const text = before === "approved" ? "Not checked: the gait changed, and its approval is gone. Check it again."
+      : before ? "Not checked: the gait changed since the last check. Check it again." : "Not checked yet. Check tries every rule on the waypoints that would be sent.";
+    return h("p", { class: "box-note", data: { tone: before ? "caution" : "plain" }, text });
+  }
+  const errors = verdict.findings.filter(({ severity }) => severity === "error").length;
+  const warnings = verdict.findings.length - errors;
+  const counts = [errors && `${errors} error${errors > 1 ? "s" : ""}`, warnings && `${warnings} warning${warnings > 1 ? "s" : ""}`].filter(Boolean).join(", ");
+  const text = verdict.passed ? `Passed${counts ? `, with ${counts}` : ": no findings"}.` : `Failed: ${counts}. Errors block approval.`;
+  return h("p", { class: "box-note", data: { tone: verdict.passed ? "good" : "bad" } }, h("b", { text }));
+}
+
+function approvalBox({ approval }) {
+  if (!approval) return "";
+  return h("dl", { class: "box-note summary", data: { tone: "good" } },
+    h("dt", { text: "Approved by" }), h("dd", {}, h("b", { text: approval.by })), h("dt", { text: "when" }), h("dd", { text: clockTime(approval.when), title: approval.when }),
+    h("dt", { text: "waypoints" }), h("dd", { class: "mono", text: shortHash(approval.waypoints_hash), title: approval.waypoints_hash }),
+    h("dt", { text: "verdict" }), h("dd", { class: "mono", text: shortHash(approval.verdict_hash), title: approval.verdict_hash }));
+}
+
+function whyNotCheck({ view, pending }) {
+  if (!view) return "No gait is selected.";
+  if (pending.length) return "The last edit is not accepted yet.";
+  if (!view.plan || view.plan.refusal) return view.plan?.refusal?.sentence ?? "There is no plan to check. Optimise first.";
+  return null;
+}
+
+function whyNotApprove({ view, pending }) {
+  if (!view?.verdict || pending.length) return "Check this version first.";
+  if (!view.verdict.passed) return "The check failed. Errors block approval.";
+  if (view.approval) return `Already approved by ${view.approval.by}.`;
+  return null;
+}
+
+async function approve(store) {
+  const { selected, view } = store.state;
+  const by = await needOperator(store, "The approval is kept with your name, the time and the hash of what you approve.");
+  if (!by) return;
+  if (store.state.selected !== selected || store.state.view?.plan?.hash !== view.plan.hash) {
+    toast("The gait changed meanwhile. Check it again.");
+    return;
+  }
+  const approval = await api.approve(selected, by);
+  if (store.state.selected !== selected || store.state.view.revision !== view.revision) return;
+  store.set({ view: { ...store.state.view, approval }, checked: { ...store.state.checked, [selected]: "approved" } });
+}
+
+async function check(store) {
+  const { selected, view } = store.state;
+  const verdict = await api.check(selected);
+  if (store.state.selected !== selected || store.state.view.revision !== view.revision) return;
+  const seen = store.state.checked[selected];
+  store.set({ view: { ...store.state.view, verdict }, checked: { ...store.state.checked, [selected]: seen === "approved" && store.state.view.approval ? seen : "checked" } });
+}
+
+/** Builds the section; `goTo` shows a finding's place. */
+export function mountCheck(store, goTo) {
+  const checkButton = h("button", { class: "primary wide", text: "Check" });
+  const approveButton = h("button", { class: "wide", text: "Approve" });
+  const why = h("p", { class: "why" });
+  const [head, body, foot] = [h("div"), h("div", { class: "findings" }), h("div")];
+  onPress(checkButton, attempt(() => check(store)), (reason) => toast(reason));
+  onPress(approveButton, attempt(() => approve(store)), (reason) => toast(reason));
+  byId("check").append(checkButton, head, approveButton, why, foot, body);
+
+  store.watch(({ view, pending, checked }) => [view, pending.length, checked], (state) => {
+    const { view, checked } = state;
+    setAllowed(checkButton, whyNotCheck(state), "Try every rule on the waypoints that would be sent");
+    const blocked = whyNotApprove(state);
+    setAllowed(approveButton, blocked, "Allow exactly these waypoints to be sent");
+    checkButton.classList.toggle("primary", Boolean(blocked));
+    approveButton.classList.toggle("primary", !blocked);
+    why.textContent = view?.approval ? "" : (blocked ?? "Any later edit takes the approval away.");
+    if (!view) return;
+    head.replaceChildren(summary(view, checked[view.id]));
+    foot.replaceChildren(approvalBox(view));
+    const findings = (view.verdict?.findings ?? []).map((finding) => findingItem(finding, goTo));
+    body.replaceChildren(...(findings.length ? [h("h3", { text: "Findings" }), h("ul", { class: "findings", role: "list", "aria-label": "Findings" }, ...findings)] : []),
+      ...(view.verdict?.margins?.length ? marginList(view.verdict.margins) : []));
+  });
+}

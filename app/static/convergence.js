@@ -1,0 +1,100 @@
+/** The convergence curve: objective and primal violation over iterations, in log scale; stays after the job. */
+
+import { h, setText, svg } from "./dom.js";
+import { compact, seconds } from "./format.js";
+import { jobOf, jobTone } from "./jobs.js";
+
+const WIDTH = 276;
+const HEIGHT = 118;
+const FRAME = { left: 34, right: 8, top: 10, bottom: 18 };
+const SMALLEST = 1e-12;
+
+const decade = (value) => Math.log10(Math.max(Math.abs(value), SMALLEST));
+
+function rangeOf(progress) {
+  const logs = progress.flatMap((point) => [decade(point.objective), decade(point.primal)]).filter(Number.isFinite);
+  const [low, high] = [Math.floor(Math.min(...logs)), Math.ceil(Math.max(...logs))];
+  return high > low ? [low, high] : [low - 1, high + 1];
+}
+
+function scales(progress) {
+  const [low, high] = rangeOf(progress);
+  const first = progress[0].iteration;
+  const span = Math.max(1, progress.at(-1).iteration - first);
+  return {
+    low, high,
+    x: (iteration) => FRAME.left + ((iteration - first) / span) * (WIDTH - FRAME.left - FRAME.right),
+    y: (log) => FRAME.top + ((high - log) / (high - low)) * (HEIGHT - FRAME.top - FRAME.bottom),
+  };
+}
+
+function gridLines({ low, high, y }) {
+  const every = Math.max(1, Math.ceil((high - low) / 4));
+  const lines = [];
+  for (let log = high; log >= low; log -= every) {
+    lines.push(svg("line", { class: "grid", x1: FRAME.left, x2: WIDTH - FRAME.right, y1: y(log), y2: y(log) }));
+    const label = svg("text", { x: FRAME.left - 5, y: y(log) + 3.5, "text-anchor": "end" });
+    label.textContent = Math.abs(log) <= 1 ? String(10 ** log) : `1e${log}`;
+    lines.push(label);
+  }
+  return lines;
+}
+
+function iterationLabels(progress, { x }) {
+  return [progress[0], progress.at(-1)].filter((point, index, both) => index === 0 || point !== both[0]).map((point, index) => {
+    const label = svg("text", { x: x(point.iteration), y: HEIGHT - 5, "text-anchor": index ? "end" : "start" });
+    label.textContent = index ? `iteration ${point.iteration}` : String(point.iteration);
+    return label;
+  });
+}
+
+function curve(progress, name, { x, y }) {
+  const known = progress.filter((point) => Number.isFinite(point[name]));
+  const d = known.map((point, index) => `${index ? "L" : "M"}${x(point.iteration).toFixed(1)} ${y(decade(point[name])).toFixed(1)}`).join("");
+  const last = known.at(-1);
+  return last ? [svg("path", { class: name, d }), svg("circle", { class: name, r: 2.5, cx: x(last.iteration), cy: y(decade(last[name])) })] : [];
+}
+
+function draw(progress) {
+  const scale = scales(progress);
+  return svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, "aria-hidden": "true" },
+    ...gridLines(scale), ...iterationLabels(progress, scale), ...curve(progress, "objective", scale), ...curve(progress, "primal", scale));
+}
+
+function resultLine(job) {
+  const { result } = job;
+  if (!result) return job.sentence;
+  const figures = [`${result.iterations} iterations`, `${seconds(result.solve_seconds)} s`];
+  if (result.max_violation !== null && result.max_violation !== undefined) figures.push(`largest violation ${compact(result.max_violation)}`);
+  return figures.join(" · ");
+}
+
+/** Appends the curve to a section and keeps it current. */
+export function mountConvergence(store, section) {
+  const state = h("span");
+  const frame = h("div", { class: "curve", role: "img" });
+  const last = { objective: h("span"), primal: h("span") };
+  const key = h("div", { class: "curve-key" }, h("span", {}, h("i"), "objective ", last.objective),
+    h("span", { class: "primal" }, h("i"), "violation ", last.primal));
+  const line = h("p", { class: "why" });
+  section.append(h("h3", {}, "Convergence", state), frame, key, line);
+  let drawn = null;
+
+  store.watch(({ jobs, shownJob, selected }) => [jobs, shownJob, selected], (now) => {
+    const job = jobOf(now);
+    const progress = job?.progress ?? [];
+    const stale = job?.state === "done" && !job.fresh;
+    setText(state, job ? (stale ? "done, for an older version" : job.state) : "");
+    state.dataset.toneText = stale ? "caution" : job ? jobTone(job) : "";
+    key.hidden = progress.length === 0;
+    setText(line, job ? resultLine(job) : "The curve of the last optimisation stays here.");
+    setText(last.objective, compact(progress.at(-1)?.objective));
+    setText(last.primal, compact(progress.at(-1)?.primal));
+    frame.hidden = progress.length === 0;
+    frame.setAttribute("aria-label", `Convergence over ${progress.length} iterations: ${key.textContent}`);
+    const version = `${job?.id}/${progress.length}`;
+    if (version === drawn) return;
+    drawn = version;
+    frame.replaceChildren(...(progress.length ? [draw(progress)] : []));
+  });
+}

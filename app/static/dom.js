@@ -1,0 +1,72 @@
+/** Small helpers over the DOM: build, find, change only what differs. */
+
+export const byId = (id) => document.getElementById(id);
+
+/**
+ * Builds an element.
+ * @param {string} tag
+ * @param {object} [attributes] `class`, `text`, `on` (listeners), `data` (dataset), else attributes; null skips
+ * @param {...(Node|string|null|false)} children
+ */
+export function h(tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === null || value === undefined || value === false) continue;
+    if (name === "text") element.textContent = value;
+    else if (name === "on") Object.entries(value).forEach(([type, listener]) => element.addEventListener(type, listener));
+    else if (name === "data") Object.assign(element.dataset, value);
+    else element.setAttribute(name, value === true ? "" : value);
+  }
+  element.append(...children.filter((child) => child !== null && child !== undefined && child !== false));
+  return element;
+}
+
+/** The same for SVG. */
+export function svg(tag, attributes = {}, ...children) {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.append(...children);
+  return element;
+}
+
+/** An icon of the sprite in index.html. */
+export function icon(name) {
+  const use = svg("use", { href: `#i-${name}` });
+  return svg("svg", { class: "icon", "aria-hidden": "true" }, use);
+}
+
+export function setText(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+export function setAttribute(element, name, value) {
+  if (value === null || value === undefined || value === false) element.removeAttribute(name);
+  else if (element.getAttribute(name) !== String(value)) element.setAttribute(name, value === true ? "" : value);
+}
+
+/**
+ * Enables a button, or disables it with the reason as hover help.
+ * The button stays focusable, so that the reason can be found by keyboard.
+ */
+export function setAllowed(button, reason, help = "") {
+  setAttribute(button, "aria-disabled", reason ? "true" : null);
+  setAttribute(button, "title", reason || help || null);
+  setAttribute(button, "aria-description", reason || null);
+}
+
+/** Calls `act` on a click unless the button says why not; then `explain` gets the reason. */
+export function onPress(button, act, explain = () => {}) {
+  button.addEventListener("click", (event) => {
+    if (button.getAttribute("aria-disabled") === "true") explain(button.title);
+    else act(event);
+  });
+}
+
+/** A dot, a word: the short form of a state. */
+export function stateParts(tone, name, word) {
+  return [
+    h("span", { class: "dot", data: { tone } }),
+    h("span", { class: "name quiet", text: name }),
+    h("span", { class: "word", text: word }),
+  ];
+}

@@ -1,0 +1,51 @@
+/** Numbers and words for people: units, rounding, times of day. */
+
+const MINUS = "\u2212";
+
+/** A number with a fixed count of decimals and a true minus sign. */
+export function fixed(value, decimals = 1) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  const text = Math.abs(value).toFixed(decimals);
+  return value < 0 && Number(text) !== 0 ? MINUS + text : text;
+}
+
+/** Metres as millimetres, without the unit. */
+export const mm = (metres, decimals = 1) => fixed(metres === null ? null : metres * 1000, decimals);
+
+/** A small or large number as people write it: 3e−9, 0.06, 128. */
+export function compact(value) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  const size = Math.abs(value);
+  if (size !== 0 && (size < 1e-3 || size >= 1e5)) return value.toExponential(0).replace("-", MINUS);
+  return fixed(value, size >= 100 ? 0 : size >= 1 ? 1 : 3);
+}
+
+/** Seconds, with as many decimals as they deserve. */
+export const seconds = (value) => fixed(value, value !== null && Math.abs(value) < 1 ? 2 : 1);
+
+/** First characters of a content hash, enough to compare by eye. */
+export const shortHash = (hash) => (hash ? hash.slice(0, 10) : "–");
+
+/** Time of day of an ISO string or of Unix seconds; the date too unless it is today. */
+export function clockTime(moment) {
+  if (moment === null || moment === undefined) return "";
+  const date = typeof moment === "number" ? new Date(moment * 1000) : new Date(moment);
+  if (Number.isNaN(date.getTime())) return String(moment);
+  const time = date.toLocaleTimeString([], { hour: "2-digit", minute: "2-digit" });
+  if (date.toDateString() === new Date().toDateString()) return time;
+  return `${date.toLocaleDateString([], { day: "numeric", month: "short" })} ${time}`;
+}
+
+/** Value and unit of a margin given in SI: metres become millimetres, radians degrees. */
+export function readable(value, unit) {
+  if (unit === "m") return { value: mm(value, 2), unit: "mm" };
+  if (unit === "m/s") return { value: mm(value, 2), unit: "mm/s" };
+  if (unit === "rad") return { value: fixed((value * 180) / Math.PI, 2), unit: "°" };
+  return { value: compact(value), unit: unit ?? "" };
+}
+
+/** "body_height" as "Body height". */
+export function ruleName(rule) {
+  const words = rule.replaceAll("_", " ").replaceAll("-", " ");
+  return words.charAt(0).toUpperCase() + words.slice(1);
+}

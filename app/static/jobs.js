@@ -1,0 +1,92 @@
+/** The list of jobs: state, iteration, violation, cancel; a job that ends is told without taking the focus. */
+
+import { api } from "./api.js";
+import { byId, h, setText } from "./dom.js";
+import { clockTime, compact, seconds } from "./format.js";
+import { announce, attempt } from "./toasts.js";
+
+const TONES = {
+  queued: "quiet", running: "accent", cancelling: "caution", done: "good", infeasible: "caution",
+  failed: "bad", cancelled: "quiet", interrupted: "caution",
+};
+const SHOWN = 12;
+
+export const jobIsOn = (job) => ["queued", "running", "cancelling"].includes(job.state);
+export const jobTone = (job) => TONES[job.state] ?? "quiet";
+
+/** The job whose curve and explanation are shown: the one picked, else the newest of this gait. */
+export function jobOf({ jobs, shownJob, selected }) {
+  return jobs.find((job) => job.id === shownJob && job.gait === selected) ?? jobs.find((job) => job.gait === selected) ?? null;
+}
+
+function figures(job) {
+  const last = job.progress?.at(-1);
+  if (jobIsOn(job)) return last ? `iteration ${last.iteration} · violation ${compact(last.primal)}` : job.sentence;
+  if (job.state === "done" && job.result) return `${job.result.iterations} iterations · ${seconds(job.result.solve_seconds)} s`;
+  return job.sentence;
+}
+
+function item(store, id) {
+  const title = h("button", { class: "link", title: "Show its curve and result" });
+  const dot = h("span", { class: "dot" });
+  const word = h("span", { class: "word" });
+  const text = h("p");
+  const when = h("span");
+  const cancel = h("button", { text: "Cancel", "aria-label": "Cancel job", on: { click: attempt(() => api.cancelJob(id)) } });
+  title.addEventListener("click", () => pick(store, id));
+  const element = h("li", { class: "job" }, h("div", { class: "head" }, dot, title, word), text,
+    h("div", { class: "foot-line" }, when, cancel));
+  return { element, title, dot, word, text, when, cancel };
+}
+
+async function pick(store, id) {
+  const job = store.state.jobs.find((one) => one.id === id);
+  const { selectGait } = await import("./gaits.js");
+  if (store.state.gaits.some((gait) => gait.id === job.gait)) await selectGait(store, job.gait);
+  store.set({ shownJob: id });
+  byId("tab-optimise").click();
+}
+
+function show(part, job, shown) {
+  setText(part.title, job.gait_name);
+  part.dot.dataset.tone = jobTone(job);
+  setText(part.word, job.state);
+  part.word.dataset.toneText = jobTone(job);
+  setText(part.text, figures(job));
+  part.text.title = job.sentence;
+  const stale = job.state === "done" && !job.fresh;
+  part.when.className = stale ? "stale" : "";
+  setText(part.when, stale ? "older version of the gait" : clockTime(job.created));
+  part.cancel.hidden = !jobIsOn(job);
+  part.cancel.toggleAttribute("disabled", job.state === "cancelling");
+  part.element.toggleAttribute("data-shown", shown);
+}
+
+function tellEnded(before, jobs) {
+  for (const job of jobs) {
+    const known = before.get(job.id);
+    if (known && jobIsOn(known) && !jobIsOn(job)) announce(`Optimise ${job.gait_name}: ${job.state}. ${job.sentence}`);
+  }
+  return new Map(jobs.map((job) => [job.id, job]));
+}
+
+/** Builds the list and keeps it current. */
+export function mountJobs(store) {
+  const list = byId("jobs");
+  const parts = new Map();
+  let before = new Map();
+  store.watch(({ jobs, shownJob, selected }) => [jobs, shownJob, selected], (state) => {
+    before = tellEnded(before, state.jobs);
+    const shown = jobOf(state);
+    const visible = state.jobs.slice(0, SHOWN);
+    const kept = new Set(visible.map(({ id }) => id));
+    for (const [id, part] of parts) if (!kept.has(id)) { part.element.remove(); parts.delete(id); }
+    visible.forEach((job, index) => {
+      if (!parts.has(job.id)) parts.set(job.id, item(store, job.id));
+      const part = parts.get(job.id);
+      show(part, job, job === shown);
+      if (list.children[index] !== part.element) list.insertBefore(part.element, list.children[index] ?? null);
+    });
+    byId("jobs-empty").hidden = visible.length > 0;
+  });
+}

@@ -1,0 +1,172 @@
+/** The Robot section: the way from the cable to a finished run, one deliberate act after the other. */
+
+import { api } from "./api.js";
+import { confirmAct } from "./dialogs.js";
+import { byId, h, onPress, setAllowed, setAttribute, setText } from "./dom.js";
+import { fixed, seconds, shortHash } from "./format.js";
+import { needOperator } from "./operator.js";
+import { commandedStrokes } from "./samples.js";
+import { sendControl } from "./send.js";
+import { runIsOn } from "./store.js";
+import { strokeBars } from "./strokes.js";
+import { robotTone } from "./topbar.js";
+import { attempt, report, toast } from "./toasts.js";
+
+const CONNECT_WARNING = "Connecting resets the board: its motors may move for about 8 s. Keep hands away.";
+
+function stopSentence(limit) {
+  const within = limit === null || limit === undefined ? "a few seconds" : `${seconds(limit)} s`;
+  return `Stop is a software stop over the cable: it takes effect within ${within}, after the move that is running. The power switch is the emergency stop.`;
+}
+
+function act(store, verb, extra = () => ({})) {
+  return attempt(async () => {
+    const by = store.state.operator || undefined;
+    store.set({ robot: await api.robot(verb, { ...(by ? { by } : {}), ...extra() }) });
+  });
+}
+
+function robotButton(store, text, verb, options = {}) {
+  const button = h("button", { text, "data-robot": true });
+  onPress(button, options.act ?? act(store, verb, options.extra), (why) => toast(why));
+  return { button, allow: (robot) => setAllowed(button, robot ? robot.allowed?.[verb] : "The studio has not answered yet.", options.help) };
+}
+
+function way(...children) {
+  return h("li", { class: "way" }, ...children);
+}
+
+function progressOf(run) {
+  if (!run) return null;
+  if (run.phase === "start pose") return { fraction: 0, text: "Moving slowly to the start pose" };
+  const time = run.elapsed === null || run.elapsed === undefined ? "" : ` · ${seconds(run.elapsed)} s`;
+  return { fraction: run.count ? run.reached / run.count : 0, text: `${run.reached} of ${run.count} reached, ${run.sent} sent${time}` };
+}
+
+function summaryRows({ runSummary: run, view, selected }) {
+  if (!run || run.gait !== selected || !view) return [];
+  const rows = [["Waypoints", `${run.waypoints}`], ["Takes about", `${fixed(run.estimated_seconds, 0)} s`]];
+  if (run.start_distance_mm !== null && run.start_distance_mm !== undefined) {
+    rows.push(["To the start pose", `${fixed(run.start_distance_mm)} mm${run.start_moves ? ` in ${run.start_moves} moves` : ""}`]);
+  }
+  rows.push(["Largest move", `${fixed(run.largest_move_mm)} mm`], ["Stop takes effect within", `${seconds(run.stop_seconds)} s`], ["Hash", shortHash(run.waypoints_hash), run.waypoints_hash]);
+  return rows.flatMap(([name, value, help]) => [h("dt", { text: name }), h("dd", { class: help ? "mono" : null, text: value, title: help ?? null })]);
+}
+
+function build(store) {
+  const device = h("input", { "aria-label": "Device", title: "emulator, a serial port such as /dev/ttyACM0, or socket://HOST:PORT", spellcheck: "false", autocomplete: "off" });
+  const extra = () => (device.value.trim() ? { device: device.value.trim() } : {});
+  const reset = attempt(async () => {
+    if (await confirmAct("Reset the robot?", "Reset moves all 12 motors to 0.5 mm, at full speed and at the same time.", "Move all motors to 0.5 mm")) await act(store, "reset")();
+  });
+  return {
+    device,
+    dot: h("span", { class: "dot" }), word: h("b"), sentence: h("p"),
+    connect: robotButton(store, "Connect", "connect", { extra, help: CONNECT_WARNING }),
+    disconnect: robotButton(store, "Disconnect", "disconnect"),
+    arm: robotButton(store, "Arm", "arm", { help: "Allow this robot to be moved from here" }),
+    pause: robotButton(store, "Pause robot", "pause", { help: "Stands still at the next pose with all feet down" }),
+    resume: robotButton(store, "Resume robot", "resume"),
+    clear: robotButton(store, "Clear", "clear", { help: "Acknowledge the stop or fault; nothing moves" }),
+    reset: robotButton(store, "Reset", "reset", { act: reset, help: "Moves all motors to 0.5 mm" }),
+    connectNote: h("p", { class: "why" }), armNote: h("p", { class: "why" }), sendNote: h("p", { class: "why" }),
+    summary: h("dl", { class: "summary" }),
+    bar: h("i"), progress: h("p", { class: "why number" }),
+    bars: strokeBars(),
+    stopText: h("p", { class: "stop-text" }),
+  };
+}
+
+function assemble(parts, send) {
+  const connect = way(h("div", { class: "device" }, parts.device, parts.connect.button, parts.disconnect.button), parts.connectNote);
+  const arm = way(h("div", { class: "buttons" }, parts.arm.button), parts.armNote);
+  const start = way(parts.summary, send.element, parts.sendNote);
+  const run = way(h("div", { class: "progress" }, parts.bar), parts.progress,
+    h("div", { class: "buttons" }, parts.pause.button, parts.resume.button, parts.clear.button, parts.reset.button));
+  byId("robot").append(h("div", { class: "robot-state" }, parts.dot, parts.word, parts.sentence),
+    h("ol", { class: "steps", role: "list", "aria-label": "The robot's way" }, connect, arm, start, run),
+    h("h3", {}, "Strokes measured", h("span", { text: "mm" })), parts.bars.element, parts.stopText);
+  return { connect, arm, start, run };
+}
+
+function showWay(ways, robot) {
+  const ready = robot?.link === "ready";
+  const armed = ready && !["unknown", "disarmed", "stopped", "fault"].includes(robot.robot);
+  const done = robot?.robot === "done";
+  const on = runIsOn(robot);
+  const marks = { connect: ready, arm: armed, start: on || done, run: done };
+  const next = Object.keys(marks).find((name) => !marks[name]);
+  for (const [name, element] of Object.entries(ways)) {
+    element.toggleAttribute("data-done", marks[name]);
+    element.toggleAttribute("data-next", name === next);
+  }
+}
+
+function showRobot(parts, ways, robot) {
+  const ready = ["ready", "connecting"].includes(robot?.link);
+  parts.dot.dataset.tone = robotTone(robot);
+  setText(parts.word, robot ? `${robot.robot}${robot.emulated ? " · emulated robot" : ""}` : "unknown");
+  setText(parts.sentence, [robot?.sentence, robot?.stop_text && !robot.sentence?.includes(robot.stop_text) ? `${robot.stop_text}.` : null].filter(Boolean).join(" "));
+  for (const name of ["connect", "disconnect", "arm", "pause", "resume", "clear", "reset"]) parts[name].allow(robot);
+  parts.connect.button.hidden = ready;
+  parts.disconnect.button.hidden = !ready;
+  const paused = robot?.robot === "paused";
+  parts.pause.button.hidden = paused;
+  parts.resume.button.hidden = !paused;
+  setText(parts.connectNote, ready ? (robot.link === "connecting" ? CONNECT_WARNING : "") : CONNECT_WARNING);
+  setText(parts.armNote, ready ? (robot.allowed?.arm ?? "") : "");
+  if (document.activeElement !== parts.device) parts.device.value = robot?.device ?? "";
+  parts.device.readOnly = ready;
+  const progress = progressOf(robot?.run);
+  parts.bar.style.transform = `scaleX(${progress?.fraction ?? 0})`;
+  setText(parts.progress, progress?.text ?? "No run yet.");
+  showWay(ways, robot);
+}
+
+function whyNotSend({ robot, view, runSummary }) {
+  if (!robot) return "The studio has not answered yet.";
+  if (!view?.approval) return "Only an approved plan can be sent: check and approve it first.";
+  if (robot.allowed?.send) return robot.allowed.send;
+  if (!runSummary || runSummary.waypoints_hash !== view.approval.waypoints_hash) return "The summary of this plan is not there yet.";
+  return runSummary.reason ?? null;
+}
+
+async function fetchSummary(store) {
+  const { selected, view } = store.state;
+  if (!selected || !view?.plan || view.plan.refusal) return store.set({ runSummary: null });
+  try {
+    const summary = await api.run(selected);
+    if (store.state.selected === selected) store.set({ runSummary: { ...summary, gait: selected } });
+  } catch (error) {
+    store.set({ runSummary: null });
+    if (error.status !== 409 && error.status !== 422) report(error);
+  }
+  return undefined;
+}
+
+/** Builds the section; returns what Esc may cancel. */
+export function mountRobot(store) {
+  const send = sendControl({
+    prepare: async () => Boolean(await needOperator(store, "The run is kept with the name of who started it.")),
+    send: attempt(async () => {
+      const { selected, runSummary, operator } = store.state;
+      store.set({ robot: await api.robot("send", { gait: selected, waypoints_hash: runSummary.waypoints_hash, by: operator }) });
+    }),
+  });
+  const parts = build(store);
+  const ways = assemble(parts, send);
+  store.watch(({ robot }) => [robot], ({ robot }) => showRobot(parts, ways, robot));
+  store.watch(({ robot, view }) => [robot?.strokes_mm, robot?.run, view?.plan], ({ robot, view }) => {
+    parts.bars.show(robot?.strokes_mm ?? null, commandedStrokes(robot, view));
+  });
+  store.watch(({ robot, view, runSummary, selected }) => [robot, view, runSummary, selected], (state) => {
+    const reason = whyNotSend(state);
+    send.allow(reason);
+    setText(parts.sendNote, reason ?? "Hold for a second, or click for a countdown.");
+    parts.summary.replaceChildren(...summaryRows(state));
+    setText(parts.stopText, stopSentence(state.robot?.stop_seconds ?? state.runSummary?.stop_seconds));
+    setAttribute(parts.summary, "hidden", parts.summary.childElementCount ? null : "");
+  });
+  store.watch(({ selected, view, robot }) => [selected, view?.plan?.waypoints_hash, view?.approval?.waypoints_hash, robot?.link, robot?.robot], () => fetchSummary(store));
+  return send.cancel;
+}

@@ -1,0 +1,45 @@
+/** What floats over the preview for a while: refusals, finished deletions, and the voice for screen readers. */
+
+import { byId, h, icon } from "./dom.js";
+
+const STAY_MS = 9000;
+
+/**
+ * Shows a sentence; errors stay until they are closed.
+ * @param {string} sentence
+ * @param {{tone?: "bad"|"plain", action?: {label: string, act: () => void}}} [options]
+ */
+export function toast(sentence, { tone = "plain", action = null } = {}) {
+  const close = () => element.remove();
+  const element = h("div", { class: "toast", role: tone === "bad" ? "alert" : "status", data: { tone } },
+    h("p", { text: sentence }),
+    action && h("button", { text: action.label, on: { click: () => { close(); action.act(); } } }),
+    h("button", { class: "plain icon-only", "aria-label": "Dismiss", on: { click: close } }, icon("close")));
+  const stack = byId("toasts");
+  [...stack.children].filter((other) => other.querySelector("p").textContent === sentence).forEach((other) => other.remove());
+  stack.append(element);
+  while (stack.children.length > 3) stack.firstElementChild.remove();
+  if (tone !== "bad") setTimeout(close, STAY_MS);
+}
+
+/** Shows what an ApiError says; anything else is a defect and goes to the console as well. */
+export function report(error) {
+  toast(error.message, { tone: "bad" });
+}
+
+/** Tells a screen reader, without taking the focus. */
+export function announce(sentence) {
+  byId("announcer").textContent = sentence;
+}
+
+/** Runs an asynchronous action and reports its refusal. */
+export function attempt(action) {
+  return async (...values) => {
+    try {
+      return await action(...values);
+    } catch (error) {
+      report(error);
+      return null;
+    }
+  };
+}

@@ -79,7 +79,7 @@ def _entry(item: dict[str, Any]) -> LibraryEntry:
         iterations=1,
         timeline=timeline,
         segment_table=table,
-        options=GaitOptions(),
+        options=GaitOptions(margin=item.get("margin", 0.0)),
     )
     return LibraryEntry(item["id"], gait, tag)
 

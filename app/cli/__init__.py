@@ -1,0 +1,60 @@
+"""The command line: every command's words, exit status and output."""
+
+from __future__ import annotations
+
+import json
+import logging
+import os
+import sys
+from collections.abc import Sequence
+
+from app.cli.arguments import make_parser
+from app.cli.report import Interrupted
+from core.errors import CheckError, FootfallError, InfeasibleError, InputError, RobotError, StateError
+
+_EXIT: tuple[tuple[type[FootfallError], int], ...] = (
+    (InputError, 2),
+    (InfeasibleError, 3),
+    (CheckError, 4),
+    (StateError, 4),
+    (RobotError, 5),
+)
+INTERRUPTED = 130
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs one command.
+
+    Args:
+        arguments: without the program's name; those of the process where None.
+
+    Returns:
+        The exit status: 0 done, 2 bad input, 3 infeasible, 4 not fit, 5 robot, 130 interrupted.
+    """
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    wants_json = "--json" in words
+    logging.basicConfig(
+        stream=sys.stderr, level=logging.WARNING, format="%(levelname)s %(name)s: %(message)s"
+    )
+    try:
+        options = make_parser().parse_args(words)
+        status: int = options.run(options)
+        sys.stdout.flush()
+    except FootfallError as error:
+        _report(error, wants_json)
+        return next((code for kind, code in _EXIT if isinstance(error, kind)), 1)
+    except (KeyboardInterrupt, Interrupted):
+        sys.stderr.write("Interrupted.\n")
+        return INTERRUPTED
+    except BrokenPipeError:
+        # Whoever read our output is gone; keep the interpreter from complaining about it at its end.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    return status
+
+
+def _report(error: FootfallError, wants_json: bool) -> None:
+    if wants_json:
+        sys.stdout.write(json.dumps({"error": error.sentence, "where": error.where}) + "\n")
+    else:
+        sys.stderr.write(f"{error.sentence}\n")

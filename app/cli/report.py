@@ -1,0 +1,52 @@
+"""Printing results, for people or as one JSON object."""
+
+from __future__ import annotations
+
+import json
+import signal
+import sys
+from argparse import Namespace
+from collections.abc import Sequence
+from types import FrameType
+from typing import Any
+
+from core.findings import Severity, Verdict
+
+
+class Interrupted(Exception):  # noqa: N818 - it is no error
+    """SIGTERM arrived; commands end as by Ctrl-C."""
+
+
+def end_on_sigterm() -> None:
+    """Makes SIGTERM unwind the command as Ctrl-C does."""
+
+    def raise_interrupted(number: int, frame: FrameType | None) -> None:
+        del number, frame
+        raise Interrupted
+
+    signal.signal(signal.SIGTERM, raise_interrupted)
+
+
+def show(options: Namespace, content: dict[str, Any], lines: Sequence[str]) -> None:
+    """Prints content as JSON, or lines for people."""
+    text = json.dumps(content) if options.json else "\n".join(lines)
+    sys.stdout.write(text + "\n")
+
+
+def note(text: str) -> None:
+    """Says something beside the result, on standard error."""
+    sys.stderr.write(text + "\n")
+
+
+def verdict_lines(verdict: Verdict) -> list[str]:
+    """A verdict for people: findings, then margins."""
+    errors = sum(f.severity is Severity.ERROR for f in verdict.findings)
+    warnings = len(verdict.findings) - errors
+    lines = [f"{'Passed' if verdict.passed else 'Not fit'}: {errors} errors, {warnings} warnings."]
+    lines += [f"  {f.severity.value}: {f.rule}: {f.sentence}" for f in verdict.findings]
+    lines += [f"  margin {m.rule:<12} {_in_unit(m.margin, m.unit)}" for m in verdict.margins]
+    return lines
+
+
+def _in_unit(value: float, unit: str) -> str:
+    return f"{value * 1000:10.3f} mm{unit[1:]}" if unit.startswith("m") else f"{value:10.3f} {unit}"

@@ -1,0 +1,283 @@
+"""Everything that happens to gaits: opening, editing, saving, planning, checking and approving.
+
+Only the session's thread calls this.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, replace
+from datetime import UTC, datetime
+from typing import Any
+
+import numpy as np
+
+from app.documents import gait_content, motion_hash, parse_gait
+from app.plans import Plan, make_plan, verdict_of
+from app.store.database import Database, HistoryRow, WorkspaceRow
+from app.store.files import GaitFiles, slug
+from app.workspace import HistoryEntry, Workspace, fresh_workspace
+from core.errors import FootfallError, InputError, StateError
+from core.findings import Approval, approve
+from core.gait import Gait
+from core.library import library
+from core.timeline import timeline_from_order
+
+
+class UnknownGaitError(InputError):
+    """There is no gait of that id."""
+
+
+class GaitDesk:
+    """The open gaits.
+
+    Args:
+        files: the saved gaits.
+        database: histories, results and approvals.
+    """
+
+    def __init__(self, files: GaitFiles, database: Database) -> None:
+        self._files = files
+        self._database = database
+        self._open: dict[str, Workspace] = {}
+        self._plans: dict[str, tuple[int, Plan]] = {}
+
+    def ids(self) -> tuple[str, ...]:
+        """Built-in gaits first, then saved ones."""
+        saved = [gait_id for gait_id in self._files.ids() if gait_id not in library()]
+        unsaved = [gait_id for gait_id in self._open if gait_id not in library() and gait_id not in saved]
+        return (*library(), *saved, *unsaved)
+
+    def workspaces(self) -> tuple[Workspace, ...]:
+        """Every gait that can be opened; one whose file is damaged is left out of the list."""
+        found = []
+        for gait_id in self.ids():
+            try:
+                found.append(self.workspace(gait_id))
+            except InputError:
+                continue
+        return tuple(found)
+
+    def workspace(self, gait_id: str) -> Workspace:
+        """The gait's present state.
+
+        Raises:
+            UnknownGaitError: there is none of that id.
+        """
+        if gait_id not in self._open:
+            self._open[gait_id] = self._load(gait_id)
+        return self._open[gait_id]
+
+    def _load(self, gait_id: str) -> Workspace:
+        builtin = library().get(gait_id)
+        saved_at = self._files.saved_at(gait_id)
+        if saved_at is None and builtin is None:
+            raise UnknownGaitError(f"There is no gait “{gait_id}”.", gait_id)
+        saved = builtin.gait if saved_at is None and builtin is not None else self._files.read(gait_id)
+        stored = self._database.workspace(gait_id)
+        if stored is None:
+            return fresh_workspace(gait_id, saved, builtin is not None, saved_at)
+        row, history = stored
+        entries = tuple(HistoryEntry(h.label, parse_gait(h.document)) for h in history)
+        opened = Workspace(
+            gait_id, builtin is not None, entries, row.cursor, row.revision, saved, saved_at, row.notice
+        )
+        return self._with_approval(opened, row.approval)
+
+    def _with_approval(self, workspace: Workspace, text: str | None) -> Workspace:
+        """Brings an approval back where it still is of exactly this verdict and these waypoints."""
+        if text is None:
+            return workspace
+        approval = Approval(**json.loads(text))
+        verdict = verdict_of(self._plan_of(workspace), workspace.gait)
+        if verdict.content_hash != approval.verdict_hash:
+            return workspace
+        return replace(workspace, verdict=verdict, approval=approval)
+
+    def plan(self, gait_id: str) -> Plan:
+        """What the gait amounts to now; computed once a revision."""
+        return self._plan_of(self.workspace(gait_id))
+
+    def _plan_of(self, workspace: Workspace) -> Plan:
+        cached = self._plans.get(workspace.id)
+        if cached is not None and cached[0] == workspace.revision:
+            return cached[1]
+        result = self._database.result(motion_hash(workspace.gait))
+        plan = make_plan(workspace.gait, result)
+        self._plans[workspace.id] = (workspace.revision, plan)
+        return plan
+
+    def edit(self, gait_id: str, gait: Gait, label: str, revision: int | None) -> Workspace:
+        """Puts a changed document on the desk.
+
+        Raises:
+            StateError: somebody else changed it since the given revision.
+        """
+        workspace = self.workspace(gait_id)
+        if revision is not None and revision != workspace.revision:
+            raise StateError(
+                f"“{workspace.gait.name}” was changed elsewhere; look at its new state and edit again.",
+                "revision",
+            )
+        settled, notice = settle_table(workspace.gait, gait)
+        if settled == workspace.gait:
+            return workspace
+        return self._put(workspace.edit(settled, label or "Edit", notice), workspace)
+
+    def redraw(self, gait_id: str, order: tuple[int, ...], phase_knots: int, closing_knots: int) -> Workspace:
+        """Draws the timeline anew from a foot order and phase lengths."""
+        workspace = self.workspace(gait_id)
+        gait = workspace.gait
+        timeline = timeline_from_order(
+            gait.timeline.leg_count,
+            order,
+            phase_knots=phase_knots,
+            closing_knots=closing_knots,
+            iterations=gait.iterations,
+            sample_time=gait.timeline.sample_time,
+        ).turned(gait.quarter_turns)
+        options = replace(gait.options, phase_knots=phase_knots, closing_knots=closing_knots)
+        changed = replace(gait, order=order, timeline=timeline, options=options)
+        return self.edit(gait_id, changed, f"Draw order {'-'.join(map(str, order))}", None)
+
+    def undo(self, gait_id: str) -> Workspace:
+        """One step back."""
+        workspace = self.workspace(gait_id)
+        return self._put(workspace.undo(), workspace)
+
+    def redo(self, gait_id: str) -> Workspace:
+        """One step forward again."""
+        workspace = self.workspace(gait_id)
+        return self._put(workspace.redo(), workspace)
+
+    def save(self, gait_id: str) -> Workspace:
+        """Writes the present document to the data folder."""
+        workspace = self.workspace(gait_id)
+        self._files.write(gait_id, workspace.gait)
+        saved = replace(workspace, saved=workspace.gait, saved_at=self._files.saved_at(gait_id))
+        self._open[gait_id] = saved
+        return saved
+
+    def create(self, gait: Gait) -> Workspace:
+        """Adds a gait under a new id made from its name, and saves it."""
+        base, taken, number = slug(gait.name), set(self.ids()), 1
+        gait_id = base
+        while gait_id in taken:
+            number += 1
+            gait_id = f"{base}-{number}"
+        self._files.write(gait_id, gait)
+        self._open[gait_id] = fresh_workspace(gait_id, gait, False, self._files.saved_at(gait_id))
+        return self._open[gait_id]
+
+    def delete(self, gait_id: str) -> None:
+        """Takes a saved gait away; `restore` brings it back.
+
+        Raises:
+            StateError: the gait comes with the program and was not saved over.
+        """
+        workspace = self.workspace(gait_id)
+        if workspace.saved_at is None:
+            raise StateError(
+                f"“{workspace.gait.name}” comes with the program and cannot be deleted; "
+                "undo takes edits back.",
+                gait_id,
+            )
+        self._files.remove(gait_id)
+        self._forget(gait_id)
+
+    def restore(self, gait_id: str) -> Workspace:
+        """Brings a deleted gait back as it was saved."""
+        self._files.restore(gait_id)
+        self._forget(gait_id)
+        return self.workspace(gait_id)
+
+    def _forget(self, gait_id: str) -> None:
+        self._open.pop(gait_id, None)
+        self._plans.pop(gait_id, None)
+        self._database.drop_workspace(gait_id)
+
+    def check(self, gait_id: str) -> Workspace:
+        """Checks the present plan by every rule; an approval of another verdict is gone."""
+        workspace = self.workspace(gait_id)
+        verdict = verdict_of(self._plan_of(workspace), workspace.gait)
+        approval = workspace.approval
+        if approval is not None and approval.verdict_hash != verdict.content_hash:
+            approval = None
+        self._open[gait_id] = replace(workspace, verdict=verdict, approval=approval)
+        return self._open[gait_id]
+
+    def approve(self, gait_id: str, by: str) -> Workspace:
+        """Records a person's approval of the present verdict.
+
+        Raises:
+            StateError: the gait was not checked since its last change, or an error stands.
+        """
+        workspace = self.workspace(gait_id)
+        if workspace.verdict is None:
+            raise StateError(
+                "Check this gait first: it changed since the last check, or was never checked.", "check"
+            )
+        approval = approve(workspace.verdict, by, datetime.now(UTC))
+        self._database.add_approval(gait_id, asdict(approval))
+        return self._put(replace(workspace, approval=approval), workspace)
+
+    def take_result(self, motion: str, content: dict[str, Any]) -> tuple[Workspace, ...]:
+        """Stores a checked result and gives back the open gaits whose plan it becomes."""
+        self._database.put_result(motion, content)
+        touched = []
+        for gait_id, workspace in self._open.items():
+            if workspace.gait.segment_table is None and motion_hash(workspace.gait) == motion:
+                self._plans.pop(gait_id, None)
+                self._open[gait_id] = replace(workspace, verdict=None, approval=None)
+                touched.append(self._open[gait_id])
+        return tuple(touched)
+
+    def _put(self, workspace: Workspace, before: Workspace) -> Workspace:
+        """Keeps a changed workspace in memory and in the database."""
+        shared = 0
+        for old, new in zip(before.history, workspace.history, strict=False):
+            if old is not new:
+                break
+            shared += 1
+        tail = tuple(_row(entry) for entry in workspace.history[shared:])
+        approval = None if workspace.approval is None else json.dumps(asdict(workspace.approval))
+        row = WorkspaceRow(workspace.revision, workspace.cursor, workspace.notice, approval)
+        if not self._database.has_workspace(workspace.id):
+            shared, tail = 0, tuple(_row(entry) for entry in workspace.history)
+        self._database.put_workspace(workspace.id, row, shared, tail)
+        self._open[workspace.id] = workspace
+        return workspace
+
+
+def _row(entry: HistoryEntry) -> HistoryRow:
+    return HistoryRow(entry.label, json.dumps(gait_content(entry.gait)))
+
+
+def settle_table(before: Gait, after: Gait) -> tuple[Gait, str | None]:
+    """Brings segment table and timeline of an edited gait into agreement.
+
+    Where only the table, direction or iterations changed, the timeline follows. Where the timeline was
+    drawn by hand, the table no longer says what is drawn and is set aside.
+
+    Returns:
+        The gait, and a sentence where the table was set aside.
+    """
+    table = after.segment_table
+    if table is None:
+        return after, None
+    repeated = table.repeated(after.iterations).turned(after.quarter_turns)
+    implied = repeated.timeline(after.timeline.sample_time)
+    if np.array_equal(after.timeline.stance, implied.stance):
+        return after, None
+    if before.segment_table is not None and np.array_equal(after.timeline.stance, before.timeline.stance):
+        return replace(after, timeline=implied), None
+    notice = (
+        "The segment table cannot say what you drew, so it was set aside and the gait is now a drawn one. "
+        "Undo brings the table back."
+    )
+    return replace(after, segment_table=None), notice
+
+
+def refusal_text(error: FootfallError) -> dict[str, Any]:
+    """An expected refusal as JSON content."""
+    return {"error": error.sentence, "where": error.where}

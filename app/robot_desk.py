@@ -1,0 +1,238 @@
+"""The robot as the studio sees it: the bridge, the emulated robot behind it, and the record of runs."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from app.bridge.emulated import EmulatedRobot, start_emulator
+from app.bridge.robot import RobotBridge
+from app.bridge.run import START_MOVE_MM, start_targets
+from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPlan
+from app.plans import Plan
+from app.run_recorder import RunRecorder
+from app.store.database import Database
+from app.workspace import Workspace
+from core.errors import StateError
+from core.waypoint_path import estimate_seconds
+from core.waypoints import Waypoints
+from core.wire_timing import LONGEST_SCAN, largest_moves, stop_delay
+
+EMULATOR = "emulator"
+_RUNNING = frozenset({RobotState.MOVING, RobotState.PAUSING, RobotState.PAUSED, RobotState.STOPPING})
+
+
+@dataclass(frozen=True)
+class RunOrigin:
+    """Which gait a run came from."""
+
+    run_id: str
+    gait: str
+    gait_name: str
+    waypoints: Waypoints
+
+
+class RobotDesk:
+    """Verbs on the robot, and what is shown of it.
+
+    Args:
+        database: where runs are kept.
+        device: `emulator`, a serial device, or `socket://HOST:PORT`.
+        changed: told with the robot's view whenever it changes.
+    """
+
+    def __init__(self, database: Database, device: str, changed: Callable[[dict[str, Any]], None]) -> None:
+        self._database = database
+        self._device = device
+        self._emulator: EmulatedRobot | None = None
+        self._origin: RunOrigin | None = None
+        self._record: dict[str, Any] | None = None
+        self._recorder = RunRecorder(database)
+        self._interrupt_old_runs()
+        self.bridge = RobotBridge(self._recorder.log)
+        self._changed = changed
+        self.bridge.subscribe(self._heard)
+
+    def _interrupt_old_runs(self) -> None:
+        for content in self._database.runs():
+            if content["state"] == "running":
+                sentence = "The studio ended while this run was on; nothing resumes by itself."
+                self._database.put_run({**content, "state": "interrupted", "sentence": sentence})
+
+    def close(self) -> None:
+        """Stops a run, closes the line and ends the emulated robot."""
+        self.bridge.close()
+        self._close_emulator()
+        self._recorder.close()
+
+    def connect(self, device: str | None) -> None:
+        """Opens the line to the studio's robot, or to another device."""
+        self._device = device or self._device
+        if self.bridge.snapshot.link in (LinkState.CONNECTING, LinkState.READY):
+            raise StateError("The robot is connected already. Disconnect it first.", "connect")
+        self._close_emulator()
+        target = self._device
+        if target == EMULATOR:
+            self._emulator = start_emulator()
+            target = self._emulator.device
+        self.bridge.connect(target)
+
+    def disconnect(self) -> None:
+        """Stops a run and closes the line; may take as long as the move that is on."""
+        self.bridge.disconnect()
+        self._close_emulator()
+
+    def _close_emulator(self) -> None:
+        if self._emulator is not None:
+            self._emulator.close()
+            self._emulator = None
+
+    def send(self, workspace: Workspace, plan: Plan, waypoints_hash: str | None, by: str) -> None:
+        """Sends a gait's approved waypoints.
+
+        Raises:
+            StateError: there is no approval of exactly these waypoints, or the robot is not armed.
+        """
+        approval, waypoints = workspace.approval, plan.waypoints
+        if approval is None or waypoints is None or plan.trajectory is None:
+            raise StateError(
+                f"“{workspace.gait.name}” is not approved as it is now. Check it and approve it first.",
+                "approve",
+            )
+        if waypoints_hash is not None and waypoints_hash != waypoints.content_hash:
+            raise StateError(
+                "The gait changed since you looked at it; look at the run again.", "waypoints_hash"
+            )
+        if not plan.model.wired:
+            raise StateError(f"{plan.model.title} exists on paper only; it has no cable.", "robot")
+        hold_ok = tuple(bool(row.all()) for row in plan.trajectory.contact)
+        run_id = self.bridge.send(RunPlan(waypoints, approval, hold_ok), by)
+        self._origin = RunOrigin(run_id, workspace.id, workspace.gait.name, waypoints)
+        self._record = {
+            "id": run_id,
+            "gait": workspace.id,
+            "gait_name": workspace.gait.name,
+            "waypoints_hash": waypoints.content_hash,
+            "by": by,
+            "started": time.time(),
+            "ended": None,
+            "state": "running",
+            "sentence": "",
+        }
+        self._recorder.begin(self._record)
+
+    def _heard(self, snapshot: RobotSnapshot) -> None:
+        record, run = self._record, snapshot.run
+        ended = snapshot.robot not in _RUNNING or snapshot.link is LinkState.LOST
+        if record is not None and run is not None and run.run_id == record["id"] and ended:
+            self._record = None
+            state = "lost" if snapshot.link is LinkState.LOST else snapshot.robot.value
+            reached = {"reached": run.reached, "count": run.count, "seconds": run.elapsed}
+            self._recorder.end(
+                {**record, **reached, "ended": time.time(), "state": state, "sentence": snapshot.sentence}
+            )
+        self._changed(self.view(snapshot))
+
+    def run_summary(self, workspace: Workspace, plan: Plan) -> dict[str, Any]:
+        """What a person should know before they press Send."""
+        if plan.waypoints is None:
+            sentence = "This gait has no waypoints." if plan.refusal is None else plan.refusal.sentence
+            raise StateError(sentence, "plan")
+        snapshot = self.bridge.snapshot
+        first_mm = tuple(float(h) for h in plan.waypoints.strokes_mm[0])
+        distance_mm, moves = None, None
+        if snapshot.strokes is not None:
+            here_mm = tuple(h * 1000.0 for h in snapshot.strokes)
+            distance_mm = max(abs(a - b) for a, b in zip(first_mm, here_mm, strict=False))
+            moves = len(start_targets(here_mm, first_mm)) if len(here_mm) == len(first_mm) else None
+        reason = self._send_hindrance(workspace, snapshot)
+        return {
+            "waypoints": plan.waypoints.count,
+            "waypoints_hash": plan.waypoints.content_hash,
+            "start_distance_mm": distance_mm,
+            "start_moves": moves,
+            "estimated_seconds": estimate_seconds(plan.waypoints),
+            "largest_move_mm": float(largest_moves(plan.waypoints).max(initial=0.0)) * 1000.0,
+            "stop_seconds": self._stop_seconds(plan.waypoints, snapshot),
+            "robot_ready": reason is None,
+            "reason": reason,
+        }
+
+    def _send_hindrance(self, workspace: Workspace, snapshot: RobotSnapshot) -> str | None:
+        if workspace.approval is None:
+            return "This gait is not approved as it is now. Check it and approve it first."
+        return _allowed(snapshot)["send"]
+
+    def _stop_seconds(self, waypoints: Waypoints, snapshot: RobotSnapshot) -> float:
+        scan = snapshot.measured_scan or LONGEST_SCAN
+        return stop_delay(waypoints, scan, start_move=START_MOVE_MM / 1000.0)
+
+    def view(self, snapshot: RobotSnapshot | None = None) -> dict[str, Any]:
+        """The robot as JSON content."""
+        shown = snapshot or self.bridge.snapshot
+        run, origin = shown.run, self._origin
+        content: dict[str, Any] = {
+            "link": shown.link.value,
+            "robot": shown.robot.value,
+            "sentence": shown.sentence,
+            "device": self._device,
+            "emulated": self._device == EMULATOR,
+            "strokes_mm": None
+            if shown.strokes is None
+            else np.round(np.multiply(shown.strokes, 1e3), 3).tolist(),
+            "stop_text": shown.stop_text,
+            "unknown_lines": shown.unknown_lines,
+            "last_error": shown.last_error,
+            "run": None,
+            "stop_seconds": None if origin is None else self._stop_seconds(origin.waypoints, shown),
+            "allowed": _allowed(shown),
+        }
+        if run is not None:
+            known = origin if origin is not None and origin.run_id == run.run_id else None
+            content["run"] = {
+                "id": run.run_id,
+                "gait": None if known is None else known.gait,
+                "gait_name": None if known is None else known.gait_name,
+                "waypoints_hash": None if known is None else known.waypoints.content_hash,
+                "phase": run.phase.value if shown.robot in _RUNNING else "ended",
+                "sent": run.sent,
+                "reached": run.reached,
+                "count": run.count,
+                "elapsed": run.elapsed,
+                "operator": run.by,
+            }
+        return content
+
+
+def _allowed(snapshot: RobotSnapshot) -> dict[str, str | None]:
+    """Why each button is disabled; None where it may be pressed."""
+    link, robot = snapshot.link, snapshot.robot
+    is_ready = link is LinkState.READY
+    linked = None if is_ready else "Connect the robot first."
+
+    def only(states: set[RobotState], otherwise: str) -> str | None:
+        return linked or (None if robot in states else otherwise)
+
+    connected = link in (LinkState.CONNECTING, LinkState.READY)
+    return {
+        "connect": "The robot is connected." if connected else None,
+        "disconnect": None if link is not LinkState.DISCONNECTED else "No robot is connected.",
+        "arm": only({RobotState.DISARMED, RobotState.DONE}, _why_not_arm(robot)),
+        "send": only({RobotState.ARMED}, "Arm the robot first."),
+        "pause": only({RobotState.MOVING}, "Nothing is moving."),
+        "resume": only({RobotState.PAUSED}, "No run is paused."),
+        "clear": only({RobotState.STOPPED, RobotState.FAULT}, "Nothing is stopped."),
+        "reset": only({RobotState.ARMED}, "Arm the robot first."),
+    }
+
+
+def _why_not_arm(robot: RobotState) -> str:
+    if robot is RobotState.ARMED:
+        return "The robot is armed."
+    if robot in (RobotState.STOPPED, RobotState.FAULT):
+        return "Clear the stop first."
+    return "Wait until the robot stands still."

@@ -1,0 +1,1 @@
+"""The web edge: HTTP and web sockets over the studio."""

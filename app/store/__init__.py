@@ -1,0 +1,1 @@
+"""What is kept: gait files in the data folder, everything else in one SQLite file."""

@@ -1,0 +1,121 @@
+"""Gait files in the data folder, written atomically."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import sys
+from pathlib import Path
+
+from app.documents import gait_content, parse_gait
+from core.errors import InputError
+from core.gait import Gait
+
+_ID = re.compile(r"[a-z0-9][a-z0-9-]{0,79}")
+
+
+def default_data_folder() -> Path:
+    """The user's data directory for this program, by the platform's custom."""
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Application Support" / "Footfall Studio"
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA", Path.home())) / "Footfall Studio"
+    return Path(os.environ.get("XDG_DATA_HOME", Path.home() / ".local" / "share")) / "footfall-studio"
+
+
+def write_atomically(path: Path, text: str) -> None:
+    """Writes a file whole or not at all, and on disk when this returns.
+
+    Raises:
+        InputError: the file cannot be written there.
+    """
+    partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
+    try:
+        with partial.open("w", encoding="utf-8", newline="") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        partial.replace(path)
+        folder = os.open(path.parent, os.O_RDONLY)
+        try:
+            os.fsync(folder)
+        finally:
+            os.close(folder)
+    except OSError as error:
+        partial.unlink(missing_ok=True)
+        raise InputError(f"{path} cannot be written: {error.strerror}.", str(path)) from error
+
+
+def slug(name: str) -> str:
+    """An id from a name: lower-case letters, digits and hyphens."""
+    words = re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-")
+    return words[:60] or "gait"
+
+
+class GaitFiles:
+    """The folder `gaits` and its `trash`.
+
+    Args:
+        data: the data folder; made where it does not exist.
+    """
+
+    def __init__(self, data: Path) -> None:
+        self._gaits = data / "gaits"
+        self._trash = data / "trash"
+        try:
+            self._gaits.mkdir(parents=True, exist_ok=True)
+            self._trash.mkdir(exist_ok=True)
+        except OSError as error:
+            raise InputError(
+                f"The data folder {data} cannot be made: {error.strerror}. Give another with --data.",
+                "--data",
+            ) from error
+
+    def ids(self) -> tuple[str, ...]:
+        """Ids of all saved gaits, by name."""
+        return tuple(sorted(p.stem for p in self._gaits.glob("*.json") if _ID.fullmatch(p.stem)))
+
+    def read(self, gait_id: str) -> Gait:
+        """Reads a saved gait.
+
+        Raises:
+            InputError: it is not there, or its file is damaged.
+        """
+        path = self._path(gait_id)
+        try:
+            return parse_gait(path.read_bytes(), path.name)
+        except OSError as error:
+            raise InputError(f"There is no saved gait “{gait_id}”.", gait_id) from error
+
+    def saved_at(self, gait_id: str) -> float | None:
+        """When the gait was saved, s since the epoch; None where it is not."""
+        path = self._path(gait_id)
+        return path.stat().st_mtime if path.exists() else None
+
+    def write(self, gait_id: str, gait: Gait) -> None:
+        """Saves a gait; the file is on disk when this returns."""
+        text = json.dumps(gait_content(gait), indent=2, ensure_ascii=False) + "\n"
+        write_atomically(self._path(gait_id), text)
+
+    def remove(self, gait_id: str) -> None:
+        """Moves a gait's file into the trash, from where it can be restored."""
+        self._path(gait_id).replace(self._trash / f"{gait_id}.json")
+
+    def restore(self, gait_id: str) -> None:
+        """Brings the last removed file of that id back.
+
+        Raises:
+            InputError: there is none, or the id is in use again.
+        """
+        source = self._trash / self._path(gait_id).name
+        if not source.exists():
+            raise InputError(f"There is no deleted gait “{gait_id}” to restore.", gait_id)
+        if self._path(gait_id).exists():
+            raise InputError(f"“{gait_id}” exists again; delete or rename it first.", gait_id)
+        source.replace(self._path(gait_id))
+
+    def _path(self, gait_id: str) -> Path:
+        if not _ID.fullmatch(gait_id):
+            raise InputError(f"“{gait_id}” is no gait id: lower-case letters, digits and hyphens.", "id")
+        return self._gaits / f"{gait_id}.json"

@@ -1,0 +1,29 @@
+"""A trajectory as JSON content, for results that are kept."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from core.trajectory import Trajectory
+
+_FIELDS = (
+    "times",
+    "body_world",
+    "heading",
+    "feet_world",
+    "contact",
+    "body_velocity",
+    "feet_velocity",
+    "contact_forces",
+)
+
+
+def trajectory_content(trajectory: Trajectory) -> dict[str, Any]:
+    """Nested lists by field name; None where the trajectory does not know."""
+    values = {name: getattr(trajectory, name) for name in _FIELDS}
+    return {name: None if value is None else value.tolist() for name, value in values.items()}
+
+
+def trajectory_from_content(content: dict[str, Any]) -> Trajectory:
+    """Inverse of `trajectory_content`."""
+    return Trajectory(**{name: content[name] for name in _FIELDS})

@@ -1,0 +1,107 @@
+"""What pages and scripts are shown: JSON content of gaits, plans and verdicts."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from datetime import UTC, datetime
+from typing import Any
+
+import numpy as np
+
+from app.documents import gait_content
+from app.plans import Plan
+from app.workspace import Workspace
+from core.findings import Approval, Verdict
+from core.segments import SegmentTable
+
+
+def summary_view(workspace: Workspace) -> dict[str, Any]:
+    """A line of the list of gaits."""
+    gait = workspace.gait
+    return {
+        "id": workspace.id,
+        "name": gait.name,
+        "kind": "builtin" if workspace.builtin else "saved",
+        "source": "optimised" if gait.segment_table is None else "manual",
+        "orientation": gait.orientation.value,
+        "order": list(gait.order),
+        "step": list(gait.step),
+        "edited": workspace.edited,
+    }
+
+
+def gait_view(workspace: Workspace, plan: Plan) -> dict[str, Any]:
+    """Everything that the page shows of one gait."""
+    gait = workspace.gait
+    saved_at = workspace.saved_at
+    return {
+        **summary_view(workspace),
+        "revision": workspace.revision,
+        "saved_at": None if saved_at is None else datetime.fromtimestamp(saved_at, UTC).isoformat(),
+        "undo": workspace.undo_label,
+        "redo": workspace.redo_label,
+        "document": gait_content(gait),
+        "roles": list(gait.roles),
+        "segments": None if gait.segment_table is None else _segments(gait.segment_table, gait.quarter_turns),
+        "notice": workspace.notice,
+        "plan": plan_view(plan),
+        "verdict": None if workspace.verdict is None else verdict_view(workspace.verdict),
+        "approval": None if workspace.approval is None else approval_view(workspace.approval),
+    }
+
+
+def _segments(table: SegmentTable, quarter_turns: int) -> dict[str, Any]:
+    rows = table.turned(quarter_turns).rows
+    return {"feet": [list(row) for row in rows], "samples_per_segment": table.samples_per_segment}
+
+
+def plan_view(plan: Plan) -> dict[str, Any]:
+    """A plan for preview and plots, SI but for strokes."""
+    refusal = plan.refusal
+    limits = plan.model.stroke
+    content: dict[str, Any] = {
+        "hash": plan.hash,
+        "source": plan.source.value,
+        "note": plan.note,
+        "refusal": None if refusal is None else {"sentence": refusal.sentence, "where": refusal.where},
+        "times": [],
+        "contact": [],
+        "body": [],
+        "heading": [],
+        "feet": [],
+        "margin": [],
+        "strokes_mm": None,
+        "stroke_limits_mm": [limits.lower * 1000, limits.upper * 1000],
+        "slip": None if plan.slip is None else plan.slip.tolist(),
+        "waypoints_hash": None,
+        "waypoint_count": 0,
+        "duration": 0.0,
+    }
+    trajectory = plan.trajectory
+    if trajectory is not None:
+        content |= {
+            "times": trajectory.times.tolist(),
+            "contact": trajectory.contact.tolist(),
+            "body": np.round(trajectory.body_world, 7).tolist(),
+            "heading": trajectory.heading.tolist(),
+            "feet": np.round(trajectory.feet_world, 7).tolist(),
+            "margin": np.round(plan.margins, 7).tolist(),
+            "duration": float(trajectory.times[-1]),
+        }
+    if plan.waypoints is not None:
+        content |= {
+            "strokes_mm": plan.waypoints.strokes_mm.tolist(),
+            "waypoints_hash": plan.waypoints.content_hash,
+            "waypoint_count": plan.waypoints.count,
+        }
+    return content
+
+
+def verdict_view(verdict: Verdict) -> dict[str, Any]:
+    """A verdict with its findings, errors first; indices count from 0."""
+    return {**asdict(verdict), "passed": verdict.passed, "hash": verdict.content_hash}
+
+
+def approval_view(approval: Approval) -> dict[str, Any]:
+    """An approval."""
+    return asdict(approval)

@@ -134,6 +134,10 @@ class RowConstraint(Protocol):
     def unit(self) -> str:
         """Unit of `excess`."""
 
+    @property
+    def per_unit(self) -> float:
+        """About how much the rows change where `excess` changes by 1, near the bound."""
+
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """(rows a knot, knots) in the solver's scale; knots count from the first."""
 

@@ -14,6 +14,8 @@ from solver_jobs.words import FAMILY_WORDS, REMEDIES
 NOTABLE = 1e-3
 """Violations (mm, N, mm/s) that are worth a sentence."""
 
+DIAGNOSED = "This is diagnosed from a local search, not proven."
+
 
 @dataclass(frozen=True)
 class Shortfall:
@@ -58,10 +60,9 @@ def shortfalls(structure: Structure, situation: Situation, rows: Floats) -> tupl
 
 def explanation(found: tuple[Shortfall, ...]) -> tuple[str, ...]:
     """Sentences for a search that ended without a motion."""
-    closing = "This is diagnosed from one search, not proven."
     if not found:
         nearly = "IPOPT did not reach its tolerance, though its last iterate keeps every constraint nearly."
-        return (nearly, closing)
+        return (nearly, DIAGNOSED)
     worst = found[0]
     sentences = [
         "IPOPT found no motion that keeps every constraint: the largest remaining violation is "
@@ -69,7 +70,27 @@ def explanation(found: tuple[Shortfall, ...]) -> tuple[str, ...]:
     ]
     if len(found) > 1:
         sentences.append(f"Also missed: {'; '.join(other.phrase for other in found[1:4])}.")
-    return (*sentences, closing)
+    return (*sentences, DIAGNOSED)
+
+
+def nearest_motion(missed: tuple[Shortfall, ...]) -> tuple[str, ...]:
+    """Sentences for what the nearest motion still misses, the worst first."""
+    worst = missed[0]
+    sentences = [
+        "IPOPT found no motion that keeps every constraint. The nearest one found lacks "
+        f"{worst.phrase}. {REMEDIES[worst.family]}"
+    ]
+    if len(missed) > 1:
+        sentences.append(f"It also lacks {'; '.join(other.phrase for other in missed[1:4])}.")
+    return (*sentences, DIAGNOSED)
+
+
+def broken_pose(missed: Shortfall) -> str:
+    """A sentence for a demand that the given start or goal itself breaks."""
+    return (
+        f"The given start or goal misses a limit by {missed.phrase}, whatever happens between. "
+        f"{REMEDIES[missed.family]}"
+    )
 
 
 def knot_ranges(knots: tuple[int, ...]) -> str:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from solver_jobs.constraint import Box, Family, Situation
+from core.support import GRAVITY
+from solver_jobs.constraint import Box, Situation
+from solver_jobs.diagnosis import knot_ranges
 from solver_jobs.variables import MM
 from solver_jobs.words import FAMILY_WORDS, REMEDIES
 
@@ -14,6 +16,8 @@ SLACK = 1e-9
 
 def obstacles(situation: Situation, box: Box) -> tuple[str, ...]:
     """Sentences for everything that no motion can get round; empty where nothing is in the way."""
+    if (falling := _falling(situation)) is not None:
+        return (falling,)
     looks = (
         _contradictions(situation, box),
         _short_swings(situation),
@@ -23,13 +27,14 @@ def obstacles(situation: Situation, box: Box) -> tuple[str, ...]:
     return tuple(sentence for look in looks for sentence in look)
 
 
-def violated_constants(family: Family, knots: tuple[int, ...], excess: float, unit: str) -> str:
-    """A sentence for a demand that the start or the goal itself breaks."""
-    places = " and ".join(f"knot {knot + 1}" for knot in knots)
-    return (
-        f"The given pose at {places} breaks the {FAMILY_WORDS[family]} limit by {excess:.2f} {unit}. "
-        f"{REMEDIES[family]}"
-    )
+def _falling(situation: Situation) -> str | None:
+    """With no foot down the whole robot falls, Σ m a = −M g, faster than any speed limit allows."""
+    problem = situation.problem
+    floating = tuple(int(k) for k in np.nonzero(~situation.contact[:-1].any(axis=1))[0])
+    fastest = max(problem.limits.body_speed, problem.limits.foot_speed)
+    if not floating or GRAVITY * problem.timeline.sample_time <= 2 * fastest:
+        return None
+    return f"No foot stands at {knot_ranges(floating)}, so the robot falls. Keep at least three feet down."
 
 
 def _contradictions(situation: Situation, box: Box) -> list[str]:

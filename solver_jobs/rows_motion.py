@@ -23,6 +23,7 @@ class Integration:
 
     family: Family = Family.DYNAMICS
     unit: str = "mm"
+    per_unit: float = 1.0
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """Three rows a point and interval, mm."""
@@ -47,6 +48,7 @@ class ForceBalance:
 
     family: Family = Family.DYNAMICS
     unit: str = "N"
+    per_unit: float = 1.0
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """Three rows an interval, N."""
@@ -81,6 +83,7 @@ class BodyTorque:
 
     family: Family = Family.BODY_TORQUE
     unit: str = "mm"
+    per_unit: float = 1.0
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """Three rows an interval, mm."""
@@ -111,6 +114,7 @@ class FootSpeed:
 
     family: Family = Family.FOOT_SPEED
     unit: str = "mm/s"
+    per_unit: float = 30.0
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """A row a foot and knot, mm²/s²."""
@@ -131,6 +135,7 @@ class BodySpeed:
 
     family: Family = Family.BODY_SPEED
     unit: str = "mm/s"
+    per_unit: float = 30.0
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """A row a knot, mm²/s²."""

@@ -15,6 +15,9 @@ from solver_jobs.constraint import Family, Situation, outside
 from solver_jobs.leg_equations import squared_offsets
 from solver_jobs.variables import MM, Symbols
 
+_ROD_SLOPE = 90.0
+"""d(d_i + (z + h)²)/dh at the middle of the workspace, mm, to speak of mm of stroke."""
+
 
 def feet_from_modules(symbols: Symbols, model: RobotModel) -> list[SX]:
     """(3, n) each foot from its module's centre in the world's axes, heading 0, mm."""
@@ -33,6 +36,7 @@ class CylinderDisc:
     cylinder: CylinderWorkspace = CYLINDER
     family: Family = Family.WORKSPACE
     unit: str = "mm"
+    per_unit: float = 27.0
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """A row a foot and knot, mm²."""
@@ -55,6 +59,7 @@ class CylinderHeight:
     cylinder: CylinderWorkspace = CYLINDER
     family: Family = Family.WORKSPACE
     unit: str = "mm"
+    per_unit: float = 1.0
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """A row a foot and knot, mm."""
@@ -77,6 +82,7 @@ class StrokeUpper:
 
     family: Family = Family.WORKSPACE
     unit: str = "mm"
+    per_unit: float = _ROD_SLOPE
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """Three rows a foot and knot, mm²."""
@@ -97,6 +103,7 @@ class StrokeLower:
 
     family: Family = Family.WORKSPACE
     unit: str = "mm"
+    per_unit: float = _ROD_SLOPE
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """Three rows a foot and knot, mm²."""
@@ -109,10 +116,6 @@ class StrokeLower:
     def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
         """About how far the motor is out of its stroke, mm."""
         return outside(values, lower, upper) / _ROD_SLOPE
-
-
-_ROD_SLOPE = 90.0
-"""d(d_i + (z + h)²)/dh at the middle of the workspace, mm, to speak of mm of stroke."""
 
 
 def _stroke_rows(symbols: Symbols, model: RobotModel, stroke: float) -> SX:
@@ -137,6 +140,7 @@ class StabilityMargin:
 
     family: Family = Family.MARGIN
     unit: str = "mm"
+    per_unit: float = 1.0
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """A row a foot and interval, mm."""

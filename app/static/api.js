@@ -62,15 +62,16 @@ export const api = {
 };
 
 /**
- * Sends Stop without a body, again and again until it is answered.
+ * Sends Stop, again and again until it is answered; needs no body.
+ * @param {string} by who stops, where known
  * @returns {Promise<object>} the robot's state
  * @throws {ApiError} after `attempts` failures
  */
-export async function sendStop(attempts = 5) {
+export async function sendStop(by, attempts = 5) {
   let failure = null;
   for (let attempt = 0; attempt < attempts; attempt += 1) {
     try {
-      return await request("POST", "/api/robot/stop");
+      return await request("POST", "/api/robot/stop", by ? { by } : undefined);
     } catch (error) {
       failure = error;
       await new Promise((resume) => setTimeout(resume, 150 * attempt));

@@ -96,7 +96,7 @@ export function mountCheck(store, goTo) {
     setAllowed(checkButton, whyNotCheck(state), "Try every rule on the waypoints that would be sent");
     const blocked = whyNotApprove(state);
     setAllowed(approveButton, blocked, "Allow exactly these waypoints to be sent");
-    checkButton.classList.toggle("primary", Boolean(blocked));
+    checkButton.classList.toggle("primary", !view?.verdict?.passed);
     approveButton.classList.toggle("primary", !blocked);
     why.textContent = view?.approval ? "" : (blocked ?? "Any later edit takes the approval away.");
     if (!view) return;

@@ -5,8 +5,8 @@ import { compact, seconds } from "./format.js";
 import { jobOf, jobTone } from "./jobs.js";
 
 const WIDTH = 276;
-const HEIGHT = 118;
-const FRAME = { left: 34, right: 8, top: 10, bottom: 18 };
+const HEIGHT = 96;
+const FRAME = { left: 34, right: 8, top: 24, bottom: 16 };
 const SMALLEST = 1e-12;
 
 const decade = (value) => Math.log10(Math.max(Math.abs(value), SMALLEST));
@@ -72,12 +72,13 @@ function resultLine(job) {
 /** Appends the curve to a section and keeps it current. */
 export function mountConvergence(store, section) {
   const state = h("span");
-  const frame = h("div", { class: "curve", role: "img" });
+  const frame = h("div", { role: "img" });
   const last = { objective: h("span"), primal: h("span") };
   const key = h("div", { class: "curve-key" }, h("span", {}, h("i"), "objective ", last.objective),
     h("span", { class: "primal" }, h("i"), "violation ", last.primal));
   const line = h("p", { class: "why" });
-  section.append(h("h3", {}, "Convergence", state), frame, key, line);
+  const plot = h("div", { class: "curve" }, frame, key);
+  section.append(h("h3", {}, "Convergence", state), plot, line);
   let drawn = null;
 
   store.watch(({ jobs, shownJob, selected }) => [jobs, shownJob, selected], (now) => {
@@ -86,15 +87,15 @@ export function mountConvergence(store, section) {
     const stale = job?.state === "done" && !job.fresh;
     setText(state, job ? (stale ? "done, for an older version" : job.state) : "");
     state.dataset.toneText = stale ? "caution" : job ? jobTone(job) : "";
-    key.hidden = progress.length === 0;
     setText(line, job ? resultLine(job) : "The curve of the last optimisation stays here.");
     setText(last.objective, compact(progress.at(-1)?.objective));
     setText(last.primal, compact(progress.at(-1)?.primal));
-    frame.hidden = progress.length === 0;
+    plot.hidden = progress.length === 0;
     frame.setAttribute("aria-label", `Convergence over ${progress.length} iterations: ${key.textContent}`);
     const version = `${job?.id}/${progress.length}`;
     if (version === drawn) return;
     drawn = version;
     frame.replaceChildren(...(progress.length ? [draw(progress)] : []));
+    if (progress.length === 1) line.scrollIntoView({ block: "nearest" });
   });
 }

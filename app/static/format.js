@@ -31,7 +31,7 @@ export function clockTime(moment) {
   if (moment === null || moment === undefined) return "";
   const date = typeof moment === "number" ? new Date(moment * 1000) : new Date(moment);
   if (Number.isNaN(date.getTime())) return String(moment);
-  const time = date.toLocaleTimeString([], { hour: "2-digit", minute: "2-digit" });
+  const time = date.toLocaleTimeString([], { hour: "2-digit", minute: "2-digit", hour12: false });
   if (date.toDateString() === new Date().toDateString()) return time;
   return `${date.toLocaleDateString([], { day: "numeric", month: "short" })} ${time}`;
 }

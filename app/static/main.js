@@ -45,12 +45,8 @@ function start() {
   const cancelCountdown = mountRobot(store);
   mountKeys({ store, edits, playback, escapes: [timeline.cancelGesture, cancelCountdown] });
 
-  let greeted = false;
-  listen(store, () => {
-    selectAfterHello(store);
-    if (!greeted && runIsOn(store.state.robot)) openTab("robot");
-    greeted = true;
-  });
+  store.watch(({ robot }) => [runIsOn(robot)], ({ robot }) => { if (runIsOn(robot)) openTab("robot"); });
+  listen(store, () => selectAfterHello(store));
   mountStage(store, playback);
 }
 

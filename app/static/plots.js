@@ -9,7 +9,7 @@ const HEIGHT = 100;
 
 /** A plot's scale: value to 0 (top) … HEIGHT (bottom), with room at both ends. */
 function scaleOf(low, high) {
-  const room = (high - low || 1) * 0.12;
+  const room = (high - low || 1) * 0.16;
   return (value) => HEIGHT * (1 - (value - low + room) / (high - low + 2 * room));
 }
 
@@ -101,7 +101,7 @@ export function mountPlots(store) {
     const plan = state.view?.plan;
     const usable = plan?.times?.length > 0;
     if (!usable) {
-      const sentence = state.view && !plan ? "No plan yet." : "";
+      const sentence = !state.view ? "" : plan?.refusal ? "No motion: the plan is out of reach." : "No plan yet.";
       Object.values(rows).forEach(({ strip }) => empty(strip, sentence));
       return;
     }

@@ -2,7 +2,7 @@
 
 import { api } from "./api.js";
 import { confirmAct } from "./dialogs.js";
-import { byId, h, onPress, setAllowed, setAttribute, setText } from "./dom.js";
+import { byId, h, onPress, setAllowed, setText } from "./dom.js";
 import { fixed, seconds, shortHash } from "./format.js";
 import { needOperator } from "./operator.js";
 import { commandedStrokes } from "./samples.js";
@@ -32,8 +32,8 @@ function robotButton(store, text, verb, options = {}) {
   return { button, allow: (robot) => setAllowed(button, robot ? robot.allowed?.[verb] : "The studio has not answered yet.", options.help) };
 }
 
-function way(...children) {
-  return h("li", { class: "way" }, ...children);
+function way(step, ...children) {
+  return h("li", { class: "way", data: { step } }, ...children);
 }
 
 function progressOf(run) {
@@ -47,9 +47,9 @@ function summaryRows({ runSummary: run, view, selected }) {
   if (!run || run.gait !== selected || !view) return [];
   const rows = [["Waypoints", `${run.waypoints}`], ["Takes about", `${fixed(run.estimated_seconds, 0)} s`]];
   if (run.start_distance_mm !== null && run.start_distance_mm !== undefined) {
-    rows.push(["To the start pose", `${fixed(run.start_distance_mm)} mm${run.start_moves ? ` in ${run.start_moves} moves` : ""}`]);
+    rows.push(["To the start pose", `${fixed(run.start_distance_mm)} mm${run.start_moves ? ` in ${run.start_moves} move${run.start_moves === 1 ? "" : "s"}` : ""}`]);
   }
-  rows.push(["Largest move", `${fixed(run.largest_move_mm)} mm`], ["Stop takes effect within", `${seconds(run.stop_seconds)} s`], ["Hash", shortHash(run.waypoints_hash), run.waypoints_hash]);
+  rows.push(["Largest move", `${fixed(run.largest_move_mm)} mm`], ["Stop acts within", `${seconds(run.stop_seconds)} s`], ["Hash", shortHash(run.waypoints_hash), run.waypoints_hash]);
   return rows.flatMap(([name, value, help]) => [h("dt", { text: name }), h("dd", { class: help ? "mono" : null, text: value, title: help ?? null })]);
 }
 
@@ -78,10 +78,10 @@ function build(store) {
 }
 
 function assemble(parts, send) {
-  const connect = way(h("div", { class: "device" }, parts.device, parts.connect.button, parts.disconnect.button), parts.connectNote);
-  const arm = way(h("div", { class: "buttons" }, parts.arm.button), parts.armNote);
-  const start = way(parts.summary, send.element, parts.sendNote);
-  const run = way(h("div", { class: "progress" }, parts.bar), parts.progress,
+  const connect = way(1, h("div", { class: "device" }, parts.device, parts.connect.button, parts.disconnect.button), parts.connectNote);
+  const arm = way(2, h("div", { class: "buttons" }, parts.arm.button, parts.armNote));
+  const start = way(3, parts.summary, send.element, parts.sendNote);
+  const run = way(4, h("div", { class: "progress" }, parts.bar), parts.progress,
     h("div", { class: "buttons" }, parts.pause.button, parts.resume.button, parts.clear.button, parts.reset.button));
   byId("robot").append(h("div", { class: "robot-state" }, parts.dot, parts.word, parts.sentence),
     h("ol", { class: "steps", role: "list", "aria-label": "The robot's way" }, connect, arm, start, run),
@@ -165,7 +165,8 @@ export function mountRobot(store) {
     setText(parts.sendNote, reason ?? "Hold for a second, or click for a countdown.");
     parts.summary.replaceChildren(...summaryRows(state));
     setText(parts.stopText, stopSentence(state.robot?.stop_seconds ?? state.runSummary?.stop_seconds));
-    setAttribute(parts.summary, "hidden", parts.summary.childElementCount ? null : "");
+    ways.start.hidden = runIsOn(state.robot);
+    parts.summary.hidden = parts.summary.childElementCount === 0;
   });
   store.watch(({ selected, view, robot }) => [selected, view?.plan?.waypoints_hash, view?.approval?.waypoints_hash, robot?.link, robot?.robot], () => fetchSummary(store));
   return send.cancel;

@@ -21,6 +21,7 @@ async function openPreview(dark) {
   const preview = new Preview(frame);
   dark.addEventListener("change", () => preview.setDark(dark.matches));
   await preview.ready();
+  preview.setDark(dark.matches);
   message(null);
   return preview;
 }
@@ -47,7 +48,10 @@ function verdictWords(view, before) {
 function planNote({ view, checked }) {
   const plan = view?.plan;
   if (!plan) return view ? [h("div", { class: "sentence", text: "No plan: optimise this gait to see it move." })] : [];
-  if (plan.refusal) return [h("div", {}, h("b", { text: "Out of reach", data: { toneText: "bad" } })), h("div", { class: "sentence", text: plan.refusal.sentence })];
+  if (plan.refusal) {
+    const where = plan.refusal.where ? `at ${plan.refusal.where}` : "the reason stands at the timeline";
+    return [h("div", {}, h("b", { text: "Out of reach", data: { toneText: "bad" } }), ` · no motion to show: ${where}`)];
+  }
   const { margin, strokes } = extremes(plan);
   const failed = view.verdict && !view.verdict.passed;
   const [word, tone] = failed ? ["Check failed", "bad"] : (SOURCES[plan.source] ?? [plan.source, "quiet"]);
@@ -55,7 +59,8 @@ function planNote({ view, checked }) {
   const parts = [margin !== null && `margin ${mm(margin)} mm`, strokes && `strokes ${fixed(strokes[0])}…${fixed(strokes[1])} mm`].filter(Boolean);
   const figures = h("div", { class: "figures" }, h("b", { text: word, data: { toneText: tone } }), ...parts.map((part) => ` · ${part}`),
     !failed && " · ", !failed && h("span", { text: state, data: { toneText: stateTone } }));
-  return [figures, h("div", { class: "sentence", text: plan.note })];
+  const sentence = plan.note.replace(/^\w+: /, "");
+  return [figures, h("div", { class: "sentence", text: sentence, title: plan.note })];
 }
 
 function mountLegend(store) {

@@ -6,10 +6,16 @@
 import { byId } from "./dom.js";
 
 const NAMES = ["optimise", "segments", "check", "robot"];
+const place = { name: NAMES[0], offset: 0 };
+
+function keepPlace() {
+  byId("sections").scrollTop = byId(place.name).offsetTop + place.offset;
+}
 
 /** Brings a section to the top. */
-export function openTab(name, { smooth = false } = {}) {
-  byId("sections").scrollTo({ top: byId(name).offsetTop, behavior: smooth ? "smooth" : "auto" });
+export function openTab(name) {
+  Object.assign(place, { name, offset: 0 });
+  keepPlace();
   mark(name);
 }
 
@@ -21,28 +27,37 @@ function mark(current) {
   }
 }
 
-function atTop() {
-  const { scrollTop, scrollHeight, clientHeight } = byId("sections");
-  if (scrollTop + clientHeight >= scrollHeight - 2) return NAMES.at(-1);
-  return NAMES.filter((name) => byId(name).offsetTop <= scrollTop + clientHeight * 0.4).at(-1);
+/** Takes note of where a person has scrolled to; the section that fills most of the view is the current one. */
+function notePlace() {
+  const { scrollTop, clientHeight } = byId("sections");
+  const name = NAMES.filter((one) => byId(one).offsetTop <= scrollTop + clientHeight * 0.4).at(-1);
+  Object.assign(place, { name, offset: scrollTop - byId(name).offsetTop });
+  mark(name);
 }
 
-/** Wires tabs and scrolling to each other. */
+function mountTab(name, index) {
+  const tab = byId(`tab-${name}`);
+  tab.addEventListener("click", () => openTab(name));
+  tab.addEventListener("keydown", (event) => {
+    const to = { ArrowLeft: index - 1, ArrowRight: index + 1 }[event.key];
+    if (to === undefined) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const next = NAMES[(to + NAMES.length) % NAMES.length];
+    openTab(next);
+    byId(`tab-${next}`).focus();
+  });
+}
+
+/** Wires tabs and scrolling to each other; what grows or shrinks above the view does not move it. */
 export function mountTabs() {
   const sections = byId("sections");
+  const resized = new ResizeObserver(keepPlace);
   mark(NAMES[0]);
   NAMES.forEach((name, index) => {
-    const tab = byId(`tab-${name}`);
-    tab.addEventListener("click", () => openTab(name));
-    tab.addEventListener("keydown", (event) => {
-      const to = { ArrowLeft: index - 1, ArrowRight: index + 1 }[event.key];
-      if (to === undefined) return;
-      event.preventDefault();
-      event.stopPropagation();
-      const next = NAMES[(to + NAMES.length) % NAMES.length];
-      openTab(next);
-      byId(`tab-${next}`).focus();
-    });
+    mountTab(name, index);
+    resized.observe(byId(name));
+    byId(name).addEventListener("click", () => { if (byId(name).offsetTop > sections.scrollTop + 8) openTab(name); });
   });
-  sections.addEventListener("scroll", () => mark(atTop()), { passive: true });
+  sections.addEventListener("scroll", notePlace, { passive: true });
 }

@@ -21,7 +21,7 @@ export async function stopRobot(store) {
   const button = byId("stop");
   button.dataset.busy = "";
   try {
-    store.set({ robot: await sendStop() });
+    store.set({ robot: await sendStop(store.state.operator) });
   } catch {
     toast("Stop did not reach the studio: it does not answer. Cut the robot's power.", { tone: "bad" });
   } finally {

@@ -10,6 +10,10 @@ GRAVITY = 9.81
 """Standard gravity as the published program has it, m/s²."""
 
 
+SHORTEST_EDGE = 1e-12
+"""Edges shorter than this count as points, m."""
+
+
 def support_polygon(points: Floats) -> Floats:
     """Convex hull of standing feet, counter-clockwise (Andrew's monotone chain).
 
@@ -53,7 +57,7 @@ def polygon_margin(polygon: Floats, point: Floats) -> float:
         return float("-inf")
     starts = polygon
     edges = np.roll(polygon, -1, axis=0) - starts
-    lengths = np.maximum(np.linalg.norm(edges, axis=1), 1e-300)
+    lengths = np.maximum(np.linalg.norm(edges, axis=1), SHORTEST_EDGE)
     relative = point - starts
     inside = (edges[:, 0] * relative[:, 1] - edges[:, 1] * relative[:, 0]) / lengths
     if len(polygon) >= 3 and (inside >= 0).all():

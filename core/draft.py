@@ -104,7 +104,7 @@ def standing_forces(model: RobotModel, body_world: Floats, feet_world: Floats, c
     rows = np.concatenate([np.ones((*contact.shape, 1)), lever], axis=-1) * contact[..., None]
     wanted = np.array([model.total_model_mass * GRAVITY, 0.0, 0.0])
     forces = np.zeros_like(feet_world)
-    forces[..., 2] = np.linalg.pinv(np.swapaxes(rows, 1, 2), rcond=1e-9) @ wanted
+    forces[..., 2] = np.where(contact, np.linalg.pinv(np.swapaxes(rows, 1, 2), rcond=1e-9) @ wanted, 0.0)
     return forces
 
 

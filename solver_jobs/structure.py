@@ -29,6 +29,7 @@ IPOPT_OPTIONS: dict[str, int | float | str] = {
     "ipopt.tol": 1e-8,
     "ipopt.constr_viol_tol": 1e-8,
     "ipopt.acceptable_iter": 0,
+    "ipopt.bound_relax_factor": 1e-10,
     "ipopt.honor_original_bounds": "yes",
     "ipopt.mu_strategy": "adaptive",
     "ipopt.mu_init": 1.0,

@@ -18,7 +18,8 @@ def meshes(models: Iterable[RobotModel]) -> dict[str, trimesh.Trimesh]:
     for model in models:
         for make in (parts.board, parts.board_parts, parts.motor, parts.knee, parts.rod, parts.foot):
             found.setdefault(make.__name__, make(model))
-        found[urdf.plate_mesh(model)] = parts.plate(model)
+        for make in (parts.plate, parts.plate_rim):
+            found[urdf.plate_mesh(model, make.__name__)] = make(model)
     return found
 
 

@@ -17,14 +17,31 @@ MOST_TRIANGLES = 500
 """Of one part: more is too much for drawing without a GPU."""
 
 
+RIM = 0.0016
+"""Width of the plates' edge, which is drawn apart because light gathers there in clear acrylic, m."""
+
+
 def plate(model: RobotModel) -> trimesh.Trimesh:
-    """An octagon for four legs, 2n sides for more, flats towards the modules; underside at z = 0."""
-    sides = 2 * model.leg_count
-    corner = model.shape.plate_across / 2 / np.cos(np.pi / sides)
-    thick, bevel = model.shape.plate_thickness, 0.0006
-    flat = corner - bevel
-    outline = [(0, 0), (flat, 0), (corner, bevel), (corner, thick - bevel), (flat, thick), (0, thick)]
+    """Both faces of an octagon for four legs, 2n sides for more, flats at the modules; underside at z = 0."""
+    sides, corner, thick = _plate_sizes(model)
+    faces = [_lathe([(0, z), (corner - RIM, z)][::way], sides) for z, way in ((0.0, 1), (thick, -1))]
+    return _turned(_joined(faces), np.pi / sides)
+
+
+def plate_rim(model: RobotModel) -> trimesh.Trimesh:
+    """The edge around a plate."""
+    sides, corner, thick = _plate_sizes(model)
+    inner, bevel = corner - RIM, 0.0004
+    outline = [
+        (inner, 0), (corner - bevel, 0), (corner, bevel), (corner, thick - bevel), (corner - bevel, thick),
+        (inner, thick),
+    ]  # fmt: skip
     return _turned(_lathe(outline, sides), np.pi / sides)
+
+
+def _plate_sizes(model: RobotModel) -> tuple[int, float, float]:
+    sides = 2 * model.leg_count
+    return sides, model.shape.plate_across / 2 / np.cos(np.pi / sides), model.shape.plate_thickness
 
 
 def board(model: RobotModel) -> trimesh.Trimesh:

@@ -25,14 +25,17 @@ from core.leg import vertex_directions
 from core.robot import RobotModel
 
 PAINT = {
-    "plate": "#eef1f6",
+    "plate": "#e4eaf26e",
+    "plate_rim": "#c3ccd9",
     "board": "#2f7d55",
     "board_parts": "#2b3440",
     "motor": "#8d99a8",
     "knee": "#566273",
     "rod": "#e6d3a3",
 }
-"""Colour of each part but the feet, which have the model's; drawn after thesis Figure 2.1."""
+"""Colour of each part but the feet, which have the model's; the frames are clear acrylic (thesis 2.1.1)."""
+
+PLATE_PARTS = ("plate", "plate_rim")
 
 Element = ElementTree.Element
 
@@ -69,16 +72,17 @@ def module_yaw(model: RobotModel, leg: int) -> float:
     return float(model.azimuths[leg] - np.pi / 2)
 
 
-def plate_mesh(model: RobotModel) -> str:
-    """Name of the plate's mesh, the one part whose size differs between the robots."""
-    return f"plate_{model.name}"
+def plate_mesh(model: RobotModel, part: str) -> str:
+    """Name of a plate's mesh: the one part whose size differs between the robots."""
+    return f"{part}_{model.name}"
 
 
 def _add_body(robot: Element, model: RobotModel) -> None:
     shape = model.shape
     body = ElementTree.SubElement(robot, "link", name=BODY)
     for height in (shape.lower_plate_height, shape.upper_plate_height):
-        _add_visual(body, plate_mesh(model), PAINT["plate"], (0, 0, height))
+        for part in PLATE_PARTS:
+            _add_visual(body, plate_mesh(model, part), PAINT[part], (0, 0, height))
     for part in ("board", "board_parts"):
         _add_visual(body, part, PAINT[part], (0, 0, shape.board_height))
     for leg in range(model.leg_count):
@@ -133,8 +137,8 @@ def _add_visual(
     geometry = ElementTree.SubElement(visual, "geometry")
     ElementTree.SubElement(geometry, "mesh", filename=f"meshes/{mesh}.stl")
     material = ElementTree.SubElement(visual, "material", name=colour)
-    channels = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
-    ElementTree.SubElement(material, "color", rgba=_numbers((*channels, 1)))
+    channels = [int(colour[i : i + 2], 16) / 255 for i in range(1, len(colour), 2)]
+    ElementTree.SubElement(material, "color", rgba=_numbers([*channels, 1.0][:4]))
 
 
 def _add_joint(

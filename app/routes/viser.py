@@ -1,7 +1,8 @@
 """The embedded Viser client and its web socket, behind our own port.
 
 The client is the installed package's one HTML file, with our head script and style put in; the socket is
-relayed, message by message, to Viser on loopback.
+relayed, message by message, to Viser on loopback. `/viser/poses` is the slow way for pages that can't reach
+into the client: names of nodes as a JSON text, then one binary of float32 a pose, each answered by a text.
 """
 
 from __future__ import annotations
@@ -9,15 +10,20 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import hashlib
-from collections.abc import Coroutine
+import json
+from collections.abc import Coroutine, Sequence
 from importlib import resources
 from typing import Protocol
 
+import numpy as np
 import websockets
 from fastapi import APIRouter, Request, Response, WebSocket
+from numpy.typing import NDArray
 from starlette.websockets import WebSocketDisconnect, WebSocketState
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.typing import Subprotocol
+
+from core.errors import FootfallError
 
 CONTENT_SECURITY = "; ".join(
     [
@@ -39,6 +45,10 @@ REFUSED_MESSAGES = (b"ShareUrlRequest", b"ShareUrlDisconnect")
 """Client messages that would open the scene to the outside world; they are dropped."""
 
 TRY_AGAIN_LATER = 1013
+UNSUPPORTED_DATA = 1003
+LONGEST_REASON = 100
+"""Characters of a close reason; the protocol allows 123 bytes."""
+
 WAITING_MESSAGES = 8
 """Messages from Viser that may wait for a slow browser before Viser itself is held up."""
 
@@ -49,6 +59,9 @@ class ViserScene(Protocol):
     @property
     def port(self) -> int:
         """Port of Viser on loopback."""
+
+    def place(self, names: Sequence[str], poses: NDArray[np.float32]) -> None:
+        """Moves nodes to (nodes, 7) poses."""
 
 
 def make_viser_router(scene: ViserScene) -> APIRouter:
@@ -77,7 +90,32 @@ def make_viser_router(scene: ViserScene) -> APIRouter:
     async def socket(browser: WebSocket) -> None:
         await relay(browser, scene.port)
 
+    @router.websocket("/viser/poses")
+    async def poses(browser: WebSocket) -> None:
+        await browser.accept()
+        with contextlib.suppress(WebSocketDisconnect):
+            await take_poses(browser, scene)
+
     return router
+
+
+async def take_poses(browser: WebSocket, scene: ViserScene) -> None:
+    """Shows the poses that a page sends until it goes; what doesn't fit closes the socket with a sentence."""
+    names: list[str] = []
+    while True:
+        message = await browser.receive()
+        if message["type"] == "websocket.disconnect":
+            return
+        try:
+            if message.get("text"):
+                names = [str(name) for name in json.loads(message["text"])]
+                continue
+            values = np.frombuffer(message["bytes"], dtype="<f4").reshape(-1, 7)
+            await asyncio.to_thread(scene.place, names, values)
+        except (FootfallError, ValueError, TypeError) as error:
+            await browser.close(UNSUPPORTED_DATA, str(error)[:LONGEST_REASON])
+            return
+        await browser.send_text("shown")
 
 
 def client_page() -> bytes:

@@ -21,16 +21,22 @@ INK: Colour = (27, 36, 48)
 GOOD: Colour = (31, 138, 91)
 
 FLOOR_THEMES: dict[str, tuple[Colour, Colour]] = {
-    "light": ((203, 210, 220), (243, 245, 248)),
-    "dark": ((58, 67, 82), (24, 29, 37)),
+    "light": ((212, 219, 228), (246, 248, 250)),
+    "dark": ((84, 96, 114), (38, 44, 54)),
 }
 """Colours of the floor's lines near and far, by the page's theme."""
 
 CELL = 0.02
 """Distance of the floor's lines, m."""
 
-VIEW_DIRECTION = (0.42, -1.0, 0.46)
+FLOOR_RADIUS = 3.0
+"""Of the drawn floor, in radii of the robot."""
+
+VIEW_DIRECTION = (0.42, -1.0, 0.40)
 """From the robot to the camera at first sight."""
+
+VIEW_DISTANCE = 4.1
+"""Of the camera, in radii of the robot."""
 
 FIELD_OF_VIEW = np.radians(32)
 
@@ -40,19 +46,21 @@ def add_light(server: viser.ViserServer) -> None:
     server.scene.configure_environment_map(hdri=None)
     server.scene.configure_default_lights(enabled=False, cast_shadow=False)
     server.scene.add_light_hemisphere(
-        "/light/sky", sky_color=(255, 255, 255), ground_color=(205, 212, 222), intensity=2.1
+        "/light/sky", sky_color=(255, 255, 255), ground_color=(205, 212, 222), intensity=2.6
     )
-    server.scene.add_light_directional("/light/lamp", intensity=1.7, position=(0.5, -1.0, 2.0))
+    server.scene.add_light_directional("/light/lamp", intensity=2.0, position=(0.5, -1.0, 2.0))
 
 
 def add_floor(server: viser.ViserServer, model: RobotModel) -> None:
     """Lines `sole_depth` under the standing platforms, fading outwards, once for each theme."""
-    reach = _reach(model) * 3.4
+    reach = _reach(model) * FLOOR_RADIUS
     points = _grid_points(reach, -model.sole_depth)
     distance = np.linalg.norm(points[..., :2], axis=-1, keepdims=True)
     fade = np.clip(distance / reach, 0, 1)
     for theme, (near, far) in FLOOR_THEMES.items():
-        colours = np.array(near) * (1 - fade) + np.array(far) * fade
+        seen = np.array(near) * (1 - fade) + np.array(far) * fade
+        # The client takes colours of single points as linear light.
+        colours = 255 * (seen / 255) ** 2.2
         server.scene.add_line_segments(
             f"/floor/{theme}",
             points,
@@ -101,12 +109,12 @@ def add_overlay(server: viser.ViserServer, model: RobotModel) -> None:
 def set_camera(server: viser.ViserServer, model: RobotModel) -> None:
     """Looks at the robot from the front right, so that it fills the view."""
     direction = np.array(VIEW_DIRECTION) / np.linalg.norm(VIEW_DIRECTION)
-    target = np.array([0.0, 0.0, 0.036])
+    target = np.array([0.0, 0.0, 0.040])
     camera = server.initial_camera
     camera.fov = float(FIELD_OF_VIEW)
     camera.near, camera.far = 0.01, 20.0
     camera.look_at = target
-    camera.position = target + direction * _reach(model) * 4.6
+    camera.position = target + direction * _reach(model) * VIEW_DISTANCE
 
 
 def _reach(model: RobotModel) -> float:
@@ -121,7 +129,7 @@ def _grid_points(reach: float, height: float) -> Floats:
     for line in range(-count, count + 1):
         offset = line * CELL
         half = np.sqrt(max(reach**2 - offset**2, 0.0))
-        along = np.linspace(-half, half, 9)
+        along = np.linspace(-half, half, 5)
         for start, end in itertools.pairwise(along):
             pieces.append([[start, offset, height], [end, offset, height]])
             pieces.append([[offset, start, height], [offset, end, height]])

@@ -15,6 +15,8 @@ from app.scene.poses import ROBOT_ROOT
 from core.errors import InputError
 from core.robot import ROBOT_NAMES
 
+Colour = tuple[int, int, int, int]
+
 
 @dataclass(frozen=True, eq=False)
 class Surface:
@@ -23,12 +25,12 @@ class Surface:
     Args:
         vertices: (v, 3) m; corners at edges are not shared, so that edges stay crisp.
         faces: (f, 3) indices.
-        colour: 0 to 255.
+        colour: red, green, blue and opacity, 0 to 255.
     """
 
     vertices: NDArray[np.float32]
     faces: NDArray[np.uint32]
-    colour: tuple[int, int, int]
+    colour: Colour
 
 
 @lru_cache(maxsize=len(ROBOT_NAMES))
@@ -54,19 +56,19 @@ def link_surfaces(robot_name: str) -> dict[str, tuple[Surface, ...]]:
 
 
 def _surfaces(link: yourdfpy.Link, folder: str, parts: dict[str, trimesh.Trimesh]) -> tuple[Surface, ...]:
-    by_colour: dict[tuple[int, int, int], list[trimesh.Trimesh]] = {}
+    by_colour: dict[Colour, list[trimesh.Trimesh]] = {}
     for visual in link.visuals:
         path = f"{folder}/{visual.geometry.mesh.filename}"
         if path not in parts:
             parts[path] = trimesh.load_mesh(path)
         mesh = parts[path].copy()
         mesh.apply_transform(visual.origin)
-        red, green, blue = (round(255 * float(channel)) for channel in visual.material.color.rgba[:3])
-        by_colour.setdefault((red, green, blue), []).append(mesh)
+        red, green, blue, opacity = (round(255 * float(channel)) for channel in visual.material.color.rgba)
+        by_colour.setdefault((red, green, blue, opacity), []).append(mesh)
     return tuple(_surface(meshes, colour) for colour, meshes in by_colour.items())
 
 
-def _surface(meshes: list[trimesh.Trimesh], colour: tuple[int, int, int]) -> Surface:
+def _surface(meshes: list[trimesh.Trimesh], colour: Colour) -> Surface:
     counts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes[:-1])])
     vertices = np.concatenate([mesh.vertices for mesh in meshes])
     faces = np.concatenate([mesh.faces + count for mesh, count in zip(meshes, counts, strict=True)])

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Sequence
 
 import numpy as np
 import rich
 import viser
+from numpy.typing import NDArray
 
 from app.scene.furniture import add_floor, add_light, add_overlay, set_camera
 from app.scene.nodes import Surface, link_surfaces
 from app.scene.poses import ROBOT_ROOT, PoseBlob, pose_frames
-from core.errors import StateError
+from core.errors import InputError, StateError
 from core.motion_problem import standing_pose
 from core.robot import RobotModel, load_robot
 
 LOOPBACK = "127.0.0.1"
+OPAQUE = 255
 
 
 class SceneServer:
@@ -81,25 +84,29 @@ class SceneServer:
                 set_camera(server, model)
                 _add_robot(server, surfaces)
                 add_overlay(server, model)
-                _place(server, standing_blob(model), 0.0)
+                standing = standing_blob(model)
+                _place(server, standing.names, standing.frames[0])
             self._robot_name = robot_name
 
-    def place(self, blob: PoseBlob, time: float) -> None:
-        """Moves the nodes to a plan's pose: the slow way, for browsers whose client can't be reached.
+    def place(self, names: Sequence[str], poses: NDArray[np.float32]) -> None:
+        """Moves nodes in every client: the slow way, for pages that can't reach into their client.
 
         Args:
-            blob: of the robot that is shown.
-            time: s of the plan; the nearest frame is shown.
+            names: scene paths; those that the scene lacks are passed over (the robot may just have changed).
+            poses: (nodes, 7) quaternion wxyz and position xyz, m.
 
         Raises:
-            StateError: the scene is not running, or shows another robot.
+            InputError: the numbers are not seven a node, or not finite.
+            StateError: the scene is not running.
         """
+        if poses.shape != (len(names), 7) or not np.isfinite(poses).all():
+            raise InputError(
+                f"{poses.size} numbers for {len(names)} nodes; give seven finite ones each.", "poses"
+            )
         with self._lock:
             server = self._running()
-            if blob.robot != self._robot_name:
-                raise StateError(f"The scene shows {self._robot_name}, not the {blob.robot}.", "robot")
             with server.atomic():
-                _place(server, blob, time)
+                _place(server, names, poses)
 
     def _running(self) -> viser.ViserServer:
         if self._server is None:
@@ -131,14 +138,20 @@ def _add_robot(server: viser.ViserServer, surfaces: dict[str, tuple[Surface, ...
 
 
 def _add_surface(server: viser.ViserServer, path: str, part: Surface) -> None:
+    *colour, opacity = part.colour
     server.scene.add_mesh_simple(
-        path, part.vertices, part.faces, color=part.colour, cast_shadow=False, receive_shadow=False
+        path,
+        part.vertices,
+        part.faces,
+        color=(colour[0], colour[1], colour[2]),
+        opacity=None if opacity == OPAQUE else opacity / OPAQUE,
+        cast_shadow=False,
+        receive_shadow=False,
     )
 
 
-def _place(server: viser.ViserServer, blob: PoseBlob, time: float) -> None:
-    frame = blob.frames[int(np.abs(blob.times - time).argmin())]
-    for name, pose in zip(blob.names, frame, strict=True):
+def _place(server: viser.ViserServer, names: Sequence[str], poses: NDArray[np.float32]) -> None:
+    for name, pose in zip(names, poses, strict=True):
         node = server.scene.get_handle_by_name(name)
         if node is not None:
             node.wxyz, node.position = pose[:4], pose[4:]

@@ -41,9 +41,10 @@ const COM = "/overlay/com";
 const WATCH_MS = 250;
 const DIRECT_PATIENCE_MS = 8000;
 const STILL = 1e-7;
-const TARGET = [0, 0, 0.036];
+const TARGET = [0, 0, 0.04];
+const VIEW_DISTANCE = 4.1;
 const VIEWS = {
-  perspective: [0.361, -0.859, 0.395],
+  perspective: [0.363, -0.865, 0.346],
   top: [0, -0.02, 1],
   front: [0, -1, 0.06],
   side: [1, 0, 0.06],
@@ -148,7 +149,7 @@ export class Preview extends EventTarget {
     const direction = VIEWS[name] ?? VIEWS.perspective;
     const body = this.#client.position(BODY) ?? [0, 0, 0];
     const target = [body[0], body[1], TARGET[2]];
-    const distance = this.#reach() * 4.6;
+    const distance = this.#reach() * VIEW_DISTANCE;
     this.#client.push(cameraMessages(target.map((value, axis) => value + distance * direction[axis]), target));
   }
 

@@ -1,0 +1,160 @@
+"""The preview in a real browser: it fails when the way into Viser's client breaks."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from app.scene import SceneServer
+from tests.chromium import CHROMIUM_WORDS, chromium_path
+from tests.scene.preview_page import preview_application, walk
+from tests.scene.serving import serving
+
+START_MS = 60_000
+
+pytestmark = pytest.mark.skipif(chromium_path() is None, reason="Chromium is not installed")
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    with sync_playwright() as playwright:
+        found = playwright.chromium.launch(executable_path=chromium_path(), args=CHROMIUM_WORDS)
+        yield found
+        found.close()
+
+
+@pytest.fixture(scope="module")
+def scene() -> Iterator[SceneServer]:
+    scene = SceneServer()
+    scene.start()
+    scene.show("deltawalker")
+    yield scene
+    scene.stop()
+
+
+@pytest.fixture(scope="module")
+def address(scene: SceneServer) -> Iterator[str]:
+    with serving(preview_application(scene)) as host:
+        yield f"http://{host}/"
+
+
+@pytest.fixture
+def page(browser: Browser, address: str) -> Iterator[Page]:
+    page = browser.new_page(viewport={"width": 800, "height": 500})
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(address)
+    page.wait_for_function("window.loaded === true", timeout=START_MS)
+    yield page
+    page.close()
+    assert errors == []
+
+
+def wait_for_foot(page: Page, foot: int, position: np.ndarray) -> None:
+    """Waits until the client's own node of a foot stands within a micrometre of a place."""
+    page.wait_for_function(
+        """([name, wanted]) => {
+          const at = preview.client.position(name);
+          return at && Math.hypot(...at.map((value, axis) => value - wanted[axis])) < 1e-6;
+        }""",
+        arg=[f"/robot/leg{foot + 1}_foot", position.tolist()],
+        timeout=START_MS,
+    )
+
+
+def test_a_scrubbed_playhead_moves_the_clients_own_nodes(page: Page) -> None:
+    assert page.evaluate("preview.route") == "direct"
+    plan = walk()
+    for knot in (0, 7, plan.knot_count - 1):
+        page.evaluate("time => playback.setTime(time)", float(plan.times[knot]))
+        wait_for_foot(page, 2, plan.feet_world[knot, 2])
+
+
+def test_playing_shows_new_poses_and_stops_at_the_end(page: Page) -> None:
+    before = page.screenshot()
+    page.evaluate("playback.setSpeed(10); playback.play()")
+    page.wait_for_function("!playback.playing", timeout=START_MS)
+    plan = walk()
+    wait_for_foot(page, 0, plan.feet_world[-1, 0])
+    assert page.evaluate("preview.posesShown") > 5
+    assert page.screenshot() != before
+    page.evaluate("playback.play()")
+    assert page.evaluate("playback.time") < 1.0
+    page.evaluate("playback.pause()")
+
+
+def test_polygon_is_drawn_on_the_floor_in_the_colour_of_its_margin(page: Page) -> None:
+    for margin, colour in ((0.01, "1f8a5b"), (0.001, "b7791f"), (-0.002, "c0362c")):
+        page.evaluate(
+            """margin => preview.setOverlay({
+              times: [0], com: [[0, 0, 0.07]], margins: [margin], contact: [[true, true, true, false]],
+              feet: [[[0.04, 0, 0], [0, 0.04, 0], [-0.04, 0, 0], [0, -0.04, 0.005]]] })""",
+            margin,
+        )
+        page.wait_for_function(
+            """colour => {
+              let drawn = null;
+              preview.client.node("/overlay/polygon")?.traverse((part) => {
+                if (part.material?.color) drawn = part;
+              });
+              if (!drawn || !drawn.visible) return false;
+              const points = drawn.geometry.attributes.position;
+              return drawn.material.color.getHexString() === colour && points.count === 3;
+            }""",
+            arg=colour,
+            timeout=START_MS,
+        )
+
+
+def test_the_scene_comes_back_with_the_present_pose_after_a_lost_connection(
+    page: Page, scene: SceneServer
+) -> None:
+    plan = walk()
+    page.evaluate("time => playback.setTime(time)", float(plan.times[11]))
+    wait_for_foot(page, 2, plan.feet_world[11, 2])
+    page.evaluate("""() => {
+      window.cameBack = false;
+      preview.addEventListener("ready", () => { window.cameBack = true; }, { once: true });
+    }""")
+    scene.stop()
+    scene.start()
+    scene.show("deltawalker")
+    page.wait_for_function("window.cameBack", timeout=START_MS)
+    wait_for_foot(page, 2, plan.feet_world[11, 2])
+
+
+def test_keys_pressed_in_the_frame_reach_the_page(page: Page) -> None:
+    page.evaluate("document.addEventListener('keydown', (event) => { window.pressed = event.key; })")
+    page.frame_locator("iframe").locator("canvas[data-engine]").click()
+    page.keyboard.press("Escape")
+    page.wait_for_function("window.pressed === 'Escape'", timeout=START_MS)
+
+
+def test_panels_of_the_client_are_hidden(page: Page) -> None:
+    frame = next(frame for frame in page.frames if "/viser/" in frame.url)
+    for selector in ("[data-floating-window]", ".mantine-Notifications-root"):
+        assert frame.locator(f"{selector}:visible").count() == 0
+
+
+def test_a_client_whose_inside_is_closed_is_moved_through_the_server(browser: Browser, address: str) -> None:
+    page = browser.new_page(viewport={"width": 640, "height": 400})
+    page.add_init_script(
+        """Object.defineProperty(window, "__viserMutable", {
+          get: () => undefined, set(value) { window.closedInside = value; }, configurable: true })"""
+    )
+    page.goto(address)
+    page.wait_for_function("window.loaded === true", timeout=START_MS)
+    assert page.evaluate("preview.route") == "server"
+    plan = walk()
+    page.evaluate("time => preview.setTime(time)", float(plan.times[9]))
+    frame = next(frame for frame in page.frames if "/viser/" in frame.url)
+    frame.wait_for_function(
+        """wanted => {
+          const pose = window.closedInside.nodePoseData["/robot/leg3_foot"];
+          return Math.hypot(...pose.position.map((value, axis) => value - wanted[axis])) < 1e-6;
+        }""",
+        arg=plan.feet_world[9, 2].tolist(),
+        timeout=START_MS,
+    )
+    page.close()

@@ -1,0 +1,134 @@
+"""Checks: each rule finds what breaks it, and a good plan passes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from datetime import UTC, datetime
+
+import numpy as np
+import pytest
+
+from core.arrays import Floats
+from core.checks import CheckedPlan, check_plan, check_waypoints
+from core.errors import StateError
+from core.findings import Severity, Verdict, approve
+from core.library import manual_entry
+from core.manual import manual_motion
+from core.robot import load_robot
+from core.trajectory import Trajectory
+from core.waypoint_path import waypoints_from_trajectory
+from core.waypoints import Waypoints
+
+MODEL = load_robot("deltawalker")
+NOON = datetime(2026, 11, 21, 12, tzinfo=UTC)
+
+
+def standing(knots: int = 5) -> Trajectory:
+    body = np.tile([0.0, 0.0, 0.0735], (knots, 1))
+    feet = np.tile(MODEL.module_centres_robot, (knots, 1, 1))
+    return Trajectory(
+        np.arange(knots) * 0.4, body, np.zeros(knots), feet, np.ones((knots, 4), dtype=np.bool_)
+    )
+
+
+def plan_of(trajectory: Trajectory, travel: Floats | None = None) -> CheckedPlan:
+    return CheckedPlan(MODEL, trajectory, waypoints_from_trajectory(MODEL, trajectory), travel)
+
+
+def errors(verdict: Verdict) -> set[str]:
+    return {f.rule for f in verdict.findings if f.severity is Severity.ERROR}
+
+
+def warnings(verdict: Verdict) -> set[str]:
+    return {f.rule for f in verdict.findings if f.severity is Severity.WARNING}
+
+
+def test_standing_still_passes_without_a_word() -> None:
+    verdict = check_plan(plan_of(standing(), np.zeros(2)))
+    assert verdict.passed
+    assert verdict.findings == ()
+    assert all(m.margin >= 0 for m in verdict.margins)
+
+
+def test_a_body_outside_its_feet_tips() -> None:
+    still = standing()
+    contact = np.array(still.contact)
+    contact[2, 0] = False
+    body = np.array(still.body_world)
+    body[2, 0] = 0.004
+    verdict = check_plan(plan_of(replace(still, contact=contact, body_world=body)))
+    assert errors(verdict) == {"balance"}
+    finding = verdict.findings[0]
+    assert finding.sample == 2
+    assert finding.value == pytest.approx(-0.004)
+    assert "4.00 mm outside the edge of the support polygon of feet 2, 3, 4" in finding.sentence
+
+
+def test_a_sliding_foot_and_a_dragged_swing_are_warnings() -> None:
+    still = standing()
+    feet = np.array(still.feet_world)
+    feet[3:, 1, 0] += 0.003
+    contact = np.array(still.contact)
+    contact[1:3, 2] = False
+    verdict = check_plan(plan_of(replace(still, feet_world=feet, contact=contact)))
+    assert warnings(verdict) >= {"slip", "clearance"}
+
+
+def test_motors_that_cannot_follow_in_time_are_a_warning() -> None:
+    still = standing()
+    body = np.array(still.body_world)
+    body[2, 2] += 0.008
+    assert "motor_speed" in warnings(check_plan(plan_of(replace(still, body_world=body))))
+
+
+def test_ending_elsewhere_than_the_document_says_is_an_error() -> None:
+    assert errors(check_plan(plan_of(standing(), np.array([0.01, 0.0])))) == {"travel"}
+
+
+def test_a_drawing_cannot_be_approved() -> None:
+    verdict = check_plan(replace(plan_of(standing()), is_draft=True))
+    assert errors(verdict) == {"computed"}
+    with pytest.raises(StateError, match="only drawn"):
+        approve(verdict, "Ada", NOON)
+
+
+def test_strokes_out_of_range_are_named_by_motor() -> None:
+    strokes = np.full((3, 4, 3), 0.0055)
+    strokes[1, 2, 0] = 0.0198
+    verdict = check_waypoints(MODEL, Waypoints(strokes, np.full(3, 0.4)))
+    finding = next(f for f in verdict.findings if f.rule == "stroke")
+    assert (finding.sample, finding.foot, finding.actuator) == (1, 2, 0)
+    assert "Motor 1 of foot 3 would go to 19.80 mm at sample 2" in finding.sentence
+
+
+def test_long_moves_say_how_long_the_robot_is_deaf() -> None:
+    strokes = np.full((2, 4, 3), 0.0005)
+    strokes[1] = 0.0195
+    verdict = check_waypoints(MODEL, Waypoints(strokes, np.full(2, 0.4)))
+    assert warnings(verdict) == {"deafness"}
+
+
+def test_waypoints_alone_show_a_robot_on_two_feet() -> None:
+    strokes = np.full((1, 4, 3), 0.0055)
+    strokes[0, :2] = 0.0005
+    assert errors(check_waypoints(MODEL, Waypoints(strokes, np.full(1, 0.4)))) == {"balance"}
+
+
+def test_an_approval_binds_a_name_to_a_verdict() -> None:
+    plan = plan_of(standing())
+    verdict = check_plan(plan)
+    approval = approve(verdict, " Ada ", NOON)
+    assert (approval.by, approval.waypoints_hash) == ("Ada", plan.waypoints.content_hash)
+    assert approval.verdict_hash == verdict.content_hash
+    with pytest.raises(StateError, match="name"):
+        approve(verdict, " ", NOON)
+
+
+def test_the_published_manual_walk_slips_and_its_version_2_tips() -> None:
+    verdicts = [
+        check_plan(plan_of(manual_motion(manual_entry("walk", version).gait, MODEL).trajectory))
+        for version in (0, 2)
+    ]
+    assert warnings(verdicts[0]) == {"balance", "slip"}
+    assert verdicts[0].passed
+    assert errors(verdicts[1]) == {"balance"}

@@ -1,0 +1,97 @@
+"""Waypoints: files, hashes, merging and cutting."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from core.arrays import Floats
+from core.errors import InputError
+from core.waypoint_path import cut_moves, merge_waypoints
+from core.waypoints import Waypoints, format_waypoint_csv, parse_waypoint_csv
+from core.wire_timing import stop_delay
+
+strokes = st.integers(1, 12).flatmap(
+    lambda n: arrays(np.float64, (n, 4, 3), elements=st.floats(0.0005, 0.0195))
+)
+
+
+def waypoints_of(values: Floats) -> Waypoints:
+    return Waypoints(values, np.full(len(values), 0.4))
+
+
+@given(strokes)
+def test_a_waypoint_file_comes_back_with_the_same_hash(values: Floats) -> None:
+    waypoints = waypoints_of(values)
+    read = parse_waypoint_csv(format_waypoint_csv(waypoints))
+    assert read.content_hash == waypoints.content_hash
+    assert np.abs(read.strokes - waypoints.strokes).max() <= 0.5e-7 + 1e-12
+
+
+def test_a_change_that_is_sent_changes_the_hash() -> None:
+    values = np.full((2, 4, 3), 0.01)
+    changed = values.copy()
+    changed[1, 2, 0] += 1e-7
+    assert waypoints_of(values).content_hash != waypoints_of(changed).content_hash
+
+
+@given(strokes, st.floats(0.0, 0.003))
+def test_merging_keeps_ends_and_total_time_and_stays_near_what_it_leaves_out(
+    values: Floats, tolerance: float
+) -> None:
+    merged = merge_waypoints(waypoints_of(values), tolerance)
+    assert np.array_equal(merged.strokes[[0, -1]], values[[0, -1]])
+    assert merged.durations.sum() == pytest.approx(0.4 * len(values))
+    for row in values.reshape(len(values), -1):
+        assert distance_to_path(merged.strokes.reshape(merged.count, -1), row) <= tolerance + 1e-9
+
+
+def distance_to_path(path: Floats, point: Floats) -> float:
+    fractions = np.linspace(0.0, 1.0, 201)[:, None]
+    pieces = [path[:1], *(a + fractions * (b - a) for a, b in itertools.pairwise(path))]
+    gaps = np.abs(np.concatenate(pieces) - point).max(axis=1)
+    # The path is sampled; between samples it may come nearer by half a sample's length.
+    return float(gaps.min()) - 0.019 / 400
+
+
+def test_a_straight_way_needs_its_ends_only() -> None:
+    line = np.linspace(0.001, 0.019, 9)[:, None, None] * np.ones((1, 4, 3))
+    assert merge_waypoints(waypoints_of(line), 0.0001).count == 2
+
+
+@given(strokes, st.floats(0.8, 3.0))
+def test_cut_moves_keep_the_robot_within_earshot(values: Floats, bound: float) -> None:
+    cut = cut_moves(waypoints_of(values), bound)
+    assert stop_delay(cut) <= bound + 1e-9
+    assert cut.durations.sum() == pytest.approx(0.4 * len(values))
+    assert np.array_equal(cut.strokes[-1], values[-1])
+
+
+def test_a_bound_below_what_moves_anything_is_refused() -> None:
+    with pytest.raises(InputError, match="must be longer than"):
+        cut_moves(waypoints_of(np.full((2, 4, 3), 0.01)), 0.4)
+
+
+HEADER = "duration_s," + ",".join(f"h{i}" for i in range(1, 13))
+GOOD = "0.4," + ",".join(["5.0000"] * 12)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "line 1: the header must read"),
+        (HEADER, "no waypoint"),
+        (f"{HEADER}\n{GOOD}\n{GOOD},5.0", "way.csv:3: 14 numbers; a row has 13"),
+        (f"{HEADER}\n{GOOD.replace('0.4', 'soon')}", "way.csv:2, column 1: “soon” is not a number"),
+        (f"{HEADER}\n{GOOD.replace('5.0000', 'nan', 1)}", "way.csv:2, column 2: nan is not a finite"),
+        (f"{HEADER}\n{GOOD.replace('0.4', '-1')}", "duration is negative"),
+    ],
+)
+def test_malformed_waypoint_files_are_refused_by_line_and_column(text: str, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        parse_waypoint_csv(text, name="way.csv")

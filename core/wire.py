@@ -88,7 +88,8 @@ def strokes_to_mm(strokes: ArrayLike) -> tuple[float, ...]:
             f"Strokes of shape {array.shape} cannot be sent; the robot on the wire has 4 legs of 3 motors.",
             "strokes",
         )
-    numbers = tuple(float(h) for h in np.round(array.reshape(-1) * 1000.0, MM_DECIMALS))
+    with np.errstate(over="ignore"):
+        numbers = tuple(float(h) for h in np.round(array.reshape(-1) * 1000.0, MM_DECIMALS))
     for index, number in enumerate(numbers):
         _require_sendable(index, number)
     return numbers

@@ -5,7 +5,7 @@ from __future__ import annotations
 import random
 import threading
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import StrEnum
 
 from app.bridge.firmware import Firmware
@@ -37,26 +37,60 @@ class Fault(StrEnum):
     STUCK_MOTOR = "stuck-motor"
 
 
+class RealTime:
+    """Lays the robot's time over the real one.
+
+    Args:
+        speed: seconds of the robot in a second.
+    """
+
+    def __init__(self, speed: float = 1.0) -> None:
+        self._speed = speed
+        self._start: float | None = None
+
+    def __call__(self, now: float, interrupt: threading.Event) -> None:
+        """Waits until the robot's time `now` has come, or until interrupted."""
+        if self._start is None:
+            self._start = time.monotonic() - now / self._speed
+        wait = self._start + now / self._speed - time.monotonic()
+        if wait < -WORST_LAG:
+            self._start -= wait
+        if wait >= NAP:
+            interrupt.wait(wait)
+
+
+Pace = Callable[[float, threading.Event], None]
+"""Called after each step with the robot's time in s; returns when that time has come."""
+
+
 class EmulatedRobot:
     """A robot that a host can open at `device`.
 
     Args:
         firmware: the program; give it a start pose or a profile of your own.
         port: the line; closed with the robot.
-        speed: seconds of the robot in a second.
+        pace: how fast the robot's time passes.
         faults: what shall go wrong in the first run.
+        booted: the board was powered on long ago; its 5 s of silence and its first move are over.
 
     Attributes:
         firmware: messages taken, completions and fault state, to be read at any time.
     """
 
     def __init__(
-        self, firmware: Firmware, port: Port, *, speed: float = 1.0, faults: Iterable[Fault] = ()
+        self,
+        firmware: Firmware,
+        port: Port,
+        *,
+        pace: Pace | None = None,
+        faults: Iterable[Fault] = (),
+        booted: bool = False,
     ) -> None:
         self.firmware = firmware
         self._port = port
-        self._speed = speed
+        self._pace = pace or RealTime()
         self._pending = set(faults)
+        self._booted = booted
         self._asked: list[Fault] = []
         self._dropping = False
         self._random = random.Random(0)
@@ -81,16 +115,18 @@ class EmulatedRobot:
 
     def _live(self) -> None:
         program = self.firmware.run()
-        start = time.monotonic()
+        if self._booted:
+            self._boot_at_once(program)
         while not self._closing.is_set():
             next(program)
-            wait = start + self.firmware.now / self._speed - time.monotonic()
-            if wait < -WORST_LAG:
-                start -= wait
-            if wait >= NAP:
-                self._closing.wait(wait)
+            self._pace(self.firmware.now, self._closing)
             self._exchange()
             self._strike()
+
+    def _boot_at_once(self, program: Iterator[None]) -> None:
+        while not self.firmware.completions:
+            next(program)
+        self.firmware.board.take_sent()
 
     def _exchange(self) -> None:
         board = self.firmware.board
@@ -140,6 +176,7 @@ def start_emulator(
     *,
     tcp: int | None = None,
     faults: Iterable[Fault] = (),
+    booted: bool = False,
     strokes_mm: Sequence[float] = (RESET_MM,) * MOTORS,
 ) -> EmulatedRobot:
     """Starts an emulated robot, which boots like the real one (5 s, then a move to 0.5 mm).
@@ -149,6 +186,7 @@ def start_emulator(
         speed: seconds of the robot in a second.
         tcp: port to listen on, 0 for a free one; None for a pseudo-terminal.
         faults: what shall go wrong in the first run.
+        booted: leave out the boot, as if the board had been powered on long ago.
         strokes_mm: stroke of each motor at power-on.
 
     Raises:
@@ -156,4 +194,4 @@ def start_emulator(
     """
     port: Port = PtyPort() if tcp is None else TcpPort(tcp)
     firmware = Firmware(PROFILES[ProfileName(profile)], strokes_mm)
-    return EmulatedRobot(firmware, port, speed=speed, faults=faults)
+    return EmulatedRobot(firmware, port, pace=RealTime(speed), faults=faults, booted=booted)

@@ -19,6 +19,9 @@ from core.wire import MOTORS, RESET_MM, THRESHOLD_MM
 BUFFER_BYTES = 20000
 """Longest payload that the robot's memory holds; it does not check (hazard 17)."""
 
+LONGEST_PARTIAL = 65536
+"""Bytes of an open message that the emulator keeps; a board would have died long before."""
+
 POWER_UP_US = 5_000_000
 BEGIN_US, BEGIN_WRITES = 45_600, 48
 """The board waits 5 s, then sets up its drivers (from the first line's time in the recordings)."""
@@ -106,7 +109,7 @@ class Firmware:
         self.fault = None
         self._buffer = bytearray(BUFFER_BYTES + 1)
         self._partial: bytearray | None = None
-        self._corrupt = False
+        self._corruption: str | None = None
         self._stopped = False
         self._target_mm = [0.0] * MOTORS
         self._count, self._index, self._active = 0, 0, False
@@ -151,7 +154,7 @@ class Firmware:
                 continue
             payload, marker, rest = bytes(inbox).partition(b">")
             inbox[:] = rest
-            self._partial += payload
+            self._partial += payload[: LONGEST_PARTIAL - len(self._partial)]
             if marker:
                 self._store(bytes(self._partial))
                 self._partial = None
@@ -160,10 +163,8 @@ class Firmware:
 
     def _store(self, payload: bytes) -> None:
         if len(payload) > BUFFER_BYTES:
-            self._corrupt = True
-        kept = payload[:BUFFER_BYTES]
-        self._buffer[: len(kept) + 1] = kept + b"\0"
-        self._payload = payload
+            self._corruption = f"A message of {len(payload)} bytes overran the robot's memory."
+        self._buffer[: len(payload) + 1] = payload + b"\0"
 
     def _act(self) -> None:
         text = c_string(self._buffer)
@@ -175,7 +176,7 @@ class Firmware:
             self._go_to([RESET_MM] * MOTORS)
         elif text.startswith(b"p"):
             strokes = self._read_trajectory()
-        self.messages.append(Message(self.now, self._payload.decode("latin-1"), strokes))
+        self.messages.append(Message(self.now, text.decode("latin-1"), strokes))
 
     def _stop(self, stopped: bool) -> None:
         self._stopped = stopped
@@ -188,9 +189,9 @@ class Firmware:
             self.board.now_us += 2 * self.board.profile.pwm_us
 
     def _crashed(self) -> bool:
-        if self._corrupt and self.fault is None:
-            self.stall(f"A message of {len(self._payload)} bytes overran the robot's memory.")
-        return self._corrupt
+        if self._corruption is not None and self.fault is None:
+            self.stall(self._corruption)
+        return self._corruption is not None
 
     def _go_to(self, target_mm: list[float]) -> None:
         self._target_mm = target_mm
@@ -274,7 +275,7 @@ class Firmware:
         while time < longest:
             time = (self.board.millis - start) / 1000.0
             self._turn(time, speeds, acceleration_mm)
-            if self._count > 1:
+            if self._overrun(time):
                 self.stall(f"A message of {self._count} waypoints overran the memory for one.")
             self.board.now_us += TURN_US
             yield
@@ -290,9 +291,13 @@ class Firmware:
             )
             for i in range(MOTORS)
         ]
-        survivors = 0 if self._crashed() else 1 if self._count > 1 else MOTORS
+        survivors = 0 if self._crashed() else 1 if self._overrun(time) else MOTORS
         for index in range(survivors):
             board.drive(index, commands[index])
+
+    def _overrun(self, time: float) -> bool:
+        """Whether several waypoints have spoilt the memory: the program dies with motor 1 driven."""
+        return self._count > 1 and time > 0.0
 
     def _distances(self) -> list[float]:
         return [t - r for t, r in zip(self._target_mm, self.board.readings_mm, strict=True)]
@@ -301,7 +306,7 @@ class Firmware:
         elapsed = (self.board.millis - self._last_millis) / 1000.0
         self._last_millis = self.board.millis
         self.board.read_strokes()
-        if self._corrupt:
+        if self._corruption is not None:
             self.board.readings_mm = [0.0] * MOTORS
         return elapsed
 

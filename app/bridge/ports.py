@@ -22,8 +22,8 @@ class Port(Protocol):
     def device(self) -> str:
         """Name under which a host opens the other end."""
 
-    def write(self, data: bytes) -> None:
-        """Sends what fits and drops the rest."""
+    def write(self, data: bytes) -> int:
+        """Sends what fits, drops the rest, and returns how many bytes fitted."""
 
     def read(self) -> bytes:
         """Returns what has arrived, perhaps nothing."""
@@ -46,12 +46,12 @@ class PtyPort:
         """Path of the host's end."""
         return self._device
 
-    def write(self, data: bytes) -> None:
-        """Sends what fits and drops the rest."""
+    def write(self, data: bytes) -> int:
+        """Sends what fits, drops the rest, and returns how many bytes fitted."""
         try:
-            os.write(self._master, data)
+            return os.write(self._master, data)
         except OSError:
-            return
+            return 0
 
     def read(self) -> bytes:
         """Returns what has arrived, perhaps nothing."""
@@ -94,16 +94,17 @@ class TcpPort:
         """Address of the robot, `socket://127.0.0.1:PORT`."""
         return f"socket://127.0.0.1:{self._number}"
 
-    def write(self, data: bytes) -> None:
-        """Sends what fits and drops the rest."""
+    def write(self, data: bytes) -> int:
+        """Sends what fits, drops the rest, and returns how many bytes fitted."""
         if self._host is None:
-            return
+            return 0
         try:
-            self._host.send(data)
+            return self._host.send(data)
         except BlockingIOError:
-            return
+            return 0
         except OSError:
             self._drop_host()
+            return 0
 
     def read(self) -> bytes:
         """Returns what has arrived, perhaps nothing; takes the next host if there is none."""

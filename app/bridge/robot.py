@@ -98,14 +98,15 @@ class RobotBridge:
             return tuple(self._session.transitions)
 
     def subscribe(self, callback: Callback) -> Callable[[], None]:
-        """Calls `callback` from the worker's thread on each change, and on telemetry up to 20 times a second.
+        """Calls `callback` from the worker's thread, soon and on each change, on telemetry at most at 20 Hz.
 
-        The callback must return at once.
+        The callback must return at once; it may use every verb but `disconnect` and `close`.
 
         Returns:
             A function that ends the subscription.
         """
         self._subscribers = (*self._subscribers, callback)
+        self._told_revision = -1
         self._inbox.put(None)
 
         def unsubscribe() -> None:

@@ -8,11 +8,21 @@ from __future__ import annotations
 
 import uuid
 
-from app.bridge.delivery import ARRIVAL_MM, MOVE, RESTART, STORE, Delivery, Stage
+from app.bridge.delivery import (
+    ARRIVAL_MM,
+    MOVE,
+    PATIENCE,
+    RESTART,
+    START_PATIENCE,
+    STORE,
+    Delivery,
+    Stage,
+    arrival_deadline,
+)
 from app.bridge.gate import Gate
 from app.bridge.ledger import Ledger
 from app.bridge.run import Move, Run
-from app.bridge.states import IN_RUN, LinkState, RobotSnapshot, RobotState, RunPlan
+from app.bridge.states import IN_RUN, LinkState, RobotSnapshot, RobotState, RunPhase, RunPlan
 from app.bridge.stopping import StopOutcome, Stopping
 from app.bridge.watch import Watch
 from app.bridge.words import (
@@ -273,7 +283,8 @@ class Session(Ledger):
         if self._run is None:
             return
         move: Move = self._run.next_move()
-        self._deliver(move.message, move.target_mm, MOVE, now)
+        patience = START_PATIENCE if move.phase is RunPhase.START_POSE else PATIENCE
+        self._deliver(move.message, move.target_mm, MOVE, now, patience=patience)
 
     def _deliver(
         self,
@@ -282,10 +293,12 @@ class Session(Ledger):
         stages: tuple[Stage, ...],
         now: float,
         *,
+        patience: float = PATIENCE,
         early_end: bool = False,
     ) -> None:
         distance = max(abs(t - m) for t, m in zip(target_mm, self._measured(), strict=True))
-        self._delivery = Delivery(message, target_mm, stages, now, distance, early_end=early_end)
+        deadline = arrival_deadline(distance, patience)
+        self._delivery = Delivery(message, target_mm, stages, now, deadline, early_end=early_end)
         self.revision += 1
         try:
             self._gate.write(message, self._permit)

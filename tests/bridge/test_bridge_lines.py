@@ -1,0 +1,268 @@
+"""One suite for bridge and emulated robot over a pseudo-terminal and over TCP, on real threads."""
+
+import os
+import threading
+import time
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pytest
+from virtual_robot import make_plan, random_plan
+
+from app.bridge.emulated import EmulatedRobot, Fault, start_emulator
+from app.bridge.firmware import Firmware
+from app.bridge.ports import Port, PtyPort, TcpPort
+from app.bridge.profiles import PROFILES, ProfileName
+from app.bridge.robot import RobotBridge
+from app.bridge.states import Direction, LinkState, RobotSnapshot, RobotState
+from app.bridge.transport import Transport
+from core.errors import InputError, RobotError, StateError
+from core.wire import encode_waypoint
+
+SHORT = [[4.0] * 12, [6.0] * 12, [3.0, 8.0] * 6]
+PATIENCE = 20.0
+
+
+class Lockstep:
+    """Lets the robot's time pass only as fast as the bridge takes what the robot has said."""
+
+    def __init__(self, port: Port) -> None:
+        self.port = port
+        self.traffic: list[tuple[Direction, bytes, float]] = []
+        self._ahead = 0
+        self._connected = False
+        self._change = threading.Condition()
+
+    @property
+    def device(self) -> str:
+        return self.port.device
+
+    def write(self, data: bytes) -> int:
+        with self._change:
+            count = self.port.write(data) if self._connected else 0
+            self._ahead += count
+        return count
+
+    def read(self) -> bytes:
+        return self.port.read()
+
+    def close(self) -> None:
+        self.port.close()
+        self._release()
+
+    def pace(self, now: float, interrupt: threading.Event) -> None:
+        deadline = time.monotonic() + PATIENCE
+        with self._change:
+            if not self._connected:
+                self._change.wait(0.002)
+            while self._ahead > 0 and not interrupt.is_set() and time.monotonic() < deadline:
+                self._change.wait(0.02)
+
+    def log(self, direction: Direction, data: bytes, when: float) -> None:
+        self.traffic.append((direction, data, when))
+        with self._change:
+            if direction is Direction.FROM_ROBOT:
+                self._ahead -= len(data)
+            self._change.notify_all()
+
+    def connect(self, bridge: RobotBridge) -> None:
+        with self._change:
+            bridge.connect(self.device)
+            self._ahead = 0
+            self._connected = True
+
+    def disconnect(self, bridge: RobotBridge) -> None:
+        bridge.disconnect()
+        self._release()
+
+    def _release(self) -> None:
+        with self._change:
+            self._ahead = 0
+            self._connected = False
+            self._change.notify_all()
+
+
+@pytest.fixture(params=["pty", "tcp"])
+def lockstep(request: pytest.FixtureRequest) -> Lockstep:
+    return Lockstep(TcpPort() if request.param == "tcp" else PtyPort())
+
+
+@pytest.fixture
+def emulator(lockstep: Lockstep) -> Iterator[EmulatedRobot]:
+    robot = EmulatedRobot(Firmware(PROFILES[ProfileName.NOMINAL]), lockstep, pace=lockstep.pace, booted=True)
+    yield robot
+    robot.close()
+
+
+@pytest.fixture
+def bridge(emulator: EmulatedRobot, lockstep: Lockstep) -> Iterator[RobotBridge]:
+    bridge = RobotBridge(lockstep.log, clock=lambda: emulator.firmware.now, tick=0.005)
+    yield bridge
+    bridge.close()
+
+
+def until(
+    bridge: RobotBridge,
+    condition: Callable[[RobotSnapshot], bool],
+    action: Callable[[], None] = lambda: None,
+) -> None:
+    """Waits for a condition; the action happens at that very moment of the robot's time."""
+    met = threading.Event()
+
+    def look(snapshot: RobotSnapshot) -> None:
+        if condition(snapshot) and not met.is_set():
+            action()
+            met.set()
+
+    unsubscribe = bridge.subscribe(look)
+    if not met.wait(PATIENCE):
+        raise TimeoutError(f"not within {PATIENCE} s: {bridge.snapshot}")
+    unsubscribe()
+
+
+def until_robot(bridge: RobotBridge, *states: RobotState) -> None:
+    until(bridge, lambda s: s.robot in states)
+
+
+def has_reached(count: int) -> Callable[[RobotSnapshot], bool]:
+    return lambda s: s.run is not None and s.run.reached >= count
+
+
+def make_ready(bridge: RobotBridge, lockstep: Lockstep) -> None:
+    lockstep.connect(bridge)
+    until(bridge, lambda s: s.link is LinkState.READY)
+    bridge.arm("Ada")
+
+
+def test_a_run_reaches_every_approved_waypoint(bridge, emulator, lockstep):
+    make_ready(bridge, lockstep)
+    plan = random_plan(1, 8)
+    bridge.send(plan, "Ada")
+    until_robot(bridge, RobotState.DONE, RobotState.FAULT)
+    assert bridge.snapshot.robot is RobotState.DONE, bridge.snapshot.last_error
+    taken = [m.strokes_mm for m in emulator.firmware.messages]
+    np.testing.assert_allclose(taken[-8:], plan.waypoints.strokes_mm, atol=1e-5)
+    assert max(c.worst_mm for c in emulator.firmware.completions[-8:]) <= 1.0
+    assert bridge.snapshot.strokes == pytest.approx(plan.waypoints.strokes[-1].reshape(-1), abs=0.0011)
+    sent = [data for way, data, _ in lockstep.traffic if way is Direction.TO_ROBOT]
+    assert sent[-8:] == [encode_waypoint(s, 0.4) for s in plan.waypoints.strokes]
+
+
+def test_a_stop_in_mid_run_latches_until_cleared(bridge, emulator, lockstep):
+    make_ready(bridge, lockstep)
+    bridge.send(random_plan(2, 6), "Ada")
+    until(bridge, has_reached(2), lambda: bridge.stop("Grace"))
+    until_robot(bridge, RobotState.STOPPED)
+    assert emulator.firmware.messages[-1].payload == "s,1"
+    with pytest.raises(StateError, match="stopped"):
+        bridge.arm("Ada")
+    bridge.clear("Ada")
+    until_robot(bridge, RobotState.DISARMED)
+    bridge.arm("Ada")
+    bridge.send(make_plan(SHORT), "Ada")
+    until_robot(bridge, RobotState.DONE, RobotState.FAULT)
+    assert bridge.snapshot.robot is RobotState.DONE, bridge.snapshot.last_error
+
+
+def test_a_stop_does_not_wait_for_a_subscriber_that_dawdles(bridge, lockstep):
+    make_ready(bridge, lockstep)
+    hold, held = threading.Event(), threading.Event()
+
+    def dawdle(_: RobotSnapshot) -> None:
+        held.set()
+        hold.wait(PATIENCE)
+
+    bridge.send(random_plan(3, 4), "Ada")
+    unsubscribe = bridge.subscribe(dawdle)
+    assert held.wait(PATIENCE)
+    bridge.stop("Grace")
+    assert lockstep.traffic[-1][:2] == (Direction.TO_ROBOT, b"<s,1>")
+    assert bridge.snapshot.robot is RobotState.STOPPING
+    unsubscribe()
+    hold.set()
+    until_robot(bridge, RobotState.STOPPED)
+
+
+def test_an_unplugged_cable_ends_the_run_as_a_fault(bridge, emulator, lockstep):
+    make_ready(bridge, lockstep)
+    bridge.send(random_plan(4, 6), "Ada")
+    until(bridge, has_reached(1), lambda: emulator.inject(Fault.UNPLUG))
+    until(bridge, lambda s: s.link is LinkState.LOST)
+    assert bridge.snapshot.robot is RobotState.FAULT
+    assert "hung up" in bridge.snapshot.sentence
+
+
+def test_disconnecting_in_mid_run_stops_the_robot_first(bridge, emulator, lockstep):
+    make_ready(bridge, lockstep)
+    bridge.send(random_plan(5, 100), "Ada")
+    until(bridge, has_reached(1))
+    lockstep.disconnect(bridge)
+    assert bridge.snapshot.link is LinkState.DISCONNECTED
+    assert emulator.firmware.messages[-1].payload == "s,1"
+    lockstep.connect(bridge)
+    until(bridge, lambda s: s.link is LinkState.READY)
+    assert bridge.snapshot.robot is RobotState.STOPPED
+
+
+def test_a_second_connection_is_refused(bridge, lockstep):
+    lockstep.connect(bridge)
+    with pytest.raises(StateError, match="is connected"):
+        bridge.connect(lockstep.device)
+
+
+def test_every_byte_is_logged_both_ways_in_order(bridge, lockstep):
+    make_ready(bridge, lockstep)
+    bridge.send(make_plan(SHORT), "Ada")
+    until_robot(bridge, RobotState.DONE)
+    text = b"".join(data for way, data, _ in lockstep.traffic if way is Direction.FROM_ROBOT)
+    assert text.count(b"end of all available trajectories") == 5
+    times = [when for way, _, when in lockstep.traffic if way is Direction.FROM_ROBOT]
+    assert times == sorted(times)
+
+
+def test_a_subscriber_that_fails_does_not_end_the_bridge(bridge, lockstep, caplog):
+    bridge.subscribe(lambda _: 1 // 0)
+    make_ready(bridge, lockstep)
+    assert "subscriber" in caplog.text
+
+
+def test_a_line_in_use_is_refused_with_a_sentence(bridge, lockstep):
+    if lockstep.device.startswith("socket"):
+        pytest.skip("a TCP port takes the next host when the first has gone")
+    lockstep.connect(bridge)
+    with pytest.raises(RobotError, match="in use by another program"):
+        Transport(lockstep.device, lambda _: None, lambda _: None)
+
+
+@pytest.mark.parametrize(
+    "device", ["/dev/no-robot-here", "socket://127.0.0.1:9", os.devnull, "socket://nowhere"]
+)
+def test_a_device_that_is_no_line_is_refused_by_name(device):
+    bridge = RobotBridge()
+    with pytest.raises(RobotError, match=device):
+        bridge.connect(device)
+    assert bridge.snapshot.link is LinkState.DISCONNECTED
+    assert bridge.snapshot.last_error is not None
+    bridge.stop("Ada")
+    bridge.close()
+
+
+@pytest.mark.parametrize("tcp", [None, 0])
+def test_a_robot_in_real_time_drops_what_nobody_reads_and_talks_to_the_next_host(tcp):
+    robot = start_emulator("nominal", 50.0, tcp=tcp, booted=True)
+    for _ in range(2):
+        heard = threading.Event()
+        line = Transport(
+            robot.device, lambda data, h=heard: h.set() if b"\nj," in data else None, lambda _: None
+        )
+        assert heard.wait(PATIENCE)
+        line.write(b"<x>")
+        line.close()
+    robot.close()
+
+
+def test_a_taken_tcp_port_is_refused():
+    robot = start_emulator(tcp=0)
+    with pytest.raises(InputError, match="cannot be used"):
+        start_emulator(tcp=int(robot.device.rpartition(":")[2]))
+    robot.close()

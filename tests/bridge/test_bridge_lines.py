@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
-from virtual_robot import make_plan, random_plan
 
 from app.bridge.emulated import EmulatedRobot, Fault, start_emulator
 from app.bridge.firmware import Firmware
@@ -18,6 +17,7 @@ from app.bridge.states import Direction, LinkState, RobotSnapshot, RobotState
 from app.bridge.transport import Transport
 from core.errors import InputError, RobotError, StateError
 from core.wire import encode_waypoint
+from tests.bridge.virtual_robot import make_plan, random_plan
 
 SHORT = [[4.0] * 12, [6.0] * 12, [3.0, 8.0] * 6]
 PATIENCE = 20.0
@@ -134,13 +134,15 @@ def make_ready(bridge: RobotBridge, lockstep: Lockstep) -> None:
     bridge.arm("Ada")
 
 
-def test_a_run_reaches_every_approved_waypoint(bridge, emulator, lockstep):
+def test_a_run_reaches_every_approved_waypoint(
+    bridge: RobotBridge, emulator: EmulatedRobot, lockstep: Lockstep
+) -> None:
     make_ready(bridge, lockstep)
     plan = random_plan(1, 8)
     bridge.send(plan, "Ada")
     until_robot(bridge, RobotState.DONE, RobotState.FAULT)
     assert bridge.snapshot.robot is RobotState.DONE, bridge.snapshot.last_error
-    taken = [m.strokes_mm for m in emulator.firmware.messages]
+    taken = np.array([m.strokes_mm for m in emulator.firmware.messages])
     np.testing.assert_allclose(taken[-8:], plan.waypoints.strokes_mm, atol=1e-5)
     assert max(c.worst_mm for c in emulator.firmware.completions[-8:]) <= 1.0
     assert bridge.snapshot.strokes == pytest.approx(plan.waypoints.strokes[-1].reshape(-1), abs=0.0011)
@@ -148,7 +150,9 @@ def test_a_run_reaches_every_approved_waypoint(bridge, emulator, lockstep):
     assert sent[-8:] == [encode_waypoint(s, 0.4) for s in plan.waypoints.strokes]
 
 
-def test_a_stop_in_mid_run_latches_until_cleared(bridge, emulator, lockstep):
+def test_a_stop_in_mid_run_latches_until_cleared(
+    bridge: RobotBridge, emulator: EmulatedRobot, lockstep: Lockstep
+) -> None:
     make_ready(bridge, lockstep)
     bridge.send(random_plan(2, 6), "Ada")
     until(bridge, has_reached(2), lambda: bridge.stop("Grace"))
@@ -164,7 +168,7 @@ def test_a_stop_in_mid_run_latches_until_cleared(bridge, emulator, lockstep):
     assert bridge.snapshot.robot is RobotState.DONE, bridge.snapshot.last_error
 
 
-def test_a_stop_does_not_wait_for_a_subscriber_that_dawdles(bridge, lockstep):
+def test_a_stop_does_not_wait_for_a_subscriber_that_dawdles(bridge: RobotBridge, lockstep: Lockstep) -> None:
     make_ready(bridge, lockstep)
     hold, held = threading.Event(), threading.Event()
 
@@ -183,7 +187,9 @@ def test_a_stop_does_not_wait_for_a_subscriber_that_dawdles(bridge, lockstep):
     until_robot(bridge, RobotState.STOPPED)
 
 
-def test_an_unplugged_cable_ends_the_run_as_a_fault(bridge, emulator, lockstep):
+def test_an_unplugged_cable_ends_the_run_as_a_fault(
+    bridge: RobotBridge, emulator: EmulatedRobot, lockstep: Lockstep
+) -> None:
     make_ready(bridge, lockstep)
     bridge.send(random_plan(4, 6), "Ada")
     until(bridge, has_reached(1), lambda: emulator.inject(Fault.UNPLUG))
@@ -192,7 +198,9 @@ def test_an_unplugged_cable_ends_the_run_as_a_fault(bridge, emulator, lockstep):
     assert "hung up" in bridge.snapshot.sentence
 
 
-def test_disconnecting_in_mid_run_stops_the_robot_first(bridge, emulator, lockstep):
+def test_disconnecting_in_mid_run_stops_the_robot_first(
+    bridge: RobotBridge, emulator: EmulatedRobot, lockstep: Lockstep
+) -> None:
     make_ready(bridge, lockstep)
     bridge.send(random_plan(5, 100), "Ada")
     until(bridge, has_reached(1))
@@ -204,13 +212,13 @@ def test_disconnecting_in_mid_run_stops_the_robot_first(bridge, emulator, lockst
     assert bridge.snapshot.robot is RobotState.STOPPED
 
 
-def test_a_second_connection_is_refused(bridge, lockstep):
+def test_a_second_connection_is_refused(bridge: RobotBridge, lockstep: Lockstep) -> None:
     lockstep.connect(bridge)
     with pytest.raises(StateError, match="is connected"):
         bridge.connect(lockstep.device)
 
 
-def test_every_byte_is_logged_both_ways_in_order(bridge, lockstep):
+def test_every_byte_is_logged_both_ways_in_order(bridge: RobotBridge, lockstep: Lockstep) -> None:
     make_ready(bridge, lockstep)
     bridge.send(make_plan(SHORT), "Ada")
     until_robot(bridge, RobotState.DONE)
@@ -220,13 +228,18 @@ def test_every_byte_is_logged_both_ways_in_order(bridge, lockstep):
     assert times == sorted(times)
 
 
-def test_a_subscriber_that_fails_does_not_end_the_bridge(bridge, lockstep, caplog):
-    bridge.subscribe(lambda _: 1 // 0)
+def test_a_subscriber_that_fails_does_not_end_the_bridge(
+    bridge: RobotBridge, lockstep: Lockstep, caplog: pytest.LogCaptureFixture
+) -> None:
+    def fail(snapshot: RobotSnapshot) -> None:
+        raise ZeroDivisionError(snapshot.sentence)
+
+    bridge.subscribe(fail)
     make_ready(bridge, lockstep)
     assert "subscriber" in caplog.text
 
 
-def test_a_line_in_use_is_refused_with_a_sentence(bridge, lockstep):
+def test_a_line_in_use_is_refused_with_a_sentence(bridge: RobotBridge, lockstep: Lockstep) -> None:
     if lockstep.device.startswith("socket"):
         pytest.skip("a TCP port takes the next host when the first has gone")
     lockstep.connect(bridge)
@@ -237,7 +250,7 @@ def test_a_line_in_use_is_refused_with_a_sentence(bridge, lockstep):
 @pytest.mark.parametrize(
     "device", ["/dev/no-robot-here", "socket://127.0.0.1:9", os.devnull, "socket://nowhere"]
 )
-def test_a_device_that_is_no_line_is_refused_by_name(device):
+def test_a_device_that_is_no_line_is_refused_by_name(device: str) -> None:
     bridge = RobotBridge()
     with pytest.raises(RobotError, match=device):
         bridge.connect(device)
@@ -247,21 +260,27 @@ def test_a_device_that_is_no_line_is_refused_by_name(device):
     bridge.close()
 
 
+def listen_once(device: str) -> Transport:
+    heard = threading.Event()
+
+    def hear(data: bytes) -> None:
+        if b"\nj," in data:
+            heard.set()
+
+    line = Transport(device, hear, lambda _: None)
+    assert heard.wait(PATIENCE)
+    return line
+
+
 @pytest.mark.parametrize("tcp", [None, 0])
-def test_a_robot_in_real_time_drops_what_nobody_reads_and_talks_to_the_next_host(tcp):
+def test_a_robot_in_real_time_drops_what_nobody_reads_and_talks_to_the_next_host(tcp: int | None) -> None:
     robot = start_emulator("nominal", 50.0, tcp=tcp, booted=True)
     for _ in range(2):
-        heard = threading.Event()
-        line = Transport(
-            robot.device, lambda data, h=heard: h.set() if b"\nj," in data else None, lambda _: None
-        )
-        assert heard.wait(PATIENCE)
-        line.write(b"<x>")
-        line.close()
+        listen_once(robot.device).close()
     robot.close()
 
 
-def test_a_taken_tcp_port_is_refused():
+def test_a_taken_tcp_port_is_refused() -> None:
     robot = start_emulator(tcp=0)
     with pytest.raises(InputError, match="cannot be used"):
         start_emulator(tcp=int(robot.device.rpartition(":")[2]))

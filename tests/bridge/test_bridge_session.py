@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from virtual_robot import VirtualRobot, make_plan, random_plan
 
 from app.bridge.profiles import ProfileName
 from app.bridge.run import START_MOVE_MM
@@ -14,6 +13,7 @@ from app.bridge.states import LinkState, RobotState, RunPhase
 from core.errors import InputError, StateError
 from core.wire import encode_waypoint
 from core.wire_timing import stop_delay
+from tests.bridge.virtual_robot import VirtualRobot, make_plan, random_plan
 
 SHORT = [[4.0] * 12, [6.0] * 12, [3.0, 8.0] * 6, [5.0] * 12]
 
@@ -27,7 +27,9 @@ def waypoints_taken(robot: VirtualRobot) -> list[tuple[float, ...]]:
     return [m.strokes_mm for m in robot.firmware.messages if m.strokes_mm is not None]
 
 
-def test_connecting_says_that_the_motors_may_move_and_waits_until_the_board_is_up(robot):
+def test_connecting_says_that_the_motors_may_move_and_waits_until_the_board_is_up(
+    robot: VirtualRobot,
+) -> None:
     robot.gate.attach(robot)
     robot.session.opened("virtual", robot.now)
     assert "may then move for about 8 s" in robot.snapshot.sentence
@@ -38,7 +40,7 @@ def test_connecting_says_that_the_motors_may_move_and_waits_until_the_board_is_u
 
 
 @pytest.mark.parametrize("profile", list(ProfileName))
-def test_a_run_sends_exactly_the_approved_waypoints_and_reaches_each(profile):
+def test_a_run_sends_exactly_the_approved_waypoints_and_reaches_each(profile: ProfileName) -> None:
     robot, plan = VirtualRobot(profile), random_plan(1, 12)
     robot.begin(plan)
     snapshot = robot.until_robot(RobotState.DONE, RobotState.FAULT)
@@ -53,7 +55,7 @@ def test_a_run_sends_exactly_the_approved_waypoints_and_reaches_each(profile):
 
 
 @pytest.mark.parametrize("start_mm", [0.0, 7.3, 20.0])
-def test_the_way_to_the_start_pose_is_cut_into_small_moves_that_the_firmware_makes(start_mm):
+def test_the_way_to_the_start_pose_is_cut_into_small_moves_that_the_firmware_makes(start_mm: float) -> None:
     robot, plan = VirtualRobot(strokes_mm=(start_mm,) * 12), make_plan([[18.2] * 12])
     robot.begin(plan)
     assert robot.snapshot.run is not None
@@ -66,7 +68,7 @@ def test_the_way_to_the_start_pose_is_cut_into_small_moves_that_the_firmware_mak
     assert moves[-1] == 0.0
 
 
-def test_the_start_pose_is_left_out_when_the_robot_stands_there(robot):
+def test_the_start_pose_is_left_out_when_the_robot_stands_there(robot: VirtualRobot) -> None:
     robot.begin(make_plan([[1.2] * 12, [4.0] * 12]))
     robot.until_robot(RobotState.DONE)
     assert len(robot.sent) == 2
@@ -74,7 +76,7 @@ def test_the_start_pose_is_left_out_when_the_robot_stands_there(robot):
 
 @settings(max_examples=25, deadline=None)
 @given(st.floats(0.0, 12.0))
-def test_a_stop_at_any_time_ends_the_run_for_good(delay):
+def test_a_stop_at_any_time_ends_the_run_for_good(delay: float) -> None:
     robot, plan = VirtualRobot(), random_plan(2, 8)
     robot.begin(plan)
     robot.wait(delay)
@@ -92,7 +94,7 @@ def test_a_stop_at_any_time_ends_the_run_for_good(delay):
     assert robot.snapshot.robot is RobotState.STOPPED
 
 
-def test_a_stop_may_be_pressed_twice(robot):
+def test_a_stop_may_be_pressed_twice(robot: VirtualRobot) -> None:
     robot.begin(random_plan(3, 5))
     robot.wait(2.0)
     robot.stop("Ada")
@@ -105,7 +107,7 @@ def test_a_stop_may_be_pressed_twice(robot):
 
 
 @pytest.mark.parametrize("start_mm", [0.5, 0.0, 20.0])
-def test_clear_moves_nothing_and_the_robot_runs_again_after_arming(start_mm):
+def test_clear_moves_nothing_and_the_robot_runs_again_after_arming(start_mm: float) -> None:
     robot = VirtualRobot(strokes_mm=(start_mm,) * 12)
     robot.begin(make_plan([[19.5] * 12, [0.5] * 12, [19.5] * 12]))
     robot.until(lambda s: s.run is not None and s.run.reached == 1)
@@ -124,7 +126,7 @@ def test_clear_moves_nothing_and_the_robot_runs_again_after_arming(start_mm):
     assert robot.until_robot(RobotState.DONE, RobotState.FAULT).robot is RobotState.DONE
 
 
-def test_a_stop_while_clearing_keeps_the_robot_stopped(robot):
+def test_a_stop_while_clearing_keeps_the_robot_stopped(robot: VirtualRobot) -> None:
     robot.begin(random_plan(4, 4))
     robot.wait(1.0)
     robot.stop()
@@ -135,7 +137,7 @@ def test_a_stop_while_clearing_keeps_the_robot_stopped(robot):
     assert b"<s,0>" not in robot.sent
 
 
-def test_a_stop_is_latched_even_over_a_new_connection(robot):
+def test_a_stop_is_latched_even_over_a_new_connection(robot: VirtualRobot) -> None:
     robot.begin(random_plan(5, 4))
     robot.wait(2.0)
     robot.stop()
@@ -147,7 +149,7 @@ def test_a_stop_is_latched_even_over_a_new_connection(robot):
         robot.session.arm("Ada", robot.now)
 
 
-def test_an_edited_plan_is_refused(robot):
+def test_an_edited_plan_is_refused(robot: VirtualRobot) -> None:
     robot.arm()
     plan = make_plan(SHORT)
     edited = replace(plan, waypoints=random_plan(6, 4).waypoints)
@@ -157,7 +159,7 @@ def test_an_edited_plan_is_refused(robot):
     assert robot.snapshot.robot is RobotState.ARMED
 
 
-def test_a_plan_out_of_range_is_refused_before_anything_is_sent(robot):
+def test_a_plan_out_of_range_is_refused_before_anything_is_sent(robot: VirtualRobot) -> None:
     robot.arm()
     with pytest.raises(InputError, match="motor 12"):
         robot.session.send(make_plan([*SHORT, [5.0] * 11 + [19.6]]), "Ada", robot.now)
@@ -165,7 +167,7 @@ def test_a_plan_out_of_range_is_refused_before_anything_is_sent(robot):
 
 
 @pytest.mark.parametrize("verb", ["send", "reset", "pause", "resume", "clear"])
-def test_a_robot_that_is_not_armed_refuses_with_a_sentence(robot, verb):
+def test_a_robot_that_is_not_armed_refuses_with_a_sentence(robot: VirtualRobot, verb: str) -> None:
     robot.connect()
     wish = getattr(robot.session, verb)
     with pytest.raises(StateError, match="disarmed"):
@@ -173,19 +175,19 @@ def test_a_robot_that_is_not_armed_refuses_with_a_sentence(robot, verb):
 
 
 @pytest.mark.parametrize("verb", ["arm", "reset", "clear"])
-def test_a_robot_that_is_not_connected_refuses_with_a_sentence(robot, verb):
+def test_a_robot_that_is_not_connected_refuses_with_a_sentence(robot: VirtualRobot, verb: str) -> None:
     with pytest.raises(StateError, match="Connect it"):
         getattr(robot.session, verb)("Ada", robot.now)
 
 
-def test_a_finished_run_needs_arming_again(robot):
+def test_a_finished_run_needs_arming_again(robot: VirtualRobot) -> None:
     robot.begin(make_plan(SHORT))
     robot.until_robot(RobotState.DONE)
     with pytest.raises(StateError, match="Arm the robot"):
         robot.session.send(make_plan(SHORT), "Ada", robot.now)
 
 
-def test_a_pause_ends_at_the_next_pose_with_all_feet_down_and_resume_goes_on(robot):
+def test_a_pause_ends_at_the_next_pose_with_all_feet_down_and_resume_goes_on(robot: VirtualRobot) -> None:
     robot.begin(make_plan(SHORT, [False, False, True, True]))
     robot.until(lambda s: s.run is not None and s.run.sent == 1)
     robot.session.pause("Ada", robot.now)
@@ -199,7 +201,7 @@ def test_a_pause_ends_at_the_next_pose_with_all_feet_down_and_resume_goes_on(rob
     robot.until_robot(RobotState.DONE)
 
 
-def test_reset_draws_every_motor_in_and_leaves_the_robot_armed(robot):
+def test_reset_draws_every_motor_in_and_leaves_the_robot_armed(robot: VirtualRobot) -> None:
     robot.begin(make_plan(SHORT))
     robot.until_robot(RobotState.DONE)
     robot.session.arm("Ada", robot.now)
@@ -208,7 +210,7 @@ def test_reset_draws_every_motor_in_and_leaves_the_robot_armed(robot):
     assert robot.strokes_mm == pytest.approx([0.5] * 12, abs=1.0)
 
 
-def test_a_stuck_motor_is_a_fault_that_names_it(robot):
+def test_a_stuck_motor_is_a_fault_that_names_it(robot: VirtualRobot) -> None:
     robot.begin(make_plan(SHORT))
     robot.until(lambda s: s.run is not None and s.run.reached == 1)
     robot.firmware.board.motors.jam(7, robot.firmware.board.now_us)
@@ -218,7 +220,7 @@ def test_a_stuck_motor_is_a_fault_that_names_it(robot):
     assert robot.sent[-1] == b"<s,1>"
 
 
-def test_a_stalled_robot_is_lost_within_the_limit_of_silence(robot):
+def test_a_stalled_robot_is_lost_within_the_limit_of_silence(robot: VirtualRobot) -> None:
     robot.begin(random_plan(7, 4))
     robot.wait(3.0)
     robot.firmware.stall("test")
@@ -229,7 +231,7 @@ def test_a_stalled_robot_is_lost_within_the_limit_of_silence(robot):
     assert "silent" in snapshot.sentence
 
 
-def test_a_restart_of_the_board_is_recognised_and_can_be_cleared(robot):
+def test_a_restart_of_the_board_is_recognised_and_can_be_cleared(robot: VirtualRobot) -> None:
     robot.begin(random_plan(8, 4))
     robot.wait(3.0)
     robot.firmware.reset()
@@ -241,7 +243,7 @@ def test_a_restart_of_the_board_is_recognised_and_can_be_cleared(robot):
     robot.until_robot(RobotState.DISARMED)
 
 
-def test_a_robot_that_holds_an_old_stop_is_found_out_and_can_be_cleared(robot):
+def test_a_robot_that_holds_an_old_stop_is_found_out_and_can_be_cleared(robot: VirtualRobot) -> None:
     robot.arm()
     robot.write(b"<s,1>")
     robot.wait(0.5)
@@ -254,7 +256,7 @@ def test_a_robot_that_holds_an_old_stop_is_found_out_and_can_be_cleared(robot):
     robot.until_robot(RobotState.DISARMED)
 
 
-def test_a_message_changed_on_its_way_is_noticed_and_only_a_stop_follows(robot):
+def test_a_message_changed_on_its_way_is_noticed_and_only_a_stop_follows(robot: VirtualRobot) -> None:
     robot.arm()
     robot.to_robot = lambda data: data.replace(b"6.0000", b"6.0010", 1)
     robot.session.send(make_plan(SHORT), "Ada", robot.now)
@@ -267,7 +269,7 @@ def test_a_message_changed_on_its_way_is_noticed_and_only_a_stop_follows(robot):
 
 @settings(max_examples=25, deadline=None)
 @given(st.integers(0, 2**32 - 1))
-def test_bytes_lost_on_the_way_never_let_a_waypoint_be_skipped(seed):
+def test_bytes_lost_on_the_way_never_let_a_waypoint_be_skipped(seed: int) -> None:
     robot, plan, rng = VirtualRobot(), make_plan(SHORT), np.random.default_rng(seed)
     robot.begin(plan)
     robot.from_robot = lambda data: bytes(b for b in data if rng.random() > 2e-4)
@@ -280,7 +282,7 @@ def test_bytes_lost_on_the_way_never_let_a_waypoint_be_skipped(seed):
     np.testing.assert_allclose(streamed, plan.waypoints.strokes_mm[:sent], atol=1e-5)
 
 
-def test_something_that_is_no_robot_is_said_to_be_none(robot):
+def test_something_that_is_no_robot_is_said_to_be_none(robot: VirtualRobot) -> None:
     robot.from_robot = lambda data: b"hello\r\n" if data else b""
     robot.gate.attach(robot)
     robot.session.opened("virtual", robot.now)
@@ -289,7 +291,7 @@ def test_something_that_is_no_robot_is_said_to_be_none(robot):
     assert snapshot.unknown_lines > 10
 
 
-def test_a_stop_that_gets_lost_is_sent_again(robot):
+def test_a_stop_that_gets_lost_is_sent_again(robot: VirtualRobot) -> None:
     robot.begin(random_plan(9, 4))
     robot.wait(1.0)
     robot.to_robot = lambda _: b""
@@ -299,7 +301,7 @@ def test_a_stop_that_gets_lost_is_sent_again(robot):
     robot.until_robot(RobotState.STOPPED)
 
 
-def test_a_stop_that_nobody_confirms_is_shown_as_not_stopped(robot):
+def test_a_stop_that_nobody_confirms_is_shown_as_not_stopped(robot: VirtualRobot) -> None:
     robot.begin(random_plan(10, 4))
     robot.wait(1.0)
     robot.firmware.stall("test")

@@ -40,19 +40,19 @@ MOVE = b"<p,1,1.0,6,6,6,6,6,6,6,6,6,6,6,6>"
 
 
 @pytest.mark.parametrize("stop", [b"<s,1>", b"<s,2>", b"<s, 0>", b"<s,false>", b"<stop>", b"<s0>", b"<s>"])
-def test_all_these_stop(bench, stop):
+def test_all_these_stop(bench: Bench, stop: bytes) -> None:
     bench.say(stop + MOVE, 4.0)
     assert bench.first_mm == pytest.approx(0.5)
 
 
 @pytest.mark.parametrize("start", [b"<s,0>", b"<s,00>", b"<s,01>", b"<s,0.0>", b"<s,0><s>", b"<x,0><s>"])
-def test_all_these_start_again_and_the_old_target_goes_on(bench, start):
+def test_all_these_start_again_and_the_old_target_goes_on(bench: Bench, start: bytes) -> None:
     bench.say(b"<s,1>" + MOVE, 1.0)
     bench.say(start, 4.0)
     assert bench.first_mm == pytest.approx(6.0, abs=1.0)
 
 
-def test_a_stop_is_heard_only_after_the_ramp(bench):
+def test_a_stop_is_heard_only_after_the_ramp(bench: Bench) -> None:
     bench.say(b"<p,1,1.0,19.5,19.5,19.5,19.5,19.5,19.5,19.5,19.5,19.5,19.5,19.5,19.5>", 0.5)
     text = bench.say(b"<s,1>", 1.5)
     assert text == ""
@@ -60,13 +60,13 @@ def test_a_stop_is_heard_only_after_the_ramp(bench):
     assert bench.first_mm > 18.0
 
 
-def test_a_second_waypoint_replaces_the_first(bench):
+def test_a_second_waypoint_replaces_the_first(bench: Bench) -> None:
     text = bench.say(MOVE, 0.5) + bench.say(MOVE.replace(b"6", b"3"), 4.0)
     assert text.count("end of all available trajectories") == 1
     assert bench.first_mm == pytest.approx(3.0, abs=1.0)
 
 
-def test_more_than_one_waypoint_is_a_fault_that_is_reported_in_silence(bench):
+def test_more_than_one_waypoint_is_a_fault_that_is_reported_in_silence(bench: Bench) -> None:
     numbers = ",".join(["1", *["6"] * 12, "1", *["9"] * 12])
     text = bench.say(f"<p,2,{numbers}>".encode(), 3.0)
     assert "Trajectory Point 1: " in text
@@ -76,7 +76,7 @@ def test_more_than_one_waypoint_is_a_fault_that_is_reported_in_silence(bench):
     assert bench.first_mm > 2.0
 
 
-def test_an_overlong_message_is_a_fault_at_the_next_movement(bench):
+def test_an_overlong_message_is_a_fault_at_the_next_movement(bench: Bench) -> None:
     bench.say(b"<x" + b"A" * 20100 + b">", 1.0)
     assert bench.firmware.fault is None
     bench.say(MOVE, 2.0)
@@ -85,7 +85,7 @@ def test_an_overlong_message_is_a_fault_at_the_next_movement(bench):
     assert bench.say(b"", 5.0) == ""
 
 
-def test_a_reset_of_the_board_keeps_the_motors_going_until_it_is_up(bench):
+def test_a_reset_of_the_board_keeps_the_motors_going_until_it_is_up(bench: Bench) -> None:
     bench.say(MOVE.replace(b"6", b"19"), 0.7)
     bench.firmware.reset()
     text = bench.say(b"", 5.5)
@@ -93,7 +93,7 @@ def test_a_reset_of_the_board_keeps_the_motors_going_until_it_is_up(bench):
     assert "SETUP MOVING" in text
 
 
-def test_the_published_profile_is_the_default_and_scans_as_long_as_is_said():
+def test_the_published_profile_is_the_default_and_scans_as_long_as_is_said() -> None:
     robot = start_emulator(speed=20.0)
     assert robot.firmware.board.profile is PROFILES[ProfileName.PUBLISHED]
     assert all(p.scan < LONGEST_SCAN + 0.01 for p in PROFILES.values())
@@ -101,7 +101,7 @@ def test_the_published_profile_is_the_default_and_scans_as_long_as_is_said():
     robot.close()
 
 
-def test_faults_asked_for_beforehand_must_exist():
+def test_faults_asked_for_beforehand_must_exist() -> None:
     with pytest.raises(ValueError, match="garbage"):
         Fault("garbage")
 
@@ -119,16 +119,16 @@ def test_faults_asked_for_beforehand_must_exist():
         (b".5", 0.5),
     ],
 )
-def test_numbers_are_read_as_c_reads_them(text, value):
+def test_numbers_are_read_as_c_reads_them(text: bytes, value: float) -> None:
     assert to_float(text) == value
 
 
 @pytest.mark.parametrize(("text", "value"), [(b"12x", 12), (b"-1", -1), (b"x", 0), (b"", 0), (b" 3.9", 3)])
-def test_integers_are_read_as_c_reads_them(text, value):
+def test_integers_are_read_as_c_reads_them(text: bytes, value: int) -> None:
     assert to_int(text) == value
 
 
-def test_fields_collapse_and_run_out_as_strtok_has_it():
+def test_fields_collapse_and_run_out_as_strtok_has_it() -> None:
     buffer = bytearray(b"p,,1,,5\0,9")
     fields = Fields(buffer)
     assert [fields.take() for _ in range(5)] == [b"p", b"1", b"5", b"", b""]
@@ -138,10 +138,10 @@ def test_fields_collapse_and_run_out_as_strtok_has_it():
 @pytest.mark.parametrize(
     ("value", "text"), [(-1.496, b"-1.4960"), (float("nan"), b"nan"), (float("-inf"), b"inf"), (5e9, b"ovf")]
 )
-def test_numbers_are_printed_as_the_board_prints_them(value, text):
+def test_numbers_are_printed_as_the_board_prints_them(value: float, text: bytes) -> None:
     assert b"".join(print_pieces(value, 4)) == text
 
 
-def test_odd_numbers_in_a_string_are_padded():
+def test_odd_numbers_in_a_string_are_padded() -> None:
     assert padded_text(float("nan"), 4) == b"   nan"
     assert padded_text(19.5, 4) == b"19.5000"

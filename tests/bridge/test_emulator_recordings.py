@@ -4,6 +4,7 @@ import json
 import re
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -29,6 +30,9 @@ RECORDINGS = [
 pytestmark = pytest.mark.skipif(not FOLDER.is_dir(), reason=f"no recordings at {FOLDER}")
 
 
+Record = dict[str, Any]
+
+
 @dataclass(frozen=True)
 class Timed:
     time: float
@@ -47,14 +51,15 @@ def whole(text: str) -> str:
     return LEFT_OUT.sub(lambda m: m[1] * (int(m[2]) + 1), text)
 
 
-def replay(name: str, records: list[dict]) -> list[Timed]:
+def replay(name: str, records: list[Record]) -> list[Timed]:
     profile = ProfileName.SLOW if "slow" in name else ProfileName.NOMINAL
     firmware = Firmware(PROFILES[profile], BOOT_MM if name == "a_boot" else (0.5,) * 12)
     to_robot = [(r["t"], whole(r["data"]).encode("latin-1")) for r in records if r["dir"] == "rx"]
     reboot = REBOOT_AT.get(name)
     lines, pending = [], b""
     program = firmware.run()
-    while firmware.now < max(r.get("t_end", r["t"]) for r in records) + 0.2:
+    end = max(float(r.get("t_end") or r["t"]) for r in records)
+    while firmware.now < end + 0.2:
         next(program)
         for chunk in firmware.board.take_sent():
             pending += chunk.data
@@ -70,7 +75,7 @@ def replay(name: str, records: list[dict]) -> list[Timed]:
 
 
 @pytest.mark.parametrize("name", RECORDINGS)
-def test_the_emulator_says_what_the_sketch_said(name):
+def test_the_emulator_says_what_the_sketch_said(name: str) -> None:
     records = [json.loads(line) for line in (FOLDER / f"{name}.jsonl").read_text().splitlines()]
     lines = iter(replay(name, records))
     for record in records:
@@ -84,7 +89,7 @@ def test_the_emulator_says_what_the_sketch_said(name):
             assert line.time == pytest.approx(said.time, rel=0.01)
 
 
-def test_the_published_walk_takes_its_published_time():
+def test_the_published_walk_takes_its_published_time() -> None:
     records = (FOLDER / "d_gait_walk_a_40knots.jsonl").read_text().splitlines()
     messages = [r["data"].encode() for r in map(json.loads, records) if r["dir"] == "rx"]
     firmware = Firmware(PROFILES[ProfileName.PUBLISHED])

@@ -16,6 +16,7 @@ from core.wire_lines import (
     ErrorScan,
     ErrorsChecked,
     Execute,
+    Line,
     LineReader,
     NewData,
     PointCount,
@@ -58,18 +59,18 @@ SPACES = " ".join(f"{n:.4f}" for n in TWELVE) + " "
         ("SETUP FINISHED", SetupFinished()),
     ],
 )
-def test_each_kind_of_line_is_recognised(text, line):
+def test_each_kind_of_line_is_recognised(text: str, line: Line) -> None:
     assert parse_line(text.encode() + b"\r") == line
 
 
 @pytest.mark.parametrize("odd", ["   nan", "   inf", "  -inf"])
-def test_a_padded_odd_number_in_the_trajectory_line_is_read(odd):
+def test_a_padded_odd_number_in_the_trajectory_line_is_read(odd: str) -> None:
     line = parse_line(f"Trajectory Point 0: \tp 1.00 {odd} {SPACES[7:]}".encode())
     assert isinstance(line, TrajectoryPoint)
     assert not math.isfinite(line.strokes_mm[0])
 
 
-def test_an_overflow_in_the_errors_is_read_as_infinite():
+def test_an_overflow_in_the_errors_is_read_as_infinite() -> None:
     line = parse_line(f"E, ovf,{COMMAS[7:]}".encode())
     assert isinstance(line, ErrorScan)
     assert line.errors_mm[0] == math.inf
@@ -89,24 +90,24 @@ def test_an_overflow_in_the_errors_is_read_as_infinite():
         "Trajectory Point 0: \tp 1.00 1.0000 ",
     ],
 )
-def test_a_line_that_is_not_quite_right_is_unknown(text):
+def test_a_line_that_is_not_quite_right_is_unknown(text: str) -> None:
     assert parse_line(text.encode()) == UnknownLine(text)
 
 
 @given(st.binary())
-def test_no_line_makes_the_parser_raise(raw):
+def test_no_line_makes_the_parser_raise(raw: bytes) -> None:
     parse_line(raw)
 
 
 @given(st.lists(st.binary(max_size=200), max_size=20))
-def test_no_stream_makes_the_reader_raise(chunks):
+def test_no_stream_makes_the_reader_raise(chunks: list[bytes]) -> None:
     reader = LineReader()
     for chunk in chunks:
         reader.feed(chunk)
 
 
 @given(st.lists(st.integers(0, 200), max_size=10).map(sorted))
-def test_a_stream_reads_the_same_however_it_is_cut(cuts):
+def test_a_stream_reads_the_same_however_it_is_cut(cuts: list[int]) -> None:
     stream = f"rest\r\nnew data tf 1\r\np,1\r\n\r\nj,{COMMAS}\r\nnew data tf 0\r\n".encode()
     reader = LineReader()
     edges = [0, *(min(c, len(stream)) for c in cuts), len(stream)]
@@ -115,19 +116,19 @@ def test_a_stream_reads_the_same_however_it_is_cut(cuts):
 
 
 @pytest.mark.parametrize("payload", ["end of all available trajectories", f"j,{COMMAS}", "new data tf 1", ""])
-def test_an_echo_is_never_taken_for_a_line_of_the_robot(payload):
+def test_an_echo_is_never_taken_for_a_line_of_the_robot(payload: str) -> None:
     reader = LineReader(drop_first=False)
     lines = reader.feed(f"new data tf 1\r\n{payload}\r\nnew data tf 0\r\n".encode())
     assert lines == [NewData(taken=True), Echo(payload), NewData(taken=False)]
 
 
-def test_a_line_without_end_does_not_fill_the_memory():
+def test_a_line_without_end_does_not_fill_the_memory() -> None:
     reader = LineReader(drop_first=False)
     assert isinstance(reader.feed(b"x" * (LONGEST_LINE + 1))[0], UnknownLine)
     assert reader.feed(b"\n") == [Blank()]
 
 
-def test_numbers_are_equal_to_the_fourth_decimal_only():
+def test_numbers_are_equal_to_the_fourth_decimal_only() -> None:
     assert numbers_equal(TWELVE, TWELVE)
     assert not numbers_equal(TWELVE, (*TWELVE[:-1], 19.4998))
     assert not numbers_equal(TWELVE, TWELVE[:-1])

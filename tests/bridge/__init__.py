@@ -1,0 +1,1 @@
+"""Tests of the wire, the emulated robot and the bridge."""

@@ -131,11 +131,14 @@ def _stroke_rows(symbols: Symbols, model: RobotModel, stroke: float) -> SX:
 
 @dataclass(frozen=True)
 class StabilityMargin:
-    """Centre of pressure Σ λ_z p / Σ λ_z inside every edge of the support polygon by the margin.
+    """Centre of pressure inside every edge of the support polygon by the margin.
 
-    For the edge from a standing foot to the next one round the ring, with its inward normal n:
-    Σ_m λ_z,m (n·(p_m − p_i) − margin) ≥ 0, divided by the robot's weight, mm. Which foot comes next is a
-    parameter, and rows of swinging feet are unbounded, so that the structure does not know the timeline.
+    The centre of pressure is that of flat ground at z = 0, `core.support.centre_of_pressure`, with the forces
+    of the balance in it: p_b,xy − p_b,z · Σ λ_xy / Σ λ_z. For the edge from a standing foot i to the next one
+    round the ring, with its inward normal n, the row is
+    n·(p_b,xy Σ λ_z − p_b,z Σ λ_xy) − (n·p_i + margin) Σ λ_z ≥ 0, divided by the robot's weight, mm.
+    Which foot comes next is a parameter, and rows of swinging feet are unbounded, so that the structure does
+    not know the timeline.
     """
 
     family: Family = Family.MARGIN
@@ -145,18 +148,17 @@ class StabilityMargin:
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """A row a foot and interval, mm."""
         feet = [(p[0, :-1], p[1, :-1]) for p in symbols.position[1:]]
-        weights = [force[2, :-1] / (model.total_model_mass * GRAVITY) for force in symbols.force]
+        body = symbols.position[0][:, :-1]
+        force = sum((f[:, :-1] for f in symbols.force), SX(0)) / (model.total_model_mass * GRAVITY)
+        moment_x = body[0, :] * force[2, :] - body[2, :] * force[0, :]
+        moment_y = body[1, :] * force[2, :] - body[2, :] * force[1, :]
         rows: list[SX] = []
         for (x, y), successor in zip(feet, symbols.successor, strict=True):
             ahead = successor[:, :-1]
             edge_x = sum((ahead[j, :] * other[0] for j, other in enumerate(feet)), -x)
             edge_y = sum((ahead[j, :] * other[1] for j, other in enumerate(feet)), -y)
-            length = sqrt(edge_x**2 + edge_y**2)
-            row = SX(0)
-            for weight, (other_x, other_y) in zip(weights, feet, strict=True):
-                inside = (edge_x * (other_y - y) - edge_y * (other_x - x)) / length
-                row = row + weight * (inside - symbols.margin)
-            rows.append(row)
+            lever = edge_x * (moment_y - y * force[2, :]) - edge_y * (moment_x - x * force[2, :])
+            rows.append(lever / sqrt(edge_x**2 + edge_y**2) - symbols.margin * force[2, :])
         return vertcat(*rows)
 
     def bounds(self, situation: Situation) -> tuple[Floats, Floats]:

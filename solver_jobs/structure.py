@@ -41,6 +41,10 @@ least squares; they start at 0 instead. Slow last digits: the barrier starts at 
 multipliers. "Acceptable" answers are not wanted: acceptable_iter is 0. Feasible problems take 9 to 30
 iterations; one that has not converged in 100 goes to the search for the nearest motion."""
 
+LEVEL = 1e-9
+"""Feet below this, m, stand level. Feet that do not could push against each other to shift the torque, since
+friction has no limit in the model."""
+
 ELASTIC_COST_WEIGHT = 1e-4
 """Weight of the cost beside the sum of all misses (mm, mm/s) in the search for the nearest motion."""
 
@@ -53,7 +57,8 @@ class Shape:
         knots: number of knots.
         workspace: form of reach.
         cost: what is minimised.
-        margin: whether there is a stability margin.
+        margin: whether the centre of pressure is bounded by itself; without a margin and with every foot at
+            z = 0 at both ends, contact forces keep it inside the support polygon.
         elastic: whether some demands may be missed at a price.
     """
 
@@ -190,7 +195,8 @@ class StructureCache:
     def get(self, problem: MotionProblem, *, elastic: bool = False) -> tuple[Structure, float]:
         """The structure of a problem's shape and the seconds it took to build, 0 where it was at hand."""
         limits = problem.limits
-        shape = Shape(problem.knot_count, limits.workspace, problem.cost, limits.margin > 0, elastic)
+        margin = limits.margin > 0 or bool((_end_heights(problem) > LEVEL).any())
+        shape = Shape(problem.knot_count, limits.workspace, problem.cost, margin, elastic)
         key = (shape, _fingerprint(problem.model))
         if key in self._known:
             self._known.move_to_end(key)
@@ -201,6 +207,10 @@ class StructureCache:
         if len(self._known) > self._capacity:
             self._known.popitem(last=False)
         return structure, time.perf_counter() - begin
+
+
+def _end_heights(problem: MotionProblem) -> Floats:
+    return np.concatenate([problem.start.feet_world[:, 2], problem.goal.feet_world[:, 2]])
 
 
 def _fingerprint(model: RobotModel) -> Hashable:

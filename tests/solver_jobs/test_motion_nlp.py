@@ -9,6 +9,7 @@ import pytest
 
 from core.motion_problem import Cost, MotionLimits, MotionProblem, RestPose, Workspace, standing_pose
 from core.robot import load_robot
+from core.support import centre_of_pressure, stability_margins
 from core.timeline import timeline_from_order, timeline_from_rows
 from core.trajectory import Trajectory, turn_trajectory
 from solver_jobs import Evidence, Iterate, MotionResult, SolveStatus
@@ -23,6 +24,21 @@ def expect_solved(result: MotionResult) -> Trajectory:
     assert result.evidence is None
     assert result.objective is not None
     return result.trajectory
+
+
+def pressure_margin(problem: MotionProblem, motion: Trajectory) -> float:
+    """Smallest distance of the centre of pressure to the support polygon's edge, m."""
+    assert motion.body_velocity is not None
+    assert motion.feet_velocity is not None
+    interval, masses = problem.timeline.sample_time, problem.model.masses
+    pressure = centre_of_pressure(
+        motion.body_world[:-1],
+        np.diff(motion.body_velocity, axis=0) / interval,
+        np.diff(motion.feet_velocity, axis=0) / interval,
+        masses.body,
+        masses.foot,
+    )
+    return float(stability_margins(pressure, motion.feet_world[:-1], motion.contact[:-1]).min())
 
 
 @pytest.mark.parametrize("workspace", list(Workspace))
@@ -77,9 +93,15 @@ def test_the_stability_margin_is_kept_where_it_is_asked_for() -> None:
     result = solve_motion(replace(problem, limits=replace(problem.limits, margin=0.003)))
     free = solve_motion(problem)
     expect_solved(result)
-    assert result.objective is not None
-    assert free.objective is not None
-    assert result.objective > free.objective
+    assert pressure_margin(problem, result.trajectory) > 0.003 - 1e-9
+    assert pressure_margin(problem, free.trajectory) < 0.001
+
+
+def test_uneven_feet_do_not_carry_the_body_outside_its_support_polygon() -> None:
+    problem = gait_problem("walk", 0.010, Workspace.STROKE)
+    lifted = RestPose(problem.start.body_world, problem.start.feet_world + [0.0, 0.0, 0.0002])
+    problem = replace(problem, start=lifted)
+    assert pressure_margin(problem, expect_solved(solve_motion(problem))) > -1e-9
 
 
 def test_the_effort_cost_of_the_thesis_converges() -> None:

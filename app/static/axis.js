@@ -29,7 +29,7 @@ export function timeAt(axis, fraction) {
 }
 
 /** Seconds between labels so that they stay at least `least` pixels apart. */
-export function labelEvery(axis, width, least = 44) {
+export function labelEvery(axis, width, least = 56) {
   const second = width / (axis.columns * axis.step);
   return [0.5, 1, 2, 5, 10, 20, 60, 120].find((every) => every * second >= least) ?? 300;
 }

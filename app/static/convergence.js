@@ -61,12 +61,10 @@ function draw(progress) {
     ...gridLines(scale), ...iterationLabels(progress, scale), ...curve(progress, "objective", scale), ...curve(progress, "primal", scale));
 }
 
-function resultLine(job) {
-  const { result } = job;
-  if (!result) return job.sentence;
-  const figures = [`${result.iterations} iterations`, `${seconds(result.solve_seconds)} s`];
-  if (result.max_violation !== null && result.max_violation !== undefined) figures.push(`largest violation ${compact(result.max_violation)}`);
-  return figures.join(" · ");
+function stateWords(job) {
+  const stale = job.state === "done" && !job.fresh;
+  const figures = job.result ? ` · ${job.result.iterations} iterations · ${seconds(job.result.solve_seconds)} s` : "";
+  return `${stale ? "older version" : job.state}${figures}`;
 }
 
 /** Appends the curve to a section and keeps it current. */
@@ -85,9 +83,11 @@ export function mountConvergence(store, section) {
     const job = jobOf(now);
     const progress = job?.progress ?? [];
     const stale = job?.state === "done" && !job.fresh;
-    setText(state, job ? (stale ? "done, for an older version" : job.state) : "");
+    setText(state, job ? stateWords(job) : "");
+    state.title = job?.sentence ?? "";
     state.dataset.toneText = stale ? "caution" : job ? jobTone(job) : "";
-    setText(line, job ? resultLine(job) : "The curve of the last optimisation stays here.");
+    line.hidden = progress.length > 0;
+    setText(line, job ? job.sentence : "The curve of the last optimisation stays here.");
     setText(last.objective, compact(progress.at(-1)?.objective));
     setText(last.primal, compact(progress.at(-1)?.primal));
     plot.hidden = progress.length === 0;
@@ -96,6 +96,5 @@ export function mountConvergence(store, section) {
     if (version === drawn) return;
     drawn = version;
     frame.replaceChildren(...(progress.length ? [draw(progress)] : []));
-    if (progress.length === 1) line.scrollIntoView({ block: "nearest" });
   });
 }

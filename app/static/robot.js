@@ -91,10 +91,10 @@ function assemble(parts, send) {
 
 function showWay(ways, robot) {
   const ready = robot?.link === "ready";
-  const armed = ready && !["unknown", "disarmed", "stopped", "fault"].includes(robot.robot);
+  const armed = ready && !["unknown", "disarmed", "stopped", "fault", "done"].includes(robot.robot);
   const done = robot?.robot === "done";
   const on = runIsOn(robot);
-  const marks = { connect: ready, arm: armed, start: on || done, run: done };
+  const marks = { connect: ready, arm: armed, start: on, run: done };
   const next = Object.keys(marks).find((name) => !marks[name]);
   for (const [name, element] of Object.entries(ways)) {
     element.toggleAttribute("data-done", marks[name]);

@@ -56,8 +56,9 @@ function planNote({ view, checked }) {
   const failed = view.verdict && !view.verdict.passed;
   const [word, tone] = failed ? ["Check failed", "bad"] : (SOURCES[plan.source] ?? [plan.source, "quiet"]);
   const [state, stateTone] = verdictWords(view, checked[view.id]);
-  const parts = [margin !== null && `margin ${mm(margin)} mm`, strokes && `strokes ${fixed(strokes[0])}…${fixed(strokes[1])} mm`].filter(Boolean);
-  const figures = h("div", { class: "figures" }, h("b", { text: word, data: { toneText: tone } }), ...parts.map((part) => ` · ${part}`),
+  const figures = h("div", { class: "figures" }, h("b", { text: word, data: { toneText: tone } }),
+    margin !== null && " · ", margin !== null && h("span", { text: `margin ${mm(margin)} mm`, data: { toneText: margin < 0 ? "bad" : "" } }),
+    strokes && ` · strokes ${fixed(strokes[0])}…${fixed(strokes[1])} mm`,
     !failed && " · ", !failed && h("span", { text: state, data: { toneText: stateTone } }));
   const sentence = plan.note.replace(/^\w+: /, "");
   return [figures, h("div", { class: "sentence", text: sentence, title: plan.note })];
@@ -78,7 +79,7 @@ export async function mountStage(store, playback) {
   store.watch(({ view, checked }) => [view, checked], (state) => byId("plan-note").replaceChildren(...planNote(state)));
   store.watch(({ connected, greeted }) => [connected, greeted], ({ connected, greeted }) => {
     byId("banner").hidden = connected || !greeted;
-    setText(byId("banner"), connected ? "" : "Connection to the studio lost; trying again. Stop still works.");
+    setText(byId("banner"), connected ? "" : "Connection to the studio lost: what stands here may be old. Trying again; Stop is tried all the same.");
   });
   let preview;
   try {

@@ -9,7 +9,9 @@ const NAMES = ["optimise", "segments", "check", "robot"];
 const place = { name: NAMES[0], offset: 0 };
 
 function keepPlace() {
-  byId("sections").scrollTop = byId(place.name).offsetTop + place.offset;
+  const [sections, section] = [byId("sections"), byId(place.name)];
+  place.offset = Math.min(place.offset, Math.max(0, section.offsetHeight - sections.clientHeight));
+  sections.scrollTop = section.offsetTop + place.offset;
 }
 
 /** Brings a section to the top. */
@@ -53,6 +55,7 @@ function mountTab(name, index) {
 export function mountTabs() {
   const sections = byId("sections");
   const resized = new ResizeObserver(keepPlace);
+  resized.observe(sections);
   mark(NAMES[0]);
   NAMES.forEach((name, index) => {
     mountTab(name, index);

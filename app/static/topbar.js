@@ -42,10 +42,10 @@ function mountName(store, edits) {
     if (event.key === "Enter") input.blur();
     if (event.key === "Escape") { input.value = edits.shown()?.name ?? ""; input.blur(); }
   });
-  store.watch(({ view, pending }) => [view, pending], ({ view, pending }) => {
+  store.watch(({ view, pending, refused }) => [view, pending, refused], ({ view, pending, refused }) => {
     if (document.activeElement !== input) input.value = edits.shown()?.name ?? "";
     input.size = Math.max(4, input.value.length);
-    const state = !view ? "" : pending.length ? "· saving the edit" : view.edited ? "· edited" : "· saved";
+    const state = !view ? "" : refused ? "· drawing not accepted" : pending.length ? "· saving the edit" : view.edited ? "· edited" : "· saved";
     setText(byId("saved-state"), state);
     setAttribute(byId("saved-state"), "title", view?.saved_at ? `Saved ${clockTime(view.saved_at)}` : null);
   });
@@ -73,6 +73,7 @@ function mountStates(store) {
   store.watch(({ robot: now, connected }) => [now?.link, now?.robot, now?.emulated, now?.device, connected], ({ robot: now, connected }) => {
     link.replaceChildren(...stateParts(connected ? linkTone(now) : "bad", "Link", connected ? (now?.link ?? "unknown") : "no studio"));
     setAttribute(link, "title", now ? `${now.emulated ? "Emulated robot" : "Robot"} at ${now.device}` : null);
+    document.querySelector(".states").toggleAttribute("data-stale", !connected);
     robot.replaceChildren(...stateParts(robotTone(now), "Robot", now?.robot ?? "unknown"), sentence);
   });
   store.watch(({ robot: now }) => [now?.sentence, now?.stop_text], ({ robot: now }) => {

@@ -69,7 +69,9 @@ export function mountTransport(store, playback, showFigures) {
   const moveRobot = () => {
     const time = robotTime(store.state.robot, store.state.view);
     byId("robot-cursor").hidden = time === null;
-    if (time !== null) place(byId("robot-cursor"), width, fractionAt(axis, time));
+    if (time === null) return;
+    byId("robot-cursor").toggleAttribute("data-late", fractionAt(axis, time) > 0.9);
+    place(byId("robot-cursor"), width, fractionAt(axis, time));
   };
 
   mountButtons(playback);

@@ -131,12 +131,12 @@ def gait_from_content(content: Any, where: str = "gait") -> Gait:
 
 def _to_gait(document: GaitDocument) -> Gait:
     model = load_robot(document.robot)
-    timeline = _to_timeline(document.timeline)
-    if timeline.leg_count != model.leg_count:
+    feet = len(document.timeline.feet)
+    if feet != model.leg_count:
         raise InputError(
-            f"The timeline has {timeline.leg_count} feet; {document.robot} has {model.leg_count}.",
-            "timeline.feet",
+            f"The timeline has {feet} feet; {document.robot} has {model.leg_count}.", "timeline.feet"
         )
+    timeline = _to_timeline(document.timeline)
     return Gait(
         name=document.name,
         robot=document.robot,

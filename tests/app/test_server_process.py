@@ -1,0 +1,154 @@
+"""The server as a real process: documents, jobs, refusals, restarts and the whole robot's way by HTTP."""
+
+from __future__ import annotations
+
+import json
+import socket
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from app.bridge.emulated import EmulatedRobot, start_emulator
+from tests.studio_process import StudioProcess, footfall, running_studio, wait_for
+
+SPEED = 25.0
+"""Seconds of the emulated robot in a second."""
+
+
+@pytest.fixture(scope="module")
+def robot() -> Iterator[EmulatedRobot]:
+    emulated = start_emulator("nominal", SPEED)
+    yield emulated
+    emulated.close()
+
+
+@pytest.fixture(scope="module")
+def studio(tmp_path_factory: pytest.TempPathFactory, robot: EmulatedRobot) -> Iterator[StudioProcess]:
+    with running_studio(tmp_path_factory.mktemp("data"), "--robot", robot.device) as running:
+        yield running
+
+
+def optimised(studio: StudioProcess, gait: str) -> dict[str, Any]:
+    job_id = studio.ask("POST", "/api/jobs", {"kind": "optimise", "gait": gait}).content["id"]
+
+    def ended() -> bool:
+        return studio.ask("GET", f"/api/jobs/{job_id}").content["ended"] is not None
+
+    wait_for(ended, "the job ended")
+    job: dict[str, Any] = studio.ask("GET", f"/api/jobs/{job_id}").content
+    return job
+
+
+def test_the_page_the_api_and_its_description_are_served(studio: StudioProcess) -> None:
+    assert studio.ask("GET", "/api/health").content["status"] == "ok"
+    paths = studio.ask("GET", "/openapi.json").content["paths"]
+    assert {"/api/gaits", "/api/jobs", "/api/robot/stop", "/api/gaits/{gait_id}/approve"} <= set(paths)
+
+
+def test_a_document_can_be_read_changed_and_put_back(studio: StudioProcess) -> None:
+    document = studio.ask("GET", "/api/gaits/amble").content
+    document["step"] = [0.006, 0.006, 0.0]
+    view = studio.ask("PUT", "/api/gaits/amble?label=Shorter%20step", document).content
+    assert view["undo"] == "Shorter step"
+    assert view["edited"]
+    assert studio.ask("PUT", "/api/gaits/amble?revision=1", document | {"notes": "x"}).status == 409
+    assert studio.ask("POST", "/api/gaits/amble/undo").content["edited"] is False
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "body", "status", "sentence"),
+    [
+        ("GET", "/api/gaits/nope", None, 404, "no gait “nope”"),
+        ("PUT", "/api/gaits/walk", {"format": "other"}, 422, "footfall-gait"),
+        ("PUT", "/api/gaits/walk", b"{", 422, "is not JSON"),
+        ("PUT", "/api/gaits/walk", b'{"format":"footfall-gait","version":9}', 422, "version 9"),
+        ("POST", "/api/jobs", {"kind": "hop", "gait": "walk"}, 422, "kind"),
+        ("POST", "/api/jobs", {"kind": "optimise", "gait": "walk-manual-0"}, 409, "made by hand"),
+        ("DELETE", "/api/jobs/nope", None, 404, "no job"),
+        ("POST", "/api/gaits/walk/approve", {"by": "Ada"}, 409, "Check this gait first"),
+        ("POST", "/api/robot/arm", None, 409, "onnect"),
+        ("POST", "/api/robot/send", {"gait": "walk"}, 409, "not approved"),
+        ("POST", "/api/robot/connect", {"device": "/dev/none"}, 409, "/dev/none"),
+    ],
+)
+def test_what_cannot_be_done_gets_a_status_and_a_sentence(
+    studio: StudioProcess, method: str, path: str, body: Any, status: int, sentence: str
+) -> None:
+    answer = studio.ask(method, path, body)
+    if path.endswith("connect"):
+        status = 503
+    assert (answer.status, sentence in answer.content["error"]) == (status, True), answer
+
+
+def test_a_foreign_page_is_refused(studio: StudioProcess) -> None:
+    assert studio.ask("POST", "/api/robot/stop", headers={"Origin": "http://evil.example"}).status == 403
+    assert studio.ask("GET", "/api/health", headers={"Host": "evil.example"}).status == 403
+
+
+def test_a_gait_goes_all_the_way_and_the_robot_parses_exactly_what_was_approved(
+    studio: StudioProcess, robot: EmulatedRobot
+) -> None:
+    job = optimised(studio, "s-gait")
+    assert job["state"] == "done"
+    assert job["result"]["max_violation"] < 1e-6
+    assert len(job["progress"]) == job["result"]["iterations"] + 1
+    assert studio.ask("POST", "/api/gaits/s-gait/check").content["passed"]
+    approval = studio.ask("POST", "/api/gaits/s-gait/approve", {"by": "Ada"}).content
+    studio.ask("POST", "/api/robot/connect", {"device": robot.device})
+    wait_for(lambda: studio.robot()["robot"] == "disarmed", "the robot is up")
+    studio.ask("POST", "/api/robot/arm", {"by": "Ada"})
+    summary = studio.ask("GET", "/api/gaits/s-gait/run").content
+    assert summary["robot_ready"]
+    assert summary["waypoints_hash"] == approval["waypoints_hash"]
+    first = len(robot.firmware.messages)
+    studio.ask("POST", "/api/robot/send", {"gait": "s-gait", "by": "Ada"})
+    wait_for(lambda: studio.robot()["robot"] in ("done", "fault"), "the run ended", 60)
+    assert studio.robot()["robot"] == "done"
+    view = studio.ask("GET", "/api/gaits/s-gait/view").content
+    messages = [m for m in robot.firmware.messages[first:] if m.strokes_mm is not None]
+    # The board keeps numbers in single precision; four decimals come through.
+    parsed = [[round(h, 4) for h in m.strokes_mm or ()] for m in messages]
+    assert parsed[summary["start_moves"] :] == view["plan"]["strokes_mm"]
+    assert len(messages) == len(robot.firmware.messages[first:])
+    assert all(done.worst_mm <= 1.0 for done in robot.firmware.completions)
+
+
+def test_stop_needs_no_body_latches_and_clears(studio: StudioProcess, robot: EmulatedRobot) -> None:
+    wait_for(lambda: studio.robot()["robot"] in ("done", "disarmed"), "the robot stands still")
+    studio.ask("POST", "/api/robot/arm", {"by": "Ada"})
+    assert studio.ask("POST", "/api/robot/send", {"gait": "s-gait", "by": "Ada"}).status == 200
+    wait_for(lambda: (studio.robot()["run"] or {}).get("sent", 0) > 2, "some waypoints are out")
+    assert studio.ask("POST", "/api/robot/stop").status == 200
+    wait_for(lambda: studio.robot()["robot"] == "stopped", "the robot stands still")
+    sent = len(robot.firmware.messages)
+    assert studio.ask("POST", "/api/robot/arm", {"by": "Ada"}).status == 409
+    assert len(robot.firmware.messages) == sent
+    studio.ask("POST", "/api/robot/clear", {"by": "Ada"})
+    wait_for(lambda: studio.robot()["robot"] == "disarmed", "the stop is cleared")
+    assert studio.ask("POST", "/api/robot/arm", {"by": "Ada"}).content["robot"] == "armed"
+
+
+def test_results_edits_and_the_job_list_survive_a_restart(tmp_path: Path) -> None:
+    with running_studio(tmp_path) as studio:
+        optimised(studio, "walk")
+        studio.ask("POST", "/api/gaits/walk/save")
+        document = studio.ask("GET", "/api/gaits/c-gait").content
+        studio.ask("PUT", "/api/gaits/c-gait?label=Notes", document | {"notes": "kept"})
+    assert json.loads((tmp_path / "gaits" / "walk.json").read_text())["format"] == "footfall-gait"
+    with running_studio(tmp_path) as studio:
+        assert studio.ask("GET", "/api/gaits/walk/view").content["plan"]["source"] == "optimised"
+        assert studio.ask("GET", "/api/gaits/c-gait/view").content["undo"] == "Notes"
+        assert [job["state"] for job in studio.ask("GET", "/api/jobs").content["jobs"]] == ["done"]
+
+
+def test_a_busy_port_is_exit_2_and_names_the_option(tmp_path: Path) -> None:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        ended = footfall("serve", "--port", str(port), "--data", str(tmp_path), "--no-browser")
+    assert ended.returncode == 2
+    assert "--port" in ended.stderr
+    assert ended.stdout == ""

@@ -1,7 +1,7 @@
 """The bridge's state machine, without threads, clocks or ports: lines, ticks and wishes in, messages out.
 
-Whoever drives it serialises the calls and says what time it is. States are those of `UX`: link and robot
-apart, each change with its cause.
+Whoever drives it serialises the calls and says what time it is. Link and robot have a state each,
+and each change has its cause.
 """
 
 from __future__ import annotations

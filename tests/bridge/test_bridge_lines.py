@@ -198,6 +198,20 @@ def test_an_unplugged_cable_ends_the_run_as_a_fault(
     assert "hung up" in bridge.snapshot.sentence
 
 
+@pytest.mark.parametrize("fault", list(Fault))
+def test_every_fault_that_is_asked_for_beforehand_ends_in_a_named_state(fault: Fault) -> None:
+    lockstep = Lockstep(PtyPort())
+    firmware = Firmware(PROFILES[ProfileName.NOMINAL])
+    robot = EmulatedRobot(firmware, lockstep, pace=lockstep.pace, faults=[fault], booted=True)
+    bridge = RobotBridge(lockstep.log, clock=lambda: firmware.now, tick=0.005)
+    make_ready(bridge, lockstep)
+    bridge.send(random_plan(6, 8), "Ada")
+    until_robot(bridge, RobotState.FAULT, *([RobotState.DONE] if fault is Fault.DROP else []))
+    assert fault is Fault.DROP or bridge.snapshot.last_error is not None
+    bridge.close()
+    robot.close()
+
+
 def test_disconnecting_in_mid_run_stops_the_robot_first(
     bridge: RobotBridge, emulator: EmulatedRobot, lockstep: Lockstep
 ) -> None:

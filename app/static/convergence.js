@@ -5,8 +5,8 @@ import { compact, seconds } from "./format.js";
 import { jobOf, jobTone } from "./jobs.js";
 
 const WIDTH = 276;
-const HEIGHT = 96;
-const FRAME = { left: 34, right: 8, top: 24, bottom: 16 };
+const HEIGHT = 84;
+const FRAME = { left: 34, right: 8, top: 22, bottom: 15 };
 const SMALLEST = 1e-12;
 
 const decade = (value) => Math.log10(Math.max(Math.abs(value), SMALLEST));

@@ -3,7 +3,7 @@
 import { sendStop } from "./api.js";
 import { byId, h, onPress, setAllowed, setAttribute, setText, stateParts } from "./dom.js";
 import { showKeys } from "./dialogs.js";
-import { clockTime } from "./format.js";
+import { clockTime, seconds } from "./format.js";
 import { changeOperator } from "./operator.js";
 import { toast } from "./toasts.js";
 
@@ -83,6 +83,7 @@ function mountStates(store) {
   });
   store.watch((state) => [state.operator], (state) => {
     operator.replaceChildren(h("span", { class: "name quiet", text: "Operator" }), h("b", { text: state.operator || "not named" }));
+    operator.toggleAttribute("data-named", Boolean(state.operator));
     operator.title = "Your name, kept with approvals and runs. Click to change it.";
   });
 }
@@ -95,5 +96,8 @@ export function mountTopbar(store, edits) {
   byId("operator").addEventListener("click", () => changeOperator(store));
   byId("help").addEventListener("click", showKeys);
   byId("stop").addEventListener("click", () => stopRobot(store));
-  byId("stop").title = "Stop the robot (Esc while a run is on). Always available.";
+  store.watch(({ robot }) => [robot?.stop_seconds], ({ robot }) => {
+    const within = robot?.stop_seconds ? `Takes effect within ${seconds(robot.stop_seconds)} s, after the move that is running.` : "Takes effect after the move that is running.";
+    byId("stop").title = `Stop the robot (Esc while a run is on). ${within}`;
+  });
 }

@@ -51,8 +51,8 @@ def test_nothing_is_fetched_from_elsewhere(path: Path) -> None:
     "name",
     [
         "Optimise", "Check", "Approve", "Connect", "Arm", "Send to robot", "Pause robot", "Resume robot",
-        "Stop", "Clear", "Undo", "Redo", "Save", "Play", "Pause", "Footfall timeline", "Segment table", "3D preview",
-        "Gaits", "Jobs", "Robot",
+        "Stop", "Clear", "Undo", "Redo", "Save", "Play", "Pause", "Footfall timeline", "Segment table",
+        "3D preview", "Gaits", "Jobs", "Robot",
     ],
 )  # fmt: skip
 def test_the_promised_name_occurs(name: str) -> None:

@@ -35,7 +35,7 @@ FLOOR_RADIUS = 3.0
 VIEW_DIRECTION = (0.42, -1.0, 0.40)
 """From the robot to the camera at first sight."""
 
-VIEW_DISTANCE = 4.1
+VIEW_DISTANCE = 4.6
 """Of the camera, in radii of the robot."""
 
 FIELD_OF_VIEW = np.radians(32)
@@ -109,7 +109,7 @@ def add_overlay(server: viser.ViserServer, model: RobotModel) -> None:
 def set_camera(server: viser.ViserServer, model: RobotModel) -> None:
     """Looks at the robot from the front right, so that it fills the view."""
     direction = np.array(VIEW_DIRECTION) / np.linalg.norm(VIEW_DIRECTION)
-    target = np.array([0.0, 0.0, 0.040])
+    target = np.array([0.0, 0.0, 0.034])
     camera = server.initial_camera
     camera.fov = float(FIELD_OF_VIEW)
     camera.near, camera.far = 0.01, 20.0

@@ -34,6 +34,7 @@
 import { planUpdates, polygonUpdates, sampleAt } from "./overlay.js";
 import { PoseTable, VALUES_A_NODE } from "./poses.js";
 import { ServerRoute } from "./server_route.js";
+import { Sharpness } from "./sharpness.js";
 import { ViserClient, cameraMessages, poseMessages, visibleMessage } from "./viser_client.js";
 
 const BODY = "/robot/body";
@@ -41,8 +42,8 @@ const COM = "/overlay/com";
 const WATCH_MS = 250;
 const DIRECT_PATIENCE_MS = 8000;
 const STILL = 1e-7;
-const TARGET = [0, 0, 0.04];
-const VIEW_DISTANCE = 4.1;
+const TARGET = [0, 0, 0.034];
+const VIEW_DISTANCE = 4.6;
 const VIEWS = {
   perspective: [0.363, -0.865, 0.346],
   top: [0, -0.02, 1],
@@ -67,6 +68,7 @@ export class Preview extends EventTarget {
   #started = performance.now();
   #watch;
   #serverRoute = null;
+  #sharpness;
   posesShown = 0;
   route = "none";
 
@@ -74,6 +76,7 @@ export class Preview extends EventTarget {
   constructor(frame) {
     super();
     this.#client = new ViserClient(frame);
+    this.#sharpness = new Sharpness(this.#client);
     this.#watch = setInterval(() => this.#look(), WATCH_MS);
   }
 
@@ -157,7 +160,9 @@ export class Preview extends EventTarget {
     clearInterval(this.#watch);
     cancelAnimationFrame(this.#pending);
     this.#serverRoute?.close();
-    this.#client = null;
+    this.#sharpness.dispose();
+    this.#bodyNode = null;
+    this.#table = null;
   }
 
   /** Looks whether the client's scene is there, is a new one, or can't be reached. */
@@ -166,6 +171,7 @@ export class Preview extends EventTarget {
     if (body && body !== this.#bodyNode) {
       this.#bodyNode = body;
       this.#setRoute("direct");
+      this.#sharpness.attach();
       this.#pushAll();
       this.dispatchEvent(new CustomEvent("ready"));
     }
@@ -206,6 +212,7 @@ export class Preview extends EventTarget {
     this.#shown = Float32Array.from(this.#pose);
     if (messages.length === 0) return;
     this.#client.push(messages);
+    this.#sharpness.moved();
     this.posesShown += 1;
   }
 
@@ -271,7 +278,7 @@ export class Preview extends EventTarget {
       const at = this.#client.position(name) ?? body;
       return Math.hypot(at[0] - body[0], at[1] - body[1]);
     });
-    return Math.max(0.055, ...distances) + 0.035;
+    return Math.max(0.053, ...distances) + 0.027;
   }
 }
 

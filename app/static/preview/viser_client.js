@@ -57,6 +57,24 @@ export class ViserClient {
     return { type: "SceneNodeUpdateMessage", name, owner: "", updates: values };
   }
 
+  /** Whether the client draws without a GPU (viser_frame.js finds out). */
+  get drawsInSoftware() { return this.#frame.contentWindow?.footfallSoftwareDrawing === true; }
+
+  /** Draws this many pixels for a pixel of the page each way. */
+  setPixelRatio(ratio) {
+    this.#frame.contentWindow?.__viserTestpoints?.devSettings?.set?.({ fixedDpr: ratio });
+    this.#inside?.requestRender();
+  }
+
+  /** Calls back when a hand is on the view: a drag or the wheel. */
+  onTouch(callback) {
+    for (const type of ["pointerdown", "pointermove", "wheel"]) {
+      this.#frame.contentWindow?.addEventListener(type, (event) => {
+        if (type !== "pointermove" || event.buttons) callback();
+      }, { capture: true, passive: true });
+    }
+  }
+
   /** Root element of the client's page. */
   get root() { return this.#frame.contentDocument?.documentElement ?? null; }
 }

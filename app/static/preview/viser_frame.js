@@ -30,7 +30,8 @@
     gl?.getExtension("WEBGL_lose_context")?.loseContext();
     return name;
   };
-  if (software.test(rendererName())) {
+  window.footfallSoftwareDrawing = software.test(rendererName());
+  if (window.footfallSoftwareDrawing) {
     const getContext = HTMLCanvasElement.prototype.getContext;
     HTMLCanvasElement.prototype.getContext = function lean(kind, options) {
       return getContext.call(this, kind, kind.startsWith("webgl") ? { ...options, antialias: false } : options);

@@ -19,6 +19,9 @@ NAP = 0.001
 WORST_LAG = 0.5
 """After falling further behind than this (a suspended machine), time is not caught up, s."""
 
+PATIENCE = 2.0
+"""A host whose reader is late by less than this loses nothing; a terminal alone holds 4 kB, s."""
+
 FAULT_AT_WAYPOINT = 3
 FAULT_AFTER = 0.4
 """A fault asked for beforehand strikes this long after that many waypoints were taken, s."""
@@ -63,6 +66,29 @@ Pace = Callable[[float, threading.Event], None]
 """Called after each step with the robot's time in s; returns when that time has come."""
 
 
+class Outbox:
+    """Bytes on their way to the host; what it does not fetch in time is lost, as on the robot (hazard 23).
+
+    Args:
+        port: the line.
+    """
+
+    def __init__(self, port: Port) -> None:
+        self._port = port
+        self._waiting = b""
+        self._emptied = time.monotonic()
+
+    def put(self, data: bytes) -> None:
+        """Sends what fits and keeps the rest for a while."""
+        self._waiting += data
+        self._waiting = self._waiting[self._port.write(self._waiting) :] if self._waiting else b""
+        now = time.monotonic()
+        if not self._waiting:
+            self._emptied = now
+        elif now - self._emptied > PATIENCE:
+            self._waiting = b""
+
+
 class EmulatedRobot:
     """A robot that a host can open at `device`.
 
@@ -88,6 +114,7 @@ class EmulatedRobot:
     ) -> None:
         self.firmware = firmware
         self._port = port
+        self._outbox = Outbox(port)
         self._pace = pace or RealTime()
         self._pending = set(faults)
         self._booted = booted
@@ -130,9 +157,7 @@ class EmulatedRobot:
 
     def _exchange(self) -> None:
         board = self.firmware.board
-        sent = b"".join(self._pass_on(chunk.data) for chunk in board.take_sent())
-        if sent:
-            self._port.write(sent)
+        self._outbox.put(b"".join(self._pass_on(chunk.data) for chunk in board.take_sent()))
         board.inbox += self._port.read()
 
     def _pass_on(self, data: bytes) -> bytes:

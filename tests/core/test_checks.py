@@ -27,7 +27,7 @@ def standing(knots: int = 5) -> Trajectory:
     body = np.tile([0.0, 0.0, 0.0735], (knots, 1))
     feet = np.tile(MODEL.module_centres_robot, (knots, 1, 1))
     return Trajectory(
-        np.arange(knots) * 0.4, body, np.zeros(knots), feet, np.ones((knots, 4), dtype=np.bool_)
+        np.linspace(0.0, 1.6, knots), body, np.zeros(knots), feet, np.ones((knots, 4), dtype=np.bool_)
     )
 
 

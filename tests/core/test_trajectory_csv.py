@@ -63,7 +63,7 @@ def test_without_a_companion_contact_is_found_where_feet_rest_on_the_ground() ->
 
 
 def test_a_companion_of_another_version_is_said_and_not_believed() -> None:
-    times = np.arange(3) * 0.2
+    times = np.array([0.0, 0.2, 0.4])
     positions = np.zeros((3, 4, 3))
     trajectory = Trajectory(times, np.zeros((3, 3)), np.ones(3), positions, np.ones((3, 4), dtype=np.bool_))
     companion = format_companion(trajectory, "another text")

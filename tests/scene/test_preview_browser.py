@@ -125,15 +125,14 @@ def test_the_scene_comes_back_with_the_present_pose_after_a_lost_connection(
 
 
 def test_a_still_view_is_drawn_finer_than_a_moving_one_without_a_gpu(page: Page) -> None:
-    frame = next(frame for frame in page.frames if "/viser/" in frame.url)
-    if not frame.evaluate("footfallSoftwareDrawing"):
+    if not page.evaluate("preview.client.drawsInSoftware"):
         pytest.skip("this browser draws with a GPU")
-    width = "document.querySelector('canvas[data-engine]').width"
-    frame.wait_for_function(f"{width} > window.innerWidth", timeout=START_MS)
+    width = "document.querySelector('iframe').contentDocument.querySelector('canvas[data-engine]').width"
+    page.wait_for_function(f"{width} > window.innerWidth", timeout=START_MS)
     page.evaluate("playback.setSpeed(0.2); playback.play()")
-    frame.wait_for_function(f"{width} < window.innerWidth", timeout=START_MS)
+    page.wait_for_function(f"{width} < window.innerWidth", timeout=START_MS)
     page.evaluate("playback.pause()")
-    frame.wait_for_function(f"{width} > window.innerWidth", timeout=START_MS)
+    page.wait_for_function(f"{width} > window.innerWidth", timeout=START_MS)
 
 
 def test_keys_pressed_in_the_frame_reach_the_page(page: Page) -> None:

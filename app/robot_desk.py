@@ -4,36 +4,20 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
-
-import numpy as np
 
 from app.bridge.emulated import EmulatedRobot, start_emulator
 from app.bridge.robot import RobotBridge
-from app.bridge.run import START_MOVE_MM, start_targets
-from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPlan
+from app.bridge.run import start_targets
+from app.bridge.states import LinkState, RobotSnapshot, RunPlan
 from app.plans import Plan
+from app.robot_view import EMULATOR, RUNNING, RunOrigin, allowed, robot_view, stop_seconds
 from app.run_recorder import RunRecorder
 from app.store.database import Database
 from app.workspace import Workspace
 from core.errors import StateError
 from core.waypoint_path import estimate_seconds
-from core.waypoints import Waypoints
-from core.wire_timing import LONGEST_SCAN, largest_moves, stop_delay
-
-EMULATOR = "emulator"
-_RUNNING = frozenset({RobotState.MOVING, RobotState.PAUSING, RobotState.PAUSED, RobotState.STOPPING})
-
-
-@dataclass(frozen=True)
-class RunOrigin:
-    """Which gait a run came from."""
-
-    run_id: str
-    gait: str
-    gait_name: str
-    waypoints: Waypoints
+from core.wire_timing import largest_moves
 
 
 class RobotDesk:
@@ -127,7 +111,7 @@ class RobotDesk:
 
     def _heard(self, snapshot: RobotSnapshot) -> None:
         record, run = self._record, snapshot.run
-        ended = snapshot.robot not in _RUNNING or snapshot.link is LinkState.LOST
+        ended = snapshot.robot not in RUNNING or snapshot.link is LinkState.LOST
         if record is not None and run is not None and run.run_id == record["id"] and ended:
             self._record = None
             state = "lost" if snapshot.link is LinkState.LOST else snapshot.robot.value
@@ -157,7 +141,7 @@ class RobotDesk:
             "start_moves": moves,
             "estimated_seconds": estimate_seconds(plan.waypoints),
             "largest_move_mm": float(largest_moves(plan.waypoints).max(initial=0.0)) * 1000.0,
-            "stop_seconds": self._stop_seconds(plan.waypoints, snapshot),
+            "stop_seconds": stop_seconds(plan.waypoints, snapshot),
             "robot_ready": reason is None,
             "reason": reason,
         }
@@ -165,74 +149,8 @@ class RobotDesk:
     def _send_hindrance(self, workspace: Workspace, snapshot: RobotSnapshot) -> str | None:
         if workspace.approval is None:
             return "This gait is not approved as it is now. Check it and approve it first."
-        return _allowed(snapshot)["send"]
-
-    def _stop_seconds(self, waypoints: Waypoints, snapshot: RobotSnapshot) -> float:
-        scan = snapshot.measured_scan or LONGEST_SCAN
-        return stop_delay(waypoints, scan, start_move=START_MOVE_MM / 1000.0)
+        return allowed(snapshot)["send"]
 
     def view(self, snapshot: RobotSnapshot | None = None) -> dict[str, Any]:
         """The robot as JSON content."""
-        shown = snapshot or self.bridge.snapshot
-        run, origin = shown.run, self._origin
-        content: dict[str, Any] = {
-            "link": shown.link.value,
-            "robot": shown.robot.value,
-            "sentence": shown.sentence,
-            "device": self._device,
-            "emulated": self._device == EMULATOR,
-            "strokes_mm": None
-            if shown.strokes is None
-            else np.round(np.multiply(shown.strokes, 1e3), 3).tolist(),
-            "stop_text": shown.stop_text,
-            "unknown_lines": shown.unknown_lines,
-            "last_error": shown.last_error,
-            "run": None,
-            "stop_seconds": None if origin is None else self._stop_seconds(origin.waypoints, shown),
-            "allowed": _allowed(shown),
-        }
-        if run is not None:
-            known = origin if origin is not None and origin.run_id == run.run_id else None
-            content["run"] = {
-                "id": run.run_id,
-                "gait": None if known is None else known.gait,
-                "gait_name": None if known is None else known.gait_name,
-                "waypoints_hash": None if known is None else known.waypoints.content_hash,
-                "phase": run.phase.value if shown.robot in _RUNNING else "ended",
-                "sent": run.sent,
-                "reached": run.reached,
-                "count": run.count,
-                "elapsed": run.elapsed,
-                "operator": run.by,
-            }
-        return content
-
-
-def _allowed(snapshot: RobotSnapshot) -> dict[str, str | None]:
-    """Why each button is disabled; None where it may be pressed."""
-    link, robot = snapshot.link, snapshot.robot
-    is_ready = link is LinkState.READY
-    linked = None if is_ready else "Connect the robot first."
-
-    def only(states: set[RobotState], otherwise: str) -> str | None:
-        return linked or (None if robot in states else otherwise)
-
-    connected = link in (LinkState.CONNECTING, LinkState.READY)
-    return {
-        "connect": "The robot is connected." if connected else None,
-        "disconnect": None if link is not LinkState.DISCONNECTED else "No robot is connected.",
-        "arm": only({RobotState.DISARMED, RobotState.DONE}, _why_not_arm(robot)),
-        "send": only({RobotState.ARMED}, "Arm the robot first."),
-        "pause": only({RobotState.MOVING}, "Nothing is moving."),
-        "resume": only({RobotState.PAUSED}, "No run is paused."),
-        "clear": only({RobotState.STOPPED, RobotState.FAULT}, "Nothing is stopped."),
-        "reset": only({RobotState.ARMED}, "Arm the robot first."),
-    }
-
-
-def _why_not_arm(robot: RobotState) -> str:
-    if robot is RobotState.ARMED:
-        return "The robot is armed."
-    if robot in (RobotState.STOPPED, RobotState.FAULT):
-        return "Clear the stop first."
-    return "Wait until the robot stands still."
+        return robot_view(snapshot or self.bridge.snapshot, self._device, self._origin)

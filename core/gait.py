@@ -45,16 +45,20 @@ class GaitOptions:
     closing_knots: int = 5
 
     def __post_init__(self) -> None:
-        bounds = {
-            "clearance": (0.0, 0.02),
-            "margin": (-0.05, 0.05),
-            "body_speed": (0.0005, 1.0),
-            "plane_height": (0.03, 0.1),
+        bounds_mm = {
+            "clearance": (0.0, 20.0, "mm"),
+            "margin": (-50.0, 50.0, "mm"),
+            "body_speed": (0.5, 1000.0, "mm/s"),
+            "plane_height": (30.0, 100.0, "mm"),
         }
-        for name, (lower, upper) in bounds.items():
-            value = getattr(self, name)
+        for name, (lower, upper, unit) in bounds_mm.items():
+            value = getattr(self, name) * 1000.0
             if not (np.isfinite(value) and lower <= value <= upper):
-                raise InputError(f"{name} is {value}; it must lie between {lower} and {upper}.", name)
+                words = name.replace("_", " ")
+                raise InputError(
+                    f"The {words} is {value:g} {unit}; it must lie between {lower:g} and {upper:g} {unit}.",
+                    name,
+                )
         if self.phase_knots < 2 or self.closing_knots < 0:
             raise InputError("phase_knots must be at least 2 and closing_knots at least 0.", "phase_knots")
 

@@ -69,6 +69,12 @@ class StudioProcess:
             with error:
                 return Answer(error.code, json.loads(error.read() or b"null"))
 
+    def text(self, path: str) -> str:
+        """The text at a path."""
+        with urllib.request.urlopen(self.url + path.lstrip("/"), timeout=20) as answer:
+            content: bytes = answer.read()
+            return content.decode()
+
     def robot(self) -> dict[str, Any]:
         """The robot's view."""
         view: dict[str, Any] = self.ask("GET", "/api/robot").content
@@ -88,15 +94,20 @@ def footfall(*words: str, **options: Any) -> subprocess.CompletedProcess[str]:
 
 
 @contextmanager
-def running_studio(data: Path, *words: str, port: int = 0) -> Iterator[StudioProcess]:
+def running_studio(
+    data: Path,
+    *words: str,
+    cwd: Path = PROJECT,
+    environment: dict[str, str] | None = None,
+) -> Iterator[StudioProcess]:
     """A studio on a free port; ended by SIGTERM, and its exit status must be 0."""
-    command = [sys.executable, "-m", "app", "serve", "--port", str(port), "--data", str(data), "--no-browser"]
+    command = [sys.executable, "-m", "app", "serve", "--port", "0", "--data", str(data), "--no-browser"]
     process = subprocess.Popen(
         [*command, *words],
-        cwd=PROJECT,
+        cwd=cwd,
         stdout=subprocess.PIPE,
         text=True,
-        env={**os.environ, "PYTHONUNBUFFERED": "1"},
+        env={**(environment or os.environ), "PYTHONUNBUFFERED": "1"},
     )
     try:
         if process.stdout is None:

@@ -4,7 +4,7 @@ import json
 from collections.abc import Iterator, Sequence
 from threading import Thread
 
-import httpx
+import httpx2
 import numpy as np
 import pytest
 from fastapi import FastAPI
@@ -103,13 +103,13 @@ def test_a_scene_that_does_not_answer_refuses_the_browser() -> None:
 
 
 def test_the_page_is_the_installed_client_with_our_head_and_policy(host: str) -> None:
-    answered = httpx.get(f"http://{host}/viser/")
+    answered = httpx2.get(f"http://{host}/viser/")
     assert answered.content == client_page()
     assert answered.text.index("document.hasFocus") < answered.text.index('content="Viser client"')
     policy = answered.headers["content-security-policy"]
     assert "frame-ancestors 'self'" in policy
     assert "'unsafe-eval'" not in policy
-    again = httpx.get(f"http://{host}/viser/", headers={"If-None-Match": answered.headers["etag"]})
+    again = httpx2.get(f"http://{host}/viser/", headers={"If-None-Match": answered.headers["etag"]})
     assert again.status_code == 304
 
 

@@ -1,0 +1,109 @@
+"""Who may import whom: the table of the architecture, held against every import in the code."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+import pytest
+
+from tests.studio_process import PROJECT
+
+PARTS = ("core", "solver_jobs", "app", "robot_description")
+SOLVERS = {"casadi", "ortools", "mujoco"}
+SHAPES = {"viser", "trimesh", "yourdfpy"}
+WEB = {"fastapi", "fastapi_offline", "starlette", "uvicorn"}
+
+
+def modules() -> list[str]:
+    return sorted(str(p.relative_to(PROJECT)) for part in PARTS for p in (PROJECT / part).rglob("*.py"))
+
+
+def imports(path: str) -> Iterator[str]:
+    tree = ast.parse((PROJECT / path).read_text())
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            yield str(node.module) if node.level == 0 else f"relative:{node.module}"
+
+
+def forbidden(path: str, name: str) -> bool:
+    top = name.split(".")[0]
+    if name.startswith("relative:"):
+        return True
+    if path.startswith("core/"):
+        return top in SOLVERS | SHAPES | WEB | {
+            "pydantic",
+            "serial",
+            "app",
+            "solver_jobs",
+            "robot_description",
+        }
+    if path.startswith("solver_jobs/"):
+        return top in SHAPES | WEB | {"pydantic", "serial", "app", "robot_description"}
+    if path.startswith("robot_description/"):
+        return top in SOLVERS | WEB | {"pydantic", "serial", "app", "solver_jobs", "viser", "yourdfpy"}
+    return forbidden_in_app(path, name, top)
+
+
+def forbidden_in_app(path: str, name: str, top: str) -> bool:
+    if top in SOLVERS or top == "robot_description" or name.startswith("solver_jobs."):
+        return True
+    if path.startswith("app/bridge/"):
+        allowed_serial = path == "app/bridge/transport.py"
+        leaf = top == "app" and not name.startswith("app.bridge")
+        return (
+            leaf
+            or top in SHAPES | WEB | {"pydantic", "solver_jobs"}
+            or (top == "serial" and not allowed_serial)
+        )
+    if top in SHAPES:
+        return not path.startswith("app/scene/")
+    if top in WEB:
+        edge = {"app/server.py", "app/serve.py", "app/security.py"}
+        return path not in edge and not path.startswith("app/routes/")
+    if top == "pydantic":
+        return path != "app/documents.py" and not path.startswith("app/routes/")
+    return top == "serial"
+
+
+@pytest.mark.parametrize("path", modules())
+def test_a_module_imports_only_what_its_room_may(path: str) -> None:
+    assert [name for name in imports(path) if forbidden(path, name)] == []
+
+
+@pytest.mark.parametrize(
+    ("path", "name"),
+    [
+        ("core/leg.py", "casadi"),
+        ("core/leg.py", "app.session"),
+        ("solver_jobs/worker.py", "fastapi"),
+        ("app/studio.py", "solver_jobs.runner"),
+        ("app/studio.py", "serial"),
+        ("app/studio.py", "viser"),
+        ("app/bridge/robot.py", "app.session"),
+        ("app/bridge/robot.py", "serial"),
+        ("app/gait_desk.py", "pydantic"),
+    ],
+)
+def test_the_table_refuses(path: str, name: str) -> None:
+    assert forbidden(path, name)
+
+
+def test_core_touches_no_clock_thread_socket_or_file() -> None:
+    loaders = {"core/robot.py", "core/library.py"}
+    banned = {"time", "threading", "socket", "os", "pathlib", "subprocess", "asyncio", "queue"}
+    for path in modules():
+        if path.startswith("core/"):
+            used = {name.split(".")[0] for name in imports(path)}
+            assert not used & banned, path
+            assert path in loaders or "importlib" not in used, path
+
+
+def test_nothing_waits_for_files_from_elsewhere() -> None:
+    pages = [p for p in (PROJECT / "app" / "static").rglob("*") if p.suffix in (".html", ".js", ".css")]
+    assert pages
+    for page in pages:
+        text = page.read_text()
+        assert "https://" not in text.replace("https://www.w3.org", ""), page

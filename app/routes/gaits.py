@@ -11,7 +11,7 @@ from starlette.concurrency import run_in_threadpool
 
 from app.documents import GaitDocument, gait_content, parse_gait
 from app.routes.edge import on_session, studio_of
-from app.scene.poses import pose_frames
+from app.scene.overlay import plan_poses
 from app.studio import Studio
 from app.views import approval_view, verdict_view
 from core.errors import InputError, StateError
@@ -191,17 +191,8 @@ async def poses(gait_id: str, plan: str, studio: TheStudio) -> Response:
     if trajectory is None or shown.waypoints is None:
         raise StateError("This plan cannot be shown: a foot is out of reach.", "plan")
 
-    def blob() -> bytes:
-        frames = pose_frames(
-            shown.model,
-            trajectory.times,
-            trajectory.body_world,
-            trajectory.heading,
-            trajectory.feet_world,
-        )
-        return frames.to_bytes()
-
-    return Response(await run_in_threadpool(blob), media_type="application/octet-stream")
+    blob = await run_in_threadpool(plan_poses, shown.model, trajectory)
+    return Response(blob.to_bytes(), media_type="application/octet-stream")
 
 
 @router.get("/{gait_id}/run")

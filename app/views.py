@@ -52,7 +52,12 @@ def gait_view(workspace: Workspace, plan: Plan) -> dict[str, Any]:
 
 def _segments(table: SegmentTable, quarter_turns: int) -> dict[str, Any]:
     rows = table.turned(quarter_turns).rows
-    return {"feet": [list(row) for row in rows], "samples_per_segment": table.samples_per_segment}
+    swings = [name for name, segment in table.vocabulary.segments.items() if segment.swing]
+    return {
+        "feet": [list(row) for row in rows],
+        "swings": swings,
+        "samples_per_segment": table.samples_per_segment,
+    }
 
 
 def plan_view(plan: Plan) -> dict[str, Any]:

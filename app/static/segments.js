@@ -5,8 +5,9 @@ import { byId, h } from "./dom.js";
 const EMPTY = "This gait has no segment table: its footfalls are drawn on the timeline. Manual gaits (pick one in the list) "
   + "are written as a table instead: in each segment every foot does one named thing, such as Push A, Lift B or Wait.";
 
-function cell(text, foot) {
-  return h("div", { role: "gridcell", text, title: text, data: { foot: foot + 1, kind: text.split(" ")[0].toLowerCase() } });
+function cell(text, foot, swings) {
+  const data = swings ? { foot: foot + 1, swing: "" } : { foot: foot + 1 };
+  return h("div", { role: "gridcell", text, title: `${text}: ${swings ? "in the air" : "on the ground"}`, data });
 }
 
 function header(roles, count) {
@@ -16,9 +17,10 @@ function header(roles, count) {
 }
 
 function table(segments, roles) {
-  const { feet } = segments;
+  const { feet, swings } = segments;
+  const inTheAir = new Set(swings);
   const rows = feet[0].map((_, index) =>
-    h("div", { role: "row" }, h("div", { role: "rowheader", text: String(index + 1) }), ...feet.map((row, foot) => cell(row[index], foot))));
+    h("div", { role: "row" }, h("div", { role: "rowheader", text: String(index + 1) }), ...feet.map((row, foot) => cell(row[index], foot, inTheAir.has(row[index])))));
   const grid = h("div", { class: "table", role: "grid", "aria-label": "Segment table", "aria-readonly": "true" }, header(roles, feet.length), ...rows);
   grid.style.setProperty("--feet", feet.length);
   return grid;

@@ -3,14 +3,11 @@
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Page, sync_playwright
+from playwright.sync_api import Browser, Page
 
 from app.scene import SceneServer
-from tests.chromium import CHROMIUM_WORDS, chromium_path
 from tests.scene.preview_page import preview_application
 from tests.scene.serving import serving
-
-pytestmark = pytest.mark.skipif(chromium_path() is None, reason="Chromium is not installed")
 
 SETUP = """async () => {
   const { Playback } = await import("/static/preview/playback.js");
@@ -36,16 +33,15 @@ SETUP = """async () => {
 
 
 @pytest.fixture(scope="module")
-def page() -> Iterator[Page]:
+def page(browser: Browser) -> Iterator[Page]:
     scene = SceneServer()
-    with serving(preview_application(scene)) as host, sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium_path(), args=CHROMIUM_WORDS)
+    with serving(preview_application(scene)) as host:
         page = browser.new_page()
         page.route("**/viser/**", lambda route: route.abort())
         page.goto(f"http://{host}/poses-page-that-is-not-there")
         page.evaluate(SETUP)
         yield page
-        browser.close()
+        page.close()
 
 
 def times(page: Page, script: str) -> object:

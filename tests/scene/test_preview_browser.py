@@ -4,24 +4,13 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page
 
 from app.scene import SceneServer
-from tests.chromium import CHROMIUM_WORDS, chromium_path
 from tests.scene.preview_page import preview_application, walk
-from tests.scene.serving import serving
+from tests.scene.serving import serving, stop_under_clients
 
 START_MS = 60_000
-
-pytestmark = pytest.mark.skipif(chromium_path() is None, reason="Chromium is not installed")
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with sync_playwright() as playwright:
-        found = playwright.chromium.launch(executable_path=chromium_path(), args=CHROMIUM_WORDS)
-        yield found
-        found.close()
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +19,7 @@ def scene() -> Iterator[SceneServer]:
     scene.start()
     scene.show("deltawalker")
     yield scene
-    scene.stop()
+    stop_under_clients(scene)
 
 
 @pytest.fixture(scope="module")
@@ -117,7 +106,7 @@ def test_the_scene_comes_back_with_the_present_pose_after_a_lost_connection(
       window.cameBack = false;
       preview.addEventListener("ready", () => { window.cameBack = true; }, { once: true });
     }""")
-    scene.stop()
+    stop_under_clients(scene)
     scene.start()
     scene.show("deltawalker")
     page.wait_for_function("window.cameBack", timeout=START_MS)

@@ -27,12 +27,7 @@ INFEASIBLE, FAILED = 3, 4
 def run_gaits(options: Namespace) -> int:
     """Lists gaits."""
     rows = [(entry.id, entry.gait, "built-in") for entry in library().values()]
-    files = GaitFiles(options.data or default_data_folder())
-    for gait_id in files.ids():
-        try:
-            rows.append((gait_id, files.read(gait_id), "saved"))
-        except InputError as error:
-            note(error.sentence)
+    rows += _saved(options.data or default_data_folder())
     content = [
         {
             "id": gait_id,
@@ -51,6 +46,20 @@ def run_gaits(options: Namespace) -> int:
     ]
     show(options, {"gaits": content}, lines)
     return 0
+
+
+def _saved(data: Path) -> list[tuple[str, Gait, str]]:
+    """Saved gaits; listing makes no folder, and a damaged file is said and left out."""
+    rows: list[tuple[str, Gait, str]] = []
+    if not data.exists():
+        return rows
+    files = GaitFiles(data)
+    for gait_id in files.ids():
+        try:
+            rows.append((gait_id, files.read(gait_id), "saved"))
+        except InputError as error:
+            note(error.sentence)
+    return rows
 
 
 def run_manual(options: Namespace) -> int:

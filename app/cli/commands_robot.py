@@ -8,6 +8,7 @@ import sys
 import threading
 from argparse import Namespace
 from datetime import UTC, datetime
+from pathlib import Path
 from types import FrameType
 from typing import Any
 
@@ -40,6 +41,7 @@ def run_serve(options: Namespace) -> int:
     token: str | None = options.token
     if token is not None and len(token) < 12:
         raise InputError("The token must have at least 12 characters.", "--token")
+    _require_device(options.robot)
     serve(
         ServeOptions(
             host=options.host,
@@ -52,6 +54,15 @@ def run_serve(options: Namespace) -> int:
         _announce,
     )
     return 0
+
+
+def _require_device(device: str) -> None:
+    if device.startswith("/") and not Path(device).exists():
+        raise RobotError(
+            f"There is no serial device {device}. Plug the robot in and look for its name, or leave --robot out "
+            "for the emulated robot.",
+            "--robot",
+        )
 
 
 def _announce(url: str) -> None:

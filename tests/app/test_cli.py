@@ -103,6 +103,21 @@ def test_an_absent_serial_device_is_exit_5(capsys: pytest.CaptureFixture[str], t
     assert "/dev/no-such-robot" in answer["error"]
 
 
+def test_the_studio_does_not_start_for_a_robot_that_is_not_there(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    status, answer = run_json(capsys, "serve", "--robot", "/dev/no-such-robot", "--data", str(tmp_path))
+    assert status == 5
+    assert "Plug the robot in" in answer["error"]
+
+
+def test_listing_gaits_makes_no_folder(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    status, answer = run_json(capsys, "gaits", "--data", str(tmp_path / "absent"))
+    assert status == 0
+    assert [gait["id"] for gait in answer["gaits"]][0] == "walk"
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_waypoints_out_of_range_are_bad_input_by_line(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:

@@ -59,8 +59,8 @@ def run_serve(options: Namespace) -> int:
 def _require_device(device: str) -> None:
     if device.startswith("/") and not Path(device).exists():
         raise RobotError(
-            f"There is no serial device {device}. Plug the robot in and look for its name, or leave --robot out "
-            "for the emulated robot.",
+            f"There is no serial device {device}. Plug the robot in and look for its name, or leave --robot "
+            "out for the emulated robot.",
             "--robot",
         )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import asdict
 from datetime import UTC, datetime
 from typing import Any
@@ -37,6 +38,7 @@ def gait_view(workspace: Workspace, plan: Plan) -> dict[str, Any]:
     return {
         **summary_view(workspace),
         "revision": workspace.revision,
+        "stamp": time.time_ns() // 1000,  # orders answers and events, which may overtake each other
         "saved_at": None if saved_at is None else datetime.fromtimestamp(saved_at, UTC).isoformat(),
         "undo": workspace.undo_label,
         "redo": workspace.redo_label,

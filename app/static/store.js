@@ -67,7 +67,7 @@ export function shownDocument({ view, pending, gesture }) {
 export function acceptView(store, view, { force = false } = {}) {
   const { selected, view: current, checked } = store.state;
   if (view.id !== selected) return;
-  if (!force && current && current.id === view.id && view.revision < current.revision) return;
+  if (!force && current && current.id === view.id && view.stamp < current.stamp) return;
   const seen = view.approval ? "approved" : view.verdict ? (checked[view.id] ?? "checked") : checked[view.id];
   store.set({ view, checked: seen ? { ...checked, [view.id]: seen } : checked });
 }

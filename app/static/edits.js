@@ -42,7 +42,7 @@ export function createEdits(store) {
       return await api.put(view.id, document, batch.at(-1).label, view.revision);
     } catch (error) {
       if (error.status !== STALE || !retry) throw error;
-      acceptView(store, await api.view(view.id), { force: true });
+      acceptView(store, await api.view(view.id));
       return put(batch, false);
     }
   }
@@ -95,7 +95,7 @@ export function createEdits(store) {
     const { selected } = store.state;
     if (!selected) return undefined;
     try {
-      acceptView(store, await api.history(selected, verb), { force: true });
+      acceptView(store, await api.history(selected, verb));
     } catch (error) {
       report(error);
     }

@@ -29,7 +29,7 @@ export async function selectGait(store, id) {
     store.set({ selected: id, view: null, pending: [], gesture: null, refused: null, formError: null, shownJob: null, runSummary: null });
   }
   try {
-    acceptView(store, await api.view(id), { force: true });
+    acceptView(store, await api.view(id));
     remember(id);
   } catch (error) {
     report(error);

@@ -64,10 +64,10 @@ export function shownDocument({ view, pending, gesture }) {
 }
 
 /** Takes over a view unless it is of another gait or older than what is shown. */
-export function acceptView(store, view, { force = false } = {}) {
+export function acceptView(store, view) {
   const { selected, view: current, checked } = store.state;
   if (view.id !== selected) return;
-  if (!force && current && current.id === view.id && view.stamp < current.stamp) return;
+  if (current && current.id === view.id && view.stamp < current.stamp) return;
   const seen = view.approval ? "approved" : view.verdict ? (checked[view.id] ?? "checked") : checked[view.id];
   store.set({ view, checked: seen ? { ...checked, [view.id]: seen } : checked });
 }

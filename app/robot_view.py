@@ -47,7 +47,7 @@ def robot_view(shown: RobotSnapshot, device: str, origin: RunOrigin | None) -> d
         "device": device,
         "emulated": device == EMULATOR,
         "strokes_mm": strokes_mm,
-        "stop_text": shown.stop_text,
+        "stop_text": None if shown.robot is RobotState.STOPPING else shown.stop_text,
         "unknown_lines": shown.unknown_lines,
         "last_error": shown.last_error,
         "run": None if run is None else _run_view(shown, run, known),

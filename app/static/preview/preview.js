@@ -42,6 +42,8 @@ const COM = "/overlay/com";
 const WATCH_MS = 250;
 const DIRECT_PATIENCE_MS = 8000;
 const STILL = 1e-7;
+const STRAY = 1e-5;
+const SETTLING_LOOKS = new Set([2, 4, 8]);
 const TARGET = [0, 0, 0.034];
 const VIEW_DISTANCE = 4.6;
 const VIEWS = {
@@ -65,6 +67,7 @@ export class Preview extends EventTarget {
   #load = 0;
   #pending = 0;
   #bodyNode = null;
+  #looks = 0;
   #started = performance.now();
   #watch;
   #serverRoute = null;
@@ -170,17 +173,35 @@ export class Preview extends EventTarget {
     const body = this.#client.node(COM) ? this.#client.node(BODY) : undefined;
     if (body && body !== this.#bodyNode) {
       this.#bodyNode = body;
+      this.#looks = 0;
       this.#setRoute("direct");
       this.#sharpness.attach();
       this.#pushAll();
       this.dispatchEvent(new CustomEvent("ready"));
     }
+    this.#settle();
     const late = performance.now() - this.#started > DIRECT_PATIENCE_MS;
     if (this.route === "none" && late && !this.#client.available) {
       this.#serverRoute = new ServerRoute();
       this.#setRoute("server");
       this.dispatchEvent(new CustomEvent("ready"));
     }
+  }
+
+  /** The server's own first messages may come after ours: says again what they undid. */
+  #settle() {
+    if (!this.#bodyNode || this.#client.busy) return;
+    this.#looks += 1;
+    if (SETTLING_LOOKS.has(this.#looks)) this.#pushAll();
+    else if (this.#shown && this.#table.nodes.some((name, index) => this.#strayed(name, index))) {
+      this.#shown = null;
+      this.#request();
+    }
+  }
+
+  #strayed(name, index) {
+    const at = this.#client.position(name);
+    return at !== null && at.some((value, axis) => Math.abs(value - this.#shown[index * VALUES_A_NODE + 4 + axis]) > STRAY);
   }
 
   #setRoute(route) {

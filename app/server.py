@@ -55,6 +55,7 @@ def make_app(studio: Studio, scene: SceneServer, access: Access) -> FastAPI:
         middleware=[Middleware(Guard, access=access)],
     )
     app.state.studio = studio
+    app.state.scene = scene
     install_error_handlers(app)
     for router in (gaits.router, jobs.router, robot.router, events.router, make_viser_router(scene)):
         app.include_router(router)

@@ -69,11 +69,15 @@ class StudioProcess:
             with error:
                 return Answer(error.code, json.loads(error.read() or b"null"))
 
-    def text(self, path: str) -> str:
-        """The text at a path."""
+    def blob(self, path: str) -> bytes:
+        """The bytes at a path."""
         with urllib.request.urlopen(self.url + path.lstrip("/"), timeout=20) as answer:
             content: bytes = answer.read()
-            return content.decode()
+            return content
+
+    def text(self, path: str) -> str:
+        """The text at a path."""
+        return self.blob(path).decode()
 
     def robot(self) -> dict[str, Any]:
         """The robot's view."""

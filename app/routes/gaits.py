@@ -12,6 +12,7 @@ from starlette.concurrency import run_in_threadpool
 from app.documents import GaitDocument, gait_content, parse_gait
 from app.routes.edge import on_session, studio_of
 from app.scene.overlay import plan_poses
+from app.scene.server import SceneServer
 from app.studio import Studio
 from app.views import approval_view, verdict_view
 from core.errors import InputError, StateError
@@ -182,7 +183,7 @@ async def approve(gait_id: str, approval: Approve, studio: TheStudio) -> dict[st
 
 
 @router.get("/{gait_id}/poses", response_class=Response)
-async def poses(gait_id: str, plan: str, studio: TheStudio) -> Response:
+async def poses(gait_id: str, plan: str, request: Request, studio: TheStudio) -> Response:
     """Every moving part's pose over the plan, for playback; binary."""
     shown = await on_session(studio, lambda: studio.gaits.plan(gait_id))
     trajectory = shown.trajectory
@@ -191,6 +192,9 @@ async def poses(gait_id: str, plan: str, studio: TheStudio) -> Response:
     if trajectory is None or shown.waypoints is None:
         raise StateError("This plan cannot be shown: a foot is out of reach.", "plan")
 
+    # All pages look into one scene: it holds the robot of the gait that was opened last.
+    scene: SceneServer = request.app.state.scene
+    await run_in_threadpool(scene.show, shown.model.name)
     blob = await run_in_threadpool(plan_poses, shown.model, trajectory)
     return Response(blob.to_bytes(), media_type="application/octet-stream")
 

@@ -57,6 +57,20 @@ def test_a_document_can_be_read_changed_and_put_back(studio: StudioProcess) -> N
     assert studio.ask("POST", "/api/gaits/amble/undo").content["edited"] is False
 
 
+def test_a_gait_for_six_legs_is_drawn_too(studio: StudioProcess) -> None:
+    document = studio.ask("GET", "/api/gaits/walk").content
+    rows = ["1" * 40] * 6
+    rows[1] = "1" * 10 + "0" * 5 + "1" * 25
+    document |= {"name": "Six", "robot": "hexapod", "order": [1, 2, 3, 4, 5, 6], "step": [0.0, 0.0, 0.0]}
+    document["timeline"] = {"sample_time": 0.4, "feet": rows}
+    view = studio.ask("POST", "/api/gaits", document).content
+    assert view["plan"]["refusal"] is None
+    assert len(view["plan"]["strokes_mm"][0]) == 18
+    poses = studio.blob(f"/api/gaits/{view['id']}/poses?plan={view['plan']['hash']}")
+    assert len(poses) > 100_000
+    assert optimised(studio, view["id"])["state"] == "done"
+
+
 @pytest.mark.parametrize(
     ("method", "path", "body", "status", "sentence"),
     [

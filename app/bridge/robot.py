@@ -165,8 +165,13 @@ class RobotBridge:
         """
         self._do(lambda now: self._session.arm(by, now))
 
-    def send(self, plan: RunPlan, by: str) -> str:
+    def send(self, plan: RunPlan, by: str, run_id: str | None = None) -> str:
         """Moves to the start pose slowly, then through the approved waypoints.
+
+        Args:
+            plan: what a person approved.
+            by: who sends it.
+            run_id: name for the run, so that its record can begin before the first byte; made up if None.
 
         Returns:
             The run's name.
@@ -176,9 +181,9 @@ class RobotBridge:
             InputError: a stroke cannot be sent.
         """
         with self._lock:
-            run_id = self._session.send(plan, by, self._clock())
+            name = self._session.send(plan, by, self._clock(), run_id)
         self._inbox.put(None)
-        return run_id
+        return name
 
     def pause(self, by: str) -> None:
         """Lets the run go on to the next pose with all feet down and wait there.

@@ -157,11 +157,11 @@ class Session(Ledger):
         self._permit = self._gate.permit()
         self.become(now, f"Armed by {by}.", SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
 
-    def send(self, plan: RunPlan, by: str, now: float) -> str:
-        """Begins a run and returns its name."""
+    def send(self, plan: RunPlan, by: str, now: float, run_id: str | None = None) -> str:
+        """Begins a run and returns its name, which is made up unless given."""
         self.require_link("sent a plan")
         self.require_robot(RobotState.ARMED, remedy="Arm the robot, then send the plan.")
-        run = Run(plan, self._measured(), uuid.uuid4().hex[:12], by, now)
+        run = Run(plan, self._measured(), run_id or uuid.uuid4().hex[:12], by, now)
         self._run = run
         cause = f"Run {run.run_id} sent by {by}."
         self.become(now, cause, SENTENCES[RobotState.MOVING], robot=RobotState.MOVING)

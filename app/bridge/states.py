@@ -79,7 +79,7 @@ class RunProgress:
     """How far a run has come.
 
     Args:
-        run_id: made when the run began.
+        run_id: given by whoever sent it, or made when the run began.
         by: who sent it.
         phase: start pose or streaming.
         sent: number of approved waypoints sent so far; the last has index `sent - 1`.

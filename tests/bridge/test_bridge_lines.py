@@ -150,6 +150,13 @@ def test_a_run_reaches_every_approved_waypoint(
     assert sent[-8:] == [encode_waypoint(s, 0.4) for s in plan.waypoints.strokes]
 
 
+def test_a_run_has_the_name_that_it_was_given(bridge: RobotBridge, lockstep: Lockstep) -> None:
+    make_ready(bridge, lockstep)
+    assert bridge.send(make_plan(SHORT), "Ada", "walk-7") == "walk-7"
+    assert bridge.snapshot.run is not None
+    assert bridge.snapshot.run.run_id == "walk-7"
+
+
 def test_a_stop_in_mid_run_latches_until_cleared(
     bridge: RobotBridge, emulator: EmulatedRobot, lockstep: Lockstep
 ) -> None:

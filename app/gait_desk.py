@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 
 from app.documents import gait_content, motion_hash, parse_gait
+from app.open_gait import HistoryEntry, OpenGait, fresh_gait
 from app.plans import Plan, make_plan, verdict_of
-from app.store.database import Database, HistoryRow, WorkspaceRow
+from app.store.database import Database, HistoryRow, OpenGaitRow
 from app.store.files import GaitFiles, slug
-from app.workspace import HistoryEntry, Workspace, fresh_workspace
 from core.errors import FootfallError, InputError, StateError
 from core.findings import Approval, approve
 from core.gait import Gait
@@ -39,7 +39,7 @@ class GaitDesk:
     def __init__(self, files: GaitFiles, database: Database) -> None:
         self._files = files
         self._database = database
-        self._open: dict[str, Workspace] = {}
+        self._open: dict[str, OpenGait] = {}
         self._plans: dict[str, tuple[int, Plan]] = {}
 
     def ids(self) -> tuple[str, ...]:
@@ -48,17 +48,17 @@ class GaitDesk:
         unsaved = [gait_id for gait_id in self._open if gait_id not in library() and gait_id not in saved]
         return (*library(), *saved, *unsaved)
 
-    def workspaces(self) -> tuple[Workspace, ...]:
+    def open_gaits(self) -> tuple[OpenGait, ...]:
         """Every gait that can be opened; one whose file is damaged is left out of the list."""
         found = []
         for gait_id in self.ids():
             try:
-                found.append(self.workspace(gait_id))
+                found.append(self.open_gait(gait_id))
             except InputError:
                 continue
         return tuple(found)
 
-    def workspace(self, gait_id: str) -> Workspace:
+    def open_gait(self, gait_id: str) -> OpenGait:
         """The gait's present state.
 
         Raises:
@@ -68,66 +68,66 @@ class GaitDesk:
             self._open[gait_id] = self._load(gait_id)
         return self._open[gait_id]
 
-    def _load(self, gait_id: str) -> Workspace:
+    def _load(self, gait_id: str) -> OpenGait:
         builtin = library().get(gait_id)
         saved_at = self._files.saved_at(gait_id)
         if saved_at is None and builtin is None:
             raise UnknownGaitError(f"There is no gait “{gait_id}”.", gait_id)
         saved = builtin.gait if saved_at is None and builtin is not None else self._files.read(gait_id)
-        stored = self._database.workspace(gait_id)
+        stored = self._database.open_gait(gait_id)
         if stored is None:
-            return fresh_workspace(gait_id, saved, builtin is not None, saved_at)
+            return fresh_gait(gait_id, saved, builtin is not None, saved_at)
         row, history = stored
         entries = tuple(HistoryEntry(h.label, parse_gait(h.document)) for h in history)
-        opened = Workspace(
+        opened = OpenGait(
             gait_id, builtin is not None, entries, row.cursor, row.revision, saved, saved_at, row.notice
         )
         return self._with_approval(opened, row.approval)
 
-    def _with_approval(self, workspace: Workspace, text: str | None) -> Workspace:
+    def _with_approval(self, open_gait: OpenGait, text: str | None) -> OpenGait:
         """Brings an approval back where it still is of exactly this verdict and these waypoints."""
         if text is None:
-            return workspace
+            return open_gait
         approval = Approval(**json.loads(text))
-        verdict = verdict_of(self._plan_of(workspace), workspace.gait)
+        verdict = verdict_of(self._plan_of(open_gait), open_gait.gait)
         if verdict.content_hash != approval.verdict_hash:
-            return workspace
-        return replace(workspace, verdict=verdict, approval=approval)
+            return open_gait
+        return replace(open_gait, verdict=verdict, approval=approval)
 
     def plan(self, gait_id: str) -> Plan:
         """What the gait amounts to now; computed once a revision."""
-        return self._plan_of(self.workspace(gait_id))
+        return self._plan_of(self.open_gait(gait_id))
 
-    def _plan_of(self, workspace: Workspace) -> Plan:
-        cached = self._plans.get(workspace.id)
-        if cached is not None and cached[0] == workspace.revision:
+    def _plan_of(self, open_gait: OpenGait) -> Plan:
+        cached = self._plans.get(open_gait.id)
+        if cached is not None and cached[0] == open_gait.revision:
             return cached[1]
-        result = self._database.result(motion_hash(workspace.gait))
-        plan = make_plan(workspace.gait, result)
-        self._plans[workspace.id] = (workspace.revision, plan)
+        result = self._database.result(motion_hash(open_gait.gait))
+        plan = make_plan(open_gait.gait, result)
+        self._plans[open_gait.id] = (open_gait.revision, plan)
         return plan
 
-    def edit(self, gait_id: str, gait: Gait, label: str, revision: int | None) -> Workspace:
+    def edit(self, gait_id: str, gait: Gait, label: str, revision: int | None) -> OpenGait:
         """Puts a changed document on the desk.
 
         Raises:
             StateError: somebody else changed it since the given revision.
         """
-        workspace = self.workspace(gait_id)
-        if revision is not None and revision != workspace.revision:
+        open_gait = self.open_gait(gait_id)
+        if revision is not None and revision != open_gait.revision:
             raise StateError(
-                f"“{workspace.gait.name}” was changed elsewhere; look at its new state and edit again.",
+                f"“{open_gait.gait.name}” was changed elsewhere; look at its new state and edit again.",
                 "revision",
             )
-        settled, notice = settle_table(workspace.gait, gait)
-        if settled == workspace.gait:
-            return workspace
-        return self._put(workspace.edit(settled, label or "Edit", notice), workspace)
+        settled, notice = settle_table(open_gait.gait, gait)
+        if settled == open_gait.gait:
+            return open_gait
+        return self._put(open_gait.edit(settled, label or "Edit", notice), open_gait)
 
-    def redraw(self, gait_id: str, order: tuple[int, ...], phase_knots: int, closing_knots: int) -> Workspace:
+    def redraw(self, gait_id: str, order: tuple[int, ...], phase_knots: int, closing_knots: int) -> OpenGait:
         """Draws the timeline anew from a foot order and phase lengths."""
-        workspace = self.workspace(gait_id)
-        gait = workspace.gait
+        open_gait = self.open_gait(gait_id)
+        gait = open_gait.gait
         timeline = timeline_from_order(
             gait.timeline.leg_count,
             order,
@@ -140,25 +140,25 @@ class GaitDesk:
         changed = replace(gait, order=order, timeline=timeline, options=options)
         return self.edit(gait_id, changed, f"Draw order {'-'.join(map(str, order))}", None)
 
-    def undo(self, gait_id: str) -> Workspace:
+    def undo(self, gait_id: str) -> OpenGait:
         """One step back."""
-        workspace = self.workspace(gait_id)
-        return self._put(workspace.undo(), workspace)
+        open_gait = self.open_gait(gait_id)
+        return self._put(open_gait.undo(), open_gait)
 
-    def redo(self, gait_id: str) -> Workspace:
+    def redo(self, gait_id: str) -> OpenGait:
         """One step forward again."""
-        workspace = self.workspace(gait_id)
-        return self._put(workspace.redo(), workspace)
+        open_gait = self.open_gait(gait_id)
+        return self._put(open_gait.redo(), open_gait)
 
-    def save(self, gait_id: str) -> Workspace:
+    def save(self, gait_id: str) -> OpenGait:
         """Writes the present document to the data folder."""
-        workspace = self.workspace(gait_id)
-        self._files.write(gait_id, workspace.gait)
-        saved = replace(workspace, saved=workspace.gait, saved_at=self._files.saved_at(gait_id))
+        open_gait = self.open_gait(gait_id)
+        self._files.write(gait_id, open_gait.gait)
+        saved = replace(open_gait, saved=open_gait.gait, saved_at=self._files.saved_at(gait_id))
         self._open[gait_id] = saved
         return saved
 
-    def create(self, gait: Gait) -> Workspace:
+    def create(self, gait: Gait) -> OpenGait:
         """Adds a gait under a new id made from its name, and saves it."""
         base, taken, number = slug(gait.name), set(self.ids()), 1
         gait_id = base
@@ -166,7 +166,7 @@ class GaitDesk:
             number += 1
             gait_id = f"{base}-{number}"
         self._files.write(gait_id, gait)
-        self._open[gait_id] = fresh_workspace(gait_id, gait, False, self._files.saved_at(gait_id))
+        self._open[gait_id] = fresh_gait(gait_id, gait, False, self._files.saved_at(gait_id))
         return self._open[gait_id]
 
     def delete(self, gait_id: str) -> None:
@@ -175,78 +175,78 @@ class GaitDesk:
         Raises:
             StateError: the gait comes with the program and was not saved over.
         """
-        workspace = self.workspace(gait_id)
-        if workspace.saved_at is None:
+        open_gait = self.open_gait(gait_id)
+        if open_gait.saved_at is None:
             raise StateError(
-                f"“{workspace.gait.name}” comes with the program and cannot be deleted; "
+                f"“{open_gait.gait.name}” comes with the program and cannot be deleted; "
                 "undo takes edits back.",
                 gait_id,
             )
         self._files.remove(gait_id)
         self._forget(gait_id)
 
-    def restore(self, gait_id: str) -> Workspace:
+    def restore(self, gait_id: str) -> OpenGait:
         """Brings a deleted gait back as it was saved."""
         self._files.restore(gait_id)
         self._forget(gait_id)
-        return self.workspace(gait_id)
+        return self.open_gait(gait_id)
 
     def _forget(self, gait_id: str) -> None:
         self._open.pop(gait_id, None)
         self._plans.pop(gait_id, None)
-        self._database.drop_workspace(gait_id)
+        self._database.drop_open_gait(gait_id)
 
-    def check(self, gait_id: str) -> Workspace:
+    def check(self, gait_id: str) -> OpenGait:
         """Checks the present plan by every rule; an approval of another verdict is gone."""
-        workspace = self.workspace(gait_id)
-        verdict = verdict_of(self._plan_of(workspace), workspace.gait)
-        approval = workspace.approval
+        open_gait = self.open_gait(gait_id)
+        verdict = verdict_of(self._plan_of(open_gait), open_gait.gait)
+        approval = open_gait.approval
         if approval is not None and approval.verdict_hash != verdict.content_hash:
             approval = None
-        self._open[gait_id] = replace(workspace, verdict=verdict, approval=approval)
+        self._open[gait_id] = replace(open_gait, verdict=verdict, approval=approval)
         return self._open[gait_id]
 
-    def approve(self, gait_id: str, by: str) -> Workspace:
+    def approve(self, gait_id: str, by: str) -> OpenGait:
         """Records a person's approval of the present verdict.
 
         Raises:
             StateError: the gait was not checked since its last change, or an error stands.
         """
-        workspace = self.workspace(gait_id)
-        if workspace.verdict is None:
+        open_gait = self.open_gait(gait_id)
+        if open_gait.verdict is None:
             raise StateError(
                 "Check this gait first: it changed since the last check, or was never checked.", "check"
             )
-        approval = approve(workspace.verdict, by, datetime.now(UTC))
+        approval = approve(open_gait.verdict, by, datetime.now(UTC))
         self._database.add_approval(gait_id, asdict(approval))
-        return self._put(replace(workspace, approval=approval), workspace)
+        return self._put(replace(open_gait, approval=approval), open_gait)
 
-    def take_result(self, motion: str, content: dict[str, Any]) -> tuple[Workspace, ...]:
+    def take_result(self, motion: str, content: dict[str, Any]) -> tuple[OpenGait, ...]:
         """Stores a checked result and gives back the open gaits whose plan it becomes."""
         self._database.put_result(motion, content)
         touched = []
-        for gait_id, workspace in self._open.items():
-            if workspace.gait.segment_table is None and motion_hash(workspace.gait) == motion:
+        for gait_id, open_gait in self._open.items():
+            if open_gait.gait.segment_table is None and motion_hash(open_gait.gait) == motion:
                 self._plans.pop(gait_id, None)
-                self._open[gait_id] = replace(workspace, verdict=None, approval=None)
+                self._open[gait_id] = replace(open_gait, verdict=None, approval=None)
                 touched.append(self._open[gait_id])
         return tuple(touched)
 
-    def _put(self, workspace: Workspace, before: Workspace) -> Workspace:
-        """Keeps a changed workspace in memory and in the database."""
+    def _put(self, open_gait: OpenGait, before: OpenGait) -> OpenGait:
+        """Keeps a changed open_gait in memory and in the database."""
         shared = 0
-        for old, new in zip(before.history, workspace.history, strict=False):
+        for old, new in zip(before.history, open_gait.history, strict=False):
             if old is not new:
                 break
             shared += 1
-        tail = tuple(_row(entry) for entry in workspace.history[shared:])
-        approval = None if workspace.approval is None else json.dumps(asdict(workspace.approval))
-        row = WorkspaceRow(workspace.revision, workspace.cursor, workspace.notice, approval)
-        if not self._database.has_workspace(workspace.id):
-            shared, tail = 0, tuple(_row(entry) for entry in workspace.history)
-        self._database.put_workspace(workspace.id, row, shared, tail)
-        self._open[workspace.id] = workspace
-        return workspace
+        tail = tuple(_row(entry) for entry in open_gait.history[shared:])
+        approval = None if open_gait.approval is None else json.dumps(asdict(open_gait.approval))
+        row = OpenGaitRow(open_gait.revision, open_gait.cursor, open_gait.notice, approval)
+        if not self._database.has_open_gait(open_gait.id):
+            shared, tail = 0, tuple(_row(entry) for entry in open_gait.history)
+        self._database.put_open_gait(open_gait.id, row, shared, tail)
+        self._open[open_gait.id] = open_gait
+        return open_gait
 
 
 def _row(entry: HistoryEntry) -> HistoryRow:

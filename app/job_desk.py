@@ -11,9 +11,9 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from app.documents import motion_hash
+from app.open_gait import OpenGait
 from app.store.database import Database
 from app.trajectory_content import trajectory_content
-from app.workspace import Workspace
 from core.errors import InputError, StateError
 from core.gait import motion_problem
 from core.motion_check import check_motion
@@ -68,14 +68,14 @@ class JobDesk:
                 content["sentence"] = "The studio ended while this job was on. Optimise again."
                 database.put_job(content)
 
-    def submit(self, workspace: Workspace) -> dict[str, Any]:
+    def submit(self, open_gait: OpenGait) -> dict[str, Any]:
         """Starts the optimisation of a gait as it is now.
 
         Raises:
             StateError: the gait is made by hand.
             InputError: its timeline or options cannot be optimised.
         """
-        gait = workspace.gait
+        gait = open_gait.gait
         if gait.segment_table is not None:
             raise StateError(
                 "This gait is made by hand from its segment table. Draw on the timeline to make it one that "
@@ -83,7 +83,7 @@ class JobDesk:
                 "gait",
             )
         problem = motion_problem(gait, load_robot(gait.robot))
-        origin = JobOrigin(workspace.id, gait.name, motion_hash(gait), problem, gait.quarter_turns)
+        origin = JobOrigin(open_gait.id, gait.name, motion_hash(gait), problem, gait.quarter_turns)
         job_id = self._runner.submit(problem.turned(-gait.quarter_turns), gait.name)
         self._origins[job_id] = origin
         content = {

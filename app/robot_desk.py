@@ -10,11 +10,11 @@ from app.bridge.emulated import EmulatedRobot, start_emulator
 from app.bridge.robot import RobotBridge
 from app.bridge.run import start_targets
 from app.bridge.states import LinkState, RobotSnapshot, RunPlan
+from app.open_gait import OpenGait
 from app.plans import Plan
 from app.robot_view import EMULATOR, RUNNING, RunOrigin, allowed, robot_view, stop_seconds
 from app.run_recorder import RunRecorder
 from app.store.database import Database
-from app.workspace import Workspace
 from core.errors import StateError
 from core.waypoint_path import estimate_seconds
 from core.wire_timing import largest_moves
@@ -75,16 +75,16 @@ class RobotDesk:
             self._emulator.close()
             self._emulator = None
 
-    def send(self, workspace: Workspace, plan: Plan, waypoints_hash: str | None, by: str) -> None:
+    def send(self, open_gait: OpenGait, plan: Plan, waypoints_hash: str | None, by: str) -> None:
         """Sends a gait's approved waypoints.
 
         Raises:
             StateError: there is no approval of exactly these waypoints, or the robot is not armed.
         """
-        approval, waypoints = workspace.approval, plan.waypoints
+        approval, waypoints = open_gait.approval, plan.waypoints
         if approval is None or waypoints is None or plan.trajectory is None:
             raise StateError(
-                f"“{workspace.gait.name}” is not approved as it is now. Check it and approve it first.",
+                f"“{open_gait.gait.name}” is not approved as it is now. Check it and approve it first.",
                 "approve",
             )
         if waypoints_hash is not None and waypoints_hash != waypoints.content_hash:
@@ -95,11 +95,11 @@ class RobotDesk:
             raise StateError(f"{plan.model.title} exists on paper only; it has no cable.", "robot")
         hold_ok = tuple(bool(row.all()) for row in plan.trajectory.contact)
         run_id = self.bridge.send(RunPlan(waypoints, approval, hold_ok), by)
-        self._origin = RunOrigin(run_id, workspace.id, workspace.gait.name, waypoints)
+        self._origin = RunOrigin(run_id, open_gait.id, open_gait.gait.name, waypoints)
         self._record = {
             "id": run_id,
-            "gait": workspace.id,
-            "gait_name": workspace.gait.name,
+            "gait": open_gait.id,
+            "gait_name": open_gait.gait.name,
             "waypoints_hash": waypoints.content_hash,
             "by": by,
             "started": time.time(),
@@ -121,7 +121,7 @@ class RobotDesk:
             )
         self._changed(self.view(snapshot))
 
-    def run_summary(self, workspace: Workspace, plan: Plan) -> dict[str, Any]:
+    def run_summary(self, open_gait: OpenGait, plan: Plan) -> dict[str, Any]:
         """What a person should know before they press Send."""
         if plan.waypoints is None:
             sentence = "This gait has no waypoints." if plan.refusal is None else plan.refusal.sentence
@@ -133,7 +133,7 @@ class RobotDesk:
             here_mm = tuple(h * 1000.0 for h in snapshot.strokes)
             distance_mm = max(abs(a - b) for a, b in zip(first_mm, here_mm, strict=False))
             moves = len(start_targets(here_mm, first_mm)) if len(here_mm) == len(first_mm) else None
-        reason = self._send_hindrance(workspace, snapshot)
+        reason = self._send_hindrance(open_gait, snapshot)
         return {
             "waypoints": plan.waypoints.count,
             "waypoints_hash": plan.waypoints.content_hash,
@@ -146,8 +146,8 @@ class RobotDesk:
             "reason": reason,
         }
 
-    def _send_hindrance(self, workspace: Workspace, snapshot: RobotSnapshot) -> str | None:
-        if workspace.approval is None:
+    def _send_hindrance(self, open_gait: OpenGait, snapshot: RobotSnapshot) -> str | None:
+        if open_gait.approval is None:
             return "This gait is not approved as it is now. Check it and approve it first."
         return allowed(snapshot)["send"]
 

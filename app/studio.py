@@ -12,13 +12,13 @@ from app.documents import motion_hash
 from app.events import EventHub
 from app.gait_desk import GaitDesk, UnknownGaitError
 from app.job_desk import JobDesk
+from app.open_gait import OpenGait
 from app.robot_desk import RobotDesk
 from app.session import Result, Session
 from app.store.database import Database
 from app.store.files import GaitFiles
 from app.version import VERSION
 from app.views import gait_view, summary_view
-from app.workspace import Workspace
 from core.gait import motion_problem
 from core.library import library
 from core.motion_problem import MotionProblem
@@ -74,27 +74,27 @@ class Studio:
 
     def summaries(self) -> list[dict[str, Any]]:
         """The list of gaits."""
-        return [summary_view(workspace) for workspace in self.gaits.workspaces()]
+        return [summary_view(open_gait) for open_gait in self.gaits.open_gaits()]
 
     def view(self, gait_id: str) -> dict[str, Any]:
         """A gait with its plan."""
-        return gait_view(self.gaits.workspace(gait_id), self.gaits.plan(gait_id))
+        return gait_view(self.gaits.open_gait(gait_id), self.gaits.plan(gait_id))
 
     def job_view(self, content: dict[str, Any]) -> dict[str, Any]:
         """A job, and whether it is of the gait as it is now."""
         try:
-            fresh = motion_hash(self.gaits.workspace(content["gait"]).gait) == content["motion"]
+            fresh = motion_hash(self.gaits.open_gait(content["gait"]).gait) == content["motion"]
         except UnknownGaitError:
             fresh = False
         return {**content, "fresh": fresh}
 
-    def publish_gait(self, workspace: Workspace) -> dict[str, Any]:
+    def publish_gait(self, open_gait: OpenGait) -> dict[str, Any]:
         """Shows a changed gait to every page, and the jobs and list that it touches."""
-        view = gait_view(workspace, self.gaits.plan(workspace.id))
+        view = gait_view(open_gait, self.gaits.plan(open_gait.id))
         self.hub.publish({"type": "gait", "view": view})
         self.publish_list()
         for content in self.jobs.contents():
-            if content["gait"] == workspace.id:
+            if content["gait"] == open_gait.id:
                 self.hub.publish({"type": "job", "job": self.job_view(content)})
         return view
 
@@ -104,7 +104,7 @@ class Studio:
 
     def submit_job(self, gait_id: str) -> dict[str, Any]:
         """Starts an optimisation."""
-        content = self.job_view(self.jobs.submit(self.gaits.workspace(gait_id)))
+        content = self.job_view(self.jobs.submit(self.gaits.open_gait(gait_id)))
         self.hub.publish({"type": "job", "job": content})
         return content
 
@@ -117,8 +117,8 @@ class Studio:
             self.hub.publish({"type": "job", "job": self.job_view(content)})
 
     def _take_result(self, motion: str, content: dict[str, Any]) -> None:
-        for workspace in self.gaits.take_result(motion, content):
-            self.publish_gait(workspace)
+        for open_gait in self.gaits.take_result(motion, content):
+            self.publish_gait(open_gait)
 
     def _robot_changed(self, view: dict[str, Any]) -> None:
         self.hub.publish({"type": "robot", "robot": view})

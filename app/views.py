@@ -10,45 +10,45 @@ from typing import Any
 import numpy as np
 
 from app.documents import gait_content
+from app.open_gait import OpenGait
 from app.plans import Plan
-from app.workspace import Workspace
 from core.findings import Approval, Verdict
 from core.segments import SegmentTable
 
 
-def summary_view(workspace: Workspace) -> dict[str, Any]:
+def summary_view(open_gait: OpenGait) -> dict[str, Any]:
     """A line of the list of gaits."""
-    gait = workspace.gait
+    gait = open_gait.gait
     return {
-        "id": workspace.id,
+        "id": open_gait.id,
         "name": gait.name,
-        "kind": "builtin" if workspace.builtin else "saved",
+        "kind": "builtin" if open_gait.builtin else "saved",
         "source": "optimised" if gait.segment_table is None else "manual",
         "orientation": gait.orientation.value,
         "order": list(gait.order),
         "step": list(gait.step),
-        "edited": workspace.edited,
+        "edited": open_gait.edited,
     }
 
 
-def gait_view(workspace: Workspace, plan: Plan) -> dict[str, Any]:
+def gait_view(open_gait: OpenGait, plan: Plan) -> dict[str, Any]:
     """Everything that the page shows of one gait."""
-    gait = workspace.gait
-    saved_at = workspace.saved_at
+    gait = open_gait.gait
+    saved_at = open_gait.saved_at
     return {
-        **summary_view(workspace),
-        "revision": workspace.revision,
+        **summary_view(open_gait),
+        "revision": open_gait.revision,
         "stamp": time.time_ns() // 1000,  # orders answers and events, which may overtake each other
         "saved_at": None if saved_at is None else datetime.fromtimestamp(saved_at, UTC).isoformat(),
-        "undo": workspace.undo_label,
-        "redo": workspace.redo_label,
+        "undo": open_gait.undo_label,
+        "redo": open_gait.redo_label,
         "document": gait_content(gait),
         "roles": list(gait.roles),
         "segments": None if gait.segment_table is None else _segments(gait.segment_table, gait.quarter_turns),
-        "notice": workspace.notice,
+        "notice": open_gait.notice,
         "plan": plan_view(plan),
-        "verdict": None if workspace.verdict is None else verdict_view(workspace.verdict),
-        "approval": None if workspace.approval is None else approval_view(workspace.approval),
+        "verdict": None if open_gait.verdict is None else verdict_view(open_gait.verdict),
+        "approval": None if open_gait.approval is None else approval_view(open_gait.approval),
     }
 
 

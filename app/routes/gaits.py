@@ -70,7 +70,7 @@ async def create_gait(
     body = await _document(request)
 
     def create() -> dict[str, Any]:
-        content = None if copy_of is None else gait_content(studio.gaits.workspace(copy_of).gait)
+        content = None if copy_of is None else gait_content(studio.gaits.open_gait(copy_of).gait)
         gait = parse_gait(body if content is None else _renamed(content, name), "body")
         return studio.publish_gait(studio.gaits.create(gait))
 
@@ -85,7 +85,7 @@ def _renamed(content: dict[str, Any], name: str | None) -> bytes:
 @router.get("/{gait_id}")
 async def read_gait(gait_id: str, studio: TheStudio) -> dict[str, Any]:
     """The gait's document as it is on the desk."""
-    return await on_session(studio, lambda: gait_content(studio.gaits.workspace(gait_id).gait))
+    return await on_session(studio, lambda: gait_content(studio.gaits.open_gait(gait_id).gait))
 
 
 @router.get("/{gait_id}/view")
@@ -159,11 +159,11 @@ async def check(gait_id: str, studio: TheStudio) -> dict[str, Any]:
     """Checks the plan by every rule and gives the verdict."""
 
     def checked() -> dict[str, Any]:
-        workspace = studio.gaits.check(gait_id)
-        studio.publish_gait(workspace)
-        if workspace.verdict is None:
+        open_gait = studio.gaits.check(gait_id)
+        studio.publish_gait(open_gait)
+        if open_gait.verdict is None:
             raise StateError("The check gave no verdict.", "check")
-        return verdict_view(workspace.verdict)
+        return verdict_view(open_gait.verdict)
 
     return await on_session(studio, checked)
 
@@ -173,11 +173,11 @@ async def approve(gait_id: str, approval: Approve, studio: TheStudio) -> dict[st
     """Records a person's approval of the present verdict."""
 
     def approved() -> dict[str, Any]:
-        workspace = studio.gaits.approve(gait_id, approval.by)
-        studio.publish_gait(workspace)
-        if workspace.approval is None:
+        open_gait = studio.gaits.approve(gait_id, approval.by)
+        studio.publish_gait(open_gait)
+        if open_gait.approval is None:
             raise StateError("The approval was not recorded.", "approve")
-        return approval_view(workspace.approval)
+        return approval_view(open_gait.approval)
 
     return await on_session(studio, approved)
 
@@ -204,6 +204,6 @@ async def run(gait_id: str, studio: TheStudio) -> dict[str, Any]:
     """What a person should know before they press Send."""
 
     def summary() -> dict[str, Any]:
-        return studio.robot.run_summary(studio.gaits.workspace(gait_id), studio.gaits.plan(gait_id))
+        return studio.robot.run_summary(studio.gaits.open_gait(gait_id), studio.gaits.plan(gait_id))
 
     return await on_session(studio, summary)

@@ -77,8 +77,8 @@ async def send(studio: TheStudio, wish: Send) -> dict[str, Any]:
     """Sends a gait's approved waypoints, after the slow way to the start pose."""
 
     def sent() -> None:
-        workspace, plan = studio.gaits.workspace(wish.gait), studio.gaits.plan(wish.gait)
-        studio.robot.send(workspace, plan, wish.waypoints_hash, wish.by)
+        open_gait, plan = studio.gaits.open_gait(wish.gait), studio.gaits.plan(wish.gait)
+        studio.robot.send(open_gait, plan, wish.waypoints_hash, wish.by)
 
     await on_session(studio, sent)
     return studio.robot.view()

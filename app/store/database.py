@@ -19,7 +19,7 @@ from core.errors import InputError
 _SCHEMA = """
 CREATE TABLE IF NOT EXISTS history(
     gait TEXT, position INTEGER, label TEXT, document TEXT, PRIMARY KEY(gait, position));
-CREATE TABLE IF NOT EXISTS workspace(
+CREATE TABLE IF NOT EXISTS open_gait(
     gait TEXT PRIMARY KEY, revision INTEGER, cursor INTEGER, notice TEXT, approval TEXT);
 CREATE TABLE IF NOT EXISTS result(motion TEXT PRIMARY KEY, content TEXT);
 CREATE TABLE IF NOT EXISTS job(id TEXT PRIMARY KEY, created REAL, content TEXT);
@@ -40,7 +40,7 @@ class HistoryRow:
 
 
 @dataclass(frozen=True)
-class WorkspaceRow:
+class OpenGaitRow:
     """Where a gait's editing stands."""
 
     revision: int
@@ -80,20 +80,20 @@ class Database:
         with self._lock:
             return self._connection.execute(query, values).fetchall()
 
-    def workspace(self, gait: str) -> tuple[WorkspaceRow, tuple[HistoryRow, ...]] | None:
+    def open_gait(self, gait: str) -> tuple[OpenGaitRow, tuple[HistoryRow, ...]] | None:
         """A gait's editing state and history, or None where it was never edited."""
-        rows = self._rows("SELECT revision, cursor, notice, approval FROM workspace WHERE gait=?", gait)
+        rows = self._rows("SELECT revision, cursor, notice, approval FROM open_gait WHERE gait=?", gait)
         if not rows:
             return None
         history = self._rows("SELECT label, document FROM history WHERE gait=? ORDER BY position", gait)
-        return WorkspaceRow(*rows[0]), tuple(HistoryRow(*row) for row in history)
+        return OpenGaitRow(*rows[0]), tuple(HistoryRow(*row) for row in history)
 
-    def has_workspace(self, gait: str) -> bool:
+    def has_open_gait(self, gait: str) -> bool:
         """Whether a gait's editing state is stored."""
-        return bool(self._rows("SELECT 1 FROM workspace WHERE gait=?", gait))
+        return bool(self._rows("SELECT 1 FROM open_gait WHERE gait=?", gait))
 
-    def put_workspace(
-        self, gait: str, row: WorkspaceRow, tail_from: int, tail: tuple[HistoryRow, ...]
+    def put_open_gait(
+        self, gait: str, row: OpenGaitRow, tail_from: int, tail: tuple[HistoryRow, ...]
     ) -> None:
         """Stores the editing state and replaces the history from a position on."""
         with self._writing() as connection:
@@ -103,15 +103,15 @@ class Database:
                 [(gait, tail_from + i, entry.label, entry.document) for i, entry in enumerate(tail)],
             )
             connection.execute(
-                "INSERT OR REPLACE INTO workspace VALUES(?,?,?,?,?)",
+                "INSERT OR REPLACE INTO open_gait VALUES(?,?,?,?,?)",
                 (gait, row.revision, row.cursor, row.notice, row.approval),
             )
 
-    def drop_workspace(self, gait: str) -> None:
+    def drop_open_gait(self, gait: str) -> None:
         """Forgets a gait's editing state."""
         with self._writing() as connection:
             connection.execute("DELETE FROM history WHERE gait=?", (gait,))
-            connection.execute("DELETE FROM workspace WHERE gait=?", (gait,))
+            connection.execute("DELETE FROM open_gait WHERE gait=?", (gait,))
 
     def result(self, motion: str) -> dict[str, Any] | None:
         """The stored result for a motion hash."""

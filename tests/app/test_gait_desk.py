@@ -43,24 +43,24 @@ def toggled(gait: Gait, foot: int, sample: int) -> Gait:
 
 
 def edit(desk: GaitDesk, gait_id: str, foot: int = 1, sample: int = 20) -> None:
-    desk.edit(gait_id, toggled(desk.workspace(gait_id).gait, foot, sample), "Toggle", None)
+    desk.edit(gait_id, toggled(desk.open_gait(gait_id).gait, foot, sample), "Toggle", None)
 
 
 def test_an_edit_is_one_undo_step_that_survives_a_restart(
     desk: GaitDesk, tmp_path: Path, database: Database
 ) -> None:
-    before = desk.workspace(WALK).gait
+    before = desk.open_gait(WALK).gait
     edit(desk, WALK)
     edit(desk, WALK, sample=21)
     again = reopened(tmp_path, database)
-    assert again.workspace(WALK).gait == desk.workspace(WALK).gait
-    assert again.workspace(WALK).undo_label == "Toggle"
+    assert again.open_gait(WALK).gait == desk.open_gait(WALK).gait
+    assert again.open_gait(WALK).undo_label == "Toggle"
     again.undo(WALK)
     again.undo(WALK)
-    assert again.workspace(WALK).gait == before
+    assert again.open_gait(WALK).gait == before
     again.redo(WALK)
     again.redo(WALK)
-    assert again.workspace(WALK).gait == desk.workspace(WALK).gait
+    assert again.open_gait(WALK).gait == desk.open_gait(WALK).gait
     with pytest.raises(StateError, match="nothing to redo"):
         again.redo(WALK)
 
@@ -69,28 +69,28 @@ def test_an_edit_after_undo_forgets_what_could_be_redone(desk: GaitDesk) -> None
     edit(desk, WALK)
     desk.undo(WALK)
     edit(desk, WALK, foot=3)
-    assert desk.workspace(WALK).redo_label is None
+    assert desk.open_gait(WALK).redo_label is None
     with pytest.raises(StateError, match="nothing to undo"):
         desk.undo(desk.undo(WALK).id)
 
 
 def test_a_stale_edit_is_refused_and_nothing_is_lost(desk: GaitDesk) -> None:
-    seen = desk.workspace(WALK)
+    seen = desk.open_gait(WALK)
     edit(desk, WALK)
-    current = desk.workspace(WALK)
+    current = desk.open_gait(WALK)
     with pytest.raises(StateError, match="changed elsewhere"):
         desk.edit(WALK, toggled(seen.gait, 0, 3), "Toggle", seen.revision)
-    assert desk.workspace(WALK) is current
+    assert desk.open_gait(WALK) is current
 
 
 def test_saving_writes_a_file_that_another_studio_reads(
     desk: GaitDesk, tmp_path: Path, database: Database
 ) -> None:
     edit(desk, WALK)
-    assert desk.workspace(WALK).edited
+    assert desk.open_gait(WALK).edited
     saved = desk.save(WALK)
     assert not saved.edited
-    assert reopened(tmp_path, database).workspace(WALK).saved == saved.gait
+    assert reopened(tmp_path, database).open_gait(WALK).saved == saved.gait
     assert not list(tmp_path.glob("gaits/.*"))
 
 
@@ -100,7 +100,7 @@ def test_a_deleted_gait_can_be_restored(desk: GaitDesk) -> None:
     assert desk.create(created.gait).id == "my-walk-2"
     desk.delete(created.id)
     with pytest.raises(UnknownGaitError):
-        desk.workspace(created.id)
+        desk.open_gait(created.id)
     assert desk.restore(created.id).gait == created.gait
     with pytest.raises(StateError, match="comes with the program"):
         desk.delete(WALK)
@@ -109,26 +109,26 @@ def test_a_deleted_gait_can_be_restored(desk: GaitDesk) -> None:
 @pytest.mark.parametrize("gait_id", ["nope", "../walk", "", "Walk", "a" * 200])
 def test_unknown_ids_are_refused(desk: GaitDesk, gait_id: str) -> None:
     with pytest.raises(InputError):
-        desk.workspace(gait_id)
+        desk.open_gait(gait_id)
 
 
 def test_a_damaged_file_is_named_and_the_others_are_listed(desk: GaitDesk, tmp_path: Path) -> None:
     (tmp_path / "gaits" / "broken.json").write_text("{")
     with pytest.raises(InputError, match=r"broken\.json is not JSON"):
-        desk.workspace("broken")
-    assert {workspace.id for workspace in desk.workspaces()} == set(library())
+        desk.open_gait("broken")
+    assert {open_gait.id for open_gait in desk.open_gaits()} == set(library())
 
 
 def test_drawing_over_a_segment_table_sets_it_aside_until_undo(desk: GaitDesk) -> None:
     edit(desk, MANUAL, foot=0, sample=3)
-    drawn = desk.workspace(MANUAL)
+    drawn = desk.open_gait(MANUAL)
     assert drawn.gait.segment_table is None
     assert drawn.notice is not None
     assert desk.undo(MANUAL).gait.segment_table is not None
 
 
 def test_turning_a_manual_gait_turns_its_timeline(desk: GaitDesk) -> None:
-    gait = desk.workspace(MANUAL).gait
+    gait = desk.open_gait(MANUAL).gait
     turned = desk.edit(MANUAL, replace(gait, direction=2), "Turn", None)
     assert turned.gait.segment_table is not None
     assert turned.gait.timeline == gait.timeline.turned(1)
@@ -143,16 +143,16 @@ def test_a_manual_gait_is_checked_approved_and_the_approval_survives_a_restart(
     approval = desk.approve(MANUAL, "Ada").approval
     assert approval is not None
     assert approval.waypoints_hash == desk.plan(MANUAL).waypoints.content_hash  # type: ignore[union-attr]
-    assert reopened(tmp_path, database).workspace(MANUAL).approval == approval
+    assert reopened(tmp_path, database).open_gait(MANUAL).approval == approval
 
 
 def test_any_edit_takes_the_approval_away_and_undo_does_not_bring_it_back(desk: GaitDesk) -> None:
     desk.check(MANUAL)
     desk.approve(MANUAL, "Ada")
-    gait = desk.workspace(MANUAL).gait
+    gait = desk.open_gait(MANUAL).gait
     desk.edit(MANUAL, replace(gait, step=(0.006, 0.006, 0.0)), "Step", None)
-    assert desk.workspace(MANUAL).approval is None
-    assert desk.workspace(MANUAL).verdict is None
+    assert desk.open_gait(MANUAL).approval is None
+    assert desk.open_gait(MANUAL).verdict is None
     assert desk.undo(MANUAL).approval is None
 
 
@@ -174,7 +174,7 @@ def test_a_gait_that_ends_in_the_air_keeps_its_drawing_and_says_why(desk: GaitDe
 
 
 def test_a_result_for_an_older_version_is_not_shown_as_current(desk: GaitDesk) -> None:
-    old = motion_hash(desk.workspace(WALK).gait)
+    old = motion_hash(desk.open_gait(WALK).gait)
     edit(desk, WALK)
     assert desk.take_result(old, {"trajectory": {}}) == ()
     assert desk.plan(WALK).source is PlanSource.DRAFT

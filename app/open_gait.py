@@ -21,7 +21,7 @@ class HistoryEntry:
 
 
 @dataclass(frozen=True)
-class Workspace:
+class OpenGait:
     """One gait while it is open; every change makes a new value and a new revision.
 
     Args:
@@ -69,12 +69,12 @@ class Workspace:
         following = self.cursor + 1
         return self.history[following].label if following < len(self.history) else None
 
-    def edit(self, gait: Gait, label: str, notice: str | None = None) -> Workspace:
+    def edit(self, gait: Gait, label: str, notice: str | None = None) -> OpenGait:
         """A new present document; what could be redone is gone."""
         history = (*self.history[: self.cursor + 1], HistoryEntry(label, gait))[-MOST_ENTRIES:]
         return self._moved(history, len(history) - 1, notice)
 
-    def undo(self) -> Workspace:
+    def undo(self) -> OpenGait:
         """One step back.
 
         Raises:
@@ -84,7 +84,7 @@ class Workspace:
             raise StateError("There is nothing to undo.", "undo")
         return self._moved(self.history, self.cursor - 1, None)
 
-    def redo(self) -> Workspace:
+    def redo(self) -> OpenGait:
         """One step forward again.
 
         Raises:
@@ -94,7 +94,7 @@ class Workspace:
             raise StateError("There is nothing to redo.", "redo")
         return self._moved(self.history, self.cursor + 1, None)
 
-    def _moved(self, history: tuple[HistoryEntry, ...], cursor: int, notice: str | None) -> Workspace:
+    def _moved(self, history: tuple[HistoryEntry, ...], cursor: int, notice: str | None) -> OpenGait:
         return replace(
             self,
             history=history,
@@ -106,6 +106,6 @@ class Workspace:
         )
 
 
-def fresh_workspace(gait_id: str, gait: Gait, builtin: bool, saved_at: float | None) -> Workspace:
+def fresh_gait(gait_id: str, gait: Gait, builtin: bool, saved_at: float | None) -> OpenGait:
     """A gait that was just opened."""
-    return Workspace(gait_id, builtin, (HistoryEntry("Open", gait),), 0, 1, gait, saved_at)
+    return OpenGait(gait_id, builtin, (HistoryEntry("Open", gait),), 0, 1, gait, saved_at)

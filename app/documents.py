@@ -105,7 +105,9 @@ def parse_gait(text: str | bytes, where: str = "gait") -> Gait:
     """
     try:
         content = json.loads(text)
-    except (json.JSONDecodeError, UnicodeDecodeError) as error:
+    except RecursionError as error:
+        raise InputError(f"{where} is nested too deeply to be a gait.", where) from error
+    except ValueError as error:
         raise InputError(f"{where} is not JSON: {error}.", where) from error
     return gait_from_content(content, where)
 
@@ -114,7 +116,7 @@ def gait_from_content(content: Any, where: str = "gait") -> Gait:
     """Reads a gait document that is already parsed JSON (see `parse_gait`)."""
     if not isinstance(content, dict) or content.get("format") != FORMAT:
         raise InputError(f'{where} is not a gait document: "format" must be "{FORMAT}".', f"{where}.format")
-    if content.get("version") != VERSION:
+    if content.get("version") != VERSION or isinstance(content["version"], bool):
         raise InputError(
             f"{where} has version {content.get('version')!r}; this program reads version {VERSION}. "
             "Open it with the program that wrote it.",

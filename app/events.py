@@ -63,7 +63,7 @@ class EventHub:
 
     def publish(self, event: dict[str, Any]) -> None:
         """Sends an event to every page."""
-        text = json.dumps(event)
+        text = json.dumps(event, allow_nan=False)
         is_robot = event["type"] == "robot"
         with self._lock:
             subscribers = tuple(self._subscribers)

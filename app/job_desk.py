@@ -11,16 +11,15 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from app.documents import motion_hash
+from app.judgement import judge
 from app.open_gait import OpenGait
 from app.store.database import Database
 from app.trajectory_content import trajectory_content
 from core.errors import InputError, StateError
 from core.gait import motion_problem
-from core.motion_check import check_motion
 from core.motion_problem import MotionProblem
 from core.robot import load_robot
-from core.trajectory import turn_trajectory
-from solver_jobs import Job, JobRunner, JobState, MotionResult
+from solver_jobs import Job, JobRunner, JobState, MotionResult, SolveStatus
 
 ENDED = frozenset({"done", "infeasible", "failed", "cancelled", "interrupted"})
 MOST_SHOWN = 20
@@ -147,31 +146,14 @@ class JobDesk:
 
     def _judge(self, content: dict[str, Any], origin: JobOrigin, result: MotionResult) -> None:
         """Believes a solved result only if the independent checker confirms it."""
-        trajectory = turn_trajectory(result.trajectory, origin.quarter_turns)
-        check = check_motion(origin.problem, trajectory)
-        outcome = {
-            "status": result.status.value,
-            "iterations": result.iteration_count,
-            "objective": result.objective,
-            "solve_seconds": result.solve_seconds,
-            "build_seconds": result.build_seconds,
-            "max_violation": check.max_violation,
-            "violations": check.violations,
-            "min_margin": check.min_margin,
-            "min_cop_margin": check.min_cop_margin,
-            "explanation": list(result.explanation),
-        }
-        content["result"] = outcome
-        if content["state"] != JobState.DONE.value:
-            return
-        if not check.confirmed:
-            content["state"] = JobState.FAILED.value
-            content["sentence"] = (
-                f"The solver says it is solved, but the checker found {check.worst_family} violated by "
-                f"{check.max_violation:.1e}; the result is not used."
+        judged = judge(origin.problem, result, origin.quarter_turns)
+        content["result"] = judged.content
+        if judged.status is SolveStatus.SOLVED:
+            self._take_result(
+                origin.motion, {**judged.content, "trajectory": trajectory_content(judged.trajectory)}
             )
-            return
-        self._take_result(origin.motion, {**outcome, "trajectory": trajectory_content(trajectory)})
+        elif content["state"] == JobState.DONE.value:
+            content |= {"state": JobState.FAILED.value, "sentence": judged.explanation[0]}
 
 
 def _iterate_content(iterate: Any) -> dict[str, Any]:

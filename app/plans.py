@@ -13,11 +13,13 @@ from app.trajectory_content import trajectory_from_content
 from core.arrays import Floats
 from core.checks import CheckedPlan, check_plan
 from core.draft import initial_motion
-from core.errors import CheckError, FootfallError
+from core.errors import CheckError, FootfallError, InputError
 from core.findings import Verdict
 from core.gait import Gait, motion_problem
 from core.kinematics import UnreachableError
 from core.manual import manual_motion
+from core.motion_check import check_motion
+from core.motion_problem import MotionProblem
 from core.robot import RobotModel, load_robot
 from core.support import stability_margins
 from core.trajectory import Trajectory
@@ -89,12 +91,13 @@ def make_plan(gait: Gait, result: dict[str, Any] | None) -> Plan:
             motion = manual_motion(gait, model)
             source, note, slip = PlanSource.MANUAL, _manual_note(float(motion.slip.max())), motion.slip
             trajectory = motion.trajectory
-        elif result is not None:
-            source, note = PlanSource.OPTIMISED, _optimised_note(result)
-            trajectory = trajectory_from_content(result["trajectory"])
         else:
+            problem = motion_problem(gait, model)
+            stored = _confirmed(problem, result)
             source, note = PlanSource.DRAFT, "Draft: drawn from the timeline, not optimised yet."
-            trajectory = initial_motion(motion_problem(gait, model))
+            trajectory = initial_motion(problem) if stored is None else stored
+            if stored is not None and result is not None:
+                source, note = PlanSource.OPTIMISED, _optimised_note(result)
     except FootfallError as refusal:
         return Plan(PlanSource.DRAFT, refusal.sentence, model, None, None, refusal)
     try:
@@ -102,6 +105,17 @@ def make_plan(gait: Gait, result: dict[str, Any] | None) -> Plan:
     except UnreachableError as refusal:
         return Plan(source, note, model, trajectory, None, refusal, slip)
     return Plan(source, note, model, trajectory, waypoints, None, slip)
+
+
+def _confirmed(problem: MotionProblem, result: dict[str, Any] | None) -> Trajectory | None:
+    """A stored result's motion, if the checker still confirms it for this problem and this robot."""
+    if result is None:
+        return None
+    try:
+        trajectory = trajectory_from_content(result["trajectory"])
+        return trajectory if check_motion(problem, trajectory).confirmed else None
+    except (KeyError, TypeError, ValueError, InputError):
+        return None
 
 
 def _manual_note(slip: float) -> str:

@@ -88,11 +88,14 @@ class Guard:
 
     def _refusal(self, scope: Scope, headers: dict[str, str]) -> str | None:
         host = headers.get("host", "")
-        name = urlsplit(f"//{host}").hostname or ""
+        try:
+            name = urlsplit(f"//{host}").hostname or ""
+        except ValueError:
+            name = host
         if not self._access.knows_host(name):
             return f"This studio does not answer for the host “{name}”. Use the address that it printed."
         origin = headers.get("origin")
-        if origin is not None and urlsplit(origin).netloc != host:
+        if origin is not None and origin not in (f"http://{host}", f"https://{host}"):
             return f"Requests from the page {origin} are refused. Use the studio's own page."
         if self._access.token is not None and not self._has_token(scope, headers):
             return "The token is missing or wrong. Open the address with its token, as the studio printed it."

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from app.documents import gait_content
+from app.finite import finite
 from app.open_gait import OpenGait
 from app.plans import Plan
 from core.findings import Approval, Verdict
@@ -92,7 +93,7 @@ def plan_view(plan: Plan) -> dict[str, Any]:
             "body": np.round(trajectory.body_world, 7).tolist(),
             "heading": trajectory.heading.tolist(),
             "feet": np.round(trajectory.feet_world, 7).tolist(),
-            "margin": np.round(plan.margins, 7).tolist(),
+            "margin": finite(np.round(plan.margins, 7).tolist()),
             "duration": float(trajectory.times[-1]),
         }
     if plan.waypoints is not None:

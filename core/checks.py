@@ -12,7 +12,7 @@ from core.findings import Finding, RuleMargin, Severity, Verdict
 from core.leg import foot_from_strokes
 from core.manual import stance_slip
 from core.robot import RobotModel
-from core.support import centre_of_pressure, stability_margins
+from core.support import stability_margins, trajectory_pressure
 from core.trajectory import Trajectory
 from core.waypoints import Waypoints
 from core.wire_timing import stop_delay
@@ -31,6 +31,10 @@ DEAF_LIMIT = 2.5
 """A plan during which Stop takes longer gets a warning, s."""
 STANDING_DEPTH = 0.0005
 """Feet within this of the deepest one are taken to stand where only waypoints are known, m."""
+STROKE_BALANCE_SLACK = 0.0005
+"""From strokes alone balance is known to this much, since which feet stand is itself a guess, m."""
+CONTACT_LIMIT = 0.00025
+"""How far a standing foot may be from the ground, m (T (3.12) as we use it)."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +67,7 @@ class CheckedPlan:
 def check_plan(plan: CheckedPlan) -> Verdict:
     """Every rule on a plan, for exactly these waypoints."""
     rules = (_stroke(plan.model, plan.waypoints), _deafness(plan.waypoints))
-    outcomes = [*rules, *(rule(plan) for rule in (_balance, _clearance, _slip, _motor_speed))]
+    outcomes = [*rules, *(rule(plan) for rule in (_balance, _contact, _clearance, _slip, _motor_speed))]
     if plan.expected_travel is not None:
         outcomes.append(_travel(plan, plan.expected_travel))
     findings = [finding for outcome in outcomes for finding in outcome.findings]
@@ -134,43 +138,53 @@ def _deafness(waypoints: Waypoints) -> Outcome:
 def _balance(plan: CheckedPlan) -> Outcome:
     """Ground point inside the support polygon.
 
-    Of a motion whose forces were solved it is the centre of pressure (DOMAIN.md 12); of every other the
-    centre of mass (static stability margin), since the firmware sets its own speeds.
+    Of a motion whose velocities fit its positions it is the centre of pressure (DOMAIN.md 12); of every
+    other the centre of mass (static stability margin).
     """
     t = plan.trajectory
     points, what = t.body_world[:, :2], "centre of mass"
-    if t.contact_forces is not None and t.body_velocity is not None and t.feet_velocity is not None:
-        steps = np.diff(t.times)
-        masses = plan.model.masses
-        moving = centre_of_pressure(
-            t.body_world[:-1],
-            np.diff(t.body_velocity, axis=0) / steps[:, None],
-            np.diff(t.feet_velocity, axis=0) / steps[:, None, None],
-            masses.body,
-            masses.foot,
-        )
-        points, what = np.concatenate([moving, t.body_world[-1:, :2]]), "centre of pressure"
+    if _moves_as_planned(t):
+        pressure = trajectory_pressure(plan.model, t)
+        points, what = np.concatenate([pressure, t.body_world[-1:, :2]]), "centre of pressure"
     margins = stability_margins(points, t.feet_world, t.contact)
-    return _balance_outcome(margins, t.times, t.contact, what)
+    return _balance_outcome(margins, t.times, t.contact, what, TOLERANCE)
 
 
-def _balance_outcome(margins: Floats, times: Floats, contact: Bools, what: str) -> Outcome:
+def _moves_as_planned(t: Trajectory) -> bool:
+    """Whether velocities are those of constant accelerations between knots."""
+    if t.body_velocity is None or t.feet_velocity is None:
+        return False
+    half = np.diff(t.times)[:, None] / 2
+    body_gap = np.diff(t.body_world, axis=0) - half * (t.body_velocity[1:] + t.body_velocity[:-1])
+    feet_gap = np.diff(t.feet_world, axis=0) - half[..., None] * (t.feet_velocity[1:] + t.feet_velocity[:-1])
+    return max(float(np.abs(body_gap).max()), float(np.abs(feet_gap).max())) <= TOLERANCE
+
+
+def _balance_outcome(margins: Floats, times: Floats, contact: Bools, what: str, slack: float) -> Outcome:
     findings = []
     for first, last in _stretches(margins < BALANCE_RESERVE):
         worst = first + int(margins[first : last + 1].argmin())
+        span = f"({times[first]:.1f} to {times[last]:.1f} s)"
+        if not np.isfinite(margins[worst]):
+            sentence = (
+                f"At {times[worst]:.1f} s no foot stands {span}: the robot falls. Keep three feet down."
+            )
+            findings.append(Finding("balance", Severity.ERROR, sentence, None, 0.0, worst))
+            continue
         value = float(margins[worst])
-        tips = value < -TOLERANCE
-        standing = ", ".join(str(foot + 1) for foot in np.nonzero(contact[worst])[0]) or "none"
+        tips = value < -slack
+        standing = ", ".join(str(foot + 1) for foot in np.nonzero(contact[worst])[0])
         sentence = (
             f"At {times[worst]:.1f} s the {what} is {abs(value) * 1000:.2f} mm "
-            f"{'outside' if tips else 'inside'} the edge of the support polygon of feet {standing} "
-            f"({times[first]:.1f} to {times[last]:.1f} s): "
-            f"{'the robot tips' if tips else 'there is hardly any reserve'}. "
+            f"{'outside' if value < -TOLERANCE else 'inside'} the edge of the support polygon of feet "
+            f"{standing} {span}: {'the robot tips' if tips else 'there is hardly any reserve'}. "
             "Shift the body before the step, or ask the optimiser for a stability margin."
         )
         severity, limit = (Severity.ERROR, 0.0) if tips else (Severity.WARNING, BALANCE_RESERVE)
         findings.append(Finding("balance", severity, sentence, value, limit, worst))
-    return Outcome(RuleMargin("balance", float(margins.min()), "m"), tuple(findings))
+    smallest = float(margins.min())
+    known = smallest if np.isfinite(smallest) else None
+    return Outcome(RuleMargin("balance", known, "m"), tuple(findings))
 
 
 def _stretches(flags: Bools) -> list[tuple[int, int]]:
@@ -188,7 +202,7 @@ def _standing_balance(model: RobotModel, waypoints: Waypoints) -> Outcome:
     standing = np.asarray(height <= STANDING_DEPTH)
     margins = stability_margins(np.zeros((waypoints.count, 2)), feet_robot, standing)
     times = np.cumsum(waypoints.durations) - waypoints.durations[0]
-    return _balance_outcome(margins, times, standing, "centre of mass")
+    return _balance_outcome(margins, times, standing, "centre of mass", STROKE_BALANCE_SLACK)
 
 
 def _clearance(plan: CheckedPlan) -> Outcome:
@@ -209,6 +223,25 @@ def _clearance(plan: CheckedPlan) -> Outcome:
                 )
     margin = float(smallest) if np.isfinite(smallest) else 0.0
     return Outcome(RuleMargin("clearance", margin, "m"), tuple(findings))
+
+
+def _contact(plan: CheckedPlan) -> Outcome:
+    """A foot that is said to stand is on the ground, and none is below it."""
+    t = plan.trajectory
+    height = t.feet_world[..., 2]
+    gap = np.where(t.contact, np.abs(height), np.maximum(-height, 0.0))
+    findings = []
+    for foot in range(t.leg_count):
+        for first, last in _stretches(np.asarray(gap[:, foot] > CONTACT_LIMIT + TOLERANCE)):
+            worst = first + int(gap[first : last + 1, foot].argmax())
+            where = "stand" if t.contact[worst, foot] else "swing"
+            sentence = (
+                f"Foot {foot + 1} should {where} at {t.times[worst]:.1f} s but is "
+                f"{height[worst, foot] * 1000:.1f} mm above the ground. Correct the timeline or the motion."
+            )
+            value = float(gap[worst, foot])
+            findings.append(Finding("contact", Severity.ERROR, sentence, value, CONTACT_LIMIT, worst, foot))
+    return Outcome(RuleMargin("contact", CONTACT_LIMIT - float(gap.max()), "m"), tuple(findings))
 
 
 def _slip(plan: CheckedPlan) -> Outcome:
@@ -235,7 +268,7 @@ def _motor_speed(plan: CheckedPlan) -> Outcome:
     speeds = moves / np.maximum(plan.waypoints.durations[1:], 1e-9)[:, None, None]
     limit = plan.model.stroke.speed
     margin = RuleMargin("motor_speed", limit - float(speeds.max(initial=0.0)), "m/s")
-    if margin.margin >= -TOLERANCE:
+    if float(speeds.max(initial=0.0)) <= limit + TOLERANCE:
         return Outcome(margin)
     sample, foot, actuator = (int(i) for i in np.unravel_index(int(speeds.argmax()), speeds.shape))
     value = float(speeds[sample, foot, actuator])

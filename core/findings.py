@@ -26,7 +26,7 @@ class Finding:
         rule: short name of the rule, for example `stroke`.
         severity: error or warning.
         sentence: foot, time, value, limit and a way out, in words.
-        value: what was found, SI.
+        value: what was found, SI; None where it has no number.
         limit: the bound that it broke, SI.
         sample: index of the knot, 0-based, where there is one.
         foot: index of the foot, 0-based, where there is one.
@@ -36,7 +36,7 @@ class Finding:
     rule: str
     severity: Severity
     sentence: str
-    value: float
+    value: float | None
     limit: float
     sample: int | None = None
     foot: int | None = None
@@ -45,10 +45,10 @@ class Finding:
 
 @dataclass(frozen=True)
 class RuleMargin:
-    """How far the worst place of a rule stays from its limit (negative: broken), SI."""
+    """How far the worst place of a rule stays from its limit (negative: broken; None: no number), SI."""
 
     rule: str
-    margin: float
+    margin: float | None
     unit: str
 
 

@@ -19,6 +19,10 @@ MAX_STEP = 0.2
 """Larger steps an iteration than any workspace here, m; a guard against mm given for m."""
 
 
+MOST_NAME, MOST_NOTES = 120, 20_000
+"""Characters that a gait's name and notes may have."""
+
+
 class Orientation(StrEnum):
     """Which way the robot's feet are seen (thesis 3.2)."""
 
@@ -94,6 +98,8 @@ class Gait:
     notes: str = ""
 
     def __post_init__(self) -> None:
+        _require_text("name", self.name, MOST_NAME)
+        _require_text("notes", self.notes, MOST_NOTES)
         if not self.name.strip():
             raise InputError("The gait has no name; give it one.", "name")
         if self.direction not in (1, 2, 3, 4):
@@ -128,6 +134,17 @@ class Gait:
             return tuple(str(foot + 1) for foot in range(legs))
         names = _ROLES[self.orientation]
         return tuple(names[(foot - self.quarter_turns) % 4] for foot in range(4))
+
+
+def _require_text(field_name: str, text: str, most: int) -> None:
+    if len(text) > most:
+        raise InputError(f"{field_name} has {len(text)} characters; at most {most} are kept.", field_name)
+    try:
+        text.encode()
+    except UnicodeEncodeError as error:
+        raise InputError(
+            f"{field_name} holds half a character at {error.start}; type it again.", field_name
+        ) from error
 
 
 def heading_step(orientation: Orientation, step: float) -> tuple[float, float, float]:

@@ -88,7 +88,7 @@ def check_motion(problem: MotionProblem, trajectory: Trajectory) -> MotionCheck:
         InputError: velocities or forces are missing, or the knots do not match the problem.
     """
     motion = _motion(problem, trajectory)
-    violations = {name: max(0.0, float(family(motion))) for name, family in FAMILIES.items()}
+    violations = {name: _violation(float(family(motion))) for name, family in FAMILIES.items()}
     pressure = centre_of_pressure(
         motion.body[:-1],
         motion.body_acceleration,
@@ -104,6 +104,11 @@ def check_motion(problem: MotionProblem, trajectory: Trajectory) -> MotionCheck:
         min_margin=float(stability_margins(motion.body[:, :2], feet, standing).min()),
         min_cop_margin=min_cop_margin,
     )
+
+
+def _violation(value: float) -> float:
+    # A comparison with nan is false, so that max() alone would pass it over.
+    return max(0.0, value) if np.isfinite(value) else float("inf")
 
 
 def _motion(problem: MotionProblem, trajectory: Trajectory) -> _Motion:

@@ -5,6 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from core.arrays import Bools, Floats
+from core.errors import InputError
+from core.robot import RobotModel
+from core.trajectory import Trajectory
 
 GRAVITY = 9.81
 """Standard gravity as the published program has it, m/s²."""
@@ -108,3 +111,28 @@ def centre_of_pressure(
     total = body_mass + foot_mass * feet_acceleration.shape[1]
     vertical = inertia[:, 2] + total * GRAVITY
     return np.asarray(body_world[:, :2] - body_world[:, 2:3] * inertia[:, :2] / vertical[:, None])
+
+
+def trajectory_pressure(model: RobotModel, trajectory: Trajectory) -> Floats:
+    """Centre of pressure of a motion with velocities, from each knot to the next.
+
+    Args:
+        model: for the masses of the optimisation's model.
+        trajectory: n knots, with velocities.
+
+    Returns:
+        (n − 1, 2) m.
+
+    Raises:
+        InputError: velocities are missing.
+    """
+    if trajectory.body_velocity is None or trajectory.feet_velocity is None:
+        raise InputError("The centre of pressure needs velocities.", "trajectory")
+    steps = np.diff(trajectory.times)
+    return centre_of_pressure(
+        trajectory.body_world[:-1],
+        np.diff(trajectory.body_velocity, axis=0) / steps[:, None],
+        np.diff(trajectory.feet_velocity, axis=0) / steps[:, None, None],
+        model.masses.body,
+        model.masses.foot,
+    )

@@ -44,7 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _report(error, wants_json)
         return next((code for kind, code in _EXIT if isinstance(error, kind)), 1)
     except (KeyboardInterrupt, Interrupted):
-        sys.stderr.write("Interrupted.\n")
+        _report(FootfallError("Interrupted.", "command"), wants_json)
         return INTERRUPTED
     except BrokenPipeError:
         # Whoever read our output is gone; keep the interpreter from complaining about it at its end.

@@ -72,12 +72,16 @@ def foot_order(text: str) -> tuple[int, ...]:
 
 def make_parser() -> argparse.ArgumentParser:
     """The parser of `footfall`; each command sets `run`."""
-    parser = _Parser(prog="footfall", description="Footfall Studio: gaits for delta-legged walking robots.")
+    parser = _Parser(
+        prog="footfall",
+        description="Footfall Studio: gaits for delta-legged walking robots.",
+        allow_abbrev=False,
+    )
     parser.add_argument("--version", action="version", version=f"footfall {VERSION}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
 
     def command(name: str, run: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:
-        added = commands.add_parser(name, help=text, description=text)
+        added = commands.add_parser(name, help=text, description=text, allow_abbrev=False)
         added.set_defaults(run=run)
         added.add_argument("--json", action="store_true", help="print one JSON object")
         return added
@@ -126,7 +130,7 @@ def _optimise_words(parser: argparse.ArgumentParser) -> None:
     travel.add_argument(
         "--goal", type=pair, default=None, metavar="X,Y", help="total travel at direction 1, m"
     )
-    parser.add_argument("--yaw", type=number(-math.pi, math.pi, "rad"), default=0.0, help="rad an iteration")
+    parser.add_argument("--yaw", type=number(-math.pi, math.pi, "rad"), default=None, help="rad an iteration")
     parser.add_argument("--direction", type=whole(1, 4), default=None)
     parser.add_argument("--order", type=foot_order, default=None, help="feet such as 3,2,4,1")
     parser.add_argument("--iterations", type=whole(1, 20), default=None)

@@ -9,19 +9,23 @@ from typing import Any
 
 from app.cli.report import end_on_sigterm, note, show
 from app.documents import parse_gait
+from app.judgement import Judgement, judge
 from app.store.files import GaitFiles, default_data_folder
 from app.trajectory_files import read_text, write_trajectory
 from core.errors import InputError
 from core.gait import Gait, GaitOptions, heading_step, motion_problem
 from core.library import library, manual_entry, optimised_entry
 from core.manual import manual_motion
-from core.motion_check import MotionCheck, check_motion
 from core.robot import load_robot
 from core.timeline import timeline_from_order
-from core.trajectory import Trajectory, turn_trajectory
-from solver_jobs import MotionResult, SolveStatus, solve_motion
+from solver_jobs import SolveStatus, solve_motion
 
-INFEASIBLE, FAILED = 3, 4
+EXIT_OF_STATUS = {
+    SolveStatus.SOLVED: 0,
+    SolveStatus.INFEASIBLE: 3,
+    SolveStatus.FAILED: 4,
+    SolveStatus.CANCELLED: 130,
+}
 
 
 def run_gaits(options: Namespace) -> int:
@@ -118,7 +122,7 @@ def gait_to_optimise(name: str) -> Gait:
         InputError: there is neither, or the gait is made by hand.
     """
     path = Path(name)
-    if path.suffix != ".json" and not path.exists():
+    if name in library() or (path.suffix != ".json" and not path.exists()):
         return replace(optimised_entry(name).gait, options=GaitOptions())
     gait = parse_gait(read_text(path), path.name)
     if gait.segment_table is not None:
@@ -138,9 +142,9 @@ def _with_options(gait: Gait, options: Namespace) -> Gait:
     order = options.order or gait.order
     step = gait.step
     if options.step is not None:
-        step = heading_step(gait.orientation, options.step)
+        step = (*heading_step(gait.orientation, options.step)[:2], step[2])
     if options.goal is not None:
-        step = (options.goal[0] / iterations, options.goal[1] / iterations, 0.0)
+        step = (options.goal[0] / iterations, options.goal[1] / iterations, step[2])
     sample_time = options.knot_time or gait.timeline.sample_time
     timeline = replace(gait.timeline, sample_time=sample_time)
     if any(getattr(options, n) is not None for n in ("order", "iterations", "phase_knots", "closing_knots")):
@@ -159,67 +163,46 @@ def _with_options(gait: Gait, options: Namespace) -> Gait:
         direction=direction,
         iterations=iterations,
         order=order,
-        step=(step[0], step[1], options.yaw),
+        step=(step[0], step[1], step[2] if options.yaw is None else options.yaw),
         timeline=timeline,
         options=asked,
     )
 
 
-def optimise(gait: Gait) -> tuple[MotionResult, Trajectory, MotionCheck]:
+def optimise(gait: Gait) -> Judgement:
     """Solves a gait in this process and holds the result to the independent checker."""
-    model = load_robot(gait.robot)
-    problem = motion_problem(gait, model)
-    result = solve_motion(problem.turned(-gait.quarter_turns))
-    trajectory = turn_trajectory(result.trajectory, gait.quarter_turns)
-    return result, trajectory, check_motion(problem, trajectory)
+    problem = motion_problem(gait, load_robot(gait.robot))
+    return judge(problem, solve_motion(problem.turned(-gait.quarter_turns)), gait.quarter_turns)
 
 
 def run_optimise(options: Namespace) -> int:
     """Optimises a gait and writes its trajectory."""
     end_on_sigterm()
     gait = _with_options(gait_to_optimise(options.gait), options)
-    result, trajectory, check = optimise(gait)
-    status, explanation = result.status.value, list(result.explanation)
-    if result.status is SolveStatus.SOLVED and not check.confirmed:
-        status = SolveStatus.FAILED.value
-        explanation = [
-            f"The solver says it is solved, but the checker found {check.worst_family} violated by "
-            f"{check.max_violation:.1e}; the result is not used."
-        ]
-    is_solved = status == SolveStatus.SOLVED.value
-    output = options.output if is_solved else None
+    judged = optimise(gait)
+    output = options.output if judged.status is SolveStatus.SOLVED else None
     if output is not None:
-        write_trajectory(output, trajectory)
+        write_trajectory(output, judged.trajectory)
     content: dict[str, Any] = {
         "gait": options.gait,
         "method": options.method,
-        "status": status,
         "knots": gait.timeline.sample_count,
         "knot_time": gait.timeline.sample_time,
-        "solve_seconds": result.solve_seconds,
-        "build_seconds": result.build_seconds,
-        "iterations": result.iteration_count,
-        "objective": result.objective,
-        "max_violation": check.max_violation,
-        "violations": check.violations,
-        "min_margin": check.min_margin,
-        "min_cop_margin": check.min_cop_margin,
-        "explanation": explanation,
+        **judged.content,
         "trajectory": _path(output),
     }
     show(options, content, [*_optimise_lines(content), *_written(output)])
-    if is_solved:
-        return 0
-    return INFEASIBLE if status == SolveStatus.INFEASIBLE.value else FAILED
+    return EXIT_OF_STATUS[judged.status]
 
 
 def _optimise_lines(content: dict[str, Any]) -> list[str]:
+    margins = [content["min_margin"], content["min_cop_margin"]]
+    shown = ["–" if margin is None else f"{margin * 1000:.2f} mm" for margin in margins]
     lines = [
         f"{content['gait']}: {content['status']} in {content['iterations']} iterations, "
         f"{content['solve_seconds'] * 1000:.0f} ms (build {content['build_seconds'] * 1000:.0f} ms), "
         f"{content['knots']} knots.",
-        f"Largest violation found by the checker: {content['max_violation']:.1e}.",
-        f"Smallest stability margin {content['min_margin'] * 1000:.2f} mm, of the centre of pressure "
-        f"{content['min_cop_margin'] * 1000:.2f} mm.",
+        f"Largest violation found by the checker: {content['max_violation'] or 0.0:.1e}.",
+        f"Smallest stability margin {shown[0]}, of the centre of pressure {shown[1]}.",
     ]
     return [*lines, *content["explanation"]]

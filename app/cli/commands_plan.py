@@ -13,7 +13,7 @@ from app.documents import parse_gait
 from app.trajectory_files import read_text, read_trajectory, write_waypoints
 from app.views import verdict_view
 from core.checks import CheckedPlan, check_plan
-from core.errors import InfeasibleError, InputError
+from core.errors import CheckError, InfeasibleError, InputError
 from core.findings import Verdict
 from core.gait import Gait
 from core.manual import manual_motion
@@ -85,14 +85,18 @@ def _trajectory_of(gait: Gait) -> Trajectory:
     """By hand table, or solved now and confirmed.
 
     Raises:
-        InfeasibleError: the optimiser found no motion.
+        InfeasibleError: there is no motion.
+        CheckError: the optimiser found none that the checker confirms.
     """
     if gait.segment_table is not None:
         return manual_motion(gait, load_robot(gait.robot)).trajectory
-    result, trajectory, check = optimise(gait)
-    if result.status is not SolveStatus.SOLVED or not check.confirmed:
-        raise InfeasibleError(" ".join(result.explanation) or "The optimiser found no motion.", gait.name)
-    return trajectory
+    judged = optimise(gait)
+    if judged.status is SolveStatus.SOLVED:
+        return judged.trajectory
+    sentence = " ".join(judged.explanation) or "The optimiser found no motion."
+    if judged.status is SolveStatus.INFEASIBLE:
+        raise InfeasibleError(sentence, gait.name)
+    raise CheckError(sentence, gait.name)
 
 
 def run_bench(options: Namespace) -> int:

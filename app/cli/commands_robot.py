@@ -16,6 +16,7 @@ from app.bridge.emulated import EmulatedRobot, start_emulator
 from app.bridge.robot import RobotBridge
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPlan
 from app.cli.report import Interrupted, end_on_sigterm, note, show, verdict_lines
+from app.robot_view import EMULATOR
 from app.store.files import default_data_folder
 from app.trajectory_files import read_waypoints
 from app.views import verdict_view
@@ -25,7 +26,6 @@ from core.findings import Approval, Severity, Verdict, approve
 from core.robot import load_robot
 from core.waypoints import Waypoints
 
-EMULATOR = "emulator"
 READY_SECONDS = 20.0
 """The board needs about 8 s; later than this nothing will come."""
 ROBOT_FAILED = 5

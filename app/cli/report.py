@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from types import FrameType
 from typing import Any
 
+from app.finite import finite
 from core.findings import Severity, Verdict
 
 
@@ -29,7 +30,7 @@ def end_on_sigterm() -> None:
 
 def show(options: Namespace, content: dict[str, Any], lines: Sequence[str]) -> None:
     """Prints content as JSON, or lines for people."""
-    text = json.dumps(content) if options.json else "\n".join(lines)
+    text = json.dumps(finite(content), allow_nan=False) if options.json else "\n".join(lines)
     sys.stdout.write(text + "\n")
 
 
@@ -48,5 +49,7 @@ def verdict_lines(verdict: Verdict) -> list[str]:
     return lines
 
 
-def _in_unit(value: float, unit: str) -> str:
+def _in_unit(value: float | None, unit: str) -> str:
+    if value is None:
+        return "         – (no number)"
     return f"{value * 1000:10.3f} mm{unit[1:]}" if unit.startswith("m") else f"{value:10.3f} {unit}"

@@ -24,7 +24,7 @@ async def events(socket: WebSocket) -> None:
     subscriber = studio.hub.subscribe()
     listening = asyncio.create_task(_drain(socket))
     try:
-        await socket.send_text(json.dumps(await on_session(studio, studio.hello)))
+        await socket.send_text(json.dumps(await on_session(studio, studio.hello), allow_nan=False))
         while (event := await _next_or_gone(subscriber, listening)) is not None:
             await socket.send_text(event)
         await socket.close()

@@ -121,7 +121,9 @@ class Database:
     def put_result(self, motion: str, content: dict[str, Any]) -> None:
         """Stores a checked result."""
         with self._writing() as connection:
-            connection.execute("INSERT OR REPLACE INTO result VALUES(?,?)", (motion, json.dumps(content)))
+            connection.execute(
+                "INSERT OR REPLACE INTO result VALUES(?,?)", (motion, json.dumps(content, allow_nan=False))
+            )
 
     def jobs(self, most: int = 50) -> list[dict[str, Any]]:
         """The newest jobs, newest first."""
@@ -133,13 +135,16 @@ class Database:
         with self._writing() as connection:
             connection.execute(
                 "INSERT OR REPLACE INTO job VALUES(?,?,?)",
-                (content["id"], content["created"], json.dumps(content)),
+                (content["id"], content["created"], json.dumps(content, allow_nan=False)),
             )
 
     def add_approval(self, gait: str, content: dict[str, Any]) -> None:
         """Adds to the record of approvals."""
         with self._writing() as connection:
-            connection.execute("INSERT INTO approval(gait, content) VALUES(?,?)", (gait, json.dumps(content)))
+            connection.execute(
+                "INSERT INTO approval(gait, content) VALUES(?,?)",
+                (gait, json.dumps(content, allow_nan=False)),
+            )
 
     def runs(self, most: int = 100) -> list[dict[str, Any]]:
         """The newest runs, newest first."""
@@ -151,7 +156,7 @@ class Database:
         with self._writing() as connection:
             connection.execute(
                 "INSERT OR REPLACE INTO run VALUES(?,?,?)",
-                (content["id"], content["started"], json.dumps(content)),
+                (content["id"], content["started"], json.dumps(content, allow_nan=False)),
             )
 
     def add_bytes(self, rows: list[tuple[str, float, str, bytes]]) -> None:

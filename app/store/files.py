@@ -6,6 +6,7 @@ import json
 import os
 import re
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 from app.documents import gait_content, parse_gait
@@ -43,8 +44,10 @@ def write_atomically(path: Path, text: str) -> None:
         finally:
             os.close(folder)
     except OSError as error:
-        partial.unlink(missing_ok=True)
         raise InputError(f"{path} cannot be written: {error.strerror}.", str(path)) from error
+    finally:
+        with suppress(OSError):
+            partial.unlink(missing_ok=True)
 
 
 def slug(name: str) -> str:
@@ -115,7 +118,12 @@ class GaitFiles:
             raise InputError(f"“{gait_id}” exists again; delete or rename it first.", gait_id)
         source.replace(self._path(gait_id))
 
+    @staticmethod
+    def is_id(gait_id: str) -> bool:
+        """Whether a text can be a gait's id."""
+        return _ID.fullmatch(gait_id) is not None
+
     def _path(self, gait_id: str) -> Path:
-        if not _ID.fullmatch(gait_id):
+        if not self.is_id(gait_id):
             raise InputError(f"“{gait_id}” is no gait id: lower-case letters, digits and hyphens.", "id")
         return self._gaits / f"{gait_id}.json"

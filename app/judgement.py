@@ -1,0 +1,69 @@
+"""Believing a solver: only what the independent checker confirms counts as solved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from app.finite import finite
+from core.motion_check import MotionCheck, check_motion
+from core.motion_problem import MotionProblem
+from core.trajectory import Trajectory, turn_trajectory
+from solver_jobs import MotionResult, SolveStatus
+
+
+@dataclass(frozen=True, eq=False)
+class Judgement:
+    """A solver's result as the checker sees it.
+
+    Args:
+        status: the solver's, but failed where the checker does not confirm what is said to be solved.
+        explanation: sentences where it is not solved.
+        trajectory: in the problem's own direction.
+        check: what the checker measured.
+        result: the solver's own report.
+    """
+
+    status: SolveStatus
+    explanation: tuple[str, ...]
+    trajectory: Trajectory
+    check: MotionCheck
+    result: MotionResult
+
+    @property
+    def content(self) -> dict[str, Any]:
+        """The figures as JSON content."""
+        figures = {
+            "status": self.status.value,
+            "iterations": self.result.iteration_count,
+            "objective": self.result.objective,
+            "solve_seconds": self.result.solve_seconds,
+            "build_seconds": self.result.build_seconds,
+            "max_violation": self.check.max_violation,
+            "violations": self.check.violations,
+            "min_margin": self.check.min_margin,
+            "min_cop_margin": self.check.min_cop_margin,
+            "explanation": list(self.explanation),
+        }
+        content: dict[str, Any] = finite(figures)
+        return content
+
+
+def judge(problem: MotionProblem, result: MotionResult, quarter_turns: int) -> Judgement:
+    """Turns a result of direction 1 into the problem's direction and holds it to the checker.
+
+    Args:
+        problem: in its own direction.
+        result: of the problem turned back to direction 1.
+        quarter_turns: from direction 1 to the problem's.
+    """
+    trajectory = turn_trajectory(result.trajectory, quarter_turns)
+    check = check_motion(problem, trajectory)
+    status, explanation = result.status, result.explanation
+    if status is SolveStatus.SOLVED and not check.confirmed:
+        status = SolveStatus.FAILED
+        explanation = (
+            f"The solver says it is solved, but the checker found {check.worst_family} violated by "
+            f"{check.max_violation:.1e}; the result is not used.",
+        )
+    return Judgement(status, explanation, trajectory, check, result)

@@ -10,18 +10,16 @@ from dataclasses import asdict, replace
 from datetime import UTC, datetime
 from typing import Any
 
-import numpy as np
-
 from app.documents import gait_content, motion_hash, parse_gait
 from app.open_gait import HistoryEntry, OpenGait, fresh_gait
 from app.plans import Plan, make_plan, verdict_of
+from app.settling import drawn_timeline, require_locks, settle_iterations, settle_table
 from app.store.database import Database, HistoryRow, OpenGaitRow
 from app.store.files import GaitFiles, slug
 from core.errors import FootfallError, InputError, StateError
 from core.findings import Approval, approve
 from core.gait import Gait
 from core.library import library
-from core.timeline import timeline_from_order
 
 
 class UnknownGaitError(InputError):
@@ -54,7 +52,7 @@ class GaitDesk:
         for gait_id in self.ids():
             try:
                 found.append(self.open_gait(gait_id))
-            except InputError:
+            except FootfallError:
                 continue
         return tuple(found)
 
@@ -69,6 +67,8 @@ class GaitDesk:
         return self._open[gait_id]
 
     def _load(self, gait_id: str) -> OpenGait:
+        if not self._files.is_id(gait_id):
+            raise UnknownGaitError(f"There is no gait “{gait_id}”.", gait_id)
         builtin = library().get(gait_id)
         saved_at = self._files.saved_at(gait_id)
         if saved_at is None and builtin is None:
@@ -89,7 +89,10 @@ class GaitDesk:
         if text is None:
             return open_gait
         approval = Approval(**json.loads(text))
-        verdict = verdict_of(self._plan_of(open_gait), open_gait.gait)
+        try:
+            verdict = verdict_of(self._plan_of(open_gait), open_gait.gait)
+        except FootfallError:
+            return open_gait
         if verdict.content_hash != approval.verdict_hash:
             return open_gait
         return replace(open_gait, verdict=verdict, approval=approval)
@@ -119,7 +122,8 @@ class GaitDesk:
                 f"“{open_gait.gait.name}” was changed elsewhere; look at its new state and edit again.",
                 "revision",
             )
-        settled, notice = settle_table(open_gait.gait, gait)
+        require_locks(open_gait.gait, gait)
+        settled, notice = settle_table(open_gait.gait, settle_iterations(open_gait.gait, gait))
         if settled == open_gait.gait:
             return open_gait
         return self._put(open_gait.edit(settled, label or "Edit", notice), open_gait)
@@ -127,17 +131,9 @@ class GaitDesk:
     def redraw(self, gait_id: str, order: tuple[int, ...], phase_knots: int, closing_knots: int) -> OpenGait:
         """Draws the timeline anew from a foot order and phase lengths."""
         open_gait = self.open_gait(gait_id)
-        gait = open_gait.gait
-        timeline = timeline_from_order(
-            gait.timeline.leg_count,
-            order,
-            phase_knots=phase_knots,
-            closing_knots=closing_knots,
-            iterations=gait.iterations,
-            sample_time=gait.timeline.sample_time,
-        ).turned(gait.quarter_turns)
-        options = replace(gait.options, phase_knots=phase_knots, closing_knots=closing_knots)
-        changed = replace(gait, order=order, timeline=timeline, options=options)
+        options = replace(open_gait.gait.options, phase_knots=phase_knots, closing_knots=closing_knots)
+        changed = replace(open_gait.gait, order=order, options=options)
+        changed = replace(changed, timeline=drawn_timeline(changed))
         return self.edit(gait_id, changed, f"Draw order {'-'.join(map(str, order))}", None)
 
     def undo(self, gait_id: str) -> OpenGait:
@@ -165,6 +161,7 @@ class GaitDesk:
         while gait_id in taken:
             number += 1
             gait_id = f"{base}-{number}"
+        self._database.drop_open_gait(gait_id)
         self._files.write(gait_id, gait)
         self._open[gait_id] = fresh_gait(gait_id, gait, False, self._files.saved_at(gait_id))
         return self._open[gait_id]
@@ -206,17 +203,25 @@ class GaitDesk:
         self._open[gait_id] = replace(open_gait, verdict=verdict, approval=approval)
         return self._open[gait_id]
 
-    def approve(self, gait_id: str, by: str) -> OpenGait:
+    def approve(self, gait_id: str, by: str, verdict_hash: str | None = None) -> OpenGait:
         """Records a person's approval of the present verdict.
 
+        Args:
+            gait_id: which gait.
+            by: the person's name.
+            verdict_hash: of the verdict that they saw, where it is known.
+
         Raises:
-            StateError: the gait was not checked since its last change, or an error stands.
+            StateError: the gait was not checked since its last change, another verdict stands by now, or an
+                error stands.
         """
         open_gait = self.open_gait(gait_id)
         if open_gait.verdict is None:
             raise StateError(
                 "Check this gait first: it changed since the last check, or was never checked.", "check"
             )
+        if verdict_hash is not None and verdict_hash != open_gait.verdict.content_hash:
+            raise StateError("Another verdict stands by now; look at it and approve again.", "verdict_hash")
         approval = approve(open_gait.verdict, by, datetime.now(UTC))
         self._database.add_approval(gait_id, asdict(approval))
         return self._put(replace(open_gait, approval=approval), open_gait)
@@ -251,31 +256,6 @@ class GaitDesk:
 
 def _row(entry: HistoryEntry) -> HistoryRow:
     return HistoryRow(entry.label, json.dumps(gait_content(entry.gait)))
-
-
-def settle_table(before: Gait, after: Gait) -> tuple[Gait, str | None]:
-    """Brings segment table and timeline of an edited gait into agreement.
-
-    Where only the table, direction or iterations changed, the timeline follows. Where the timeline was
-    drawn by hand, the table no longer says what is drawn and is set aside.
-
-    Returns:
-        The gait, and a sentence where the table was set aside.
-    """
-    table = after.segment_table
-    if table is None:
-        return after, None
-    repeated = table.repeated(after.iterations).turned(after.quarter_turns)
-    implied = repeated.timeline(after.timeline.sample_time)
-    if np.array_equal(after.timeline.stance, implied.stance):
-        return after, None
-    if before.segment_table is not None and np.array_equal(after.timeline.stance, before.timeline.stance):
-        return replace(after, timeline=implied), None
-    notice = (
-        "The segment table cannot say what you drew, so it was set aside and the gait is now a drawn one. "
-        "Undo brings the table back."
-    )
-    return replace(after, segment_table=None), notice
 
 
 def refusal_text(error: FootfallError) -> dict[str, Any]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import secrets
+import threading
 import time
 from collections.abc import Callable
 from typing import Any
@@ -15,7 +17,7 @@ from app.plans import Plan
 from app.robot_view import EMULATOR, RUNNING, RunOrigin, allowed, robot_view, stop_seconds
 from app.run_recorder import RunRecorder
 from app.store.database import Database
-from core.errors import StateError
+from core.errors import FootfallError, StateError
 from core.waypoint_path import estimate_seconds
 from core.wire_timing import largest_moves
 
@@ -33,8 +35,10 @@ class RobotDesk:
         self._database = database
         self._device = device
         self._emulator: EmulatedRobot | None = None
+        self._connecting = threading.Lock()
         self._origin: RunOrigin | None = None
         self._record: dict[str, Any] | None = None
+        self._previous: dict[str, Any] | None = None
         self._recorder = RunRecorder(database)
         self._interrupt_old_runs()
         self.bridge = RobotBridge(self._recorder.log)
@@ -42,10 +46,12 @@ class RobotDesk:
         self.bridge.subscribe(self._heard)
 
     def _interrupt_old_runs(self) -> None:
-        for content in self._database.runs():
+        for content in reversed(self._database.runs()):
             if content["state"] == "running":
                 sentence = "The studio ended while this run was on; nothing resumes by itself."
-                self._database.put_run({**content, "state": "interrupted", "sentence": sentence})
+                content |= {"state": "interrupted", "sentence": sentence}
+                self._database.put_run(content)
+            self._previous = content
 
     def close(self) -> None:
         """Stops a run, closes the line and ends the emulated robot."""
@@ -55,20 +61,23 @@ class RobotDesk:
 
     def connect(self, device: str | None) -> None:
         """Opens the line to the studio's robot, or to another device."""
-        self._device = device or self._device
-        if self.bridge.snapshot.link in (LinkState.CONNECTING, LinkState.READY):
-            raise StateError("The robot is connected already. Disconnect it first.", "connect")
-        self._close_emulator()
-        target = self._device
-        if target == EMULATOR:
-            self._emulator = start_emulator()
-            target = self._emulator.device
-        self.bridge.connect(target)
+        wanted = device or self._device
+        with self._connecting:
+            if self.bridge.snapshot.link in (LinkState.CONNECTING, LinkState.READY):
+                raise StateError("The robot is connected already. Disconnect it first.", "connect")
+            self._close_emulator()
+            if wanted == EMULATOR:
+                self._emulator = start_emulator()
+                self.bridge.connect(self._emulator.device)
+            else:
+                self.bridge.connect(wanted)
+            self._device = wanted
 
     def disconnect(self) -> None:
         """Stops a run and closes the line; may take as long as the move that is on."""
-        self.bridge.disconnect()
-        self._close_emulator()
+        with self._connecting:
+            self.bridge.disconnect()
+            self._close_emulator()
 
     def _close_emulator(self) -> None:
         if self._emulator is not None:
@@ -94,22 +103,34 @@ class RobotDesk:
         if not plan.model.wired:
             raise StateError(f"{plan.model.title} exists on paper only; it has no cable.", "robot")
         hold_ok = tuple(bool(row.all()) for row in plan.trajectory.contact)
-        run_id = self.bridge.send(RunPlan(waypoints, approval, hold_ok), by)
+        run_id = secrets.token_hex(6)
         self._origin = RunOrigin(run_id, open_gait.id, open_gait.gait.name, waypoints)
-        self._record = {
+        record = {
             "id": run_id,
             "gait": open_gait.id,
             "gait_name": open_gait.gait.name,
             "waypoints_hash": waypoints.content_hash,
             "by": by,
             "started": time.time(),
+            "started_monotonic": time.monotonic(),
             "ended": None,
             "state": "running",
             "sentence": "",
         }
-        self._recorder.begin(self._record)
+        # The record begins before the first byte goes out.
+        self._recorder.begin(record)
+        self._record = record
+        try:
+            self.bridge.send(RunPlan(waypoints, approval, hold_ok), by, run_id)
+        except FootfallError as refusal:
+            self._record = None
+            self._recorder.end(
+                {**record, "ended": time.time(), "state": "refused", "sentence": refusal.sentence}
+            )
+            raise
 
     def _heard(self, snapshot: RobotSnapshot) -> None:
+        self._changed(self.view(snapshot))
         record, run = self._record, snapshot.run
         ended = snapshot.robot not in RUNNING or snapshot.link is LinkState.LOST
         if record is not None and run is not None and run.run_id == record["id"] and ended:
@@ -119,7 +140,6 @@ class RobotDesk:
             self._recorder.end(
                 {**record, **reached, "ended": time.time(), "state": state, "sentence": snapshot.sentence}
             )
-        self._changed(self.view(snapshot))
 
     def run_summary(self, open_gait: OpenGait, plan: Plan) -> dict[str, Any]:
         """What a person should know before they press Send."""
@@ -153,4 +173,7 @@ class RobotDesk:
 
     def view(self, snapshot: RobotSnapshot | None = None) -> dict[str, Any]:
         """The robot as JSON content."""
-        return robot_view(snapshot or self.bridge.snapshot, self._device, self._origin)
+        return {
+            **robot_view(snapshot or self.bridge.snapshot, self._device, self._origin),
+            "previous_run": self._previous,
+        }

@@ -12,6 +12,8 @@ from typing import Any
 from app.bridge.states import Direction
 from app.store.database import Database
 
+_Row = tuple[str, float, str, bytes]
+
 logger = logging.getLogger(__name__)
 
 FLUSH_SECONDS = 0.1
@@ -27,7 +29,7 @@ class RunRecorder:
 
     def __init__(self, database: Database) -> None:
         self._database = database
-        self._waiting: queue.SimpleQueue[tuple[str, float, str, bytes] | None] = queue.SimpleQueue()
+        self._waiting: queue.SimpleQueue[_Row | dict[str, Any] | None] = queue.SimpleQueue()
         self._run: str | None = None
         self._thread = threading.Thread(target=self._work, name="run recorder", daemon=True)
         self._thread.start()
@@ -44,9 +46,9 @@ class RunRecorder:
         self._run = content["id"]
 
     def end(self, content: dict[str, Any]) -> None:
-        """Completes the record of a run."""
+        """Completes the record of a run, after every byte that was logged before."""
         self._run = None
-        self._database.put_run(content)
+        self._waiting.put(content)
 
     def close(self) -> None:
         """Writes what is left and ends."""
@@ -56,19 +58,20 @@ class RunRecorder:
     def _work(self) -> None:
         is_open = True
         while is_open:
-            first = self._waiting.get()
+            batch = [self._waiting.get()]
             time.sleep(FLUSH_SECONDS)
-            rows = [] if first is None else [first]
-            is_open = first is not None
             while not self._waiting.empty():
-                row = self._waiting.get()
-                is_open = is_open and row is not None
-                if row is not None:
-                    rows.append(row)
-            self._write(rows)
+                batch.append(self._waiting.get())
+            is_open = None not in batch
+            self._write(
+                [row for row in batch if isinstance(row, tuple)],
+                [content for content in batch if isinstance(content, dict)],
+            )
 
-    def _write(self, rows: list[tuple[str, float, str, bytes]]) -> None:
+    def _write(self, rows: list[_Row], ended: list[dict[str, Any]]) -> None:
         try:
             self._database.add_bytes(rows)
+            for content in ended:
+                self._database.put_run(content)
         except sqlite3.Error:
             logger.exception("%d pieces of a run's record could not be written.", len(rows))

@@ -98,6 +98,8 @@ async def _serve_until_signal(server: _Server, listening: socket.socket, studio:
     loop = asyncio.get_running_loop()
 
     def end() -> None:
+        # The robot first: connections that are still open may take their time to close.
+        studio.stop_run("the end of the studio")
         server.should_exit = True
         studio.hub.close()
 

@@ -14,6 +14,7 @@ from app.gait_desk import GaitDesk, UnknownGaitError
 from app.job_desk import JobDesk
 from app.open_gait import OpenGait
 from app.robot_desk import RobotDesk
+from app.robot_view import RUNNING
 from app.session import Result, Session
 from app.store.database import Database
 from app.store.files import GaitFiles
@@ -57,6 +58,11 @@ class Studio:
         self.hub.close()
         self.stop_lane.shutdown()
         self._database.close()
+
+    def stop_run(self, by: str) -> None:
+        """Stops the robot where a run is on; returns at once."""
+        if self.robot.bridge.snapshot.robot in RUNNING:
+            self.stop_lane.submit(self.robot.bridge.stop, by)
 
     def call(self, action: Callable[[], Result]) -> Future[Result]:
         """Does something on the session's thread."""

@@ -10,6 +10,8 @@ from core.trajectory import Trajectory
 from core.trajectory_csv import TrajectoryFile, format_companion, format_trajectory_csv, parse_trajectory_csv
 from core.waypoints import Waypoints, format_waypoint_csv, parse_waypoint_csv
 
+LOWEST_BODY = 0.005
+"""A centre of mass is never lower all the time, m."""
 COMPANION_SUFFIX = ".footfall.json"
 
 
@@ -33,10 +35,21 @@ def companion_path(path: Path) -> Path:
 
 
 def read_trajectory(path: Path) -> TrajectoryFile:
-    """Reads a trajectory CSV and its companion where there is one."""
+    """Reads a trajectory CSV and its companion where there is one.
+
+    Raises:
+        InputError: it is malformed, or not in the world's frame.
+    """
     companion = companion_path(path)
     companion_text = read_text(companion) if companion.exists() else None
-    return parse_trajectory_csv(read_text(path), path.name, companion_text)
+    read = parse_trajectory_csv(read_text(path), path.name, companion_text)
+    if (read.trajectory.body_world[:, 2] < LOWEST_BODY).all():
+        raise InputError(
+            f"{path.name}: the body's height is 0 throughout, as in files whose feet are given from their "
+            "own modules' centres. A trajectory has the height of the centre of mass in its third row.",
+            str(path),
+        )
+    return read
 
 
 def write_trajectory(path: Path, trajectory: Trajectory) -> None:

@@ -95,22 +95,6 @@ class ContactTimeline:
                 found.append(Swing(foot, int(first), int(after) - 1))
         return tuple(found)
 
-    def with_cell(self, foot: int, sample: int, stance: bool) -> ContactTimeline:
-        """A timeline with one cell set.
-
-        Raises:
-            InputError: no such cell, or it is locked.
-        """
-        if not (0 <= foot < self.leg_count and 0 <= sample < self.sample_count):
-            raise InputError(f"There is no cell foot {foot + 1}, sample {sample + 1}.", "timeline")
-        if self.locked[foot, sample]:
-            raise InputError(
-                f"Foot {foot + 1}, sample {sample + 1} is locked; unlock it before you change it.", "timeline"
-            )
-        changed = self.stance.copy()
-        changed[foot, sample] = stance
-        return replace(self, stance=changed)
-
     def turned(self, quarter_turns: int) -> ContactTimeline:
         """The same steps taken by the feet a number of quarter turns further on (four legs a turn of 90°)."""
         shift = quarter_turns * self.leg_count // 4

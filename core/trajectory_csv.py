@@ -85,7 +85,7 @@ def parse_trajectory_csv(text: str, name: str, companion_text: str | None = None
     """
     table, first_line = _parse_table(text, name)
     companion, assumptions = _companion(companion_text, text, name)
-    legs = int(companion.get("legs", 4)) if companion else 4
+    legs = _leg_count(companion, name)
     size = 3 + 3 * legs
     if table.shape[0] not in (size, 2 * size):
         raise InputError(
@@ -95,7 +95,19 @@ def parse_trajectory_csv(text: str, name: str, companion_text: str | None = None
         )
     if table.shape[1] < 2:
         raise InputError(f"{name}: one knot; a trajectory needs at least two columns.", name)
-    return _assemble(table, legs, companion, assumptions)
+    try:
+        return _assemble(table, legs, companion, assumptions)
+    except (KeyError, TypeError, ValueError, OverflowError) as error:
+        raise InputError(
+            f"The companion of {name} does not fit it: {error!r}. Write the file anew.", name
+        ) from error
+
+
+def _leg_count(companion: dict[str, Any] | None, name: str) -> int:
+    legs = 4 if companion is None else companion.get("legs")
+    if not isinstance(legs, int) or not 1 <= legs <= 100:
+        raise InputError(f"The companion of {name} says {legs!r} legs; it must be a whole number.", name)
+    return legs
 
 
 def _assemble(

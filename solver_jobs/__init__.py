@@ -1,7 +1,6 @@
 """What is computed: optimisation problems, solvers and the worker processes that run them.
 
-This is the public face. Importing it loads no solver; `solve_motion` and `bench_trajectories` load it when
-they are called.
+This is the public face. Importing it loads no solver; `solve_motion` loads it when it is called.
 """
 
 from __future__ import annotations
@@ -9,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from core.motion_problem import MotionProblem
-from solver_jobs.bench import TrajectoryRow, bench_trajectories
 from solver_jobs.jobs import OPEN_STATES, Job, JobKind, JobState, result_sentence
 from solver_jobs.results import Evidence, Iterate, MotionResult, SolveStatus
 from solver_jobs.runner import JobRunner
@@ -24,8 +22,6 @@ __all__ = [
     "JobState",
     "MotionResult",
     "SolveStatus",
-    "TrajectoryRow",
-    "bench_trajectories",
     "result_sentence",
     "solve_motion",
 ]

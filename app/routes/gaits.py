@@ -40,10 +40,11 @@ class Redraw(BaseModel):
 
 
 class Approve(BaseModel):
-    """Who approves."""
+    """Who approves, and the verdict that they saw."""
 
     model_config = ConfigDict(extra="forbid")
     by: str = Field(max_length=80)
+    verdict_hash: str | None = None
 
 
 async def _document(request: Request) -> bytes:
@@ -103,10 +104,13 @@ async def edit_gait(
     revision: int | None = None,
 ) -> dict[str, Any]:
     """Puts a changed document on the desk as one undo step."""
-    gait = parse_gait(await _document(request), "body")
-    return await on_session(
-        studio, lambda: studio.publish_gait(studio.gaits.edit(gait_id, gait, label, revision))
-    )
+    body = await _document(request)
+
+    def edit() -> dict[str, Any]:
+        gait = parse_gait(body, "body")
+        return studio.publish_gait(studio.gaits.edit(gait_id, gait, label, revision))
+
+    return await on_session(studio, edit)
 
 
 @router.delete("/{gait_id}")
@@ -173,7 +177,7 @@ async def approve(gait_id: str, approval: Approve, studio: TheStudio) -> dict[st
     """Records a person's approval of the present verdict."""
 
     def approved() -> dict[str, Any]:
-        open_gait = studio.gaits.approve(gait_id, approval.by)
+        open_gait = studio.gaits.approve(gait_id, approval.by, approval.verdict_hash)
         studio.publish_gait(open_gait)
         if open_gait.approval is None:
             raise StateError("The approval was not recorded.", "approve")

@@ -13,10 +13,14 @@ from typing import Any
 
 import pytest
 
+from app.bridge.emulated import start_emulator
 from app.cli import main
+from app.documents import gait_content
 from app.version import VERSION
+from core.library import library
 from core.trajectory_csv import parse_trajectory_csv
 from core.waypoints import parse_waypoint_csv
+from tests.reference import reference_path
 from tests.studio_process import PROJECT
 
 
@@ -45,6 +49,59 @@ def test_the_way_from_gait_to_waypoints(capsys: pytest.CaptureFixture[str], tmp_
     merged = run_json(capsys, "waypoints", str(trajectory), "--merge", "0.001", "--stop-bound", "1.0")[1]
     assert merged["waypoints"] < 45
     assert merged["stop_seconds"] <= 1.0
+
+
+def test_the_defaults_of_each_command_suit_the_next(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    trajectory, waypoints = tmp_path / "walk.csv", tmp_path / "way.csv"
+    assert run(capsys, "optimise", "walk", "-o", str(trajectory))[0] == 0
+    assert run(capsys, "check", str(trajectory))[0] == 0
+    assert run(capsys, "waypoints", str(trajectory), "-o", str(waypoints))[0] == 0
+    robot = start_emulator("nominal", 20.0, booted=True)
+    try:
+        status, answer = run_json(capsys, "send", str(waypoints), "--robot", robot.device, "--yes")
+    finally:
+        robot.close()
+    assert (status, answer["state"], answer["reached"]) == (0, "done", 45)
+
+
+def test_a_gait_without_a_standing_foot_is_valid_json(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    document = gait_content(library()["walk"].gait)
+    document["timeline"]["feet"] = [row[:20] + "0" + row[21:] for row in document["timeline"]["feet"]]
+    path = tmp_path / "hop.json"
+    path.write_text(json.dumps(document))
+    status, answer = run_json(capsys, "optimise", str(path))
+    assert status in (3, 4)
+    assert answer["min_margin"] is None
+    assert answer["explanation"]
+
+
+def test_a_file_keeps_its_yaw(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    path = tmp_path / "turn.json"
+    path.write_text(json.dumps(gait_content(library()["walk"].gait) | {"step": [0.005, 0.005, 0.1]}))
+    status, answer = run_json(capsys, "optimise", str(path))
+    assert status == 2
+    assert "yaw" in answer["error"]
+
+
+def test_feet_from_their_own_modules_are_no_trajectory(capsys: pytest.CaptureFixture[str]) -> None:
+    path = reference_path("simulation_manual/planned/trajA0_o1.csv")
+    status, answer = run_json(capsys, "check", str(path))
+    assert status == 2
+    assert "modules' centres" in answer["error"]
+
+
+def test_benchmarks_print_their_conditions(capsys: pytest.CaptureFixture[str]) -> None:
+    status, answer = run_json(capsys, "bench", "trajectories")
+    assert status == 0
+    assert {"cores", "python", "casadi"} <= set(answer["conditions"])
+    rows = answer["results"]["trajectories"]
+    assert len(rows) == 16
+    assert {row["status"] for row in rows} == {"solved"}
+    assert all(float(row["max_violation"]) <= 1e-6 for row in rows)
 
 
 def test_directions_are_the_same_motion_turned(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

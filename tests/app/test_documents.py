@@ -80,6 +80,11 @@ def _with(path: str, value: Any) -> str:
     ("text", "message"),
     [
         ("{", "is not JSON"),
+        ("[" * 100_000, "nested too deeply"),
+        ('{"version": ' + "9" * 5000 + "}", "is not JSON"),
+        (_with("version", True), "version True"),
+        (_with("name", "half \ud800"), "half a character"),
+        (_with("name", "x" * 1000), "at most 120"),
         ("[]", 'must be "footfall-gait"'),
         (_with("format", "other"), 'must be "footfall-gait"'),
         (_with("version", 2), "version 2; this program reads version 1"),

@@ -13,6 +13,7 @@ from app.gait_desk import GaitDesk, UnknownGaitError
 from app.plans import PlanSource
 from app.store.database import Database
 from app.store.files import GaitFiles
+from app.trajectory_content import trajectory_content
 from core.errors import CheckError, InputError, StateError
 from core.gait import Gait
 from core.library import library
@@ -38,8 +39,9 @@ def reopened(tmp_path: Path, database: Database) -> GaitDesk:
 
 
 def toggled(gait: Gait, foot: int, sample: int) -> Gait:
-    stands = bool(gait.timeline.stance[foot, sample])
-    return replace(gait, timeline=gait.timeline.with_cell(foot, sample, not stands))
+    stance = gait.timeline.stance.copy()
+    stance[foot, sample] = not stance[foot, sample]
+    return replace(gait, timeline=replace(gait.timeline, stance=stance))
 
 
 def edit(desk: GaitDesk, gait_id: str, foot: int = 1, sample: int = 20) -> None:
@@ -177,4 +179,37 @@ def test_a_result_for_an_older_version_is_not_shown_as_current(desk: GaitDesk) -
     old = motion_hash(desk.open_gait(WALK).gait)
     edit(desk, WALK)
     assert desk.take_result(old, {"trajectory": {}}) == ()
+    assert desk.plan(WALK).source is PlanSource.DRAFT
+
+
+def test_locked_cells_stay_until_they_are_unlocked(desk: GaitDesk) -> None:
+    gait = desk.open_gait(WALK).gait
+    locked = gait.timeline.locked.copy()
+    locked[1, 20] = True
+    desk.edit(WALK, replace(gait, timeline=replace(gait.timeline, locked=locked)), "Lock", None)
+    with pytest.raises(StateError, match="Foot 2, sample 21 is locked"):
+        edit(desk, WALK)
+    with pytest.raises(StateError, match="locked cells"):
+        desk.redraw(WALK, (1, 2, 3, 4), 6, 5)
+    edit(desk, WALK, sample=22)
+
+
+def test_more_iterations_draw_the_timeline_anew(desk: GaitDesk) -> None:
+    gait = desk.open_gait(WALK).gait
+    tripled = desk.edit(WALK, replace(gait, iterations=3), "Three iterations", None).gait
+    assert tripled.timeline.sample_count == 125
+    assert len(tripled.timeline.swings()) == 12
+
+
+def test_an_approval_is_of_the_verdict_that_was_seen(desk: GaitDesk) -> None:
+    desk.check(MANUAL)
+    with pytest.raises(StateError, match="Another verdict"):
+        desk.approve(MANUAL, "Ada", "0" * 64)
+
+
+def test_a_stored_result_that_the_checker_does_not_confirm_is_a_draft(desk: GaitDesk) -> None:
+    gait = desk.open_gait(WALK).gait
+    drawn = desk.plan(WALK).trajectory
+    assert drawn is not None
+    desk.take_result(motion_hash(gait), {"trajectory": trajectory_content(drawn)})
     assert desk.plan(WALK).source is PlanSource.DRAFT

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import socket
+import sqlite3
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -142,6 +143,53 @@ def test_stop_needs_no_body_latches_and_clears(studio: StudioProcess, robot: Emu
     studio.ask("POST", "/api/robot/clear", {"by": "Ada"})
     wait_for(lambda: studio.robot()["robot"] == "disarmed", "the stop is cleared")
     assert studio.ask("POST", "/api/robot/arm", {"by": "Ada"}).content["robot"] == "armed"
+
+
+def test_stop_waits_for_no_body(studio: StudioProcess) -> None:
+    host, port = studio.url.removeprefix("http://").rstrip("/").split(":")
+    with socket.create_connection((host, int(port)), timeout=5) as line:
+        head = f"POST /api/robot/stop HTTP/1.1\r\nHost: {host}:{port}\r\nContent-Length: 10\r\n\r\n{{"
+        line.sendall(head.encode())
+        assert line.recv(64).startswith(b"HTTP/1.1 200")
+
+
+def test_a_refused_connect_leaves_the_robot_its_name(studio: StudioProcess, robot: EmulatedRobot) -> None:
+    assert studio.ask("POST", "/api/robot/connect", {"device": "/dev/no-such-robot"}).status in (409, 503)
+    assert studio.robot()["device"] == robot.device
+
+
+def test_a_gait_without_a_standing_foot_leaves_the_page_alive(studio: StudioProcess) -> None:
+    document = studio.ask("GET", "/api/gaits/c-gait").content
+    feet = document["timeline"]["feet"]
+    document["timeline"]["feet"] = [row[:20] + "0" + row[21:] for row in feet]
+    view = studio.ask("PUT", "/api/gaits/c-gait?label=Hop", document).content
+    assert None in view["plan"]["margin"]
+    assert optimised(studio, "c-gait")["state"] in ("infeasible", "failed")
+    assert studio.ask("POST", "/api/gaits/c-gait/check").content["passed"] is False
+    assert b"Infinity" not in studio.blob("/api/jobs")
+
+
+def test_the_end_of_the_studio_stops_a_run_first(tmp_path: Path) -> None:
+    robot = start_emulator("nominal", 4.0, booted=True)
+    with running_studio(tmp_path, "--robot", robot.device) as studio:
+        optimised(studio, "walk")
+        studio.ask("POST", "/api/gaits/walk/check")
+        studio.ask("POST", "/api/gaits/walk/approve", {"by": "Ada"})
+        studio.ask("POST", "/api/robot/connect")
+        wait_for(lambda: studio.robot()["robot"] == "disarmed", "the robot is up")
+        studio.ask("POST", "/api/robot/arm")
+        studio.ask("POST", "/api/robot/send", {"gait": "walk"})
+        wait_for(lambda: (studio.robot()["run"] or {}).get("sent", 0) > 2, "some waypoints are out")
+    assert robot.firmware.messages[-1].payload == "s,1"
+    robot.close()
+    database = sqlite3.connect(tmp_path / "studio.sqlite3")
+    first = database.execute(
+        "SELECT data FROM run_bytes WHERE direction='to robot' ORDER BY number"
+    ).fetchone()
+    state = json.loads(database.execute("SELECT content FROM run").fetchone()[0])["state"]
+    database.close()
+    assert first[0].startswith(b"<p,1,")
+    assert state in ("stopping", "stopped", "lost", "fault")
 
 
 def test_results_edits_and_the_job_list_survive_a_restart(tmp_path: Path) -> None:

@@ -47,7 +47,7 @@ def test_standing_still_passes_without_a_word() -> None:
     verdict = check_plan(plan_of(standing(), np.zeros(2)))
     assert verdict.passed
     assert verdict.findings == ()
-    assert all(m.margin >= 0 for m in verdict.margins)
+    assert all(m.margin is not None and m.margin >= 0 for m in verdict.margins)
 
 
 def test_a_body_outside_its_feet_tips() -> None:
@@ -132,3 +132,23 @@ def test_the_published_manual_walk_slips_and_its_version_2_tips() -> None:
     assert warnings(verdicts[0]) == {"balance", "slip"}
     assert verdicts[0].passed
     assert errors(verdicts[1]) == {"balance"}
+
+
+def test_a_foot_that_is_said_to_stand_must_be_on_the_ground() -> None:
+    still = standing()
+    feet = np.array(still.feet_world)
+    feet[2, 1, 2] = 0.004
+    verdict = check_plan(plan_of(replace(still, feet_world=feet)))
+    assert errors(verdict) == {"contact"}
+    assert "Foot 2 should stand at 0.8 s but is 4.0 mm above the ground" in verdict.findings[0].sentence
+
+
+def test_a_robot_without_a_standing_foot_falls_and_has_no_margin() -> None:
+    still = standing()
+    contact = np.array(still.contact)
+    contact[2] = False
+    verdict = check_plan(plan_of(replace(still, contact=contact)))
+    finding = next(f for f in verdict.findings if f.rule == "balance")
+    assert finding.value is None
+    assert "no foot stands" in finding.sentence
+    assert next(m for m in verdict.margins if m.rule == "balance").margin is None

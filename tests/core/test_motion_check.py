@@ -162,3 +162,13 @@ def test_the_published_walk_starts_below_the_body_height_bound() -> None:
     # Published start and goal lie below the body height bound (DOMAIN.md, errors 5).
     assert check.violations["body_height"] == pytest.approx(0.0003, abs=1e-5)
     assert not check.confirmed
+
+
+def test_a_number_that_is_none_is_a_violation() -> None:
+    problem = standing_problem()
+    motion = standing(problem)
+    broken = motion.body_velocity.copy() if motion.body_velocity is not None else np.zeros((KNOTS, 3))
+    broken[2, 0] = np.nan
+    # A frozen trajectory refuses nan; the checker must not depend on that.
+    object.__setattr__(motion, "body_velocity", broken)
+    assert check_motion(problem, motion).max_violation == float("inf")

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from core.errors import InputError
 from core.timeline import (
-    ContactTimeline,
     Swing,
     bits_from_rows,
     rows_from_bits,
@@ -52,16 +51,6 @@ def test_four_quarter_turns_are_none(turns: int) -> None:
     timeline = timeline_from_order(4, [3, 2, 4, 1])
     assert timeline.turned(turns).turned(4 - turns) == timeline
     assert timeline.turned(1).swings()[0].foot == 0
-
-
-def test_a_cell_can_be_set_and_a_locked_one_refuses() -> None:
-    timeline = timeline_from_rows(["1111", "1111"], 0.4)
-    assert rows_from_bits(timeline.with_cell(1, 2, False).stance) == ("1111", "1101")
-    locked = ContactTimeline(timeline.stance, ~timeline.stance | True, 0.4)
-    with pytest.raises(InputError, match="Foot 2, sample 3 is locked"):
-        locked.with_cell(1, 2, False)
-    with pytest.raises(InputError, match="no cell foot 3"):
-        timeline.with_cell(2, 0, False)
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -95,3 +97,17 @@ def test_velocities_by_differences_are_exact_for_even_motion() -> None:
     times = np.array([0.0, 0.4, 1.0])
     positions = times[:, None] * np.array([[1.0, -2.0, 0.5]])
     assert difference_velocities(times, positions) == pytest.approx(np.tile([1.0, -2.0, 0.5], (3, 1)))
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [("legs", "four"), ("legs", 1e400), ("times", [0.0]), ("contact", [[1], [1, 0]]), ("heading", "north")],
+)
+def test_a_companion_that_does_not_fit_is_refused(field: str, value: object) -> None:
+    times = np.array([0.0, 0.2, 0.4])
+    feet = np.zeros((3, 4, 3))
+    trajectory = Trajectory(times, np.zeros((3, 3)), np.ones(3), feet, np.ones((3, 4), dtype=np.bool_))
+    text = format_trajectory_csv(trajectory)
+    companion = {**json.loads(format_companion(trajectory, text)), field: value}
+    with pytest.raises(InputError):
+        parse_trajectory_csv(text, "t.csv", json.dumps(companion))

@@ -20,7 +20,7 @@ from core.robot import load_robot
 from core.timeline import timeline_from_order
 from solver_jobs import Job, JobRunner, JobState, SolveStatus
 from solver_jobs import runner as runner_module
-from solver_jobs.bench import gait_problem
+from tests.solver_jobs.cases import gait_problem
 
 DEADLINE = 20.0
 WALK = gait_problem("walk", 0.010, Workspace.STROKE)
@@ -185,7 +185,7 @@ def test_a_listener_that_fails_does_not_stop_the_queue(caplog: pytest.LogCapture
 PARENT = """
 import sys
 from solver_jobs import JobRunner
-from solver_jobs.bench import gait_problem
+from tests.solver_jobs.cases import gait_problem
 from core.motion_problem import Workspace
 
 if __name__ == "__main__":

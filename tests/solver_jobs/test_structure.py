@@ -12,10 +12,10 @@ from core.kinematics import feet_in_modules
 from core.leg import strokes_from_foot
 from core.motion_problem import Cost, Workspace
 from core.robot import load_robot
-from solver_jobs.bench import gait_problem
 from solver_jobs.constraint import situation_of
 from solver_jobs.structure import Shape, Structure, StructureCache, build_structure
 from solver_jobs.variables import MotionVector, parameter_values, unpacked, vector_of_trajectory
+from tests.solver_jobs.cases import gait_problem
 
 PROBLEM = gait_problem("walk", 0.010, Workspace.STROKE)
 

@@ -1,0 +1,23 @@
+"""Problems of the built-in gaits for tests of the solver."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from core.gait import GaitOptions, heading_step, motion_problem
+from core.library import library
+from core.motion_problem import Cost, MotionProblem, Workspace
+from core.robot import load_robot
+
+GAITS = tuple(entry.id for entry in library().values() if entry.manual is None)
+
+
+def gait_problem(gait: str, step: float, workspace: Workspace, *, cost: Cost = Cost.GOAL) -> MotionProblem:
+    """One iteration of a built-in gait, direction 1, with the command's defaults but for what is given."""
+    chosen = library()[gait].gait
+    asked = replace(
+        chosen,
+        step=heading_step(chosen.orientation, step),
+        options=GaitOptions(workspace=workspace, cost=cost),
+    )
+    return motion_problem(asked, load_robot(chosen.robot))

@@ -71,6 +71,15 @@ def encode_release() -> bytes:
     return b"<s,0>"
 
 
+def encode_flush() -> bytes:
+    """Encodes what closes a message that was cut off on its way: fourteen fields `1` and the end marker.
+
+    A robot that holds nothing back ignores it and echoes nothing. A waypoint that was cut off becomes one
+    within the range, with 1 mm where strokes are missing, and is executed (PROTOCOL 5.6, hazard 9).
+    """
+    return b",1" * (MOTORS + 2) + b">"
+
+
 def payload_of(message: bytes) -> str:
     """Returns what the robot echoes for a message: the text between `<` and `>`."""
     return message[1:-1].decode("ascii")

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from app.bridge.states import Direction
-from core.wire import encode_stop
+from core.wire import encode_flush, encode_stop
 
 Log = Callable[[Direction, bytes, float], None]
 """Receives every byte both ways with the time of the bridge's clock; it must return at once."""
@@ -32,6 +32,10 @@ class Gate:
 
     A stop holds no lock but the one around a single write, so it waits for one message at most.
 
+    A line is unsure as long as half a message may wait at its end, for that would swallow the next one:
+    when it is new, until somebody has seen what the robot makes of it (`trust`), and for good after a write
+    that failed. Then only a flush and stops go out, and each stop has a flush before it, in one write.
+
     Args:
         log: told of every message that went out.
         clock: for the log.
@@ -43,18 +47,31 @@ class Gate:
         self._lock = threading.Lock()
         self._stops = 0
         self._outlet: Outlet | None = None
+        self._trusted = False
+        self._failed = False
+
+    @property
+    def _unsure(self) -> bool:
+        return self._failed or not self._trusted
 
     def attach(self, outlet: Outlet | None) -> None:
-        """Opens the gate to an outlet, or closes it with None."""
+        """Opens the gate to an outlet, which is unsure, or closes it with None."""
         with self._lock:
             self._outlet = outlet
+            self._trusted = False
+            self._failed = False
+
+    def trust(self) -> None:
+        """Declares that nothing waits at the end of the line since it is new; a failed write outlasts it."""
+        with self._lock:
+            self._trusted = True
 
     def permit(self) -> int:
         """Returns a permit that lasts until the next stop."""
         return self._stops
 
     def write(self, message: bytes, permit: int) -> bool:
-        """Sends a message unless a stop came after its permit.
+        """Sends a message unless a stop came after its permit, or the line is unsure.
 
         Returns:
             Whether it went out.
@@ -63,14 +80,25 @@ class Gate:
             RobotError: the line did not take it.
         """
         with self._lock:
-            if permit != self._stops or self._outlet is None:
-                return False
-            self._outlet.write(message)
-        self._log(Direction.TO_ROBOT, message, self._clock())
-        return True
+            sent = permit == self._stops and not self._unsure and self._put(message)
+        return sent and self._note(message)
+
+    def flush(self) -> bool:
+        """Sends what closes a message that was cut off; the line stays unsure until it is trusted.
+
+        Returns:
+            Whether there was a line to send it on.
+
+        Raises:
+            RobotError: the line did not take it.
+        """
+        message = encode_flush()
+        with self._lock:
+            sent = self._put(message)
+        return sent and self._note(message)
 
     def stop(self) -> bool:
-        """Revokes every permit and sends the stop.
+        """Revokes every permit and sends the stop, behind a flush if the line is unsure.
 
         Returns:
             Whether there was a line to send it on.
@@ -80,8 +108,18 @@ class Gate:
         """
         with self._lock:
             self._stops += 1
-            if self._outlet is None:
-                return False
-            self._outlet.write(encode_stop())
-        self._log(Direction.TO_ROBOT, encode_stop(), self._clock())
+            message = encode_flush() + encode_stop() if self._unsure else encode_stop()
+            sent = self._put(message)
+        return sent and self._note(message)
+
+    def _put(self, data: bytes) -> bool:
+        if self._outlet is None:
+            return False
+        failed, self._failed = self._failed, True
+        self._outlet.write(data)
+        self._failed = failed
+        return True
+
+    def _note(self, data: bytes) -> bool:
+        self._log(Direction.TO_ROBOT, data, self._clock())
         return True

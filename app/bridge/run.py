@@ -7,7 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.bridge.delivery import ARRIVAL_MM
 from app.bridge.states import RunPhase, RunPlan, RunProgress
+from app.bridge.words import displaced_sentence
 from core.errors import StateError
 from core.wire import HIGHEST_MM, LOWEST_MM, THRESHOLD_MM, encode_waypoint, strokes_to_mm
 from core.wire_timing import ramp_time
@@ -124,10 +126,16 @@ class Run:
             return "on the way to the start pose"
         return f"at waypoint {self._sent - self._start_count} of {self._count}"
 
-    @property
-    def last_reached_mm(self) -> tuple[float, ...]:
-        """Target that was reached last, mm."""
-        return self._moves[max(self._reached - 1, 0)].target_mm
+    def require_in_place(self, measured_mm: tuple[float, ...]) -> None:
+        """Refuses if a motor was moved since the last target was reached.
+
+        Raises:
+            StateError: with the distance, the limit and what to do.
+        """
+        target_mm = self._moves[max(self._reached - 1, 0)].target_mm
+        farthest = max(abs(t - m) for t, m in zip(target_mm, measured_mm, strict=True))
+        if farthest > ARRIVAL_MM:
+            raise StateError(displaced_sentence(farthest, ARRIVAL_MM))
 
     def next_move(self) -> Move:
         """Returns the next message's move and counts it as sent."""

@@ -39,6 +39,7 @@ class Transport:
         self._on_data = on_data
         self._on_lost = on_lost
         self._closing = threading.Event()
+        self._close_lock = threading.Lock()
         self._wake_read, self._wake_write = os.pipe()
         self._thread = threading.Thread(target=self._read_all, name="robot reader", daemon=True)
         self._thread.start()
@@ -61,9 +62,10 @@ class Transport:
 
     def close(self) -> None:
         """Closes the line; doing it twice does no harm."""
-        if self._closing.is_set():
-            return
-        self._closing.set()
+        with self._close_lock:
+            if self._closing.is_set():
+                return
+            self._closing.set()
         os.write(self._wake_write, b"x")
         if threading.current_thread() is not self._thread:
             self._thread.join()

@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 from app.bridge.states import RobotState
+from core.wire import THRESHOLD_MM, name_motor
+
+NOTICED_MM = 0.9 * THRESHOLD_MM
+"""A motor that is nearer to its target is sure not to be moved by the robot."""
 
 SENTENCES: dict[RobotState, str] = {
     RobotState.UNKNOWN: "What the robot does is not known.",
@@ -19,12 +23,24 @@ SENTENCES: dict[RobotState, str] = {
 
 NOT_CONNECTED = "No robot is connected."
 CONNECTING = (
-    "Waiting for the robot. Its board may restart when it is connected; its motors may then move "
-    "for about 8 s."
+    "Waiting for the robot. Its board may restart when it is connected, or carry out a message that was cut "
+    "off; its motors may then move for about 8 s."
 )
-CLEARING = "Clearing the stop; no motor moves."
 RESTARTED = "The robot restarted by itself and moves its motors to 0.5 mm."
 NOT_STOPPED = "NOT STOPPED: the robot has not confirmed the stop. Use the power switch."
+
+
+def clearing_sentence(
+    measured_mm: tuple[float, ...], target_mm: tuple[float, ...], *, confirmed: bool
+) -> str:
+    """Says what a clear does: nothing, unless a motor stands too far outside the range that may be sent."""
+    moves = [
+        f"{name_motor(i)} moves {abs(t - m):.2f} mm to {t:.2f} mm, the end of its range"
+        for i, (m, t) in enumerate(zip(measured_mm, target_mm, strict=True))
+        if abs(t - m) > NOTICED_MM
+    ]
+    doubt = "" if confirmed else "The robot has not confirmed the stop. "
+    return f"{doubt}Clearing the stop; {'; '.join(moves) or 'no motor moves'}."
 
 
 def silent_sentence(silence: float, limit: float, place: str) -> str:
@@ -40,6 +56,14 @@ def stranger_sentence(device: str | None, limit: float) -> str:
     return (
         f"Nothing on {device} answered like the robot within {limit:.0f} s. "
         "Check device and power, then connect again."
+    )
+
+
+def restless_sentence(device: str | None, limit: float) -> str:
+    """Says that the robot talks but does not come to rest."""
+    return (
+        f"The robot on {device} answers but did not come to rest within {limit:.0f} s. "
+        "If it moves, use its power switch; then connect again."
     )
 
 

@@ -11,7 +11,7 @@ from app.bridge.profiles import ProfileName
 from app.bridge.run import START_MOVE_MM
 from app.bridge.states import LinkState, RobotState, RunPhase
 from core.errors import InputError, StateError
-from core.wire import encode_waypoint
+from core.wire import encode_flush, encode_waypoint
 from core.wire_timing import stop_delay
 from tests.bridge.virtual_robot import VirtualRobot, make_plan, random_plan
 
@@ -36,7 +36,7 @@ def test_connecting_says_that_the_motors_may_move_and_waits_until_the_board_is_u
     robot.until(lambda s: s.link is LinkState.READY)
     assert robot.snapshot.robot is RobotState.DISARMED
     assert robot.now > 5.0
-    assert robot.sent == []
+    assert robot.sent == [encode_flush()]
 
 
 @pytest.mark.parametrize("profile", list(ProfileName))
@@ -48,7 +48,7 @@ def test_a_run_sends_exactly_the_approved_waypoints_and_reaches_each(profile: Pr
     expected = [encode_waypoint(s, 0.4) for s in plan.waypoints.strokes]
     assert robot.sent[-12:] == expected
     np.testing.assert_allclose(waypoints_taken(robot)[-12:], plan.waypoints.strokes_mm, atol=1e-5)
-    assert len(robot.sent) == len(waypoints_taken(robot)) == len(robot.firmware.completions) - 1
+    assert len(robot.sent) - 1 == len(waypoints_taken(robot)) == len(robot.firmware.completions) - 1
     assert max(c.worst_mm for c in robot.firmware.completions[-12:]) <= 1.0
     assert snapshot.run is not None
     assert (snapshot.run.sent, snapshot.run.reached, snapshot.run.count) == (12, 12, 12)
@@ -71,7 +71,7 @@ def test_the_way_to_the_start_pose_is_cut_into_small_moves_that_the_firmware_mak
 def test_the_start_pose_is_left_out_when_the_robot_stands_there(robot: VirtualRobot) -> None:
     robot.begin(make_plan([[1.2] * 12, [4.0] * 12]))
     robot.until_robot(RobotState.DONE)
-    assert len(robot.sent) == 2
+    assert len(robot.sent) == 3
 
 
 @settings(max_examples=25, deadline=None)
@@ -155,7 +155,7 @@ def test_an_edited_plan_is_refused(robot: VirtualRobot) -> None:
     edited = replace(plan, waypoints=random_plan(6, 4).waypoints)
     with pytest.raises(StateError, match="not the ones that were approved"):
         robot.session.send(edited, "Ada", robot.now)
-    assert robot.sent == []
+    assert robot.sent == [encode_flush()]
     assert robot.snapshot.robot is RobotState.ARMED
 
 
@@ -163,7 +163,7 @@ def test_a_plan_out_of_range_is_refused_before_anything_is_sent(robot: VirtualRo
     robot.arm()
     with pytest.raises(InputError, match="motor 12"):
         robot.session.send(make_plan([*SHORT, [5.0] * 11 + [19.6]]), "Ada", robot.now)
-    assert robot.sent == []
+    assert robot.sent == [encode_flush()]
 
 
 @pytest.mark.parametrize("verb", ["send", "reset", "pause", "resume", "clear"])

@@ -7,7 +7,7 @@ import numpy as np
 from app.bridge.firmware import Firmware
 from app.bridge.gate import Gate
 from app.bridge.profiles import PROFILES, ProfileName
-from app.bridge.session import Session
+from app.bridge.robot_session import RobotSession
 from app.bridge.states import Direction, LinkState, RobotSnapshot, RobotState, RunPlan
 from core.findings import Approval
 from core.waypoints import Waypoints
@@ -39,7 +39,7 @@ class VirtualRobot:
         self.to_robot: Callable[[bytes], bytes] = bytes
         self.from_robot: Callable[[bytes], bytes] = bytes
         self.gate = Gate(lambda way, data, _: self.log.append((way, data)), lambda: self.now)
-        self.session = Session(self.gate)
+        self.session = RobotSession(self.gate)
         self._program = self.firmware.run()
 
     @property

@@ -19,6 +19,7 @@ def obstacles(situation: Situation, box: Box) -> tuple[str, ...]:
     if (falling := _falling(situation)) is not None:
         return (falling,)
     looks = (
+        _no_area(situation),
         _contradictions(situation, box),
         _short_swings(situation),
         _far_feet(situation),
@@ -35,6 +36,25 @@ def _falling(situation: Situation) -> str | None:
     if not floating or GRAVITY * problem.timeline.sample_time <= 2 * fastest:
         return None
     return f"No foot stands at {knot_ranges(floating)}, so the robot falls. Keep at least three feet down."
+
+
+def _no_area(situation: Situation) -> list[str]:
+    """With fewer than three feet down the support has no area, and no margin can be kept inside it."""
+    problem = situation.problem
+    sentences: list[str] = []
+    if problem.limits.margin <= 0:
+        return sentences
+    few = situation.contact[:-1].sum(axis=1) < 3
+    floating = ~situation.contact[:-1]
+    for feet in sorted({tuple(np.nonzero(floating[k])[0].tolist()) for k in np.nonzero(few)[0]}):
+        at = tuple(int(k) for k in np.nonzero(few)[0] if tuple(np.nonzero(floating[k])[0].tolist()) == feet)
+        names = ", ".join(str(foot + 1) for foot in feet)
+        sentences.append(
+            f"Feet {names} are in the air together at {knot_ranges(at)}: the feet that stand have no area "
+            f"between them, so no stability margin of {problem.limits.margin * MM:.1f} mm can be kept. Set "
+            "one of them to stance there, or ask for margin 0."
+        )
+    return sentences
 
 
 def _contradictions(situation: Situation, box: Box) -> list[str]:

@@ -144,6 +144,8 @@ class EmulatedRobot:
         program = self.firmware.run()
         if self._booted:
             self._boot_at_once(program)
+        # The pace starts here, so that a board that was just powered on keeps its 5 s of silence.
+        self._pace(self.firmware.now, self._closing)
         while not self._closing.is_set():
             next(program)
             self._pace(self.firmware.now, self._closing)

@@ -53,7 +53,7 @@ export const api = {
   remove: (id) => request("DELETE", gait(id)),
   restore: (id) => request("POST", `${gait(id)}/restore`),
   check: (id) => request("POST", `${gait(id)}/check`),
-  approve: (id, by) => request("POST", `${gait(id)}/approve`, { by }),
+  approve: (id, by, verdict) => request("POST", `${gait(id)}/approve`, { by, verdict_hash: verdict }),
   run: (id) => request("GET", `${gait(id)}/run`),
   posesPath: (id, plan) => `${gait(id)}/poses?plan=${encodeURIComponent(plan)}`,
   optimise: (id) => request("POST", "/api/jobs", { kind: "optimise", gait: id }),
@@ -71,7 +71,7 @@ export async function sendStop(by, attempts = 5) {
   let failure = null;
   for (let attempt = 0; attempt < attempts; attempt += 1) {
     try {
-      return await request("POST", "/api/robot/stop", by ? { by } : undefined);
+      return await request("POST", `/api/robot/stop${by ? `?by=${encodeURIComponent(by)}` : ""}`);
     } catch (error) {
       failure = error;
       await new Promise((resume) => setTimeout(resume, 150 * attempt));

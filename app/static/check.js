@@ -68,7 +68,7 @@ async function approve(store) {
     toast("The gait changed meanwhile. Check it again.");
     return;
   }
-  const approval = await api.approve(selected, by);
+  const approval = await api.approve(selected, by, view.verdict.hash);
   if (store.state.selected !== selected || store.state.view.revision !== view.revision) return;
   store.set({ view: { ...store.state.view, approval }, checked: { ...store.state.checked, [selected]: "approved" } });
 }

@@ -11,6 +11,7 @@ import { mountOptimise } from "./optimise.js";
 import { mountPlots } from "./plots.js";
 import { Playback } from "./preview/playback.js";
 import { mountRobot } from "./robot.js";
+import { robotTime } from "./samples.js";
 import { mountSegments } from "./segments.js";
 import { mountStage } from "./stage.js";
 import { createStore, runIsOn } from "./store.js";
@@ -45,6 +46,11 @@ function start() {
   const cancelCountdown = mountRobot(store);
   mountKeys({ store, edits, playback, escapes: [timeline.cancelGesture, cancelCountdown] });
 
+  // During a run the preview stands where the robot is, unless somebody plays the plan.
+  store.watch(({ robot, view }) => [robot?.run?.plan_time, view?.plan], ({ robot, view }) => {
+    const time = runIsOn(robot) && robot.run?.phase === "streaming" ? robotTime(robot, view) : null;
+    if (time !== null && !playback.playing) playback.setTime(time);
+  });
   store.watch(({ robot }) => [runIsOn(robot)], ({ robot }) => { if (runIsOn(robot)) openTab("robot"); });
   listen(store, () => selectAfterHello(store));
   mountStage(store, playback);

@@ -29,8 +29,8 @@ const FIELDS = [
   { id: "turn", label: "Turn", unit: "°", min: -90, max: 90, help: "Turn of the body an iteration, counter-clockwise",
     read: (document) => (document.step[2] * 180) / Math.PI,
     write: (document, value) => ({ ...document, step: [document.step[0], document.step[1], ((value ?? 0) * Math.PI) / 180] }) },
-  { id: "height", label: "Body height", unit: "mm", min: 48, max: 68, empty: "free",
-    help: "Height of the motors' plane over the standing feet; legs reach 48.5 to 67.5 mm. Empty: the solver chooses", ...option("plane_height", 1000) },
+  { id: "height", label: "Body height", unit: "mm", min: 53, max: 60.5,
+    help: "Height of the motors' plane over the standing feet at the start and at the goal", ...option("plane_height", 1000) },
   { id: "clearance", label: "Clearance", unit: "mm", min: 0, max: 15, help: "How high a foot passes in the middle of its swing", ...option("clearance", 1000) },
   { id: "margin", label: "Stability margin", unit: "mm", min: 0, max: 30, help: "Least distance of the balance point from the support polygon's edge", ...option("margin", 1000) },
 ];
@@ -78,17 +78,18 @@ function workspaceField(edits) {
   return { label, show: (document) => { select.value = document.options?.workspace ?? "stroke"; } };
 }
 
-function relaxations(edits, document) {
-  const shorter = Math.max(1, Math.round(stepLength(document) * 1000 * 0.9 * 2) / 2);
-  const height = document.options?.plane_height ?? null;
+/** Buttons that loosen what the explanation complains of. */
+function relaxations(edits, document, sentences) {
+  const text = sentences.join(" ");
+  if (/in the air/.test(text)) return [];
+  const remedy = (label, change, name) => h("button", { text: label, on: { click: () => edits.edit(change, name) } });
+  const withOption = (name, value) => (one) => ({ ...one, options: { ...one.options, [name]: value } });
+  const shorter = Math.max(1, Math.round(stepLength(document) * 1000 * 0.75 * 2) / 2);
+  const { workspace, margin } = document.options;
   const buttons = [];
-  if (stepLength(document) * 1000 > shorter) {
-    buttons.push(h("button", { text: `Use step ${fixed(shorter)} mm`, on: { click: () => edits.edit((one) => withStep(one, shorter / 1000), `Step to ${fixed(shorter)} mm`) } }));
-  }
-  if (height !== null) {
-    const raised = height * 1000 + 1;
-    buttons.push(h("button", { text: "Raise body 1 mm", on: { click: () => edits.edit((one) => ({ ...one, options: { ...one.options, plane_height: raised / 1000 } }), `Body height to ${fixed(raised)} mm`) } }));
-  }
+  if (stepLength(document) * 1000 > shorter) buttons.push(remedy(`Use step ${fixed(shorter)} mm`, (one) => withStep(one, shorter / 1000), `Step to ${fixed(shorter)} mm`));
+  if (workspace === "cylinder") buttons.push(remedy("Use workspace stroke", withOption("workspace", "stroke"), "Workspace to stroke"));
+  if (margin > 0 && /margin|balance/.test(text)) buttons.push(remedy("Use margin 0 mm", withOption("margin", 0), "Stability margin to 0 mm"));
   return buttons;
 }
 
@@ -100,7 +101,7 @@ function showAnswer(box, edits, state) {
   const stale = job.fresh ? "" : " (older version of the gait)";
   const sentences = (job.result?.explanation ?? []).filter((sentence) => sentence !== job.sentence);
   setAttribute(box, "data-tone", job.state === "failed" ? "bad" : "caution");
-  const buttons = job.state === "infeasible" && job.fresh ? relaxations(edits, shownDocument(state)) : [];
+  const buttons = job.state === "infeasible" && job.fresh ? relaxations(edits, shownDocument(state), job.result?.explanation ?? []) : [];
   box.replaceChildren(h("h4", { text: job.sentence + stale }),
     sentences.length ? h("ul", { role: "list" }, ...sentences.map((text) => h("li", { text }))) : "",
     buttons.length ? h("div", { class: "buttons" }, ...buttons) : "");

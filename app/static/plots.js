@@ -101,7 +101,7 @@ export function mountPlots(store) {
     const plan = state.view?.plan;
     const usable = plan?.times?.length > 0;
     if (!usable) {
-      const sentence = !state.view ? "" : plan?.refusal ? "No motion: the plan is out of reach." : "No plan yet.";
+      const sentence = !state.view ? "" : plan?.refusal ? "No motion: the reason stands at the timeline." : "No plan yet.";
       Object.values(rows).forEach(({ strip }) => empty(strip, sentence));
       return;
     }

@@ -40,7 +40,8 @@ function progressOf(run) {
   if (!run) return null;
   if (run.phase === "start pose") return { fraction: 0, text: "Moving slowly to the start pose" };
   const time = run.elapsed === null || run.elapsed === undefined ? "" : ` · ${seconds(run.elapsed)} s`;
-  return { fraction: run.count ? run.reached / run.count : 0, text: `${run.reached} of ${run.count} reached, ${run.sent} sent${time}` };
+  const what = run.gait_name ? `${run.gait_name}, ${shortHash(run.waypoints_hash)}: ` : "";
+  return { fraction: run.count ? run.reached / run.count : 0, text: `${what}${run.reached} of ${run.count} reached, ${run.sent} sent${time}` };
 }
 
 function summaryRows({ runSummary: run, view, selected }) {
@@ -79,10 +80,10 @@ function build(store) {
 
 function assemble(parts, send) {
   const connect = way(1, h("div", { class: "device" }, parts.device, parts.connect.button, parts.disconnect.button), parts.connectNote);
-  const arm = way(2, h("div", { class: "buttons" }, parts.arm.button, parts.armNote));
+  const arm = way(2, h("div", { class: "buttons" }, parts.clear.button, parts.arm.button, parts.armNote));
   const start = way(3, parts.summary, send.element, parts.sendNote);
   const run = way(4, h("div", { class: "progress" }, parts.bar), parts.progress,
-    h("div", { class: "buttons" }, parts.pause.button, parts.resume.button, parts.clear.button, parts.reset.button));
+    h("div", { class: "buttons" }, parts.pause.button, parts.resume.button, parts.reset.button));
   byId("robot").append(h("div", { class: "robot-state" }, parts.dot, parts.word, parts.sentence),
     h("ol", { class: "steps", role: "list", "aria-label": "The robot's way" }, connect, arm, start, run),
     h("h3", {}, "Strokes measured", h("span", { text: "mm" })), parts.bars.element, parts.stopText);
@@ -110,6 +111,7 @@ function showRobot(parts, ways, robot) {
   for (const name of ["connect", "disconnect", "arm", "pause", "resume", "clear", "reset"]) parts[name].allow(robot);
   parts.connect.button.hidden = ready;
   parts.disconnect.button.hidden = !ready;
+  parts.clear.button.hidden = !["stopping", "stopped", "fault"].includes(robot?.robot);
   const paused = robot?.robot === "paused";
   parts.pause.button.hidden = paused;
   parts.resume.button.hidden = !paused;
@@ -119,7 +121,8 @@ function showRobot(parts, ways, robot) {
   parts.device.readOnly = ready;
   const progress = progressOf(robot?.run);
   parts.bar.style.transform = `scaleX(${progress?.fraction ?? 0})`;
-  setText(parts.progress, progress?.text ?? "No run yet.");
+  const before = robot?.previous_run;
+  setText(parts.progress, progress?.text ?? (before ? `Last run: ${before.gait_name}, ${before.state}. ${before.sentence}` : "No run yet."));
   showWay(ways, robot);
 }
 

@@ -49,15 +49,14 @@ function planNote({ view, checked }) {
   const plan = view?.plan;
   if (!plan) return view ? [h("div", { class: "sentence", text: "No plan: optimise this gait to see it move." })] : [];
   if (plan.refusal) {
-    const where = plan.refusal.where ? `at ${plan.refusal.where}` : "the reason stands at the timeline";
-    return [h("div", {}, h("b", { text: "Out of reach", data: { toneText: "bad" } }), ` · no motion to show: ${where}`)];
+    return [h("div", {}, h("b", { text: "No motion", data: { toneText: "bad" } }), " · the reason stands at the timeline")];
   }
   const { margin, strokes } = extremes(plan);
   const failed = view.verdict && !view.verdict.passed;
   const [word, tone] = failed ? ["Check failed", "bad"] : (SOURCES[plan.source] ?? [plan.source, "quiet"]);
   const [state, stateTone] = verdictWords(view, checked[view.id]);
   const figures = h("div", { class: "figures" }, h("b", { text: word, data: { toneText: tone } }),
-    margin !== null && " · ", margin !== null && h("span", { text: `margin ${mm(margin)} mm`, data: { toneText: margin < 0 ? "bad" : "" } }),
+    margin !== null && " · ", margin !== null && h("span", { text: `static margin ${mm(margin)} mm`, title: "Least distance of the centre of mass from the edge of the support polygon; the check measures the centre of pressure of an optimised motion", data: { toneText: margin < 0 ? "bad" : "" } }),
     strokes && ` · strokes ${fixed(strokes[0])}…${fixed(strokes[1])} mm`,
     !failed && " · ", !failed && h("span", { text: state, data: { toneText: stateTone } }));
   const sentence = plan.note.replace(/^\w+: /, "");

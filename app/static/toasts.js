@@ -3,9 +3,11 @@
 import { byId, h, icon } from "./dom.js";
 
 const STAY_MS = 9000;
+const STAY_BAD_MS = 25000;
+const STAY_ACTION_MS = 90000;
 
 /**
- * Shows a sentence; errors stay until they are closed.
+ * Shows a sentence: a refusal longer than news, an offer such as bringing something back the longest.
  * @param {string} sentence
  * @param {{tone?: "bad"|"plain", action?: {label: string, act: () => void}}} [options]
  */
@@ -19,7 +21,7 @@ export function toast(sentence, { tone = "plain", action = null } = {}) {
   [...stack.children].filter((other) => other.querySelector("p").textContent === sentence).forEach((other) => other.remove());
   stack.append(element);
   while (stack.children.length > 3) stack.firstElementChild.remove();
-  if (tone !== "bad") setTimeout(close, STAY_MS);
+  setTimeout(close, action ? STAY_ACTION_MS : tone === "bad" ? STAY_BAD_MS : STAY_MS);
 }
 
 /** Shows what an ApiError says; anything else is a defect and goes to the console as well. */

@@ -1,10 +1,13 @@
 """What the emulated robot does with odd messages (PROTOCOL 1 and 4)."""
 
+import threading
+
 import pytest
 
 from app.bridge.c_text import Fields, c_string, padded_text, print_pieces, to_float, to_int
-from app.bridge.emulated import Fault, start_emulator
+from app.bridge.emulated import EmulatedRobot, Fault, start_emulator
 from app.bridge.firmware import Firmware
+from app.bridge.ports import PtyPort
 from app.bridge.profiles import PROFILES, ProfileName
 from core.wire_timing import LONGEST_SCAN
 
@@ -145,3 +148,15 @@ def test_numbers_are_printed_as_the_board_prints_them(value: float, text: bytes)
 def test_odd_numbers_in_a_string_are_padded() -> None:
     assert padded_text(float("nan"), 4) == b"   nan"
     assert padded_text(19.5, 4) == b"19.5000"
+
+
+def test_a_board_that_was_just_powered_on_is_silent_for_five_of_its_seconds() -> None:
+    paces: list[float] = []
+
+    def pace(now: float, interrupt: threading.Event) -> None:
+        paces.append(now)
+        interrupt.wait(0.001)
+
+    robot = EmulatedRobot(Firmware(PROFILES[ProfileName.NOMINAL]), PtyPort(), pace=pace)
+    robot.close()
+    assert paces[0] == 0.0

@@ -10,10 +10,21 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from app.bridge.firmware import Firmware
+from app.bridge.profiles import PROFILES, ProfileName
 from core.arrays import Floats
 from core.errors import InputError
-from core.waypoint_path import cut_moves, merge_waypoints
+from core.library import library
+from core.manual import manual_motion
+from core.robot import load_robot
+from core.waypoint_path import (
+    cut_moves,
+    estimate_seconds,
+    merge_waypoints,
+    waypoints_from_trajectory,
+)
 from core.waypoints import Waypoints, format_waypoint_csv, parse_waypoint_csv
+from core.wire import encode_waypoint
 from core.wire_timing import stop_delay
 
 strokes = st.integers(1, 12).flatmap(
@@ -70,6 +81,22 @@ def test_cut_moves_keep_the_robot_within_earshot(values: Floats, bound: float) -
     assert stop_delay(cut) <= bound + 1e-9
     assert cut.durations.sum() == pytest.approx(0.4 * len(values))
     assert np.array_equal(cut.strokes[-1], values[-1])
+
+
+def test_the_estimate_is_near_what_the_emulated_board_takes() -> None:
+    motion = manual_motion(library()["walk-manual-0"].gait, load_robot("deltawalker")).trajectory
+    waypoints = waypoints_from_trajectory(load_robot("deltawalker"), motion)
+    board = Firmware(PROFILES[ProfileName.PUBLISHED], tuple(waypoints.strokes_mm[0]))
+    program = board.run()
+    while not board.completions:
+        next(program)
+    start = board.now
+    for index, (strokes, duration) in enumerate(zip(waypoints.strokes, waypoints.durations, strict=True), 2):
+        board.board.inbox += encode_waypoint(strokes, float(duration))
+        while len(board.completions) < index:
+            next(program)
+            board.board.take_sent()
+    assert estimate_seconds(waypoints) == pytest.approx(board.now - start, rel=0.12)
 
 
 def test_a_bound_below_what_moves_anything_is_refused() -> None:

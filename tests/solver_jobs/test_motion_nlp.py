@@ -154,6 +154,16 @@ def proven(problem: MotionProblem) -> str:
     return result.explanation[0]
 
 
+def test_two_feet_in_the_air_leave_no_area_for_a_margin() -> None:
+    problem = gait_problem("walk", 0.010, Workspace.STROKE)
+    stance = problem.timeline.stance.copy()
+    stance[0, 15:20] = False
+    drawn = replace(problem, timeline=replace(problem.timeline, stance=stance))
+    with_margin = replace(drawn, limits=replace(drawn.limits, margin=0.003))
+    sentence = proven(with_margin)
+    assert "Feet 1, 2 are in the air together at knots 16–20" in sentence
+
+
 def test_a_foot_that_must_move_but_never_swings_is_named() -> None:
     problem = gait_problem("walk", 0.010, Workspace.STROKE)
     stance = problem.timeline.stance.copy()

@@ -233,6 +233,36 @@ def test_disconnecting_in_mid_run_stops_the_robot_first(
     assert bridge.snapshot.robot is RobotState.STOPPED
 
 
+class DeafLine(Transport):
+    """A line on which nobody answers."""
+
+    def __init__(self, device: str, on_data: Callable[[bytes], None], on_lost: Callable[[str], None]) -> None:
+        del on_data, on_lost
+        self.device = device
+
+    def write(self, data: bytes) -> None:
+        del data
+
+    def close(self) -> None:
+        pass
+
+
+@pytest.mark.parametrize("way_out", [RobotBridge.disconnect, RobotBridge.close])
+def test_leaving_twice_at_once_is_leaving_once(way_out: Callable[[RobotBridge], None]) -> None:
+    bridge = RobotBridge(clock=lambda: 20.0 * time.monotonic(), tick=0.005, opener=DeafLine)
+    bridge.connect("deaf")
+    bridge.stop("Ada")
+    threads = [threading.Thread(target=way_out, args=(bridge,)) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(PATIENCE)
+        assert not thread.is_alive()
+    assert bridge.snapshot.link is LinkState.DISCONNECTED
+    assert [t.cause for t in bridge.transitions].count("Disconnected.") == 1
+    bridge.close()
+
+
 def test_a_second_connection_is_refused(bridge: RobotBridge, lockstep: Lockstep) -> None:
     lockstep.connect(bridge)
     with pytest.raises(StateError, match="is connected"):

@@ -90,6 +90,7 @@ def test_a_stop_at_any_time_ends_the_run_for_good(delay: float) -> None:
     strokes = robot.strokes_mm
     robot.wait(5.0)
     assert robot.strokes_mm == strokes
+    assert robot.sent.count(b"<s,1>") == 1
     assert robot.sent[-1] == b"<s,1>"
     assert robot.snapshot.robot is RobotState.STOPPED
 

@@ -36,6 +36,7 @@ class VirtualRobot:
     ) -> None:
         self.firmware = Firmware(PROFILES[profile], strokes_mm)
         self.log: list[tuple[Direction, bytes]] = []
+        self.heard: list[bytes] = []
         self.to_robot: Callable[[bytes], bytes] = bytes
         self.from_robot: Callable[[bytes], bytes] = bytes
         self.gate = Gate(lambda way, data, _: self.log.append((way, data)), lambda: self.now)
@@ -61,8 +62,22 @@ class VirtualRobot:
         next(self._program)
         data = self.from_robot(b"".join(chunk.data for chunk in self.firmware.board.take_sent()))
         if data:
+            self.heard.append(data)
             self.session.received(data, self.now)
         self.session.tick(self.now)
+
+    def boot(self) -> None:
+        """Lets the board boot before anyone listens."""
+        while not self.firmware.completions:
+            next(self._program)
+        self.run_unheard(0.1)
+
+    def run_unheard(self, seconds: float) -> None:
+        """Lets time pass while nobody listens."""
+        end = self.now + seconds
+        while self.now < end:
+            next(self._program)
+        self.firmware.board.take_sent()
 
     def until(self, condition: Callable[[RobotSnapshot], bool], limit: float = 120.0) -> RobotSnapshot:
         end = self.now + limit

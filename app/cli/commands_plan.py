@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from argparse import Namespace
 from pathlib import Path
+from typing import Any
 
 from app.bench import BENCHMARKS, conditions
 from app.cli.commands_gait import optimise
@@ -108,7 +109,17 @@ def run_bench(options: Namespace) -> int:
     where = conditions()
     lines = [", ".join(f"{key}: {value}" for key, value in where.items())]
     for name, rows in results.items():
-        lines.append(f"{name}:")
-        lines += ["  " + ", ".join(f"{key} {value}" for key, value in row.items()) for row in rows]
+        lines += ["", name, *_table(rows)]
     show(options, {"conditions": where, "results": results}, lines)
     return 0
+
+
+def _table(rows: list[dict[str, Any]]) -> list[str]:
+    """Rows for people: a header and aligned columns."""
+    header = list(rows[0])
+    cells = [header, *([str(row[key]) for key in header] for row in rows)]
+    widths = [max(len(line[column]) for line in cells) for column in range(len(header))]
+    return [
+        "  " + "  ".join(text.rjust(width) for text, width in zip(line, widths, strict=True))
+        for line in cells
+    ]

@@ -52,8 +52,13 @@ def look(page: Page, name: str) -> None:
 def see_the_sample_gait_walk(page: Page) -> None:
     expect(page.get_by_role("list", name="Gaits").get_by_text("Walk 10 mm")).to_be_visible()
     expect(page.get_by_role("region", name="3D preview")).to_be_visible()
+    frame = page.frame_locator("iframe").locator("canvas").first
+    frame.wait_for(timeout=LONG_MS)
+    standing = page.get_by_role("region", name="3D preview").screenshot()
     page.get_by_role("button", name="Play", exact=True).click()
+    expect(page.locator("#clock")).not_to_contain_text(re.compile(r"^0\.[0-9] "), timeout=LONG_MS)
     page.get_by_role("button", name="Pause", exact=True).click()
+    assert page.get_by_role("region", name="3D preview").screenshot() != standing
 
 
 def change_a_footfall_and_take_it_back(page: Page) -> None:
@@ -128,7 +133,9 @@ def test_from_opening_the_page_to_the_robots_measured_strokes(
     assert len(messages) == len(robot.firmware.messages)
     reached = robot.firmware.completions[-plan["waypoint_count"] :]
     assert all(done.worst_mm <= 1.0 for done in reached)
-    assert studio.robot()["strokes_mm"] is not None
+    shown = [float(text) for text in page.locator(".strokes .bar span").all_inner_texts()]
+    assert len(shown) == 12
+    assert max(abs(a - b) for a, b in zip(shown, plan["strokes_mm"][-1], strict=True)) <= 1.1
 
 
 def test_stop_on_the_page_latches_until_it_is_cleared(

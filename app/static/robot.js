@@ -107,7 +107,7 @@ function showRobot(parts, ways, robot) {
   const ready = ["ready", "connecting"].includes(robot?.link);
   parts.dot.dataset.tone = robotTone(robot);
   setText(parts.word, robot ? `${robot.robot}${robot.emulated ? " · emulated robot" : ""}` : "unknown");
-  setText(parts.sentence, [robot?.sentence, robot?.stop_text && !robot.sentence?.includes(robot.stop_text) ? `${robot.stop_text}.` : null].filter(Boolean).join(" "));
+  setText(parts.sentence, [robot?.sentence, robot?.stop_text && !robot.sentence?.includes(robot.stop_text) ? `${robot.stop_text[0].toUpperCase()}${robot.stop_text.slice(1)}.` : null].filter(Boolean).join(" "));
   for (const name of ["connect", "disconnect", "arm", "pause", "resume", "clear", "reset"]) parts[name].allow(robot);
   parts.connect.button.hidden = ready;
   parts.disconnect.button.hidden = !ready;

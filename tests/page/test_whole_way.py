@@ -151,7 +151,7 @@ def test_stop_on_the_page_latches_until_it_is_cleared(
     page.get_by_role("button", name="Stop", exact=True).click()
     status = page.get_by_role("status", name="Robot")
     wait_for(lambda: studio.robot()["robot"] == "stopped", "the robot stands still")
-    expect(status).to_contain_text(re.compile("stopped at .* by Ada"), timeout=LONG_MS)
+    expect(status).to_contain_text(re.compile("stopped at .* by Ada", re.I), timeout=LONG_MS)
     look(page, "stopped")
     taken = len(robot.firmware.messages)
     page.get_by_role("button", name="Clear", exact=True).click()

@@ -111,7 +111,7 @@ def allowed(snapshot: RobotSnapshot) -> dict[str, str | None]:
         "send": only({RobotState.ARMED}, "Arm the robot first."),
         "pause": only({RobotState.MOVING}, "Nothing is moving."),
         "resume": only({RobotState.PAUSED}, "No run is paused."),
-        "clear": only({RobotState.STOPPED, RobotState.FAULT}, "Nothing is stopped."),
+        "clear": only({RobotState.STOPPED, RobotState.FAULT, RobotState.STOPPING}, "Nothing is stopped."),
         "reset": only({RobotState.ARMED}, "Arm the robot first."),
     }
 

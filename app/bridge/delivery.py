@@ -36,6 +36,10 @@ START_PATIENCE = 15.0
 needs up to 11 s for its first small step (hazard 11)."""
 
 
+HELD_STOP = "it still holds an old stop"
+"""Part of the sentence where a stop from before this connection keeps the robot from moving."""
+
+
 class Stage(Enum):
     """What is to be seen next."""
 
@@ -156,7 +160,7 @@ class Delivery:
         if isinstance(line, EndOfTrajectories):
             self._left.pop(0)
         elif isinstance(line, NewData) and not self._executing:
-            self.failure = "The robot took the message but does not move: it still holds an old stop."
+            self.failure = f"The robot took the message but does not move: {HELD_STOP}."
 
     def _await_measurement(self, line: Line) -> None:
         if not isinstance(line, Telemetry):

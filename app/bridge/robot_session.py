@@ -6,6 +6,7 @@ and each change has its cause.
 
 from __future__ import annotations
 
+import re
 import uuid
 
 from app.bridge.delivery import (
@@ -195,7 +196,7 @@ class RobotSession(RobotLink):
 
     def _fail(self, failure: str, now: float) -> None:
         place = f" {self._place[0].upper()}{self._place[1:]}." if self._place else ""
-        self._fault(f"{failure}{place} Last line: {self.watch.last_line!r:.120}.", now)
+        self._fault(f"{failure}{place} The robot said last: {_words(self.watch.last_line)}.", now)
 
     def _go_on_running(self, now: float) -> None:
         run = self._run
@@ -246,3 +247,10 @@ class RobotSession(RobotLink):
         if self.watch.strokes_mm is None:
             raise StateError("The robot has not told its strokes yet. Wait for its telemetry.")
         return self.watch.strokes_mm
+
+
+def _words(line: Line | None) -> str:
+    """A line's kind in words, for people: `ErrorScan` becomes “error scan”."""
+    if line is None:
+        return "nothing"
+    return re.sub(r"(?<!^)(?=[A-Z])", " ", type(line).__name__).lower()

@@ -6,12 +6,14 @@ import getpass
 import signal
 import sys
 import threading
+import time
 from argparse import Namespace
 from datetime import UTC, datetime
 from pathlib import Path
 from types import FrameType
 from typing import Any
 
+from app.bridge.delivery import HELD_STOP
 from app.bridge.emulated import EmulatedRobot, start_emulator
 from app.bridge.robot import RobotBridge
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPlan
@@ -21,13 +23,15 @@ from app.store.files import default_data_folder
 from app.trajectory_files import read_waypoints
 from app.views import verdict_view
 from core.checks import check_waypoints
-from core.errors import CheckError, InputError, RobotError
+from core.errors import CheckError, InputError, RobotError, StateError
 from core.findings import Approval, Severity, Verdict, approve
 from core.robot import load_robot
 from core.waypoints import Waypoints
 
 READY_SECONDS = 20.0
 """The board needs about 8 s; later than this nothing will come."""
+CLEAR_SECONDS = 10.0
+"""A stop is confirmed or overdue by then."""
 ROBOT_FAILED = 5
 NOT_FIT = 4
 _ENDS = frozenset({RobotState.DONE, RobotState.STOPPED, RobotState.FAULT})
@@ -103,10 +107,13 @@ def run_send(options: Namespace) -> int:
     try:
         watch = _Watch(bridge)
         bridge.connect(options.robot if emulator is None else emulator.device)
-        watch.wait_ready()
-        bridge.arm(approval.by)
-        bridge.send(RunPlan(waypoints, approval, (True,) * waypoints.count), approval.by)
-        return _report(options, watch.wait_end(), waypoints)
+        plan = RunPlan(waypoints, approval, (True,) * waypoints.count)
+        ended = _run(bridge, watch, plan)
+        if ended.robot is RobotState.FAULT and HELD_STOP in ended.sentence:
+            note("The robot held a stop from before. It is cleared, and the run begins again.")
+            watch.clear(approval.by)
+            ended = _run(bridge, watch, plan)
+        return _report(options, ended, waypoints)
     except (KeyboardInterrupt, Interrupted):
         bridge.stop(approval.by)
         note("Stop was sent; it takes effect after the move that is running.")
@@ -114,6 +121,13 @@ def run_send(options: Namespace) -> int:
     finally:
         bridge.close()
         _close(emulator)
+
+
+def _run(bridge: RobotBridge, watch: _Watch, plan: RunPlan) -> RobotSnapshot:
+    watch.wait_ready()
+    bridge.arm(plan.approval.by)
+    bridge.send(plan, plan.approval.by)
+    return watch.wait_end()
 
 
 def _close(emulator: EmulatedRobot | None) -> None:
@@ -180,6 +194,22 @@ class _Watch:
                 self._step()
         finally:
             timer.cancel()
+
+    def clear(self, by: str) -> None:
+        """Clears a stop as soon as the robot has confirmed it and stands still.
+
+        Raises:
+            StateError: it does not within its time.
+        """
+        deadline = time.monotonic() + CLEAR_SECONDS
+        while True:
+            try:
+                self._bridge.clear(by)
+                return
+            except StateError:
+                if time.monotonic() > deadline:
+                    raise
+            self._step()
 
     def wait_end(self) -> RobotSnapshot:
         """Waits until the run has ended, saying how far it is."""

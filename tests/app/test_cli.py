@@ -21,7 +21,7 @@ from core.library import library
 from core.trajectory_csv import parse_trajectory_csv
 from core.waypoints import parse_waypoint_csv
 from tests.reference import reference_path
-from tests.studio_process import PROJECT
+from tests.studio_process import PROJECT, wait_for
 
 
 def run(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
@@ -64,6 +64,42 @@ def test_the_defaults_of_each_command_suit_the_next(
     finally:
         robot.close()
     assert (status, answer["state"], answer["reached"]) == (0, "done", 45)
+
+
+def test_an_interrupted_send_stops_the_robot_and_the_next_one_runs_to_its_end(tmp_path: Path) -> None:
+    waypoints = tmp_path / "way.csv"
+    rows = ["0.4," + ",".join([f"{h}.0000"] * 12) for h in (5, 8, 5, 8, 5)]
+    waypoints.write_text(
+        "duration_s," + ",".join(f"h{i}" for i in range(1, 13)) + "\n" + "\n".join(rows) + "\n"
+    )
+    robot = start_emulator("nominal", 4.0, booted=True)
+    command = [
+        sys.executable,
+        "-m",
+        "app",
+        "send",
+        str(waypoints),
+        "--robot",
+        robot.device,
+        "--yes",
+        "--json",
+    ]
+    try:
+        first = subprocess.Popen(
+            command, cwd=PROJECT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        )
+        with first:
+            wait_for(lambda: len(robot.firmware.messages) > 2, "the run has begun")
+            first.send_signal(signal.SIGINT)
+            assert first.wait(15) == 130
+            assert first.stdout is not None
+            assert "Interrupted" in json.loads(first.stdout.read())["error"]
+        assert robot.firmware.messages[-1].payload == "s,1"
+        second = subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, timeout=60)
+        assert second.returncode == 0, second.stderr
+        assert json.loads(second.stdout)["reached"] == 5
+    finally:
+        robot.close()
 
 
 def test_a_gait_without_a_standing_foot_is_valid_json(

@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 
+from app.bridge.delivery import ARRIVAL_MM
 from app.bridge.emulated import EmulatedRobot, start_emulator
 from tests.studio_process import StudioProcess, footfall, running_studio, wait_for
 
@@ -127,7 +128,7 @@ def test_a_gait_goes_all_the_way_and_the_robot_parses_exactly_what_was_approved(
     parsed = [[round(h, 4) for h in m.strokes_mm or ()] for m in messages]
     assert parsed[summary["start_moves"] :] == view["plan"]["strokes_mm"]
     assert len(messages) == len(robot.firmware.messages[first:])
-    assert all(done.worst_mm <= 1.0 for done in robot.firmware.completions)
+    assert all(done.worst_mm <= ARRIVAL_MM for done in robot.firmware.completions)
 
 
 def test_stop_needs_no_body_latches_and_clears(studio: StudioProcess, robot: EmulatedRobot) -> None:

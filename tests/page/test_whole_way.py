@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from app.bridge.delivery import ARRIVAL_MM
 from app.bridge.emulated import EmulatedRobot, start_emulator
 from tests.studio_process import StudioProcess, running_studio, wait_for
 
@@ -132,7 +133,7 @@ def test_from_opening_the_page_to_the_robots_measured_strokes(
     assert len(start_moves) <= 3
     assert len(messages) == len(robot.firmware.messages)
     reached = robot.firmware.completions[-plan["waypoint_count"] :]
-    assert all(done.worst_mm <= 1.0 for done in reached)
+    assert all(done.worst_mm <= ARRIVAL_MM for done in reached)
     shown = [float(text) for text in page.locator(".strokes .bar span").all_inner_texts()]
     assert len(shown) == 12
     assert max(abs(a - b) for a, b in zip(shown, plan["strokes_mm"][-1], strict=True)) <= 1.1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from importlib import resources
+from typing import Any
 
 from fastapi import FastAPI
 from fastapi.responses import FileResponse
@@ -11,6 +12,7 @@ from fastapi_offline import FastAPIOffline
 from starlette.middleware import Middleware
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from app.documents import gait_schema
 from app.routes import events, gaits, jobs, robot
 from app.routes.edge import install_error_handlers
 from app.routes.viser import make_viser_router
@@ -65,6 +67,11 @@ def make_app(studio: Studio, scene: SceneServer, access: Access) -> FastAPI:
     async def health() -> dict[str, str]:
         """Whether the studio answers."""
         return {"status": "ok", "version": VERSION}
+
+    @app.get("/api/schema/gait", tags=["gaits"])
+    async def schema() -> dict[str, Any]:
+        """JSON Schema of the gait document."""
+        return gait_schema()
 
     @app.get("/", include_in_schema=False)
     async def page() -> FileResponse:

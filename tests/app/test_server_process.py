@@ -46,6 +46,7 @@ def optimised(studio: StudioProcess, gait: str) -> dict[str, Any]:
 def test_the_page_the_api_and_its_description_are_served(studio: StudioProcess) -> None:
     assert studio.ask("GET", "/api/health").content["status"] == "ok"
     paths = studio.ask("GET", "/openapi.json").content["paths"]
+    assert studio.ask("GET", "/api/schema/gait").content["title"] == "GaitDocument"
     assert {"/api/gaits", "/api/jobs", "/api/robot/stop", "/api/gaits/{gait_id}/approve"} <= set(paths)
 
 

@@ -15,7 +15,7 @@ from app.bridge.delivery import ARRIVAL_MM
 from app.bridge.emulated import EmulatedRobot, start_emulator
 from tests.studio_process import StudioProcess, footfall, running_studio, wait_for
 
-SPEED = 25.0
+SPEED = 15.0
 """Seconds of the emulated robot in a second."""
 
 
@@ -153,6 +153,22 @@ def test_stop_waits_for_no_body(studio: StudioProcess) -> None:
         head = f"POST /api/robot/stop HTTP/1.1\r\nHost: {host}:{port}\r\nContent-Length: 10\r\n\r\n{{"
         line.sendall(head.encode())
         assert line.recv(64).startswith(b"HTTP/1.1 200")
+
+
+def test_a_job_is_cancelled_and_the_next_one_runs(studio: StudioProcess) -> None:
+    document = studio.ask("GET", "/api/gaits/amble").content
+    document["step"] = [0.0177, 0.0177, 0.0]
+    document["options"]["workspace"] = "cylinder"
+    studio.ask("PUT", "/api/gaits/amble?label=Too%20far", document)
+    job = studio.ask("POST", "/api/jobs", {"gait": "amble"}).content["id"]
+    wait_for(lambda: studio.ask("GET", f"/api/jobs/{job}").content["state"] != "queued", "the job runs")
+    studio.ask("DELETE", f"/api/jobs/{job}")
+    wait_for(lambda: studio.ask("GET", f"/api/jobs/{job}").content["ended"] is not None, "the job ended")
+    cancelled = studio.ask("GET", f"/api/jobs/{job}").content
+    assert cancelled["state"] == "cancelled"
+    assert cancelled["progress"]
+    studio.ask("POST", "/api/gaits/amble/undo")
+    assert optimised(studio, "amble")["state"] == "done"
 
 
 def test_a_refused_connect_leaves_the_robot_its_name(studio: StudioProcess, robot: EmulatedRobot) -> None:

@@ -14,7 +14,7 @@ from app.bridge.delivery import ARRIVAL_MM
 from app.bridge.emulated import EmulatedRobot, start_emulator
 from tests.studio_process import StudioProcess, running_studio, wait_for
 
-SPEED = 8.0
+SPEED = 5.0
 """Seconds of the emulated robot in a second: fast, yet slow enough to look on."""
 LONG_MS = 60_000
 

@@ -80,7 +80,7 @@ function build(store) {
 
 function assemble(parts, send) {
   const connect = way(1, h("div", { class: "device" }, parts.device, parts.connect.button, parts.disconnect.button), parts.connectNote);
-  const arm = way(2, h("div", { class: "buttons" }, parts.clear.button, parts.arm.button, parts.armNote));
+  const arm = way(2, h("div", { class: "buttons" }, parts.arm.button, parts.clear.button, parts.armNote));
   const start = way(3, parts.summary, send.element, parts.sendNote);
   const run = way(4, h("div", { class: "progress" }, parts.bar), parts.progress,
     h("div", { class: "buttons" }, parts.pause.button, parts.resume.button, parts.reset.button));
@@ -111,7 +111,6 @@ function showRobot(parts, ways, robot) {
   for (const name of ["connect", "disconnect", "arm", "pause", "resume", "clear", "reset"]) parts[name].allow(robot);
   parts.connect.button.hidden = ready;
   parts.disconnect.button.hidden = !ready;
-  parts.clear.button.hidden = !["stopping", "stopped", "fault"].includes(robot?.robot);
   const paused = robot?.robot === "paused";
   parts.pause.button.hidden = paused;
   parts.resume.button.hidden = !paused;

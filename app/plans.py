@@ -11,11 +11,11 @@ import numpy as np
 
 from app.trajectory_content import trajectory_from_content
 from core.arrays import Floats
-from core.checks import CheckedPlan, check_plan
+from core.checks import CheckedPlan, balance_margins, check_plan
 from core.draft import initial_motion
 from core.errors import CheckError, FootfallError, InputError
 from core.findings import Verdict
-from core.gait import Gait, motion_problem
+from core.gait import Gait, missing_support, motion_problem
 from core.kinematics import UnreachableError
 from core.manual import manual_motion
 from core.motion_check import check_motion
@@ -68,6 +68,14 @@ class Plan:
         return digest.hexdigest()
 
     @property
+    def balance(self) -> float | None:
+        """Smallest margin that the check will find, m; None where there is none."""
+        if self.trajectory is None:
+            return None
+        smallest = float(balance_margins(self.model, self.trajectory)[0].min())
+        return smallest if np.isfinite(smallest) else None
+
+    @property
     def margins(self) -> Floats:
         """(n,) static stability margin, m."""
         if self.trajectory is None:
@@ -84,7 +92,7 @@ def make_plan(gait: Gait, result: dict[str, Any] | None) -> Plan:
         result: the stored result for exactly this document, where there is one.
     """
     model = load_robot(gait.robot)
-    slip = None
+    slip, shortfall = None, None
     trajectory: Trajectory
     try:
         if gait.segment_table is not None:
@@ -94,7 +102,8 @@ def make_plan(gait: Gait, result: dict[str, Any] | None) -> Plan:
         else:
             problem = motion_problem(gait, model)
             stored = _confirmed(problem, result)
-            source, note = PlanSource.DRAFT, "Draft: drawn from the timeline, not optimised yet."
+            shortfall = missing_support(gait)
+            source, note = PlanSource.DRAFT, shortfall or "Draft: drawn from the timeline, not optimised yet."
             trajectory = initial_motion(problem) if stored is None else stored
             if stored is not None and result is not None:
                 source, note = PlanSource.OPTIMISED, _optimised_note(result)
@@ -102,8 +111,9 @@ def make_plan(gait: Gait, result: dict[str, Any] | None) -> Plan:
         return Plan(PlanSource.DRAFT, refusal.sentence, model, None, None, refusal)
     try:
         waypoints = waypoints_from_trajectory(model, trajectory)
-    except UnreachableError as refusal:
-        return Plan(source, note, model, trajectory, None, refusal, slip)
+    except UnreachableError as unreachable:
+        reason = unreachable if shortfall is None else InputError(shortfall, "timeline")
+        return Plan(source, note, model, trajectory, None, reason, slip)
     return Plan(source, note, model, trajectory, waypoints, None, slip)
 
 

@@ -78,6 +78,7 @@ def plan_view(plan: Plan) -> dict[str, Any]:
         "heading": [],
         "feet": [],
         "margin": [],
+        "balance": plan.balance,
         "strokes_mm": None,
         "stroke_limits_mm": [limits.lower * 1000, limits.upper * 1000],
         "slip": None if plan.slip is None else plan.slip.tolist(),

@@ -142,12 +142,17 @@ def _balance(plan: CheckedPlan) -> Outcome:
     other the centre of mass (static stability margin).
     """
     t = plan.trajectory
+    margins, what = balance_margins(plan.model, t)
+    return _balance_outcome(margins, t.times, t.contact, what, TOLERANCE)
+
+
+def balance_margins(model: RobotModel, t: Trajectory) -> tuple[Floats, str]:
+    """(n,) distance of the point that balance is judged by to the support polygon's edge, m; and its name."""
     points, what = t.body_world[:, :2], "centre of mass"
     if _moves_as_planned(t):
-        pressure = trajectory_pressure(plan.model, t)
-        points, what = np.concatenate([pressure, t.body_world[-1:, :2]]), "centre of pressure"
-    margins = stability_margins(points, t.feet_world, t.contact)
-    return _balance_outcome(margins, t.times, t.contact, what, TOLERANCE)
+        points = np.concatenate([trajectory_pressure(model, t), t.body_world[-1:, :2]])
+        what = "centre of pressure"
+    return stability_margins(points, t.feet_world, t.contact), what
 
 
 def _moves_as_planned(t: Trajectory) -> bool:

@@ -35,7 +35,7 @@ function summary(view, before) {
   const warnings = verdict.findings.length - errors;
   const counts = [errors && `${errors} error${errors > 1 ? "s" : ""}`, warnings && `${warnings} warning${warnings > 1 ? "s" : ""}`].filter(Boolean).join(", ");
   const text = verdict.passed ? `Passed${counts ? `, with ${counts}` : ": no findings"}.` : `Failed: ${counts}. Errors block approval.`;
-  return h("p", { class: "box-note", data: { tone: verdict.passed ? "good" : "bad" } }, h("b", { text }));
+  return h("p", { class: "box-note", data: { tone: !verdict.passed ? "bad" : warnings ? "caution" : "good" } }, h("b", { text }));
 }
 
 function approvalBox({ approval }) {

@@ -17,6 +17,7 @@ import { mountStage } from "./stage.js";
 import { createStore, runIsOn } from "./store.js";
 import { mountTabs, openTab } from "./tabs.js";
 import { mountTimeline } from "./timeline.js";
+import { clearRefusals } from "./toasts.js";
 import { mountTopbar } from "./topbar.js";
 import { mountTransport } from "./transport.js";
 
@@ -51,6 +52,7 @@ function start() {
     const time = runIsOn(robot) && robot.run?.phase === "streaming" ? robotTime(robot, view) : null;
     if (time !== null && !playback.playing) playback.setTime(time);
   });
+  store.watch(({ selected, view }) => [selected, view?.revision], () => clearRefusals());
   store.watch(({ robot }) => [runIsOn(robot)], ({ robot }) => { if (runIsOn(robot)) openTab("robot"); });
   listen(store, () => selectAfterHello(store));
   mountStage(store, playback);

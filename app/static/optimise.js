@@ -95,14 +95,13 @@ function relaxations(edits, document, sentences) {
 
 function showAnswer(box, edits, state) {
   const job = jobOf(state);
-  const bad = job && ["infeasible", "failed", "interrupted"].includes(job.state);
+  const bad = job?.fresh && ["infeasible", "failed", "interrupted"].includes(job.state);
   box.hidden = !bad;
   if (!bad) return;
-  const stale = job.fresh ? "" : " (older version of the gait)";
   const sentences = (job.result?.explanation ?? []).filter((sentence) => sentence !== job.sentence);
   setAttribute(box, "data-tone", job.state === "failed" ? "bad" : "caution");
-  const buttons = job.state === "infeasible" && job.fresh ? relaxations(edits, shownDocument(state), job.result?.explanation ?? []) : [];
-  box.replaceChildren(h("h4", { text: job.sentence + stale }),
+  const buttons = job.state === "infeasible" ? relaxations(edits, shownDocument(state), job.result?.explanation ?? []) : [];
+  box.replaceChildren(h("h4", { text: job.sentence }),
     sentences.length ? h("ul", { role: "list" }, ...sentences.map((text) => h("li", { text }))) : "",
     buttons.length ? h("div", { class: "buttons" }, ...buttons) : "");
 }

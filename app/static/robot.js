@@ -105,9 +105,12 @@ function showWay(ways, robot) {
 
 function showRobot(parts, ways, robot) {
   const ready = ["ready", "connecting"].includes(robot?.link);
+  const on = runIsOn(robot);
   parts.dot.dataset.tone = robotTone(robot);
   setText(parts.word, robot ? `${robot.robot}${robot.emulated ? " · emulated robot" : ""}` : "unknown");
-  setText(parts.sentence, [robot?.sentence, robot?.stop_text && !robot.sentence?.includes(robot.stop_text) ? `${robot.stop_text[0].toUpperCase()}${robot.stop_text.slice(1)}.` : null].filter(Boolean).join(" "));
+  const before = robot?.previous_run;
+  const broken = !ready && before?.state === "interrupted" ? `The last run, ${before.gait_name}, was interrupted. ${before.sentence}` : null;
+  setText(parts.sentence, [robot?.sentence, broken, robot?.stop_text && !robot.sentence?.includes(robot.stop_text) ? `${robot.stop_text[0].toUpperCase()}${robot.stop_text.slice(1)}.` : null].filter(Boolean).join(" "));
   for (const name of ["connect", "disconnect", "arm", "pause", "resume", "clear", "reset"]) parts[name].allow(robot);
   parts.connect.button.hidden = ready;
   parts.disconnect.button.hidden = !ready;
@@ -115,13 +118,12 @@ function showRobot(parts, ways, robot) {
   parts.pause.button.hidden = paused;
   parts.resume.button.hidden = !paused;
   setText(parts.connectNote, ready ? (robot.link === "connecting" ? CONNECT_WARNING : "") : CONNECT_WARNING);
-  setText(parts.armNote, ready ? (robot.allowed?.arm ?? "") : "");
+  setText(parts.armNote, ready && !on ? (robot.allowed?.arm ?? "") : "");
   if (document.activeElement !== parts.device) parts.device.value = robot?.device ?? "";
   parts.device.readOnly = ready;
   const progress = progressOf(robot?.run);
   parts.bar.style.transform = `scaleX(${progress?.fraction ?? 0})`;
-  const before = robot?.previous_run;
-  setText(parts.progress, progress?.text ?? (before ? `Last run: ${before.gait_name}, ${before.state}. ${before.sentence}` : "No run yet."));
+  setText(parts.progress, progress?.text ?? (before ? `Last run: ${before.gait_name}, ${before.state}.` : "No run yet."));
   showWay(ways, robot);
 }
 

@@ -51,12 +51,13 @@ function planNote({ view, checked }) {
   if (plan.refusal) {
     return [h("div", {}, h("b", { text: "No motion", data: { toneText: "bad" } }), " · the reason stands at the timeline")];
   }
-  const { margin, strokes } = extremes(plan);
+  const { strokes } = extremes(plan);
+  const margin = plan.balance;
   const failed = view.verdict && !view.verdict.passed;
   const [word, tone] = failed ? ["Check failed", "bad"] : (SOURCES[plan.source] ?? [plan.source, "quiet"]);
   const [state, stateTone] = verdictWords(view, checked[view.id]);
   const figures = h("div", { class: "figures" }, h("b", { text: word, data: { toneText: tone } }),
-    margin !== null && " · ", margin !== null && h("span", { text: `static margin ${mm(margin)} mm`, title: "Least distance of the centre of mass from the edge of the support polygon; the check measures the centre of pressure of an optimised motion", data: { toneText: margin < 0 ? "bad" : "" } }),
+    margin !== null && " · ", margin !== null && h("span", { text: `margin ${mm(margin)} mm`, title: "Least distance from the edge of the support polygon: of the centre of pressure where the motion is optimised, else of the centre of mass", data: { toneText: margin < 0 ? "bad" : "" } }),
     strokes && ` · strokes ${fixed(strokes[0])}…${fixed(strokes[1])} mm`,
     !failed && " · ", !failed && h("span", { text: state, data: { toneText: stateTone } }));
   const sentence = plan.note.replace(/^\w+: /, "");

@@ -3,7 +3,7 @@
 import { byId, h, icon } from "./dom.js";
 
 const STAY_MS = 9000;
-const STAY_BAD_MS = 25000;
+const STAY_BAD_MS = 15000;
 const STAY_ACTION_MS = 90000;
 
 /**
@@ -20,8 +20,13 @@ export function toast(sentence, { tone = "plain", action = null } = {}) {
   const stack = byId("toasts");
   [...stack.children].filter((other) => other.querySelector("p").textContent === sentence).forEach((other) => other.remove());
   stack.append(element);
-  while (stack.children.length > 3) stack.firstElementChild.remove();
+  while (stack.children.length > 2) stack.firstElementChild.remove();
   setTimeout(close, action ? STAY_ACTION_MS : tone === "bad" ? STAY_BAD_MS : STAY_MS);
+}
+
+/** Takes refusals away whose cause is gone: the gait changed, or another one is shown. */
+export function clearRefusals() {
+  byId("toasts").querySelectorAll('[data-tone="bad"]').forEach((element) => element.remove());
 }
 
 /** Shows what an ApiError says; anything else is a defect and goes to the console as well. */

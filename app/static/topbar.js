@@ -5,6 +5,7 @@ import { byId, h, onPress, setAllowed, setAttribute, setText, stateParts } from 
 import { showKeys } from "./dialogs.js";
 import { clockTime, seconds } from "./format.js";
 import { changeOperator } from "./operator.js";
+import { runIsOn } from "./store.js";
 import { toast } from "./toasts.js";
 
 const LINK_TONES = { ready: "good", connecting: "caution", lost: "bad" };
@@ -70,11 +71,11 @@ function mountHistory(store, edits) {
 function mountStates(store) {
   const sentence = h("span", { class: "hidden-text" });
   const [link, robot, operator] = ["link", "robot-status", "operator"].map(byId);
-  store.watch(({ robot: now, connected }) => [now?.link, now?.robot, now?.emulated, now?.device, connected], ({ robot: now, connected }) => {
+  store.watch(({ robot: now, connected, selected }) => [now?.link, now?.robot, now?.emulated, now?.device, now?.run?.gait_name, connected, selected], ({ robot: now, connected, selected }) => {
     link.replaceChildren(...stateParts(connected ? linkTone(now) : "bad", "Link", connected ? (now?.link ?? "unknown") : "no studio"));
     setAttribute(link, "title", now ? `${now.emulated ? "Emulated robot" : "Robot"} at ${now.device}` : null);
     document.querySelector(".states").toggleAttribute("data-stale", !connected);
-    robot.replaceChildren(...stateParts(robotTone(now), "Robot", now?.robot ?? "unknown"), sentence);
+    robot.replaceChildren(...stateParts(robotTone(now), "Robot", `${now?.robot ?? "unknown"}${runIsOn(now) && now.run?.gait_name && now.run.gait !== selected ? `: ${now.run.gait_name}` : ""}`), sentence);
   });
   store.watch(({ robot: now }) => [now?.sentence, now?.stop_text], ({ robot: now }) => {
     const words = [now?.sentence, now?.stop_text].filter(Boolean).join(" ");

@@ -213,3 +213,11 @@ def test_a_stored_result_that_the_checker_does_not_confirm_is_a_draft(desk: Gait
     assert drawn is not None
     desk.take_result(motion_hash(gait), {"trajectory": trajectory_content(drawn)})
     assert desk.plan(WALK).source is PlanSource.DRAFT
+
+
+def test_two_feet_in_the_air_are_named_at_once(desk: GaitDesk) -> None:
+    for sample in range(15, 20):
+        edit(desk, WALK, foot=0, sample=sample)
+    plan = desk.plan(WALK)
+    words = plan.note if plan.refusal is None else plan.refusal.sentence
+    assert "Feet 1, 2 are in the air together at samples 16 to 20" in words

@@ -2,7 +2,7 @@
 
 import { h, setText, svg } from "./dom.js";
 import { compact, seconds } from "./format.js";
-import { jobOf, jobTone } from "./jobs.js";
+import { isOlder, jobOf, jobTone } from "./jobs.js";
 
 const WIDTH = 276;
 const HEIGHT = 84;
@@ -62,7 +62,7 @@ function draw(progress) {
 }
 
 function stateWords(job) {
-  const stale = job.state === "done" && !job.fresh;
+  const stale = isOlder(job);
   const figures = job.result ? ` · ${job.result.iterations} iterations · ${seconds(job.result.solve_seconds)} s` : "";
   return `${stale ? "older version" : job.state}${figures}`;
 }
@@ -82,7 +82,7 @@ export function mountConvergence(store, section) {
   store.watch(({ jobs, shownJob, selected }) => [jobs, shownJob, selected], (now) => {
     const job = jobOf(now);
     const progress = job?.progress ?? [];
-    const stale = job?.state === "done" && !job.fresh;
+    const stale = isOlder(job);
     setText(state, job ? stateWords(job) : "");
     state.title = job?.sentence ?? "";
     state.dataset.toneText = stale ? "caution" : job ? jobTone(job) : "";

@@ -14,6 +14,9 @@ const SHOWN = 12;
 export const jobIsOn = (job) => ["queued", "running", "cancelling"].includes(job.state);
 export const jobTone = (job) => TONES[job.state] ?? "quiet";
 
+/** Whether a finished job's answer belongs to an older version of its gait. */
+export const isOlder = (job) => Boolean(job) && ["done", "infeasible", "failed"].includes(job.state) && !job.fresh;
+
 /** The job whose curve and explanation are shown: the one picked, else the newest of this gait. */
 export function jobOf({ jobs, shownJob, selected }) {
   return jobs.find((job) => job.id === shownJob && job.gait === selected) ?? jobs.find((job) => job.gait === selected) ?? null;
@@ -54,7 +57,7 @@ function show(part, job, shown) {
   part.word.dataset.toneText = jobTone(job);
   setText(part.text, figures(job));
   part.text.title = job.sentence;
-  const stale = job.state === "done" && !job.fresh;
+  const stale = isOlder(job);
   part.when.className = stale ? "stale" : "";
   setText(part.when, stale ? "older version of the gait" : clockTime(job.created));
   part.cancel.hidden = !jobIsOn(job);

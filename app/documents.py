@@ -60,14 +60,14 @@ class SegmentTableModel(_Model):
 class OptionsModel(_Model):
     """What the optimiser is asked, SI."""
 
-    clearance: float = 0.003
-    margin: float = 0.0
-    body_speed: float = 0.015
-    plane_height: float = 0.0535
-    workspace: Workspace = Workspace.STROKE
-    cost: Cost = Cost.GOAL
-    phase_knots: int = 5
-    closing_knots: int = 5
+    clearance: float = GaitOptions.clearance
+    margin: float = GaitOptions.margin
+    body_speed: float = GaitOptions.body_speed
+    plane_height: float = GaitOptions.plane_height
+    workspace: Workspace = GaitOptions.workspace
+    cost: Cost = GaitOptions.cost
+    phase_knots: int = GaitOptions.phase_knots
+    closing_knots: int = GaitOptions.closing_knots
 
 
 class GaitDocument(_Model):

@@ -32,13 +32,12 @@ class UnknownJobError(InputError):
 
 @dataclass(frozen=True)
 class JobOrigin:
-    """What a job is for: the gait, its motion's hash and the problem in the world."""
+    """What a job is for: the gait, its motion's hash and the problem."""
 
     gait: str
     gait_name: str
     motion: str
     problem: MotionProblem
-    quarter_turns: int
 
 
 class JobDesk:
@@ -82,8 +81,8 @@ class JobDesk:
                 "gait",
             )
         problem = motion_problem(gait, load_robot(gait.robot))
-        origin = JobOrigin(open_gait.id, gait.name, motion_hash(gait), problem, gait.quarter_turns)
-        job_id = self._runner.submit(problem.turned(-gait.quarter_turns), gait.name)
+        origin = JobOrigin(open_gait.id, gait.name, motion_hash(gait), problem)
+        job_id = self._runner.submit(problem, gait.name)
         self._origins[job_id] = origin
         content = {
             "id": job_id,
@@ -146,7 +145,7 @@ class JobDesk:
 
     def _judge(self, content: dict[str, Any], origin: JobOrigin, result: MotionResult) -> None:
         """Believes a solved result only if the independent checker confirms it."""
-        judged = judge(origin.problem, result, origin.quarter_turns)
+        judged = judge(origin.problem, result)
         content["result"] = judged.content
         if judged.status is SolveStatus.SOLVED:
             self._take_result(

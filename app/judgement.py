@@ -8,7 +8,7 @@ from typing import Any
 from app.finite import finite
 from core.motion_check import MotionCheck, check_motion
 from core.motion_problem import MotionProblem
-from core.trajectory import Trajectory, turn_trajectory
+from core.trajectory import Trajectory
 from solver_jobs import MotionResult, SolveStatus
 
 
@@ -19,16 +19,19 @@ class Judgement:
     Args:
         status: the solver's, but failed where the checker does not confirm what is said to be solved.
         explanation: sentences where it is not solved.
-        trajectory: in the problem's own direction.
         check: what the checker measured.
         result: the solver's own report.
     """
 
     status: SolveStatus
     explanation: tuple[str, ...]
-    trajectory: Trajectory
     check: MotionCheck
     result: MotionResult
+
+    @property
+    def trajectory(self) -> Trajectory:
+        """The motion, or the last iterate where there is none."""
+        return self.result.trajectory
 
     @property
     def content(self) -> dict[str, Any]:
@@ -49,16 +52,14 @@ class Judgement:
         return content
 
 
-def judge(problem: MotionProblem, result: MotionResult, quarter_turns: int) -> Judgement:
-    """Turns a result of direction 1 into the problem's direction and holds it to the checker.
+def judge(problem: MotionProblem, result: MotionResult) -> Judgement:
+    """Holds a result to the independent checker.
 
     Args:
-        problem: in its own direction.
-        result: of the problem turned back to direction 1.
-        quarter_turns: from direction 1 to the problem's.
+        problem: what was asked.
+        result: what the solver says of it.
     """
-    trajectory = turn_trajectory(result.trajectory, quarter_turns)
-    check = check_motion(problem, trajectory)
+    check = check_motion(problem, result.trajectory)
     status, explanation = result.status, result.explanation
     if status is SolveStatus.SOLVED and not check.confirmed:
         status = SolveStatus.FAILED
@@ -66,4 +67,4 @@ def judge(problem: MotionProblem, result: MotionResult, quarter_turns: int) -> J
             f"The solver says it is solved, but the checker found {check.worst_family} violated by "
             f"{check.max_violation:.1e}; the result is not used.",
         )
-    return Judgement(status, explanation, trajectory, check, result)
+    return Judgement(status, explanation, check, result)

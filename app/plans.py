@@ -15,11 +15,11 @@ from core.checks import CheckedPlan, balance_margins, check_plan
 from core.draft import initial_motion
 from core.errors import CheckError, FootfallError, InputError
 from core.findings import Verdict
-from core.gait import Gait, missing_support, motion_problem
+from core.gait import Gait, motion_problem
 from core.kinematics import UnreachableError
 from core.manual import manual_motion
 from core.motion_check import check_motion
-from core.motion_problem import MotionProblem
+from core.motion_problem import MotionProblem, missing_support
 from core.robot import RobotModel, load_robot
 from core.support import stability_margins
 from core.trajectory import Trajectory
@@ -102,7 +102,7 @@ def make_plan(gait: Gait, result: dict[str, Any] | None) -> Plan:
         else:
             problem = motion_problem(gait, model)
             stored = _confirmed(problem, result)
-            shortfall = missing_support(gait)
+            shortfall = missing_support(gait.timeline, gait.options.margin)
             source, note = PlanSource.DRAFT, shortfall or "Draft: drawn from the timeline, not optimised yet."
             trajectory = initial_motion(problem) if stored is None else stored
             if stored is not None and result is not None:

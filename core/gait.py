@@ -159,21 +159,6 @@ def heading_step(orientation: Orientation, step: float) -> tuple[float, float, f
     return (step, 0.0, 0.0)
 
 
-def missing_support(gait: Gait) -> str | None:
-    """Why a drawn gait cannot keep its stability margin, where fewer than three feet stand; else None."""
-    few = gait.timeline.stance.sum(axis=0) < 3
-    if gait.options.margin <= 0 or not few.any():
-        return None
-    first = int(np.nonzero(few)[0][0])
-    last = first + int(np.argmin(np.append(few[first:], False))) - 1
-    feet = ", ".join(str(foot + 1) for foot in np.nonzero(~gait.timeline.stance[:, first])[0])
-    return (
-        f"Feet {feet} are in the air together at samples {first + 1} to {last + 1}: the feet that stand have "
-        f"no area between them, so no stability margin of {gait.options.margin * 1000:g} mm can be kept. "
-        "Set one of them to stance there, or ask for margin 0."
-    )
-
-
 def motion_problem(gait: Gait, model: RobotModel) -> MotionProblem:
     """The optimisation problem of a gait: from standing at the origin to standing all iterations further on.
 
@@ -204,4 +189,5 @@ def motion_problem(gait: Gait, model: RobotModel) -> MotionProblem:
         goal=standing_pose(model, options.plane_height, (float(dx), float(dy))),
         limits=limits,
         cost=options.cost,
+        quarter_turns=gait.quarter_turns,
     )

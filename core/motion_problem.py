@@ -100,6 +100,8 @@ class MotionProblem:
         goal: pose of the last knot.
         limits: bounds.
         cost: what is minimised.
+        quarter_turns: how far it is turned from direction 1, in which solvers work, so that every direction
+            has the same answer.
     """
 
     model: RobotModel
@@ -108,6 +110,7 @@ class MotionProblem:
     goal: RestPose
     limits: MotionLimits
     cost: Cost
+    quarter_turns: int = 0
 
     def __post_init__(self) -> None:
         legs = self.model.leg_count
@@ -127,7 +130,28 @@ class MotionProblem:
             timeline=self.timeline.turned(quarter_turns),
             start=self.start.turned(quarter_turns),
             goal=self.goal.turned(quarter_turns),
+            quarter_turns=(self.quarter_turns + quarter_turns) % 4,
         )
+
+
+def missing_support(timeline: ContactTimeline, margin: float) -> str | None:
+    """Why no stability margin can be kept where fewer than three feet stand; None where it may be.
+
+    Args:
+        timeline: which foot stands at each knot.
+        margin: how far inside the support polygon the centre of pressure has to stay, m.
+    """
+    few = timeline.stance.sum(axis=0) < 3
+    if margin <= 0 or not few.any():
+        return None
+    first = int(np.nonzero(few)[0][0])
+    last = first + int(np.argmin(np.append(few[first:], False))) - 1
+    feet = ", ".join(str(foot + 1) for foot in np.nonzero(~timeline.stance[:, first])[0])
+    return (
+        f"Feet {feet} are in the air together at samples {first + 1} to {last + 1}: the feet that stand have "
+        f"no area between them, so no stability margin of {margin * 1000:g} mm can be kept. Set one of them "
+        "to stance there, or ask for margin 0."
+    )
 
 
 def standing_pose(model: RobotModel, plane_height: float, shift_xy: tuple[float, float]) -> RestPose:

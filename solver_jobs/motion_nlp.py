@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from core.draft import initial_motion
 from core.motion_problem import MotionProblem
-from core.trajectory import Trajectory
+from core.trajectory import Trajectory, turn_trajectory
 from solver_jobs.assembly import box_of
 from solver_jobs.constraint import situation_of
 from solver_jobs.diagnosis import broken_pose, explanation, nearest_motion
@@ -36,11 +38,24 @@ def solve_motion(problem: MotionProblem, progress: Progress = lambda iterate: Tr
         The result; solved only where IPOPT says Solve_Succeeded for the problem as asked.
     """
     situation = situation_of(problem)
+    blocking = obstacles(situation, box_of(situation))
+    if blocking:
+        # Feet are named here, so this looks at the problem in its own direction.
+        return _ruled_out(blocking, initial_motion(problem), 0.0)
+    turns = problem.quarter_turns
+    result = _search(problem.turned(-turns), progress)
+    return replace(
+        result,
+        trajectory=turn_trajectory(result.trajectory, turns),
+        initial=turn_trajectory(result.initial, turns),
+    )
+
+
+def _search(problem: MotionProblem, progress: Progress) -> MotionResult:
+    """Solves a problem of direction 1 that no bound rules out."""
+    situation = situation_of(problem)
     initial = initial_motion(problem)
     box = box_of(situation)
-    blocking = obstacles(situation, box)
-    if blocking:
-        return _ruled_out(blocking, initial, 0.0)
     structure, build_seconds = _structures.get(problem)
     search = Search(situation, initial, box, progress)
     broken = search.broken_constants(structure)

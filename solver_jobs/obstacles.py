@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from core.motion_problem import missing_support
 from core.support import GRAVITY
 from solver_jobs.constraint import Box, Situation
 from solver_jobs.diagnosis import knot_ranges
@@ -40,21 +41,8 @@ def _falling(situation: Situation) -> str | None:
 
 def _no_area(situation: Situation) -> list[str]:
     """With fewer than three feet down the support has no area, and no margin can be kept inside it."""
-    problem = situation.problem
-    sentences: list[str] = []
-    if problem.limits.margin <= 0:
-        return sentences
-    few = situation.contact[:-1].sum(axis=1) < 3
-    floating = ~situation.contact[:-1]
-    for feet in sorted({tuple(np.nonzero(floating[k])[0].tolist()) for k in np.nonzero(few)[0]}):
-        at = tuple(int(k) for k in np.nonzero(few)[0] if tuple(np.nonzero(floating[k])[0].tolist()) == feet)
-        names = ", ".join(str(foot + 1) for foot in feet)
-        sentences.append(
-            f"Feet {names} are in the air together at {knot_ranges(at)}: the feet that stand have no area "
-            f"between them, so no stability margin of {problem.limits.margin * MM:.1f} mm can be kept. Set "
-            "one of them to stance there, or ask for margin 0."
-        )
-    return sentences
+    sentence = missing_support(situation.problem.timeline, situation.problem.limits.margin)
+    return [] if sentence is None else [sentence]
 
 
 def _contradictions(situation: Situation, box: Box) -> list[str]:

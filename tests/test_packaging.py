@@ -13,14 +13,27 @@ from tests.studio_process import PROJECT, running_studio
 IGNORED = shutil.ignore_patterns(".git", ".venv", "build", "*.egg-info", "__pycache__", ".*_cache")
 
 
+def run_quietly(*words: str) -> None:
+    subprocess.run(words, check=True, capture_output=True, timeout=120)
+
+
 def test_a_wheel_serves_the_studio_far_from_the_checkout(tmp_path: Path) -> None:
     source, wheels, installed = tmp_path / "source", tmp_path / "wheels", tmp_path / "installed"
     shutil.copytree(PROJECT, source, ignore=IGNORED)
     pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "--no-input"]
-    quiet = {"check": True, "capture_output": True, "timeout": 120}
-    subprocess.run([*pip, "wheel", "--no-deps", "--no-build-isolation", "-w", wheels, source], **quiet)  # type: ignore[call-overload]
+    subprocess.run(
+        [*pip, "wheel", "--no-deps", "--no-build-isolation", "-w", wheels, source],
+        check=True,
+        capture_output=True,
+        timeout=120,
+    )
     wheel = next(wheels.glob("*.whl"))
-    subprocess.run([*pip, "install", "--no-deps", "--target", installed, wheel], **quiet)  # type: ignore[call-overload]
+    subprocess.run(
+        [*pip, "install", "--no-deps", "--target", installed, wheel],
+        check=True,
+        capture_output=True,
+        timeout=120,
+    )
     environment = {**os.environ, "PYTHONPATH": str(installed)}
     words = subprocess.run(
         [sys.executable, "-c", "import app, sys; print(app.__file__)"],

@@ -172,7 +172,7 @@ def _with_options(gait: Gait, options: Namespace) -> Gait:
 def optimise(gait: Gait) -> Judgement:
     """Solves a gait in this process and holds the result to the independent checker."""
     problem = motion_problem(gait, load_robot(gait.robot))
-    return judge(problem, solve_motion(problem.turned(-gait.quarter_turns)), gait.quarter_turns)
+    return judge(problem, solve_motion(problem))
 
 
 def run_optimise(options: Namespace) -> int:

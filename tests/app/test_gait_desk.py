@@ -144,7 +144,9 @@ def test_a_manual_gait_is_checked_approved_and_the_approval_survives_a_restart(
     desk.check(MANUAL)
     approval = desk.approve(MANUAL, "Ada").approval
     assert approval is not None
-    assert approval.waypoints_hash == desk.plan(MANUAL).waypoints.content_hash  # type: ignore[union-attr]
+    waypoints = desk.plan(MANUAL).waypoints
+    assert waypoints is not None
+    assert approval.waypoints_hash == waypoints.content_hash
     assert reopened(tmp_path, database).open_gait(MANUAL).approval == approval
 
 

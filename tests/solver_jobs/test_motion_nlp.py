@@ -154,6 +154,15 @@ def proven(problem: MotionProblem) -> str:
     return result.explanation[0]
 
 
+@pytest.mark.parametrize("turns", [0, 1, 2, 3])
+def test_an_explanation_names_the_feet_of_the_gaits_own_direction(turns: int) -> None:
+    problem = gait_problem("walk", 0.010, Workspace.STROKE)
+    stance = problem.timeline.stance.copy()
+    stance[1] = True
+    drawn = replace(problem, timeline=replace(problem.timeline, stance=stance)).turned(turns)
+    assert f"Foot {(1 + turns) % 4 + 1} has to travel" in proven(drawn)
+
+
 def test_two_feet_in_the_air_leave_no_area_for_a_margin() -> None:
     problem = gait_problem("walk", 0.010, Workspace.STROKE)
     stance = problem.timeline.stance.copy()
@@ -161,7 +170,7 @@ def test_two_feet_in_the_air_leave_no_area_for_a_margin() -> None:
     drawn = replace(problem, timeline=replace(problem.timeline, stance=stance))
     with_margin = replace(drawn, limits=replace(drawn.limits, margin=0.003))
     sentence = proven(with_margin)
-    assert "Feet 1, 2 are in the air together at knots 16–20" in sentence
+    assert "Feet 1, 2 are in the air together at samples 16 to 20" in sentence
 
 
 def test_a_foot_that_must_move_but_never_swings_is_named() -> None:

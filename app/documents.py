@@ -4,92 +4,40 @@ from __future__ import annotations
 
 import hashlib
 import json
-from typing import Any, Literal
+from dataclasses import replace
+from math import ceil
+from typing import Any
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import ValidationError
 
+from app.document_models import (
+    GaitDocument,
+    OptionsModel,
+    ProvenanceModel,
+    RecordingModel,
+    SegmentTableModel,
+    SingleGaitModel,
+    TimelineModel,
+)
+from app.migrations import VERSION, migrated
 from core.errors import InputError
-from core.gait import Gait, GaitOptions, Orientation
-from core.motion_problem import Cost, Workspace
-from core.robot import load_robot
-from core.segments import Segment, SegmentTable, SegmentVocabulary
+from core.gait import Gait, GaitOptions
+from core.held_feet import HeldFeet
+from core.provenance import Provenance
+from core.recording import Recording
+from core.robot import RobotModel, load_robot
+from core.segments import Segment, SegmentTable, SegmentVocabulary, require_heights
+from core.sequence_part import SequencePart
 from core.timeline import ContactTimeline, bits_from_rows, rows_from_bits
 
 FORMAT = "footfall-gait"
-VERSION = 1
-
-
-class _Model(BaseModel):
-    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
-
-
-class TimelineModel(_Model):
-    """Contact of each foot: a string of 1 (stance) and 0 (swing), foot 1 first; `locked` likewise."""
-
-    sample_time: float = Field(description="time between samples, s")
-    feet: list[str] = Field(min_length=1)
-    locked: list[str] | None = None
-
-
-class SegmentModel(_Model):
-    """A segment between two named positions."""
-
-    start: str
-    end: str
-    swing: bool
-
-
-class VocabularyModel(_Model):
-    """What the names of a segment table mean: xy factors, z strokes in m, segments."""
-
-    xy: dict[str, float]
-    z: dict[str, float]
-    segments: dict[str, SegmentModel]
-
-
-class SegmentTableModel(_Model):
-    """A row of segment names a foot, one iteration at direction 1."""
-
-    samples_per_segment: int
-    repeat_from: int = 1
-    feet: list[list[str]] = Field(min_length=1)
-    definitions: VocabularyModel
-
-
-class OptionsModel(_Model):
-    """What the optimiser is asked, SI."""
-
-    clearance: float = GaitOptions.clearance
-    margin: float = GaitOptions.margin
-    body_speed: float = GaitOptions.body_speed
-    plane_height: float = GaitOptions.plane_height
-    workspace: Workspace = GaitOptions.workspace
-    cost: Cost = GaitOptions.cost
-    phase_knots: int = GaitOptions.phase_knots
-    closing_knots: int = GaitOptions.closing_knots
-
-
-class GaitDocument(_Model):
-    """A gait as it stands in a file."""
-
-    format: Literal["footfall-gait"]
-    version: Literal[1]
-    name: str
-    robot: str = "deltawalker"
-    orientation: Orientation
-    direction: int = 1
-    order: list[int]
-    step: tuple[float, float, float] = Field(description="dx, dy in m and yaw in rad, an iteration")
-    iterations: int = 1
-    timeline: TimelineModel
-    segment_table: SegmentTableModel | None = None
-    options: OptionsModel = Field(default_factory=OptionsModel)
-    notes: str = ""
+MOST_BYTES = 2_000_000
+"""A document of more bytes is not taken."""
 
 
 def gait_schema() -> dict[str, Any]:
-    """The published JSON Schema of the document."""
+    """The published JSON Schema (2020-12) of the document."""
     return GaitDocument.model_json_schema()
 
 
@@ -116,22 +64,47 @@ def gait_from_content(content: Any, where: str = "gait") -> Gait:
     """Reads a gait document that is already parsed JSON (see `parse_gait`)."""
     if not isinstance(content, dict) or content.get("format") != FORMAT:
         raise InputError(f'{where} is not a gait document: "format" must be "{FORMAT}".', f"{where}.format")
-    if content.get("version") != VERSION or isinstance(content["version"], bool):
-        raise InputError(
-            f"{where} has version {content.get('version')!r}; this program reads version {VERSION}. "
-            "Open it with the program that wrote it.",
-            f"{where}.version",
-        )
+    content = _parts_migrated(migrated(content, where), where)
     try:
         document = GaitDocument.model_validate(content)
     except ValidationError as error:
         first = error.errors()[0]
-        field = ".".join(str(part) for part in first["loc"])
+        field = ".".join(str(part) for part in first["loc"]).encode(errors="backslashreplace").decode()
         raise InputError(f"{where}, field {field}: {first['msg']}.", f"{where}.{field}") from error
-    return _to_gait(document)
+    _require_whole(content, where)
+    parts = [SequencePart(_to_gait(part.gait), part.times, part.source) for part in document.sequence]
+    return _to_gait(document, tuple(parts))
 
 
-def _to_gait(document: GaitDocument) -> Gait:
+def _require_whole(content: dict[str, Any], where: str) -> None:
+    """Every text and name can be written down: none holds half of a character (a lone surrogate).
+
+    Raises:
+        InputError: one does.
+    """
+    text = json.dumps(content, ensure_ascii=False)
+    try:
+        text.encode()
+    except UnicodeEncodeError as error:
+        beside = text[max(error.start - 30, 0) : error.start]
+        raise InputError(f"{where} holds half a character after “{beside}”; type it again.", where) from error
+
+
+def _parts_migrated(content: dict[str, Any], where: str) -> dict[str, Any]:
+    """A sequence's parts in the present version as well; what is no part is left to the schema."""
+    parts = content.get("sequence")
+    if not isinstance(parts, list):
+        return content
+    moved = [
+        {**part, "gait": migrated(part["gait"], f"{where}.sequence.{index}.gait")}
+        if isinstance(part, dict) and isinstance(part.get("gait"), dict)
+        else part
+        for index, part in enumerate(parts)
+    ]
+    return {**content, "sequence": moved}
+
+
+def _to_gait(document: SingleGaitModel, parts: tuple[SequencePart, ...] = ()) -> Gait:
     model = load_robot(document.robot)
     feet = len(document.timeline.feet)
     if feet != model.leg_count:
@@ -148,9 +121,13 @@ def _to_gait(document: GaitDocument) -> Gait:
         step=document.step,
         iterations=document.iterations,
         timeline=timeline,
-        segment_table=_to_table(document.segment_table, model.leg_count),
+        segment_table=_to_table(document.segment_table, model),
         options=GaitOptions(**document.options.model_dump()),
         notes=document.notes,
+        recorded=_to_recording(document.recorded),
+        provenance=None if document.provenance is None else Provenance(**document.provenance.model_dump()),
+        sequence=parts,
+        held=HeldFeet(tuple(document.held.start), tuple(document.held.end)),
     )
 
 
@@ -162,24 +139,39 @@ def _to_timeline(model: TimelineModel) -> ContactTimeline:
     return ContactTimeline(stance, locked, model.sample_time)
 
 
-def _to_table(model: SegmentTableModel | None, legs: int) -> SegmentTable | None:
+def _to_table(model: SegmentTableModel | None, robot: RobotModel) -> SegmentTable | None:
     if model is None:
         return None
-    if len(model.feet) != legs:
+    if len(model.feet) != robot.leg_count:
         raise InputError(
-            f"The segment table has {len(model.feet)} feet; the robot has {legs}.", "segment_table.feet"
+            f"The segment table has {len(model.feet)} feet; the robot has {robot.leg_count}.",
+            "segment_table.feet",
         )
+    require_heights(model.definitions.z, robot.stroke)
     segments = {name: Segment(**s.model_dump()) for name, s in model.definitions.segments.items()}
     vocabulary = SegmentVocabulary(model.definitions.xy, model.definitions.z, segments)
-    rows = tuple(tuple(row) for row in model.feet)
-    return SegmentTable(rows, model.samples_per_segment, model.repeat_from, vocabulary)
+    rows, link = (tuple(tuple(row) for row in rows) for rows in (model.feet, model.link))
+    return SegmentTable(rows, model.samples_per_segment, model.repeat_from, vocabulary, model.repeat_to, link)
+
+
+def _to_recording(model: RecordingModel | None) -> Recording | None:
+    if model is None:
+        return None
+    recording = Recording(model.file, model.form, model.text, model.companion, tuple(model.assumed))
+    if recording.sha256 != model.sha256:
+        raise InputError(
+            f"The recorded motion's text has the SHA-256 {recording.sha256[:10]}…, the document says "
+            f"{model.sha256[:10]}…: the text was changed since. Import {model.file} again.",
+            "recorded.sha256",
+        )
+    return recording
 
 
 def gait_content(gait: Gait) -> dict[str, Any]:
     """The document as JSON content; reading it back gives the same gait."""
     table = gait.segment_table
     options = gait.options
-    return {
+    content: dict[str, Any] = {
         "format": FORMAT,
         "version": VERSION,
         "name": gait.name,
@@ -197,6 +189,29 @@ def gait_content(gait: Gait) -> dict[str, Any]:
         "segment_table": None if table is None else _table_content(table),
         "options": OptionsModel(**vars(options)).model_dump(mode="json"),
         "notes": gait.notes,
+        "recorded": None if gait.recorded is None else _recording_content(gait.recorded),
+        "provenance": None
+        if gait.provenance is None
+        else ProvenanceModel(**vars(gait.provenance)).model_dump(),
+    }
+    if gait.held.any:
+        content["held"] = {"start": list(gait.held.start), "end": list(gait.held.end)}
+    if gait.sequence:
+        content["sequence"] = [
+            {"gait": gait_content(part.gait), "times": part.times, "source": part.source}
+            for part in gait.sequence
+        ]
+    return content
+
+
+def _recording_content(recording: Recording) -> dict[str, Any]:
+    return {
+        "file": recording.file,
+        "form": recording.form.value,
+        "text": recording.text,
+        "companion": recording.companion,
+        "sha256": recording.sha256,
+        "assumed": list(recording.assumed),
     }
 
 
@@ -205,6 +220,8 @@ def _table_content(table: SegmentTable) -> dict[str, Any]:
     return {
         "samples_per_segment": table.samples_per_segment,
         "repeat_from": table.repeat_from,
+        "repeat_to": table.repeat_to,
+        "link": [list(row) for row in table.link],
         "feet": [list(row) for row in table.rows],
         "definitions": {
             "xy": dict(words.xy),
@@ -216,7 +233,46 @@ def _table_content(table: SegmentTable) -> dict[str, Any]:
     }
 
 
+_WORDS_ALONE = ("name", "notes", "provenance")
+"""Fields that no motion depends on."""
+_SENDING = ("merge", "stop_bound")
+"""Options of how a motion is sent, which it does not depend on."""
+
+
 def motion_hash(gait: Gait) -> str:
-    """SHA-256 of everything in the document that a motion depends on: all but name and notes."""
-    content = {key: value for key, value in gait_content(gait).items() if key not in ("name", "notes")}
+    """SHA-256 of everything in the document that a motion depends on: all but name, notes and provenance."""
+    content = {key: value for key, value in gait_content(gait).items() if key not in _WORDS_ALONE}
+    content["options"] = {key: value for key, value in content["options"].items() if key not in _SENDING}
+    # A gait without a recorded motion keeps the hash under which earlier results of it are kept.
+    recording = content.pop("recorded")
+    if gait.recorded is not None:
+        content["recorded"] = {"form": recording["form"], "sha256": recording["sha256"]}
+        content["recorded"]["companion"] = gait.recorded.companion_sha256
+    if gait.sequence:
+        parts = [{"motion": motion_hash(part.gait), "times": part.times} for part in gait.sequence]
+        content["sequence"] = parts
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+
+def asked_hash(gait: Gait) -> str:
+    """SHA-256 of what a solver is asked for a gait, whose own recorded motion is left aside."""
+    return motion_hash(replace(gait, recorded=None))
+
+
+def require_size(gait: Gait, where: str) -> None:
+    """A gait that is to become a document is small enough for one.
+
+    Raises:
+        InputError: it is too large.
+    """
+    require_bytes(len(json.dumps(gait_content(gait), ensure_ascii=False).encode()), where)
+
+
+def require_bytes(size: int, where: str) -> None:
+    """What is to stand in a document leaves it small enough (see `require_size`)."""
+    if size > MOST_BYTES:
+        raise InputError(
+            f"{where} would make a gait document of {ceil(size / 1000)} kB; at most {MOST_BYTES // 1000} kB "
+            "are kept. Sample the motion more coarsely, or cut it into several files.",
+            where,
+        )

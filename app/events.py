@@ -12,9 +12,15 @@ MOST_WAITING = 400
 
 
 class Subscriber:
-    """One page's queue of events, filled from any thread and read on the server's loop."""
+    """One page's queue of events, filled from any thread and read on the server's loop.
 
-    def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
+    Args:
+        loop: the server's.
+        page: the page's id; empty where it gave none.
+    """
+
+    def __init__(self, loop: asyncio.AbstractEventLoop, page: str = "") -> None:
+        self.page = page
         self._loop = loop
         self._queue: asyncio.Queue[str | None] = asyncio.Queue()
         self._latest_robot: str | None = None
@@ -49,9 +55,13 @@ class EventHub:
         self._lock = threading.Lock()
         self._subscribers: set[Subscriber] = set()
 
-    def subscribe(self) -> Subscriber:
-        """A new queue on the running loop."""
-        subscriber = Subscriber(asyncio.get_running_loop())
+    def subscribe(self, page: str = "") -> Subscriber:
+        """A new queue on the running loop.
+
+        Args:
+            page: id of the page that asks; empty for none.
+        """
+        subscriber = Subscriber(asyncio.get_running_loop(), page)
         with self._lock:
             self._subscribers.add(subscriber)
         return subscriber
@@ -61,12 +71,17 @@ class EventHub:
         with self._lock:
             self._subscribers.discard(subscriber)
 
-    def publish(self, event: dict[str, Any]) -> None:
-        """Sends an event to every page."""
+    def pages(self) -> frozenset[str]:
+        """Ids of the pages that are connected."""
+        with self._lock:
+            return frozenset(subscriber.page for subscriber in self._subscribers if subscriber.page)
+
+    def publish(self, event: dict[str, Any], page: str | None = None) -> None:
+        """Sends an event to every page, or to one alone."""
         text = json.dumps(event, allow_nan=False)
         is_robot = event["type"] == "robot"
         with self._lock:
-            subscribers = tuple(self._subscribers)
+            subscribers = tuple(one for one in self._subscribers if page in (None, one.page))
         for subscriber in subscribers:
             subscriber.put(text, is_robot=is_robot)
 

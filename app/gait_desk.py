@@ -6,20 +6,33 @@ Only the session's thread calls this.
 from __future__ import annotations
 
 import json
+import time
+from collections.abc import Callable
 from dataclasses import asdict, replace
 from datetime import UTC, datetime
 from typing import Any
 
-from app.documents import gait_content, motion_hash, parse_gait
-from app.open_gait import HistoryEntry, OpenGait, fresh_gait
-from app.plans import Plan, make_plan, verdict_of
-from app.settling import drawn_timeline, require_locks, settle_iterations, settle_table
-from app.store.database import Database, HistoryRow, OpenGaitRow
-from app.store.files import GaitFiles, slug
-from core.errors import FootfallError, InputError, StateError
+from app.deleted_gaits import ROUTE, DeletedGait, deleted_gaits
+from app.documents import parse_gait
+from app.history import Author, History, Step
+from app.open_gait import OpenGait, fresh_gait, gait_of, gait_text
+from app.plan_cache import AskedPlan, PlanCache
+from app.plans import Plan, Solve, verdict_of
+from app.provenance import with_result
+from app.sequence_plans import run_motions
+from app.settling import in_agreement, settled
+from app.store.database import Database
+from app.store.files import GaitFiles, free_id
+from app.store.gait_log import EditingRow, GaitLog, VersionRow
+from app.undoing import merged_gait
+from app.versions import VersionKind, Versions, is_said_already
+from core.errors import InputError, StateError
 from core.findings import Approval, approve
-from core.gait import Gait
+from core.gait import Gait, drawn_timeline
 from core.library import library
+from core.sequence import derived
+
+_SCRIPT = Author()
 
 
 class UnknownGaitError(InputError):
@@ -32,29 +45,47 @@ class GaitDesk:
     Args:
         files: the saved gaits.
         database: histories, results and approvals.
+        solve_for: gives what asks the live tier for a gait.
+        connected: gives the pages that are connected.
+        clock: gives the time, s since the epoch.
     """
 
-    def __init__(self, files: GaitFiles, database: Database) -> None:
+    def __init__(
+        self,
+        files: GaitFiles,
+        database: Database,
+        solve_for: Callable[[Gait], Solve],
+        connected: Callable[[], frozenset[str]] = frozenset,
+        clock: Callable[[], float] = time.time,
+    ) -> None:
         self._files = files
         self._database = database
+        self._plans = PlanCache(database, solve_for)
+        self._connected = connected
+        self._log = GaitLog(database)
+        self.versions = Versions(self._log, clock)
+        self._stored: dict[str, History] = {}
         self._open: dict[str, OpenGait] = {}
-        self._plans: dict[str, tuple[int, Plan]] = {}
 
-    def ids(self) -> tuple[str, ...]:
-        """Built-in gaits first, then saved ones."""
-        saved = [gait_id for gait_id in self._files.ids() if gait_id not in library()]
-        unsaved = [gait_id for gait_id in self._open if gait_id not in library() and gait_id not in saved]
-        return (*library(), *saved, *unsaved)
+    def marks(self) -> dict[str, tuple[object, ...]]:
+        """Built-in gaits first, then saved ones; each with what changes whenever its line in a list may."""
+        stamps = self._files.stamps()
+        ids = dict.fromkeys((*library(), *sorted(stamps), *self._open))
+        # A result's provenance is saved with the gait and is no edit, so that it makes no revision.
+        return {
+            gait_id: (stamps.get(gait_id), (there.revision, there.gait.provenance) if there else None)
+            for gait_id, there in ((gait_id, self._open.get(gait_id)) for gait_id in ids)
+        }
 
-    def open_gaits(self) -> tuple[OpenGait, ...]:
-        """Every gait that can be opened; one whose file is damaged is left out of the list."""
-        found = []
-        for gait_id in self.ids():
-            try:
-                found.append(self.open_gait(gait_id))
-            except FootfallError:
-                continue
-        return tuple(found)
+    def glance(self, gait_id: str) -> tuple[Gait, bool, bool]:
+        """A gait's present document, whether it is built in, and whether it is edited; not its history."""
+        open_gait = self._open.get(gait_id)
+        if open_gait is not None:
+            return open_gait.gait, open_gait.builtin, open_gait.edited
+        saved, builtin, _ = self._saved(gait_id)
+        text = self._log.present_document(gait_id)
+        gait = saved if text is None else parse_gait(text)
+        return gait, builtin, gait != saved
 
     def open_gait(self, gait_id: str) -> OpenGait:
         """The gait's present state.
@@ -67,51 +98,89 @@ class GaitDesk:
         return self._open[gait_id]
 
     def _load(self, gait_id: str) -> OpenGait:
+        saved, builtin, saved_at = self._saved(gait_id)
+        row = self._log.editing(gait_id)
+        if row is None:
+            return fresh_gait(gait_id, saved, builtin, saved_at)
+        self._stored[gait_id] = row.history
+        present = gait_of(row.history.present)
+        opened = OpenGait(gait_id, builtin, row.history, present, row.revision, saved, saved_at, row.notice)
+        return replace(opened, kept_approval=row.approval)
+
+    def _saved(self, gait_id: str) -> tuple[Gait, bool, float | None]:
+        """The document as saved or built in, whether it is built in, and when it was saved."""
         if not self._files.is_id(gait_id):
             raise UnknownGaitError(f"There is no gait “{gait_id}”.", gait_id)
-        builtin = library().get(gait_id)
-        saved_at = self._files.saved_at(gait_id)
-        if saved_at is None and builtin is None:
+        builtin, saved_at = library().get(gait_id), self._files.saved_at(gait_id)
+        if saved_at is not None:
+            return self._files.read(gait_id), builtin is not None, saved_at
+        if builtin is None:
             raise UnknownGaitError(f"There is no gait “{gait_id}”.", gait_id)
-        saved = builtin.gait if saved_at is None and builtin is not None else self._files.read(gait_id)
-        stored = self._database.open_gait(gait_id)
-        if stored is None:
-            return fresh_gait(gait_id, saved, builtin is not None, saved_at)
-        row, history = stored
-        entries = tuple(HistoryEntry(h.label, parse_gait(h.document)) for h in history)
-        opened = OpenGait(
-            gait_id, builtin is not None, entries, row.cursor, row.revision, saved, saved_at, row.notice
-        )
-        return self._with_approval(opened, row.approval)
+        return builtin.gait, True, None
 
-    def _with_approval(self, open_gait: OpenGait, text: str | None) -> OpenGait:
-        """Brings an approval back where it still is of exactly this verdict and these waypoints."""
-        if text is None:
-            return open_gait
-        approval = Approval(**json.loads(text))
-        try:
-            verdict = verdict_of(self._plan_of(open_gait), open_gait.gait)
-        except FootfallError:
-            return open_gait
-        if verdict.content_hash != approval.verdict_hash:
-            return open_gait
-        return replace(open_gait, verdict=verdict, approval=approval)
+    def touched_by(self, page: str) -> tuple[OpenGait, ...]:
+        """The gaits in memory that a page edited."""
+        return tuple(gait for gait in self._open.values() if page in gait.history.pages)
+
+    def document(self, gait_id: str) -> Gait:
+        """The gait's document as it is on the desk (see `open_gait`)."""
+        return self.open_gait(gait_id).gait
+
+    def sequences_with(self, gait_id: str) -> tuple[OpenGait, ...]:
+        """The sequences in memory of which a gait is a part."""
+        opened = self._open.values()
+        return tuple(s for s in opened if any(part.source == gait_id for part in s.gait.sequence))
 
     def plan(self, gait_id: str) -> Plan:
-        """What the gait amounts to now; computed once a revision."""
+        """What the gait amounts to now; computed once a revision, here and now where it is not known yet."""
         return self._plan_of(self.open_gait(gait_id))
 
     def _plan_of(self, open_gait: OpenGait) -> Plan:
-        cached = self._plans.get(open_gait.id)
-        if cached is not None and cached[0] == open_gait.revision:
-            return cached[1]
-        result = self._database.result(motion_hash(open_gait.gait))
-        plan = make_plan(open_gait.gait, result)
-        self._plans[open_gait.id] = (open_gait.revision, plan)
+        plan = self._plans.of(open_gait)
+        self._open[open_gait.id] = open_gait.with_plan(plan)
         return plan
 
-    def edit(self, gait_id: str, gait: Gait, label: str, revision: int | None) -> OpenGait:
-        """Puts a changed document on the desk.
+    def planned(self, gait: Gait) -> Plan:
+        """What a document amounts to, whether or not it is the present one of a gait; any thread may ask."""
+        return self._plans.made(gait)
+
+    def unplanned(self, gait_id: str, *, retry: bool = False) -> AskedPlan | None:
+        """What is to be planned before the gait's plan is known; None where it is.
+
+        Args:
+            gait_id: which gait.
+            retry: whether a solver that broke off is to be asked again.
+        """
+        open_gait = self.open_gait(gait_id)
+        asked = self._plans.unplanned(open_gait, retry=retry)
+        if asked is None:
+            self._plan_of(open_gait)
+        return asked
+
+    def take_plan(self, asked: AskedPlan, plan: Plan) -> None:
+        """Takes over a plan that was made elsewhere, unless the gait or its results changed meanwhile."""
+        now = self._open.get(asked.open_gait.id)
+        if now is not None:
+            self._open[now.id] = self._plans.taken(asked, plan, now)
+
+    def ask_again(self, gait_id: str) -> None:
+        """Asks the live tier once more where it broke off; what was found of the old plan is gone."""
+        self.plan(gait_id)
+        asked = self.unplanned(gait_id, retry=True)
+        if asked is not None:
+            self.take_plan(asked, self.planned(asked.open_gait.gait))
+
+    def edit(
+        self, gait_id: str, gait: Gait, label: str, revision: int | None, author: Author = _SCRIPT
+    ) -> OpenGait:
+        """Puts a changed document on the desk, in the database too.
+
+        Args:
+            gait_id: which gait.
+            gait: the changed document.
+            label: what the edit is called.
+            revision: that the edit was made on; None for any.
+            author: whose edit it is.
 
         Raises:
             StateError: somebody else changed it since the given revision.
@@ -122,52 +191,96 @@ class GaitDesk:
                 f"“{open_gait.gait.name}” was changed elsewhere; look at its new state and edit again.",
                 "revision",
             )
-        require_locks(open_gait.gait, gait)
-        settled, notice = settle_table(open_gait.gait, settle_iterations(open_gait.gait, gait))
-        if settled == open_gait.gait:
+        changed, notice = settled(open_gait.gait, gait)
+        if changed == open_gait.gait:
             return open_gait
-        return self._put(open_gait.edit(settled, label or "Edit", notice), open_gait)
+        return self._edited(open_gait, changed, label or "Edit", author, notice)
 
-    def redraw(self, gait_id: str, order: tuple[int, ...], phase_knots: int, closing_knots: int) -> OpenGait:
+    def _edited(
+        self, open_gait: OpenGait, gait: Gait, label: str, author: Author, notice: str | None = None
+    ) -> OpenGait:
+        version = self.versions.due(open_gait)
+        history = open_gait.history.edited(gait_text(gait), label, author, self._others(author))
+        return self._put(open_gait.changed(history.pruned(), gait, notice), version)
+
+    def _others(self, author: Author) -> frozenset[str]:
+        return self._connected() - {author.page}
+
+    def redraw(
+        self,
+        gait_id: str,
+        order: tuple[int, ...],
+        phase_knots: int,
+        closing_knots: int,
+        author: Author = _SCRIPT,
+    ) -> OpenGait:
         """Draws the timeline anew from a foot order and phase lengths."""
         open_gait = self.open_gait(gait_id)
         options = replace(open_gait.gait.options, phase_knots=phase_knots, closing_knots=closing_knots)
         changed = replace(open_gait.gait, order=order, options=options)
         changed = replace(changed, timeline=drawn_timeline(changed))
-        return self.edit(gait_id, changed, f"Draw order {'-'.join(map(str, order))}", None)
+        return self.edit(gait_id, changed, f"Draw order {'-'.join(map(str, order))}", None, author)
 
-    def undo(self, gait_id: str) -> OpenGait:
-        """One step back."""
+    def undo(self, gait_id: str, author: Author = _SCRIPT) -> OpenGait:
+        """Takes the author's newest edit back; the edits of others stay.
+
+        Raises:
+            StateError: there is none, or somebody changed the same since.
+        """
         open_gait = self.open_gait(gait_id)
-        return self._put(open_gait.undo(), open_gait)
+        return self._stepped(open_gait, open_gait.history.undo(author, self._others(author)), author)
 
-    def redo(self, gait_id: str) -> OpenGait:
-        """One step forward again."""
+    def redo(self, gait_id: str, author: Author = _SCRIPT) -> OpenGait:
+        """Does the author's newest undone edit again (see `undo`)."""
         open_gait = self.open_gait(gait_id)
-        return self._put(open_gait.redo(), open_gait)
+        return self._stepped(open_gait, open_gait.history.redo(author, self._others(author)), author)
 
-    def save(self, gait_id: str) -> OpenGait:
+    def _stepped(self, open_gait: OpenGait, step: Step, author: Author) -> OpenGait:
+        gait = merged_gait(open_gait.gait, step)
+        history = open_gait.history.stepped(step, gait_text(gait), author)
+        return self._put(open_gait.changed(history.pruned(), gait))
+
+    def save(self, gait_id: str, author: Author = _SCRIPT) -> OpenGait:
         """Writes the present document to the data folder."""
         open_gait = self.open_gait(gait_id)
+        plan = self._plans.known(open_gait)
+        if plan is not None and plan.provenance is not None:
+            open_gait = self._restated(open_gait, replace(open_gait.gait, provenance=plan.provenance))
         self._files.write(gait_id, open_gait.gait)
+        self.versions.keep(open_gait, VersionKind.SAVED, author)
         saved = replace(open_gait, saved=open_gait.gait, saved_at=self._files.saved_at(gait_id))
         self._open[gait_id] = saved
         return saved
 
+    def restore_version(self, gait_id: str, number: int, author: Author = _SCRIPT) -> OpenGait:
+        """Puts the document of a version on the desk again, as an edit that can be undone.
+
+        Raises:
+            UnknownVersionError: there is none of that number.
+        """
+        open_gait = self.open_gait(gait_id)
+        gait = parse_gait(self.versions.get(gait_id, number).document, f"version {number}")
+        if is_said_already(gait, open_gait.gait):
+            return open_gait
+        self.versions.keep(open_gait, VersionKind.BEFORE_RESTORE, author)
+        return self._edited(open_gait, gait, f"Restore version {number}", author)
+
     def create(self, gait: Gait) -> OpenGait:
         """Adds a gait under a new id made from its name, and saves it."""
-        base, taken, number = slug(gait.name), set(self.ids()), 1
-        gait_id = base
-        while gait_id in taken:
-            number += 1
-            gait_id = f"{base}-{number}"
-        self._database.drop_open_gait(gait_id)
+        gait, notice = in_agreement(derived(gait) if gait.sequence else gait)
+        gait_id = free_id(gait.name, {ROUTE, *self.marks(), *self._files.deleted_ids(), *self._log.ids()})
         self._files.write(gait_id, gait)
-        self._open[gait_id] = fresh_gait(gait_id, gait, False, self._files.saved_at(gait_id))
-        return self._open[gait_id]
+        created = fresh_gait(gait_id, gait, False, self._files.saved_at(gait_id))
+        created = replace(created, notice=notice)
+        self.versions.keep(created, VersionKind.SAVED)
+        self._open[gait_id] = created
+        return created
 
-    def delete(self, gait_id: str) -> None:
+    def delete(self, gait_id: str) -> OpenGait | None:
         """Takes a saved gait away; `restore` brings it back.
+
+        Returns:
+            The gait that comes with the program under that id; None where none does.
 
         Raises:
             StateError: the gait comes with the program and was not saved over.
@@ -179,24 +292,44 @@ class GaitDesk:
                 "undo takes edits back.",
                 gait_id,
             )
+        self.versions.keep(open_gait, VersionKind.BEFORE_DELETE)
         self._files.remove(gait_id)
-        self._forget(gait_id)
+        self._close(gait_id)
+        return self._return(gait_id, "Delete what was saved") if open_gait.builtin else None
+
+    def deleted(self) -> tuple[DeletedGait, ...]:
+        """What `restore` can bring back, the last deleted first."""
+        return deleted_gaits(self._files, self._log)
 
     def restore(self, gait_id: str) -> OpenGait:
-        """Brings a deleted gait back as it was saved."""
+        """Brings a deleted gait back as it was, unsaved edits and what can be undone included."""
         self._files.restore(gait_id)
-        self._forget(gait_id)
-        return self.open_gait(gait_id)
+        self._close(gait_id)
+        return (
+            self._return(gait_id, "Bring back what was saved")
+            if gait_id in library()
+            else self.open_gait(gait_id)
+        )
 
-    def _forget(self, gait_id: str) -> None:
+    def _return(self, gait_id: str, label: str) -> OpenGait:
+        """Goes back to what is saved or built in now, as an edit that can be undone."""
+        open_gait = self.open_gait(gait_id)
+        if open_gait.saved is None or open_gait.gait == open_gait.saved:
+            return open_gait
+        self.versions.keep(open_gait, VersionKind.BEFORE_RESTORE)
+        return self._edited(open_gait, open_gait.saved, label, _SCRIPT)
+
+    def _close(self, gait_id: str) -> None:
         self._open.pop(gait_id, None)
-        self._plans.pop(gait_id, None)
-        self._database.drop_open_gait(gait_id)
+        self._stored.pop(gait_id, None)
+        self._plans.drop(gait_id)
 
     def check(self, gait_id: str) -> OpenGait:
         """Checks the present plan by every rule; an approval of another verdict is gone."""
+        self.ask_again(gait_id)
+        plan = self.plan(gait_id)
         open_gait = self.open_gait(gait_id)
-        verdict = verdict_of(self._plan_of(open_gait), open_gait.gait)
+        verdict = verdict_of(plan, open_gait.gait)
         approval = open_gait.approval
         if approval is not None and approval.verdict_hash != verdict.content_hash:
             approval = None
@@ -223,41 +356,40 @@ class GaitDesk:
         if verdict_hash is not None and verdict_hash != open_gait.verdict.content_hash:
             raise StateError("Another verdict stands by now; look at it and approve again.", "verdict_hash")
         approval = approve(open_gait.verdict, by, datetime.now(UTC))
-        self._database.add_approval(gait_id, asdict(approval))
-        return self._put(replace(open_gait, approval=approval), open_gait)
+        version = self.versions.made(open_gait, VersionKind.APPROVED, Author(name=by))
+        return self._put(replace(open_gait, approval=approval), version, approval)
 
     def take_result(self, motion: str, content: dict[str, Any]) -> tuple[OpenGait, ...]:
         """Stores a checked result and gives back the open gaits whose plan it becomes."""
         self._database.put_result(motion, content)
         touched = []
-        for gait_id, open_gait in self._open.items():
-            if open_gait.gait.segment_table is None and motion_hash(open_gait.gait) == motion:
-                self._plans.pop(gait_id, None)
-                self._open[gait_id] = replace(open_gait, verdict=None, approval=None)
-                touched.append(self._open[gait_id])
+        for gait_id, open_gait in tuple(self._open.items()):
+            if motion in run_motions(open_gait.gait):
+                self._plans.drop(gait_id)
+                touched.append(self._resulted(open_gait, motion, content))
         return tuple(touched)
 
-    def _put(self, open_gait: OpenGait, before: OpenGait) -> OpenGait:
-        """Keeps a changed open_gait in memory and in the database."""
-        shared = 0
-        for old, new in zip(before.history, open_gait.history, strict=False):
-            if old is not new:
-                break
-            shared += 1
-        tail = tuple(_row(entry) for entry in open_gait.history[shared:])
-        approval = None if open_gait.approval is None else json.dumps(asdict(open_gait.approval))
-        row = OpenGaitRow(open_gait.revision, open_gait.cursor, open_gait.notice, approval)
-        if not self._database.has_open_gait(open_gait.id):
-            shared, tail = 0, tuple(_row(entry) for entry in open_gait.history)
-        self._database.put_open_gait(open_gait.id, row, shared, tail)
+    def _resulted(self, open_gait: OpenGait, motion: str, content: dict[str, Any]) -> OpenGait:
+        """The gait with a result's provenance in its present document, which is no edit of anybody."""
+        resulted = replace(open_gait, verdict=None, approval=None, kept_approval=None)
+        gait = with_result(open_gait.gait, motion, content)
+        if gait == open_gait.gait:
+            self._open[open_gait.id] = resulted
+            return resulted
+        return self._restated(resulted, gait)
+
+    def _restated(self, open_gait: OpenGait, gait: Gait) -> OpenGait:
+        return self._put(replace(open_gait, gait=gait, history=open_gait.history.restated(gait_text(gait))))
+
+    def _put(
+        self, open_gait: OpenGait, version: VersionRow | None = None, approved: Approval | None = None
+    ) -> OpenGait:
+        """Keeps a changed gait in memory and in the database, with version and approval record."""
+        kept = open_gait.kept_approval
+        approval = kept if open_gait.approval is None else json.dumps(asdict(open_gait.approval))
+        row = EditingRow(open_gait.revision, open_gait.history, open_gait.notice, approval)
+        record = None if approved is None else asdict(approved)
+        self._log.put(open_gait.id, row, self._stored.get(open_gait.id), version, record)
+        self._stored[open_gait.id] = open_gait.history
         self._open[open_gait.id] = open_gait
         return open_gait
-
-
-def _row(entry: HistoryEntry) -> HistoryRow:
-    return HistoryRow(entry.label, json.dumps(gait_content(entry.gait)))
-
-
-def refusal_text(error: FootfallError) -> dict[str, Any]:
-    """An expected refusal as JSON content."""
-    return {"error": error.sentence, "where": error.where}

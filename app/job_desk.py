@@ -6,24 +6,36 @@ Only the session's thread calls this.
 from __future__ import annotations
 
 import time
+from collections import OrderedDict
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-from app.documents import motion_hash
-from app.judgement import judge
+from app.documents import asked_hash
+from app.judgement import Judgement, judge
 from app.open_gait import OpenGait
+from app.plans import Plan, iterate_plan
+from app.provenance import result_provenance
 from app.store.database import Database
+from app.timings import timed_gait, timing_content, timing_problem
 from app.trajectory_content import trajectory_content
 from core.errors import InputError, StateError
-from core.gait import motion_problem
+from core.gait import Gait, motion_problem
 from core.motion_problem import MotionProblem
+from core.provenance import Provenance
 from core.robot import load_robot
-from solver_jobs import Job, JobRunner, JobState, MotionResult, SolveStatus
+from core.trajectory import Trajectory
+from solver_jobs import Job, JobKind, JobRunner, JobState, MotionResult, SolveStatus, TimingResult
 
 ENDED = frozenset({"done", "infeasible", "failed", "cancelled", "interrupted"})
 MOST_SHOWN = 20
 """Jobs in the page's list."""
+MOST_COURSES = 4
+"""Jobs whose every iteration can still be looked at."""
+
+
+KIND_WORDS = {JobKind.MOTION: "optimise", JobKind.TIMING: "timing"}
+"""Kinds of jobs as the page and scripts name them."""
 
 
 class UnknownJobError(InputError):
@@ -32,10 +44,10 @@ class UnknownJobError(InputError):
 
 @dataclass(frozen=True)
 class JobOrigin:
-    """What a job is for: the gait, its motion's hash and the problem."""
+    """What a job is for: the gait as it was, its motion's hash and the problem."""
 
-    gait: str
-    gait_name: str
+    gait_id: str
+    gait: Gait
     motion: str
     problem: MotionProblem
 
@@ -59,21 +71,24 @@ class JobDesk:
         self._runner = runner
         self._take_result = take_result
         self._origins: dict[str, JobOrigin] = {}
+        self._courses: OrderedDict[str, tuple[Trajectory, ...]] = OrderedDict()
         self._contents = {content["id"]: content for content in reversed(database.jobs(MOST_SHOWN))}
         for content in self._contents.values():
+            content["course"] = 0
             if content["state"] not in ENDED:
                 content |= {"state": "interrupted", "ended": time.time()}
                 content["sentence"] = "The studio ended while this job was on. Optimise again."
                 database.put_job(content)
 
-    def submit(self, open_gait: OpenGait) -> dict[str, Any]:
-        """Starts the optimisation of a gait as it is now.
+    def submit(self, open_gait: OpenGait, kind: JobKind = JobKind.MOTION) -> dict[str, Any]:
+        """Starts the optimisation of a gait as it is now, or the search for its fastest timing.
 
         Raises:
             StateError: the gait is made by hand.
             InputError: its timeline or options cannot be optimised.
         """
-        gait = open_gait.gait
+        # A recorded motion is what the gait has, not what is asked.
+        gait = replace(open_gait.gait, recorded=None)
         if gait.segment_table is not None:
             raise StateError(
                 "This gait is made by hand from its segment table. Draw on the timeline to make it one that "
@@ -81,14 +96,16 @@ class JobDesk:
                 "gait",
             )
         problem = motion_problem(gait, load_robot(gait.robot))
-        origin = JobOrigin(open_gait.id, gait.name, motion_hash(gait), problem)
-        job_id = self._runner.submit(problem, gait.name)
+        if kind is JobKind.TIMING:
+            problem = timing_problem(gait, problem)
+        origin = JobOrigin(open_gait.id, gait, asked_hash(gait), problem)
+        job_id = self._runner.submit(problem, gait.name, kind)
         self._origins[job_id] = origin
         content = {
             "id": job_id,
-            "kind": "optimise",
-            "gait": origin.gait,
-            "gait_name": origin.gait_name,
+            "kind": KIND_WORDS[kind],
+            "gait": origin.gait_id,
+            "gait_name": gait.name,
             "motion": origin.motion,
             "state": "queued",
             "sentence": "Waits for a worker.",
@@ -96,6 +113,7 @@ class JobDesk:
             "started": None,
             "ended": None,
             "progress": [],
+            "course": 0,
             "result": None,
         }
         self._contents[job_id] = content
@@ -137,20 +155,71 @@ class JobDesk:
             "ended": job.ended,
             "progress": [_iterate_content(iterate) for iterate in job.progress],
         }
-        if job.result is not None:
+        if isinstance(job.result, TimingResult):
+            content["result"] = timing_content(origin.gait, job.result)
+            provenance = self._keep_timed_motion(origin.gait, job.result)
+            if provenance is not None:
+                content["result"]["usable"]["document"]["provenance"] = asdict(provenance)
+        elif job.result is not None:
+            self._keep_course(content, job.result.course)
             self._judge(content, origin, job.result)
         if content["state"] in ENDED:
             self._database.put_job(content)
         return content
+
+    def _keep_course(self, content: dict[str, Any], course: tuple[Trajectory, ...]) -> None:
+        """Keeps the motions of a job's iterations in memory, in place of those of the oldest job."""
+        self._courses[content["id"]] = course
+        content["course"] = len(course)
+        while len(self._courses) > MOST_COURSES:
+            oldest, _ = self._courses.popitem(last=False)
+            self._contents[oldest]["course"] = 0
+
+    def iterate(self, job_id: str, number: int) -> Plan:
+        """The motion at an iteration, to be looked at.
+
+        Raises:
+            UnknownJobError: there is no such job.
+            StateError: its iterations are no longer kept.
+            InputError: it has no iteration of that number.
+        """
+        content = self.content(job_id)
+        course = self._courses.get(job_id, ())
+        if not course:
+            raise StateError(
+                f"The iterations of this job are not kept any more; those of the last {MOST_COURSES} jobs "
+                "are, until the studio ends. Optimise again to look at them.",
+                "course",
+            )
+        if not 0 <= number < len(course):
+            raise InputError(
+                f"This job has iterations 0 to {len(course) - 1}, and none of number {number}.", "course"
+            )
+        return iterate_plan(
+            self._origins[content["id"]].problem.model, course[number], number, len(course) - 1
+        )
+
+    def _keep_timed_motion(self, gait: Gait, result: TimingResult) -> Provenance | None:
+        """Keeps the exact motion of the gait in its new timings, so that it is there when they are used."""
+        timed = timed_gait(gait, result)
+        if timed is None or result.usable is None:
+            return None
+        judged = judge(motion_problem(timed, load_robot(timed.robot)), result.usable)
+        return self._keep(asked_hash(timed), judged) if judged.status is SolveStatus.SOLVED else None
+
+    def _keep(self, motion: str, judged: Judgement) -> Provenance:
+        """Hands a checked result on with its provenance."""
+        result = {**judged.content, "trajectory": trajectory_content(judged.trajectory)}
+        provenance = result_provenance(motion, result)
+        self._take_result(motion, {**result, "provenance": asdict(provenance)})
+        return provenance
 
     def _judge(self, content: dict[str, Any], origin: JobOrigin, result: MotionResult) -> None:
         """Believes a solved result only if the independent checker confirms it."""
         judged = judge(origin.problem, result)
         content["result"] = judged.content
         if judged.status is SolveStatus.SOLVED:
-            self._take_result(
-                origin.motion, {**judged.content, "trajectory": trajectory_content(judged.trajectory)}
-            )
+            self._keep(origin.motion, judged)
         elif content["state"] == JobState.DONE.value:
             content |= {"state": JobState.FAILED.value, "sentence": judged.explanation[0]}
 

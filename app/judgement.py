@@ -21,12 +21,14 @@ class Judgement:
         explanation: sentences where it is not solved.
         check: what the checker measured.
         result: the solver's own report.
+        problem: what was asked.
     """
 
     status: SolveStatus
     explanation: tuple[str, ...]
     check: MotionCheck
     result: MotionResult
+    problem: MotionProblem
 
     @property
     def trajectory(self) -> Trajectory:
@@ -67,4 +69,4 @@ def judge(problem: MotionProblem, result: MotionResult) -> Judgement:
             f"The solver says it is solved, but the checker found {check.worst_family} violated by "
             f"{check.max_violation:.1e}; the result is not used.",
         )
-    return Judgement(status, explanation, check, result)
+    return Judgement(status, explanation, check, result, problem)

@@ -1,23 +1,17 @@
-"""A gait on the desk: its document, its undo history, and what was found and approved of it."""
+"""A gait on the desk: its document, its log, and what was found and approved of it."""
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
-from core.errors import StateError
+from app.documents import gait_content, parse_gait
+from app.history import History, LogEntry, fresh_history
+from app.plans import Plan, verdict_of
+from core.errors import FootfallError
 from core.findings import Approval, Verdict
 from core.gait import Gait
-
-MOST_ENTRIES = 300
-"""Undo steps that are kept."""
-
-
-@dataclass(frozen=True)
-class HistoryEntry:
-    """The document after an edit, and what the edit was called."""
-
-    label: str
-    gait: Gait
 
 
 @dataclass(frozen=True)
@@ -27,85 +21,91 @@ class OpenGait:
     Args:
         id: of the gait.
         builtin: whether a gait of this id comes with the program.
-        history: entries, the oldest first.
-        cursor: index of the present entry.
+        history: every document that it was.
+        gait: the present document.
         revision: grows with every change of the document, undo included.
         saved: the document as saved or built in; None for one that was never saved.
         saved_at: when it was saved, s since the epoch; None where it was not.
         notice: what the last edit had to set aside.
         verdict: of the present revision, or None.
         approval: of the present revision, or None.
+        kept_approval: of before the program's start, JSON text; looked at again once the plan is made.
     """
 
     id: str
     builtin: bool
-    history: tuple[HistoryEntry, ...]
-    cursor: int
+    history: History
+    gait: Gait
     revision: int
     saved: Gait | None
     saved_at: float | None
     notice: str | None = None
     verdict: Verdict | None = None
     approval: Approval | None = None
+    kept_approval: str | None = None
 
     @property
-    def gait(self) -> Gait:
-        """The present document."""
-        return self.history[self.cursor].gait
+    def before(self) -> Gait | None:
+        """The document before the present one; None where it was never changed."""
+        entry = self.history.before
+        return None if entry is None else gait_of(entry)
 
     @property
     def edited(self) -> bool:
         """Whether the document differs from what is saved."""
         return self.gait != self.saved
 
-    @property
-    def undo_label(self) -> str | None:
-        """What undo would take back."""
-        return self.history[self.cursor].label if self.cursor > 0 else None
+    def undo_label(self, others: frozenset[str] = frozenset()) -> str | None:
+        """What undo would take back, for a page beside which others are connected."""
+        return self.history.label_of(self.history.undoable(others))
 
-    @property
-    def redo_label(self) -> str | None:
-        """What redo would do again."""
-        following = self.cursor + 1
-        return self.history[following].label if following < len(self.history) else None
+    def redo_label(self, others: frozenset[str] = frozenset()) -> str | None:
+        """What redo would do again, for a page beside which others are connected."""
+        return self.history.label_of(self.history.redoable(others))
 
-    def edit(self, gait: Gait, label: str, notice: str | None = None) -> OpenGait:
-        """A new present document; what could be redone is gone."""
-        history = (*self.history[: self.cursor + 1], HistoryEntry(label, gait))[-MOST_ENTRIES:]
-        return self._moved(history, len(history) - 1, notice)
-
-    def undo(self) -> OpenGait:
-        """One step back.
-
-        Raises:
-            StateError: there is none.
-        """
-        if self.undo_label is None:
-            raise StateError("There is nothing to undo.", "undo")
-        return self._moved(self.history, self.cursor - 1, None)
-
-    def redo(self) -> OpenGait:
-        """One step forward again.
-
-        Raises:
-            StateError: there is none.
-        """
-        if self.redo_label is None:
-            raise StateError("There is nothing to redo.", "redo")
-        return self._moved(self.history, self.cursor + 1, None)
-
-    def _moved(self, history: tuple[HistoryEntry, ...], cursor: int, notice: str | None) -> OpenGait:
+    def changed(self, history: History, gait: Gait, notice: str | None = None) -> OpenGait:
+        """The gait with another document; what was found of the old one is gone."""
         return replace(
             self,
             history=history,
-            cursor=cursor,
+            gait=gait,
             revision=self.revision + 1,
             notice=notice,
             verdict=None,
             approval=None,
+            kept_approval=None,
         )
+
+    def with_plan(self, plan: Plan) -> OpenGait:
+        """The gait once its plan is known: an approval comes back that is of exactly this verdict."""
+        if self.kept_approval is None:
+            return self
+        without = replace(self, kept_approval=None)
+        approval = Approval(**json.loads(self.kept_approval))
+        try:
+            verdict = verdict_of(plan, self.gait)
+        except FootfallError:
+            return without
+        if verdict.content_hash != approval.verdict_hash:
+            return without
+        return replace(without, verdict=verdict, approval=approval)
 
 
 def fresh_gait(gait_id: str, gait: Gait, builtin: bool, saved_at: float | None) -> OpenGait:
     """A gait that was just opened."""
-    return OpenGait(gait_id, builtin, (HistoryEntry("Open", gait),), 0, 1, gait, saved_at)
+    return OpenGait(gait_id, builtin, fresh_history(gait_text(gait)), gait, 1, gait, saved_at)
+
+
+def gait_text(gait: Gait) -> str:
+    """The document as one line of JSON."""
+    return json.dumps(gait_content(gait))
+
+
+def gait_of(entry: LogEntry) -> Gait:
+    """The document of an entry of the log."""
+    return _parsed(entry.document)
+
+
+@lru_cache(maxsize=64)
+def _parsed(document: str) -> Gait:
+    return parse_gait(document)

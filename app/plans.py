@@ -3,28 +3,43 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any
 
 import numpy as np
 
-from app.trajectory_content import trajectory_from_content
+from app.judgement import Judgement, judge
+from app.planned_part import PlannedPart
+from app.trajectory_content import content_sha256, trajectory_from_content
 from core.arrays import Floats
 from core.checks import CheckedPlan, balance_margins, check_plan
+from core.coupling_check import coupling_note
 from core.draft import initial_motion
 from core.errors import CheckError, FootfallError, InputError
 from core.findings import Verdict
-from core.gait import Gait, motion_problem
-from core.kinematics import UnreachableError
-from core.manual import manual_motion
+from core.gait import Gait, GaitOptions, motion_problem, resting_poses, travel_world
+from core.held_feet import HeldFeet, held_sentence
+from core.kinematics import UnreachableError, free_strokes
+from core.manual import manual_motion, stance_slip
 from core.motion_check import check_motion
 from core.motion_problem import MotionProblem, missing_support
+from core.path_merging import WaypointPlan, plan_waypoints
+from core.provenance import Provenance
+from core.recorded_motion import gait_trajectory
+from core.recording import Recording, RecordingForm
 from core.robot import RobotModel, load_robot
 from core.support import stability_margins
 from core.trajectory import Trajectory
-from core.waypoint_path import waypoints_from_trajectory
 from core.waypoints import Waypoints
+from solver_jobs import MotionResult, SolveStatus
+
+AS_PLANNED = GaitOptions(merge=0.0, stop_bound=None)
+"""One waypoint a knot."""
+
+Solve = Callable[[MotionProblem], MotionResult]
+"""Asks the live tier."""
 
 
 class PlanSource(StrEnum):
@@ -32,7 +47,14 @@ class PlanSource(StrEnum):
 
     MANUAL = "manual"
     OPTIMISED = "optimised"
+    LIVE = "live"
+    RECORDED = "recorded"
+    """The motion of a file, as it stands."""
+    SEQUENCE = "sequence"
+    """The parts of a sequence, each in its own way."""
     DRAFT = "draft"
+    ITERATE = "iterate"
+    """A motion on the solver's way to its answer; to be looked at only."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,27 +66,50 @@ class Plan:
         note: a sentence on that.
         model: the robot.
         trajectory: in the world frame; None where the document does not make one.
-        waypoints: what would be sent; None where a foot is out of reach.
+        way: what would be sent, and where in the plan it is; None where a foot is out of reach.
         refusal: why there is no trajectory or no waypoints.
-        slip: (legs,) of a manual gait, m.
+        slip: (legs,) of a manual gait or a recorded motion, m.
+        live: the live tier's answer, where it was asked.
+        seconds: time in the solver; None where none was asked.
+        result: SHA-256 of the stored result that it is; None for every other plan.
+        provenance: of that result, where it is known.
+        parts: of a sequence, and the moves between them; empty for a gait of its own.
     """
 
     source: PlanSource
     note: str
     model: RobotModel
     trajectory: Trajectory | None
-    waypoints: Waypoints | None
+    way: WaypointPlan | None
     refusal: FootfallError | None
     slip: Floats | None = None
+    live: Judgement | None = None
+    seconds: float | None = None
+    result: str | None = None
+    provenance: Provenance | None = None
+    parts: tuple[PlannedPart, ...] = ()
+
+    @property
+    def waypoints(self) -> Waypoints | None:
+        """What would be sent; None where a foot is out of reach."""
+        return None if self.way is None else self.way.waypoints
+
+    @property
+    def broke_off(self) -> bool:
+        """Whether a solver gave no answer, so that it is worth asking again."""
+        failed = self.live is not None and self.live.status is SolveStatus.FAILED
+        return failed or any(part.broke_off for part in self.parts)
 
     @property
     def hash(self) -> str:
         """SHA-256 that changes with anything that is seen or sent."""
         digest = hashlib.sha256(f"{self.source}{self.model.name}".encode())
         if self.trajectory is not None:
-            for values in (self.trajectory.times, self.trajectory.body_world, self.trajectory.feet_world):
+            t = self.trajectory
+            for values in (t.times, t.body_world, t.heading, t.feet_world, t.contact):
                 digest.update(values.tobytes())
-            digest.update(self.trajectory.contact.tobytes())
+        if self.way is not None:
+            digest.update(self.way.waypoints.strokes.tobytes())
         return digest.hexdigest()
 
     @property
@@ -76,6 +121,14 @@ class Plan:
         return smallest if np.isfinite(smallest) else None
 
     @property
+    def free_strokes(self) -> Floats:
+        """(n, 3·legs) strokes that the motion needs, limits left aside, m; nan where no rod is that long."""
+        t = self.trajectory
+        if t is None:
+            return np.zeros((0, 3 * self.model.leg_count))
+        return free_strokes(self.model, t.feet_world, t.pose(self.model)).reshape(t.knot_count, -1)
+
+    @property
     def margins(self) -> Floats:
         """(n,) static stability margin, m."""
         if self.trajectory is None:
@@ -84,37 +137,102 @@ class Plan:
         return stability_margins(t.body_world[:, :2], t.feet_world, t.contact)
 
 
-def make_plan(gait: Gait, result: dict[str, Any] | None) -> Plan:
-    """The plan of a gait: by hand table, by a stored result of the optimiser, or else as drawn.
+def make_plan(gait: Gait, result: dict[str, Any] | None, solve: Solve) -> Plan:
+    """The plan of a gait: recorded, by hand table, by a stored result of the exact tier, or by the live tier.
 
     Args:
         gait: the document.
         result: the stored result for exactly this document, where there is one.
+        solve: asks the live tier; called only where nothing else makes the plan.
     """
     model = load_robot(gait.robot)
-    slip, shortfall = None, None
-    trajectory: Trajectory
     try:
+        if gait.recorded is not None:
+            return with_waypoints(_recorded_plan(gait, gait.recorded, model), gait.options)
         if gait.segment_table is not None:
             motion = manual_motion(gait, model)
-            source, note, slip = PlanSource.MANUAL, _manual_note(float(motion.slip.max())), motion.slip
-            trajectory = motion.trajectory
-        else:
-            problem = motion_problem(gait, model)
-            stored = _confirmed(problem, result)
-            shortfall = missing_support(gait.timeline, gait.options.margin)
-            source, note = PlanSource.DRAFT, shortfall or "Draft: drawn from the timeline, not optimised yet."
-            trajectory = initial_motion(problem) if stored is None else stored
-            if stored is not None and result is not None:
-                source, note = PlanSource.OPTIMISED, _optimised_note(result)
+            note = _manual_note(float(motion.slip.max()))
+            return with_waypoints(
+                Plan(PlanSource.MANUAL, note, model, motion.trajectory, None, None, motion.slip), gait.options
+            )
+        problem = motion_problem(gait, model)
+        stored = _confirmed(problem, result)
+        if stored is not None and result is not None:
+            note = " ".join(filter(None, (_optimised_note(result), _held_note(gait, model))))
+            plan = Plan(PlanSource.OPTIMISED, note, model, stored, None, None)
+            return with_waypoints(_with_origin(plan, result), gait.options)
+        plan = _live_plan(problem, judge(problem, solve(problem)))
+        if plan.source is PlanSource.LIVE:
+            plan = replace(plan, note=" ".join(filter(None, (plan.note, _held_note(gait, model)))))
+        return with_waypoints(plan, gait.options)
     except FootfallError as refusal:
         return Plan(PlanSource.DRAFT, refusal.sentence, model, None, None, refusal)
+
+
+def iterate_plan(model: RobotModel, trajectory: Trajectory, number: int, last: int) -> Plan:
+    """A motion on the solver's way, to be looked at.
+
+    Args:
+        model: the robot.
+        trajectory: the motion at that iteration.
+        number: of the iteration, 0 for the start.
+        last: number of the last iteration.
+    """
+    note = f"Iteration {number} of {last}: a motion on the solver's way, not the plan."
+    return with_waypoints(Plan(PlanSource.ITERATE, note, model, trajectory, None, None), AS_PLANNED)
+
+
+def _with_origin(plan: Plan, result: dict[str, Any]) -> Plan:
+    kept = result.get("provenance")
+    return replace(
+        plan,
+        seconds=result["solve_seconds"],
+        result=content_sha256(result["trajectory"]),
+        provenance=None if kept is None else Provenance(**kept),
+    )
+
+
+def _recorded_plan(gait: Gait, recording: Recording, model: RobotModel) -> Plan:
+    """The recorded motion, as it stands.
+
+    Raises:
+        InputError: it cannot be read, or the document says another motion.
+    """
+    trajectory = gait_trajectory(gait, recording, model)
+    slip = stance_slip(trajectory.feet_world, trajectory.contact)
+    note = f"The recorded motion of {recording.file}, as it stands."
+    if recording.form is RecordingForm.WAYPOINTS:
+        note = f"The waypoints of {recording.file}; standing feet slide up to {slip.max() * 1000:.1f} mm."
+    return Plan(PlanSource.RECORDED, note, model, trajectory, None, None, slip)
+
+
+def _live_plan(problem: MotionProblem, answer: Judgement) -> Plan:
+    """The live tier's motion where it is confirmed, its nearest one where there is none, else a drawing."""
+    model, seconds = problem.model, answer.result.solve_seconds
+    if answer.status is SolveStatus.SOLVED:
+        note = _live_note(answer)
+        return Plan(PlanSource.LIVE, note, model, answer.trajectory, None, None, None, answer, seconds)
+    nearest = answer.trajectory if answer.status is SolveStatus.INFEASIBLE else initial_motion(problem)
+    note = missing_support(problem.timeline, problem.limits.margin) or " ".join(answer.explanation)
+    return Plan(PlanSource.DRAFT, note, model, nearest, None, None, None, answer, seconds)
+
+
+def with_waypoints(plan: Plan, options: GaitOptions) -> Plan:
+    """The plan with what would be sent, merged and cut, or with the reason why nothing can be.
+
+    Args:
+        plan: with its motion.
+        options: of the document, for merging and stop bound.
+    """
+    if plan.trajectory is None:
+        return plan
     try:
-        waypoints = waypoints_from_trajectory(model, trajectory)
+        way = plan_waypoints(plan.model, plan.trajectory, options.merge, options.stop_bound)
     except UnreachableError as unreachable:
-        reason = unreachable if shortfall is None else InputError(shortfall, "timeline")
-        return Plan(source, note, model, trajectory, None, reason, slip)
-    return Plan(source, note, model, trajectory, waypoints, None, slip)
+        draft = plan.source is PlanSource.DRAFT
+        return replace(plan, refusal=InputError(plan.note, "timeline") if draft else unreachable)
+    words = (plan.note, coupling_note(plan.model, plan.trajectory))
+    return replace(plan, way=way, note=" ".join(filter(None, words)))
 
 
 def _confirmed(problem: MotionProblem, result: dict[str, Any] | None) -> Trajectory | None:
@@ -130,6 +248,28 @@ def _confirmed(problem: MotionProblem, result: dict[str, Any] | None) -> Traject
 
 def _manual_note(slip: float) -> str:
     return f"Made by hand from its segment table; standing feet slide up to {slip * 1000:.1f} mm."
+
+
+def _live_note(answer: Judgement) -> str:
+    return (
+        f"Solved by the live tier in {answer.result.solve_seconds * 1000:.0f} ms; every constraint is "
+        f"confirmed, largest violation {answer.check.max_violation:.1e}."
+    )
+
+
+def _held_note(gait: Gait, model: RobotModel) -> str:
+    """Which feet are held up, and where the body rests aside for it; nothing where none is."""
+    if not gait.held.any:
+        return ""
+    natural = resting_poses(replace(gait, held=HeldFeet()), model)
+    words = [held_sentence(gait.held)]
+    for pose, middle, end in zip(resting_poses(gait, model), natural, ("start", "end"), strict=True):
+        aside = float(np.linalg.norm(pose.body_world - middle.body_world))
+        if aside > 0.0:
+            words.append(
+                f"At the {end} the body rests {aside * 1000:.1f} mm aside, over the feet that stand."
+            )
+    return " ".join(filter(None, words))
 
 
 def _optimised_note(result: dict[str, Any]) -> str:
@@ -148,7 +288,9 @@ def verdict_of(plan: Plan, gait: Gait) -> Verdict:
     if plan.trajectory is None or plan.waypoints is None:
         sentence = "There is no plan to check." if plan.refusal is None else plan.refusal.sentence
         raise CheckError(sentence, "plan")
-    travel = gait.step_world * gait.iterations
+    travel = travel_world(gait, plan.model)
     return check_plan(
-        CheckedPlan(plan.model, plan.trajectory, plan.waypoints, travel, plan.source is PlanSource.DRAFT)
+        CheckedPlan(
+            plan.model, plan.trajectory, plan.waypoints, travel, plan.source is PlanSource.DRAFT, plan.way
+        )
     )

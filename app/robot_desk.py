@@ -8,18 +8,24 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+from app.bridge.course import WHOLE, Course
 from app.bridge.emulated import EmulatedRobot, start_emulator
+from app.bridge.faults import Fault
 from app.bridge.robot import RobotBridge
-from app.bridge.run import start_targets
 from app.bridge.states import LinkState, RobotSnapshot, RunPlan
 from app.open_gait import OpenGait
 from app.plans import Plan
-from app.robot_view import EMULATOR, RUNNING, RunOrigin, allowed, robot_view, stop_seconds
+from app.robot_lease import LeaseDesk, TellPage
+from app.robot_ports import RobotPorts
+from app.robot_view import EMULATOR, RUNNING, RunOrigin, allowed, robot_view, run_end
 from app.run_recorder import RunRecorder
+from app.run_summary import run_summary, unwired
+from app.runs.plan_content import run_plan_content
 from app.store.database import Database
 from core.errors import FootfallError, StateError
-from core.waypoint_path import estimate_seconds
-from core.wire_timing import largest_moves
+
+MOST_SHOWN = 200
+"""Changes of state that a page shows."""
 
 
 class RobotDesk:
@@ -29,13 +35,28 @@ class RobotDesk:
         database: where runs are kept.
         device: `emulator`, a serial device, or `socket://HOST:PORT`.
         changed: told with the robot's view whenever it changes.
+        ports: which devices there are.
+        tell_page: sends an event to one page.
+
+    Attributes:
+        lease: who holds the robot.
+        ports: which devices there are.
     """
 
-    def __init__(self, database: Database, device: str, changed: Callable[[dict[str, Any]], None]) -> None:
+    def __init__(
+        self,
+        database: Database,
+        device: str,
+        changed: Callable[[dict[str, Any]], None],
+        ports: RobotPorts,
+        tell_page: TellPage = lambda page, event: None,
+    ) -> None:
         self._database = database
         self._device = device
         self._emulator: EmulatedRobot | None = None
         self._connecting = threading.Lock()
+        self._sending = threading.Lock()
+        self._recording = threading.Lock()
         self._origin: RunOrigin | None = None
         self._record: dict[str, Any] | None = None
         self._previous: dict[str, Any] | None = None
@@ -43,6 +64,8 @@ class RobotDesk:
         self._interrupt_old_runs()
         self.bridge = RobotBridge(self._recorder.log)
         self._changed = changed
+        self.ports = ports
+        self.lease = LeaseDesk(self.bridge, self._show, tell_page)
         self.bridge.subscribe(self._heard)
 
     def _interrupt_old_runs(self) -> None:
@@ -55,6 +78,7 @@ class RobotDesk:
 
     def close(self) -> None:
         """Stops a run, closes the line and ends the emulated robot."""
+        self.lease.close()
         self.bridge.close()
         self._close_emulator()
         self._recorder.close()
@@ -71,59 +95,107 @@ class RobotDesk:
                 self.bridge.connect(self._emulator.device)
             else:
                 self.bridge.connect(wanted)
+                self.ports.connected(wanted)
             self._device = wanted
+
+    def ports_view(self) -> dict[str, Any]:
+        """Serial devices, the one that was used last, and where a lost one is plugged in now."""
+        is_lost = self.bridge.snapshot.link is LinkState.LOST and self._device != EMULATOR
+        return self.ports.view(is_lost=is_lost)
+
+    def transitions(self) -> list[dict[str, Any]]:
+        """The last changes of link and robot with their causes, oldest first; `at` is seconds since 1970."""
+        offset = time.time() - time.monotonic()
+        return [
+            {"at": one.time + offset, "link": one.link.value, "robot": one.robot.value, "cause": one.cause}
+            for one in self.bridge.transitions[-MOST_SHOWN:]
+        ]
 
     def disconnect(self) -> None:
         """Stops a run and closes the line; may take as long as the move that is on."""
         with self._connecting:
             self.bridge.disconnect()
             self._close_emulator()
+        self.lease.drop()
+
+    def strike(self, fault: Fault | None) -> None:
+        """Has something go wrong with the emulated robot, or ends all that lasts.
+
+        Raises:
+            StateError: another robot is connected, or none.
+        """
+        if self._emulator is None:
+            raise StateError("Only the emulated robot has faults on request. Connect it first.", "name")
+        if fault is None:
+            self._emulator.mend()
+        else:
+            self._emulator.inject(fault)
 
     def _close_emulator(self) -> None:
         if self._emulator is not None:
             self._emulator.close()
             self._emulator = None
 
-    def send(self, open_gait: OpenGait, plan: Plan, waypoints_hash: str | None, by: str) -> None:
+    def send(
+        self,
+        open_gait: OpenGait,
+        plan: Plan,
+        waypoints_hash: str | None,
+        by: str,
+        course: Course = WHOLE,
+    ) -> None:
         """Sends a gait's approved waypoints.
 
         Raises:
             StateError: there is no approval of exactly these waypoints, or the robot is not armed.
+            InputError: the run cannot begin at that waypoint, or the gait cannot be repeated.
         """
-        approval, waypoints = open_gait.approval, plan.waypoints
-        if approval is None or waypoints is None or plan.trajectory is None:
+        approval, way = open_gait.approval, plan.way
+        if approval is None or way is None:
             raise StateError(
                 f"“{open_gait.gait.name}” is not approved as it is now. Check it and approve it first.",
                 "approve",
             )
+        waypoints = way.waypoints
         if waypoints_hash is not None and waypoints_hash != waypoints.content_hash:
             raise StateError(
                 "The gait changed since you looked at it; look at the run again.", "waypoints_hash"
             )
-        if not plan.model.wired:
-            raise StateError(f"{plan.model.title} exists on paper only; it has no cable.", "robot")
-        hold_ok = tuple(bool(row.all()) for row in plan.trajectory.contact)
-        run_id = secrets.token_hex(6)
-        self._origin = RunOrigin(run_id, open_gait.id, open_gait.gait.name, waypoints)
+        if (reason := unwired(plan)) is not None:
+            raise StateError(reason, "robot")
+        run_plan = RunPlan(waypoints, approval, way.hold_ok, course)
+        content = run_plan_content(plan, way, approval)
+        origin = RunOrigin(secrets.token_hex(6), open_gait.id, open_gait.gait.name, waypoints, way.times)
+        with self._sending:
+            snapshot = self.bridge.snapshot
+            self._end_record(snapshot)
+            if self._record is not None and snapshot.robot in RUNNING:
+                raise StateError("A run is on. Let it end, or stop it, then send again.", "send")
+            self._begin(run_plan, origin, content, by)
+
+    def _begin(self, run_plan: RunPlan, origin: RunOrigin, content: dict[str, Any], by: str) -> None:
+        """Sends a run whose record begins before the first byte goes out."""
+        course, before = run_plan.course, self._origin
         record = {
-            "id": run_id,
-            "gait": open_gait.id,
-            "gait_name": open_gait.gait.name,
-            "waypoints_hash": waypoints.content_hash,
+            "id": origin.run_id,
+            "gait": origin.gait,
+            "gait_name": origin.gait_name,
+            "waypoints_hash": origin.waypoints.content_hash,
             "by": by,
+            "from": course.first,
+            "iterations": course.iterations,
             "started": time.time(),
             "started_monotonic": time.monotonic(),
             "ended": None,
             "state": "running",
             "sentence": "",
         }
-        # The record begins before the first byte goes out.
-        self._recorder.begin(record)
-        self._record = record
+        self._recorder.begin(record, content)
+        self._record, self._origin = record, origin
         try:
-            self.bridge.send(RunPlan(waypoints, approval, hold_ok), by, run_id)
+            self.bridge.send(run_plan, by, origin.run_id)
         except FootfallError as refusal:
-            self._record = None
+            self._record, self._origin = None, before
             self._recorder.end(
                 {**record, "ended": time.time(), "state": "refused", "sentence": refusal.sentence}
             )
@@ -131,40 +203,29 @@ class RobotDesk:
 
     def _heard(self, snapshot: RobotSnapshot) -> None:
         self._changed(self.view(snapshot))
-        record, run = self._record, snapshot.run
-        ended = snapshot.robot not in RUNNING or snapshot.link is LinkState.LOST
-        if record is not None and run is not None and run.run_id == record["id"] and ended:
-            self._record = None
-            state = "lost" if snapshot.link is LinkState.LOST else snapshot.robot.value
-            reached = {"reached": run.reached, "count": run.count, "seconds": run.elapsed}
-            self._recorder.end(
-                {**record, **reached, "ended": time.time(), "state": state, "sentence": snapshot.sentence}
-            )
+        if self._record is not None:
+            self._recorder.note(self.bridge.transitions)
+        self._end_record(snapshot)
 
-    def run_summary(self, open_gait: OpenGait, plan: Plan) -> dict[str, Any]:
-        """What a person should know before they press Send."""
-        if plan.waypoints is None:
-            sentence = "This gait has no waypoints." if plan.refusal is None else plan.refusal.sentence
-            raise StateError(sentence, "plan")
+    def _end_record(self, snapshot: RobotSnapshot) -> None:
+        """Completes the record of the run if it has ended."""
+        run = snapshot.run
+        if run is None or (snapshot.robot in RUNNING and snapshot.link is not LinkState.LOST):
+            return
+        with self._recording:
+            record = self._record
+            if record is None or run.run_id != record["id"]:
+                return
+            self._record = None
+            reached = {"reached": run.reached, "count": run.count, "seconds": run.elapsed}
+            state = {"state": run_end(snapshot, run), "sentence": snapshot.sentence}
+            self._recorder.end({**record, **reached, **state, "ended": time.time()})
+
+    def run_summary(self, open_gait: OpenGait, plan: Plan, course: Course = WHOLE) -> dict[str, Any]:
+        """What a person should know before they press Send; see `app.run_summary`."""
         snapshot = self.bridge.snapshot
-        first_mm = tuple(float(h) for h in plan.waypoints.strokes_mm[0])
-        distance_mm, moves = None, None
-        if snapshot.strokes is not None:
-            here_mm = tuple(h * 1000.0 for h in snapshot.strokes)
-            distance_mm = max(abs(a - b) for a, b in zip(first_mm, here_mm, strict=False))
-            moves = len(start_targets(here_mm, first_mm)) if len(here_mm) == len(first_mm) else None
-        reason = self._send_hindrance(open_gait, snapshot)
-        return {
-            "waypoints": plan.waypoints.count,
-            "waypoints_hash": plan.waypoints.content_hash,
-            "start_distance_mm": distance_mm,
-            "start_moves": moves,
-            "estimated_seconds": estimate_seconds(plan.waypoints),
-            "largest_move_mm": float(largest_moves(plan.waypoints).max(initial=0.0)) * 1000.0,
-            "stop_seconds": stop_seconds(plan.waypoints, snapshot),
-            "robot_ready": reason is None,
-            "reason": reason,
-        }
+        reason = unwired(plan) or self._send_hindrance(open_gait, snapshot)
+        return run_summary(plan, course, snapshot, reason)
 
     def _send_hindrance(self, open_gait: OpenGait, snapshot: RobotSnapshot) -> str | None:
         if open_gait.approval is None:
@@ -176,4 +237,8 @@ class RobotDesk:
         return {
             **robot_view(snapshot or self.bridge.snapshot, self._device, self._origin),
             "previous_run": self._previous,
+            "lease": self.lease.view(),
         }
+
+    def _show(self) -> None:
+        self._changed(self.view())

@@ -7,13 +7,18 @@ from typing import Any
 
 import numpy as np
 
-from app.bridge.run import START_MOVE_MM
+from app.bridge.motors import TRAVEL_MM
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunProgress
+from core.arrays import Floats
 from core.waypoints import Waypoints
-from core.wire_timing import LONGEST_SCAN, stop_delay
+from core.wire import RESET_MM
+from core.wire_timing import LONGEST_SCAN, OVERRUN, ramp_time, stop_time
 
 EMULATOR = "emulator"
 """Name of the studio's own emulated robot among devices."""
+
+RESET_DISTANCE = (TRAVEL_MM - RESET_MM) / 1000.0
+"""A reset's longest move: from the motors' far stop (PROTOCOL 3), m."""
 
 RUNNING = frozenset({RobotState.MOVING, RobotState.PAUSING, RobotState.PAUSED, RobotState.STOPPING})
 """States in which a run has not ended."""
@@ -27,6 +32,8 @@ class RunOrigin:
     gait: str
     gait_name: str
     waypoints: Waypoints
+    times: Floats
+    """(count,) the plan's time of each waypoint, s."""
 
 
 def robot_view(shown: RobotSnapshot, device: str, origin: RunOrigin | None) -> dict[str, Any]:
@@ -41,6 +48,7 @@ def robot_view(shown: RobotSnapshot, device: str, origin: RunOrigin | None) -> d
     known = origin if run is not None and origin is not None and origin.run_id == run.run_id else None
     strokes_mm = None if shown.strokes is None else np.round(np.multiply(shown.strokes, 1e3), 3).tolist()
     return {
+        "stamp": shown.number,  # orders answers and events, which may overtake each other
         "link": shown.link.value,
         "robot": shown.robot.value,
         "sentence": shown.sentence,
@@ -52,15 +60,30 @@ def robot_view(shown: RobotSnapshot, device: str, origin: RunOrigin | None) -> d
         "last_error": shown.last_error,
         "run": None if run is None else _run_view(shown, run, known),
         "commanded_mm": None if run is None or known is None else _commanded_mm(run, known),
-        "stop_seconds": None if origin is None else stop_seconds(origin.waypoints, shown),
+        "stop_seconds": _stop_seconds(shown, origin),
         "allowed": allowed(shown),
     }
 
 
-def stop_seconds(waypoints: Waypoints, snapshot: RobotSnapshot) -> float:
-    """Longest time until a stop takes effect in a run of these waypoints, its start pose included, s."""
-    scan = snapshot.measured_scan or LONGEST_SCAN
-    return stop_delay(waypoints, scan, start_move=START_MOVE_MM / 1000.0)
+def stop_seconds(waypoints: Waypoints, snapshot: RobotSnapshot, approved: Waypoints | None = None) -> float:
+    """Longest time until a stop takes effect, s, by the measured scan where there is one (`stop_time`)."""
+    return stop_time(waypoints, snapshot.measured_scan or LONGEST_SCAN, approved)
+
+
+def _stop_seconds(shown: RobotSnapshot, origin: RunOrigin | None) -> float | None:
+    """The same of what is on or was the last; a reset is one move, which nothing cuts."""
+    if shown.run is None and shown.robot in RUNNING:
+        return (shown.measured_scan or LONGEST_SCAN) + ramp_time(RESET_DISTANCE) + OVERRUN
+    return None if origin is None else stop_seconds(origin.waypoints, shown)
+
+
+def run_end(shown: RobotSnapshot, run: RunProgress) -> str:
+    """How a run ended, also where the robot was armed or cleared again since."""
+    if shown.link is LinkState.LOST:
+        return "lost"
+    if shown.robot in (RobotState.ARMED, RobotState.DISARMED):
+        return (RobotState.DONE if run.reached == run.count else RobotState.STOPPED).value
+    return shown.robot.value
 
 
 def _run_view(shown: RobotSnapshot, run: RunProgress, known: RunOrigin | None) -> dict[str, Any]:
@@ -72,6 +95,8 @@ def _run_view(shown: RobotSnapshot, run: RunProgress, known: RunOrigin | None) -
         "reached": run.reached,
         "count": run.count,
         "elapsed": run.elapsed,
+        "iteration": run.iteration,
+        "iterations": run.iterations,
         "operator": run.by,
         "gait": None,
         "gait_name": None,
@@ -79,18 +104,17 @@ def _run_view(shown: RobotSnapshot, run: RunProgress, known: RunOrigin | None) -
         "plan_time": None,
     }
     if known is not None:
-        clock = np.cumsum(known.waypoints.durations) - known.waypoints.durations[0]
         content |= {
             "gait": known.gait,
             "gait_name": known.gait_name,
             "waypoints_hash": known.waypoints.content_hash,
-            "plan_time": float(clock[max(0, run.reached - 1)]),
+            "plan_time": float(known.times[run.waypoint_reached]),
         }
     return content
 
 
 def _commanded_mm(run: RunProgress, known: RunOrigin) -> list[float]:
-    row: list[float] = known.waypoints.strokes_mm[max(0, run.sent - 1)].tolist()
+    row: list[float] = known.waypoints.strokes_mm[run.waypoint_sent].tolist()
     return row
 
 

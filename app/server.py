@@ -3,20 +3,35 @@
 from __future__ import annotations
 
 from importlib import resources
+from pathlib import Path
 from typing import Any
 
 from fastapi import FastAPI
-from fastapi.responses import FileResponse
-from fastapi.staticfiles import StaticFiles
+from fastapi.responses import HTMLResponse
 from fastapi_offline import FastAPIOffline
 from starlette.middleware import Middleware
-from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from app.documents import gait_schema
-from app.routes import events, gaits, jobs, robot
+from app.routes import (
+    events,
+    exports,
+    gaits,
+    jobs,
+    patterns,
+    robot,
+    robot_faults,
+    robots,
+    runs,
+    scene,
+    sequences,
+    tables,
+    versions,
+)
+from app.routes.assets import REVALIDATED, Assets
 from app.routes.edge import install_error_handlers
+from app.routes.module_page import ModulePage
 from app.routes.viser import make_viser_router
-from app.scene.server import SceneServer
+from app.scene.scenes import Scenes
 from app.security import Access, Guard
 from app.studio import Studio
 from app.version import VERSION
@@ -25,29 +40,12 @@ MOST_MESSAGE_BYTES = 64 * 1024 * 1024
 """Largest web-socket message; the scene's meshes travel in one."""
 
 
-class Revalidated:
-    """ASGI wrapper that makes browsers ask whether a file changed before they use their copy."""
-
-    def __init__(self, app: ASGIApp) -> None:
-        self._app = app
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Adds the header to a response."""
-
-        async def sending(message: Message) -> None:
-            if message["type"] == "http.response.start":
-                message = {**message, "headers": [*message["headers"], (b"cache-control", b"no-cache")]}
-            await send(message)
-
-        await self._app(scope, receive, sending)
-
-
-def make_app(studio: Studio, scene: SceneServer, access: Access) -> FastAPI:
+def make_app(studio: Studio, scenes: Scenes, access: Access) -> FastAPI:
     """Assembles the routes.
 
     Args:
         studio: everything with state.
-        scene: the running 3D scene.
+        scenes: the 3D scenes.
         access: who may talk to it.
     """
     app = FastAPIOffline(
@@ -57,11 +55,27 @@ def make_app(studio: Studio, scene: SceneServer, access: Access) -> FastAPI:
         middleware=[Middleware(Guard, access=access)],
     )
     app.state.studio = studio
-    app.state.scene = scene
     install_error_handlers(app)
-    for router in (gaits.router, jobs.router, robot.router, events.router, make_viser_router(scene)):
+    for router in (
+        exports.router,
+        sequences.router,
+        gaits.router,
+        versions.router,
+        jobs.router,
+        patterns.router,
+        robot.router,
+        robot_faults.router,
+        runs.router,
+        tables.router,
+        robots.router,
+        scene.router,
+        events.router,
+        make_viser_router(scenes.of),
+    ):
         app.include_router(router)
-    static = str(resources.files("app").joinpath("static"))
+    static = Path(str(resources.files("app").joinpath("static"))).resolve()
+
+    module_page = ModulePage(static)
 
     @app.get("/api/health", tags=["studio"])
     async def health() -> dict[str, str]:
@@ -74,8 +88,8 @@ def make_app(studio: Studio, scene: SceneServer, access: Access) -> FastAPI:
         return gait_schema()
 
     @app.get("/", include_in_schema=False)
-    async def page() -> FileResponse:
-        return FileResponse(f"{static}/index.html", headers={"cache-control": "no-cache"})
+    async def page() -> HTMLResponse:
+        return HTMLResponse(module_page.now().text, headers=REVALIDATED)
 
-    app.mount("/static", Revalidated(StaticFiles(directory=static)), name="static")
+    app.mount("/static", Assets(static, module_page), name="static")
     return app

@@ -39,7 +39,7 @@ class Session:
         """Puts a command on the queue.
 
         Returns:
-            A future with what the command returns or raises.
+            A future with what the command returns or raises; one that is cancelled in time is not done.
         """
         future: Future[Result] = Future()
         self._commands.put(Command(action, future))
@@ -47,7 +47,7 @@ class Session:
 
     def tell(self, action: Callable[[], object]) -> None:
         """Puts a command on the queue whose failure nobody waits for; it is logged."""
-        self.submit(action).add_done_callback(_log_failure)
+        self.submit(action).add_done_callback(log_failure)
 
     def close(self) -> None:
         """Ends the thread after the commands that are already on the queue."""
@@ -56,6 +56,8 @@ class Session:
 
     def _work(self) -> None:
         while (command := self._commands.get()) is not None:
+            if not command.future.set_running_or_notify_cancel():
+                continue
             try:
                 result = command.action()
             except BaseException as error:  # it belongs to whoever waits for the result
@@ -64,7 +66,8 @@ class Session:
                 command.future.set_result(result)
 
 
-def _log_failure(future: Future[Any]) -> None:
+def log_failure(future: Future[Any]) -> None:
+    """Writes into the log why a command failed whose result nobody waits for."""
     error = future.exception()
     if error is not None:
         logger.error("A background command failed.", exc_info=error)

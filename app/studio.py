@@ -5,26 +5,43 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from app.documents import motion_hash
+from app.documents import asked_hash
 from app.events import EventHub
-from app.gait_desk import GaitDesk, UnknownGaitError
+from app.gait_desk import GaitDesk
+from app.gait_list import GaitList
+from app.history import Author
 from app.job_desk import JobDesk
+from app.live_desk import LiveDesk
 from app.open_gait import OpenGait
+from app.pattern_desk import PatternDesk
+from app.plan_settling import PlanSettling
 from app.robot_desk import RobotDesk
+from app.robot_ports import RobotPorts
 from app.robot_view import RUNNING
-from app.session import Result, Session
+from app.runs.desk import RunDesk
+from app.sequence_documents import source_states
+from app.sequence_plans import run_motions, runs_without_result
+from app.session import Result, Session, log_failure
 from app.store.database import Database
 from app.store.files import GaitFiles
 from app.version import VERSION
-from app.views import gait_view, summary_view
-from core.gait import motion_problem
+from app.views import gait_view, steps_view
+from core.errors import FootfallError, StateError
+from core.gait import Gait, motion_problem
 from core.library import library
 from core.motion_problem import MotionProblem
 from core.robot import load_robot
-from solver_jobs import Job, JobRunner
+from solver_jobs import Job, JobKind, JobRunner, LiveSolver, PatternSolver
+
+_SCRIPT = Author()
+
+PATTERN_PROCESSES = 2
+"""Pattern searches that go on at one time; each process starts when it is first needed."""
 
 
 class Studio:
@@ -40,10 +57,22 @@ class Studio:
         self._files = GaitFiles(data)
         self._database = Database(data / "studio.sqlite3")
         self.session = Session()
-        self.gaits = GaitDesk(self._files, self._database)
+        self._solver = LiveSolver(_likely_problem())
+        self._solver.start()
+        self.live = LiveDesk(self._solver)
+        self._pattern_solvers = tuple(PatternSolver() for _ in range(PATTERN_PROCESSES))
+        self.patterns = PatternDesk(self._pattern_solvers, self._tell_page)
+        self.gaits = GaitDesk(self._files, self._database, self.live.solve_for, self.hub.pages)
+        self._plans = PlanSettling(self.session, self.gaits)
+        self._list = GaitList(self.gaits)
+        self.session.tell(self.summaries)
         self._runner = JobRunner(self._job_changed, warm_up=_likely_problem())
         self.jobs = JobDesk(self._database, self._runner, self._take_result)
-        self.robot = RobotDesk(self._database, device, self._robot_changed)
+        self.robot = RobotDesk(
+            self._database, device, self._robot_changed, RobotPorts(data / "robot.json"), self._tell_page
+        )
+        self.runs = RunDesk(self._database)
+        self._told_sources: dict[str, tuple[int, list[str]]] = {}
         self.stop_lane = ThreadPoolExecutor(max_workers=2, thread_name_prefix="stop")
         self._closed = threading.Event()
 
@@ -54,6 +83,10 @@ class Studio:
         self._closed.set()
         self.robot.close()
         self._runner.close()
+        self._solver.close()
+        for solver in self._pattern_solvers:
+            solver.close()
+        self._plans.close()
         self.session.close()
         self.hub.close()
         self.stop_lane.shutdown()
@@ -68,6 +101,33 @@ class Studio:
         """Does something on the session's thread."""
         return self.session.submit(action)
 
+    def call_planned(self, gait_id: str, action: Callable[[], Result]) -> Future[Result]:
+        """Does something on the session's thread that finds the plan of a gait made; see `PlanSettling`."""
+        return self._plans.after(gait_id, action)
+
+    def change(self, action: Callable[[], OpenGait]) -> Future[dict[str, Any]]:
+        """Changes a gait on the session's thread, and shows it to every page once its plan is known.
+
+        Returns:
+            A future with the gait's view.
+        """
+        shown: Future[dict[str, Any]] = Future()
+        self.session.tell(partial(self._change, action, shown))
+        return shown
+
+    def _change(self, action: Callable[[], OpenGait], shown: Future[dict[str, Any]]) -> None:
+        try:
+            self.publish_soon(action().id, shown)
+        except BaseException as error:  # it belongs to whoever waits for the view
+            shown.set_exception(error)
+
+    def publish_soon(self, gait_id: str, shown: Future[dict[str, Any]] | None = None) -> None:
+        """Shows a gait to every page once its plan is known."""
+        if shown is None:
+            shown = Future()
+            shown.add_done_callback(log_failure)
+        self._plans.after(gait_id, lambda: self.publish_gait(self.gaits.open_gait(gait_id)), shown)
+
     def hello(self) -> dict[str, Any]:
         """The first event of every page: everything that it renders from."""
         return {
@@ -80,39 +140,105 @@ class Studio:
 
     def summaries(self) -> list[dict[str, Any]]:
         """The list of gaits."""
-        return [summary_view(open_gait) for open_gait in self.gaits.open_gaits()]
+        return self._list.lines()
 
     def view(self, gait_id: str) -> dict[str, Any]:
-        """A gait with its plan."""
-        return gait_view(self.gaits.open_gait(gait_id), self.gaits.plan(gait_id))
+        """A gait with its plan, on the session's thread."""
+        return self._gait_view(self.gaits.open_gait(gait_id))
+
+    def _gait_view(self, open_gait: OpenGait) -> dict[str, Any]:
+        view = gait_view(open_gait, self.gaits.plan(open_gait.id), self.hub.pages())
+        return view | {
+            "sources": self._sources(open_gait),
+            "version": self.gaits.versions.newest_number(open_gait.id),
+        }
+
+    def _sources(self, open_gait: OpenGait) -> list[str]:
+        return [state.value for state in source_states(open_gait.gait, self._glanced)]
+
+    def _glanced(self, gait_id: str) -> Gait:
+        """A gait that is not opened for it, which reads its whole history."""
+        return self.gaits.glance(gait_id)[0]
 
     def job_view(self, content: dict[str, Any]) -> dict[str, Any]:
         """A job, and whether it is of the gait as it is now."""
         try:
-            fresh = motion_hash(self.gaits.open_gait(content["gait"]).gait) == content["motion"]
-        except UnknownGaitError:
+            gait = self._glanced(content["gait"])
+            fresh = content["motion"] in (run_motions(gait) if gait.sequence else {asked_hash(gait)})
+        except FootfallError:  # it is gone, or its file is damaged
             fresh = False
         return {**content, "fresh": fresh}
 
     def publish_gait(self, open_gait: OpenGait) -> dict[str, Any]:
-        """Shows a changed gait to every page, and the jobs and list that it touches."""
-        view = gait_view(open_gait, self.gaits.plan(open_gait.id))
+        """Shows a changed gait to every page, with the jobs that it touches; pages keep their lists."""
+        view = self._gait_view(open_gait)
         self.hub.publish({"type": "gait", "view": view})
-        self.publish_list()
+        if not self._list.has(open_gait.id):
+            self.publish_list()
         for content in self.jobs.contents():
             if content["gait"] == open_gait.id:
                 self.hub.publish({"type": "job", "job": self.job_view(content)})
+        for sequence in self.gaits.sequences_with(open_gait.id):
+            self._publish_sources(sequence)
         return view
+
+    def _publish_sources(self, sequence: OpenGait) -> None:
+        """Tells how a sequence's parts stand to their gaits, where that is another way than told last."""
+        sources = self._sources(sequence)
+        if self._told_sources.get(sequence.id) != (sequence.revision, sources):
+            self._told_sources[sequence.id] = (sequence.revision, sources)
+            told = {"id": sequence.id, "revision": sequence.revision, "sources": sources}
+            self.hub.publish({"type": "sources", **told})
+
+    def page_came_or_went(self, page: str) -> None:
+        """Tells the others what they can undo now: the edits of a page that is gone are everybody's."""
+        if page not in self.hub.pages():
+            self.patterns.forget(page)
+        for open_gait in self.gaits.touched_by(page):
+            steps = {"id": open_gait.id, "revision": open_gait.revision}
+            self.hub.publish({"type": "steps", **steps, **steps_view(open_gait, self.hub.pages())})
+
+    def _tell_page(self, page: str, event: dict[str, Any]) -> None:
+        self.hub.publish(event, page)
 
     def publish_list(self) -> None:
         """Shows the list of gaits to every page."""
         self.hub.publish({"type": "gaits", "gaits": self.summaries()})
 
-    def submit_job(self, gait_id: str) -> dict[str, Any]:
-        """Starts an optimisation."""
-        content = self.job_view(self.jobs.submit(self.gaits.open_gait(gait_id)))
-        self.hub.publish({"type": "job", "job": content})
-        return content
+    def submit_job(
+        self, gait_id: str, kind: JobKind = JobKind.MOTION, author: Author = _SCRIPT
+    ) -> dict[str, Any]:
+        """Starts an optimisation, or the search for the fastest timing.
+
+        What is optimised is computed from then on: a recorded motion is set aside, by an edit of the author.
+        """
+        open_gait = self.gaits.open_gait(gait_id)
+        content = self.jobs.submit(open_gait, kind)
+        if kind is JobKind.MOTION and open_gait.gait.recorded is not None:
+            computed = replace(open_gait.gait, recorded=None)
+            self.gaits.edit(gait_id, computed, "Optimise", None, author)
+            self.publish_soon(gait_id)
+        view = self.job_view(content)
+        self.hub.publish({"type": "job", "job": view})
+        return view
+
+    def submit_parts(self, gait_id: str) -> list[dict[str, Any]]:
+        """Starts an optimisation of each part of a sequence that can have an exact motion and has none yet.
+
+        Raises:
+            StateError: there is none, or the gait is no sequence.
+        """
+        open_gait = self.gaits.open_gait(gait_id)
+        runs = runs_without_result(open_gait.gait, self._database.result) if open_gait.gait.sequence else ()
+        if not runs:
+            raise StateError(
+                "There is no part to optimise: each has its exact motion, or is made by hand or recorded.",
+                "sequence",
+            )
+        views = [self.job_view(self.jobs.submit(replace(open_gait, gait=run))) for run in runs]
+        for view in views:
+            self.hub.publish({"type": "job", "job": view})
+        return views
 
     def _job_changed(self, job: Job) -> None:
         self.session.tell(lambda: self._show_job(job))
@@ -124,7 +250,7 @@ class Studio:
 
     def _take_result(self, motion: str, content: dict[str, Any]) -> None:
         for open_gait in self.gaits.take_result(motion, content):
-            self.publish_gait(open_gait)
+            self.publish_soon(open_gait.id)
 
     def _robot_changed(self, view: dict[str, Any]) -> None:
         self.hub.publish({"type": "robot", "robot": view})

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from typing import Any
 
 from core.trajectory import Trajectory
@@ -27,3 +29,8 @@ def trajectory_content(trajectory: Trajectory) -> dict[str, Any]:
 def trajectory_from_content(content: dict[str, Any]) -> Trajectory:
     """Inverse of `trajectory_content`."""
     return Trajectory(**{name: content[name] for name in _FIELDS})
+
+
+def content_sha256(content: dict[str, Any]) -> str:
+    """SHA-256 of a trajectory's content, hexadecimal."""
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()

@@ -11,55 +11,84 @@ import numpy as np
 
 from app.documents import gait_content
 from app.finite import finite
+from app.judgement import Judgement
 from app.open_gait import OpenGait
 from app.plans import Plan
+from app.provenance import provenance_view
+from app.reach_rings import reach_rings
+from core.arrays import Floats
+from core.coupling_check import real_heights
 from core.findings import Approval, Verdict
-from core.segments import SegmentTable
+from core.gait import Gait
+from core.library import library
+from core.making import making
+from core.mirroring import mirror_of
+from core.motion_problem import MotionLimits
+from core.path_merging import WaypointPlan
+from core.robot import RobotModel, load_robot
+from core.speeds import foot_speeds, motor_speeds
+from core.trajectory import Trajectory
+from core.waypoint_path import estimate_seconds
+from core.wire_timing import stop_time
 
 
-def summary_view(open_gait: OpenGait) -> dict[str, Any]:
-    """A line of the list of gaits."""
-    gait = open_gait.gait
+def line_view(gait_id: str, gait: Gait, builtin: bool, edited: bool) -> dict[str, Any]:
+    """A line of the list of gaits.
+
+    Args:
+        gait_id: its id.
+        gait: its present document.
+        builtin: whether a gait of this id comes with the program.
+        edited: whether the document differs from what is saved.
+    """
     return {
-        "id": open_gait.id,
+        "id": gait_id,
         "name": gait.name,
-        "kind": "builtin" if open_gait.builtin else "saved",
-        "source": "optimised" if gait.segment_table is None else "manual",
+        "kind": "builtin" if builtin else "saved",
+        "group": library()[gait_id].group.value if builtin else "Saved",
+        "robot": load_robot(gait.robot).title,
+        "source": making(gait).value,
         "orientation": gait.orientation.value,
         "order": list(gait.order),
         "step": list(gait.step),
-        "edited": open_gait.edited,
+        "edited": edited,
     }
 
 
-def gait_view(open_gait: OpenGait, plan: Plan) -> dict[str, Any]:
-    """Everything that the page shows of one gait."""
+def steps_view(open_gait: OpenGait, pages: frozenset[str]) -> dict[str, Any]:
+    """What can be undone and redone: by a script, and by each connected page."""
+    steps = {
+        page: {"undo": open_gait.undo_label(pages - {page}), "redo": open_gait.redo_label(pages - {page})}
+        for page in pages
+    }
+    return {"undo": open_gait.undo_label(pages), "redo": open_gait.redo_label(pages), "steps": steps}
+
+
+def gait_view(open_gait: OpenGait, plan: Plan, pages: frozenset[str] = frozenset()) -> dict[str, Any]:
+    """Everything that the page shows of one gait.
+
+    Args:
+        open_gait: the gait.
+        plan: what it amounts to.
+        pages: that are connected.
+    """
     gait = open_gait.gait
     saved_at = open_gait.saved_at
     return {
-        **summary_view(open_gait),
+        **line_view(open_gait.id, gait, open_gait.builtin, open_gait.edited),
         "revision": open_gait.revision,
         "stamp": time.time_ns() // 1000,  # orders answers and events, which may overtake each other
         "saved_at": None if saved_at is None else datetime.fromtimestamp(saved_at, UTC).isoformat(),
-        "undo": open_gait.undo_label,
-        "redo": open_gait.redo_label,
+        **steps_view(open_gait, pages),
         "document": gait_content(gait),
         "roles": list(gait.roles),
-        "segments": None if gait.segment_table is None else _segments(gait.segment_table, gait.quarter_turns),
+        "mirror": mirror_of(gait, plan.model),
         "notice": open_gait.notice,
+        "changed": open_gait.before is not None,
+        "provenance": provenance_view(gait, plan),
         "plan": plan_view(plan),
         "verdict": None if open_gait.verdict is None else verdict_view(open_gait.verdict),
         "approval": None if open_gait.approval is None else approval_view(open_gait.approval),
-    }
-
-
-def _segments(table: SegmentTable, quarter_turns: int) -> dict[str, Any]:
-    rows = table.turned(quarter_turns).rows
-    swings = [name for name, segment in table.vocabulary.segments.items() if segment.swing]
-    return {
-        "feet": [list(row) for row in rows],
-        "swings": swings,
-        "samples_per_segment": table.samples_per_segment,
     }
 
 
@@ -71,6 +100,7 @@ def plan_view(plan: Plan) -> dict[str, Any]:
         "hash": plan.hash,
         "source": plan.source.value,
         "note": plan.note,
+        "seconds": plan.seconds,
         "refusal": None if refusal is None else {"sentence": refusal.sentence, "where": refusal.where},
         "times": [],
         "contact": [],
@@ -81,10 +111,21 @@ def plan_view(plan: Plan) -> dict[str, Any]:
         "balance": plan.balance,
         "strokes_mm": None,
         "stroke_limits_mm": [limits.lower * 1000, limits.upper * 1000],
+        "foot_speeds_mm_s": None,
+        "motor_speeds_mm_s": None,
+        "speed_limits_mm_s": {"foot": MotionLimits.foot_speed * 1000, "motor": limits.speed * 1000},
+        "real_heights_mm": None,
         "slip": None if plan.slip is None else plan.slip.tolist(),
         "waypoints_hash": None,
         "waypoint_count": 0,
+        "robot_seconds": None,
+        "every_knot_seconds": None,
+        "stop_seconds": None,
+        "waypoint_strokes_mm": [],
+        "waypoint_times": [],
         "duration": 0.0,
+        "live": None if plan.live is None else live_view(plan.live),
+        "parts": [asdict(part) for part in plan.parts],
     }
     trajectory = plan.trajectory
     if trajectory is not None:
@@ -96,13 +137,59 @@ def plan_view(plan: Plan) -> dict[str, Any]:
             "feet": np.round(trajectory.feet_world, 7).tolist(),
             "margin": finite(np.round(plan.margins, 7).tolist()),
             "duration": float(trajectory.times[-1]),
+            "foot_speeds_mm_s": np.round(foot_speeds(trajectory) * 1000, 2).tolist(),
+            "motor_speeds_mm_s": finite(_motor_speeds_mm_s(plan.model, trajectory).tolist()),
         }
-    if plan.waypoints is not None:
-        content |= {
-            "strokes_mm": plan.waypoints.strokes_mm.tolist(),
-            "waypoints_hash": plan.waypoints.content_hash,
-            "waypoint_count": plan.waypoints.count,
-        }
+        if plan.model.is_coupled:
+            heights_mm = real_heights(plan.model, trajectory) * 1000
+            content["real_heights_mm"] = finite(np.round(heights_mm, 4).tolist())
+        if plan.waypoints is None:
+            content["strokes_mm"] = finite(np.round(plan.free_strokes * 1000, 4).tolist())
+    if plan.way is not None:
+        content |= _way_view(plan.way)
+    return content
+
+
+def _way_view(way: WaypointPlan) -> dict[str, Any]:
+    """What is sent of a plan."""
+    return {
+        "strokes_mm": way.knots.strokes_mm.tolist(),
+        "waypoints_hash": way.waypoints.content_hash,
+        "waypoint_count": way.waypoints.count,
+        "robot_seconds": round(estimate_seconds(way.waypoints), 1),
+        "every_knot_seconds": round(estimate_seconds(way.knots), 1),
+        "stop_seconds": round(stop_time(way.waypoints), 2),
+        "waypoint_strokes_mm": way.waypoints.strokes_mm.tolist(),
+        "waypoint_times": np.round(way.times, 4).tolist(),
+    }
+
+
+def _motor_speeds_mm_s(model: RobotModel, trajectory: Trajectory) -> Floats:
+    """(n, 3·legs), nan where a rod is too short."""
+    speeds = motor_speeds(model, trajectory).reshape(trajectory.knot_count, -1)
+    return np.round(speeds * 1000, 2)
+
+
+def live_view(answer: Judgement) -> dict[str, Any]:
+    """The live tier's answer as the checker sees it; indices count from 0."""
+    result, check = answer.result, answer.check
+    figures = {
+        "status": answer.status.value,
+        "seconds": result.solve_seconds,
+        "evidence": None if result.evidence is None else result.evidence.value,
+        "explanation": list(answer.explanation),
+        "lacks": [
+            {**asdict(lack), "rings": reach_rings(answer.problem, result.trajectory, lack)}
+            for lack in result.lacks
+        ],
+        "check": {
+            "max_violation": check.max_violation,
+            "violations": check.violations,
+            "min_margin": check.min_margin,
+            "min_cop_margin": check.min_cop_margin,
+        },
+    }
+    content: dict[str, Any] = finite(figures)
     return content
 
 

@@ -44,6 +44,13 @@ def frozen_bools(values: ArrayLike, shape: Sequence[int | None], name: str) -> B
     return array
 
 
+def stretches(flags: Bools) -> list[tuple[int, int]]:
+    """First and last index of each run of true values in (n,) flags."""
+    edges = np.diff(np.concatenate([[0], flags.astype(np.int8), [0]]))
+    starts, ends = np.nonzero(edges > 0)[0], np.nonzero(edges < 0)[0]
+    return [(int(a), int(b) - 1) for a, b in zip(starts, ends, strict=True)]
+
+
 def _require_shape(actual: tuple[int, ...], wanted: Sequence[int | None], name: str) -> None:
     matches = len(actual) == len(wanted) and all(
         w is None or a == w for a, w in zip(actual, wanted, strict=True)

@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.arrays import Bools, Floats
-from core.findings import Finding, RuleMargin, Severity, Verdict
+from core.arrays import Bools, Floats, stretches
+from core.coupling_check import check_coupling
+from core.findings import TOLERANCE, Finding, Outcome, RuleMargin, Severity, Verdict
 from core.leg import foot_from_strokes
 from core.manual import stance_slip
+from core.path_check import SLACK_NOTE, check_path, send_costs
+from core.path_merging import WaypointPlan
 from core.robot import RobotModel
 from core.support import stability_margins, trajectory_pressure
 from core.trajectory import Trajectory
 from core.waypoints import Waypoints
-from core.wire_timing import stop_delay
+from core.wire_timing import deafness
 
-TOLERANCE = 1e-6
-"""What a limit may be passed by before it counts, m."""
 BALANCE_RESERVE = 0.001
 """Below this distance to the polygon's edge the check warns, m."""
 SLIP_LIMIT = 0.0005
@@ -37,14 +38,6 @@ CONTACT_LIMIT = 0.00025
 """How far a standing foot may be from the ground, m (T (3.12) as we use it)."""
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """What one rule found, and its distance to the limit."""
-
-    margin: RuleMargin
-    findings: tuple[Finding, ...] = ()
-
-
 @dataclass(frozen=True, eq=False)
 class CheckedPlan:
     """What the rules look at.
@@ -55,6 +48,8 @@ class CheckedPlan:
         waypoints: what would be sent.
         expected_travel: (2,) the body's displacement that the document asks for, m; None where unknown.
         is_draft: whether the plan was only drawn, not computed by hand table or optimiser.
+        way: how the waypoints were merged and cut; None where they are one a knot and the path between them
+            is not looked at.
     """
 
     model: RobotModel
@@ -62,14 +57,24 @@ class CheckedPlan:
     waypoints: Waypoints
     expected_travel: Floats | None = None
     is_draft: bool = False
+    way: WaypointPlan | None = None
+
+    @property
+    def knots(self) -> Waypoints:
+        """One waypoint a knot."""
+        return self.waypoints if self.way is None else self.way.knots
 
 
 def check_plan(plan: CheckedPlan) -> Verdict:
     """Every rule on a plan, for exactly these waypoints."""
-    rules = (_stroke(plan.model, plan.waypoints), _deafness(plan.waypoints))
+    rules = (_stroke(plan.model, plan.knots), _deafness(plan.waypoints))
     outcomes = [*rules, *(rule(plan) for rule in (_balance, _contact, _clearance, _slip, _motor_speed))]
     if plan.expected_travel is not None:
         outcomes.append(_travel(plan, plan.expected_travel))
+    if plan.model.is_coupled:
+        outcomes.append(check_coupling(plan.model, plan.trajectory, CLEARANCE_LIMIT))
+    if plan.way is not None:
+        outcomes += check_path(plan.model, plan.trajectory, plan.way)
     findings = [finding for outcome in outcomes for finding in outcome.findings]
     if plan.is_draft:
         findings.append(
@@ -81,7 +86,11 @@ def check_plan(plan: CheckedPlan) -> Verdict:
                 1.0,
             )
         )
-    return _verdict(plan.waypoints, findings, outcomes)
+    verdict = _verdict(plan.waypoints, findings, outcomes)
+    if plan.way is None:
+        return verdict
+    costs = send_costs(plan.model, plan.trajectory, plan.way)
+    return replace(verdict, costs=costs, notes=() if plan.model.is_coupled else (SLACK_NOTE,))
 
 
 def check_waypoints(model: RobotModel, waypoints: Waypoints) -> Verdict:
@@ -124,13 +133,13 @@ def _stroke(model: RobotModel, waypoints: Waypoints) -> Outcome:
 
 
 def _deafness(waypoints: Waypoints) -> Outcome:
-    seconds = stop_delay(waypoints)
+    seconds = deafness(waypoints)
     margin = RuleMargin("deafness", DEAF_LIMIT - seconds, "s")
     if seconds <= DEAF_LIMIT:
         return Outcome(margin)
     sentence = (
         f"The longest move keeps the robot from hearing Stop for {seconds:.1f} s; more than {DEAF_LIMIT} s. "
-        "Cut long moves with --stop-bound."
+        "Choose a stop bound, which cuts long moves."
     )
     return Outcome(margin, (Finding("deafness", Severity.WARNING, sentence, seconds, DEAF_LIMIT),))
 
@@ -148,11 +157,20 @@ def _balance(plan: CheckedPlan) -> Outcome:
 
 def balance_margins(model: RobotModel, t: Trajectory) -> tuple[Floats, str]:
     """(n,) distance of the point that balance is judged by to the support polygon's edge, m; and its name."""
-    points, what = t.body_world[:, :2], "centre of mass"
-    if _moves_as_planned(t):
-        points = np.concatenate([trajectory_pressure(model, t), t.body_world[-1:, :2]])
-        what = "centre of pressure"
-    return stability_margins(points, t.feet_world, t.contact), what
+    pressure = pressure_points(model, t)
+    if pressure is None:
+        return stability_margins(t.body_world[:, :2], t.feet_world, t.contact), "centre of mass"
+    return stability_margins(pressure, t.feet_world, t.contact), "centre of pressure"
+
+
+def pressure_points(model: RobotModel, t: Trajectory) -> Floats | None:
+    """(n, 2) centre of pressure from each knot on, m; None for a motion whose accelerations are unknown.
+
+    At the last knot, where the robot stands, it is under the centre of mass.
+    """
+    if not _moves_as_planned(t):
+        return None
+    return np.concatenate([trajectory_pressure(model, t), t.body_world[-1:, :2]])
 
 
 def _moves_as_planned(t: Trajectory) -> bool:
@@ -167,7 +185,7 @@ def _moves_as_planned(t: Trajectory) -> bool:
 
 def _balance_outcome(margins: Floats, times: Floats, contact: Bools, what: str, slack: float) -> Outcome:
     findings = []
-    for first, last in _stretches(margins < BALANCE_RESERVE):
+    for first, last in _unbalanced_stretches(np.asarray(margins < BALANCE_RESERVE), contact):
         worst = first + int(margins[first : last + 1].argmin())
         span = f"({times[first]:.1f} to {times[last]:.1f} s)"
         if not np.isfinite(margins[worst]):
@@ -178,13 +196,9 @@ def _balance_outcome(margins: Floats, times: Floats, contact: Bools, what: str, 
             continue
         value = float(margins[worst])
         tips = value < -slack
-        standing = ", ".join(str(foot + 1) for foot in np.nonzero(contact[worst])[0])
-        sentence = (
-            f"At {times[worst]:.1f} s the {what} is {abs(value) * 1000:.2f} mm "
-            f"{'outside' if value < -TOLERANCE else 'inside'} the edge of the support polygon of feet "
-            f"{standing} {span}: {'the robot tips' if tips else 'there is hardly any reserve'}. "
-            "Shift the body before the step, or ask the optimiser for a stability margin."
-        )
+        outcome = "the robot tips" if tips else "there is hardly any reserve"
+        where = _support_words(value, [str(foot + 1) for foot in np.nonzero(contact[worst])[0]])
+        sentence = f"At {times[worst]:.1f} s the {what} is {where[0]} {span}: {outcome}. {where[1]}"
         severity, limit = (Severity.ERROR, 0.0) if tips else (Severity.WARNING, BALANCE_RESERVE)
         findings.append(Finding("balance", severity, sentence, value, limit, worst))
     smallest = float(margins.min())
@@ -192,11 +206,27 @@ def _balance_outcome(margins: Floats, times: Floats, contact: Bools, what: str, 
     return Outcome(RuleMargin("balance", known, "m"), tuple(findings))
 
 
-def _stretches(flags: Bools) -> list[tuple[int, int]]:
-    """First and last index of each run of true values."""
-    edges = np.diff(np.concatenate([[0], flags.astype(np.int8), [0]]))
-    starts, ends = np.nonzero(edges > 0)[0], np.nonzero(edges < 0)[0]
-    return [(int(a), int(b) - 1) for a, b in zip(starts, ends, strict=True)]
+def _unbalanced_stretches(low: Bools, contact: Bools) -> list[tuple[int, int]]:
+    """Runs of too small a margin; while fewer than three feet stand, one for each set of standing feet."""
+    few = contact.sum(axis=1) < 3
+    others = (contact[1:] != contact[:-1]).any(axis=1)
+    cuts = np.nonzero(others & (few[1:] | few[:-1]))[0] + 1
+    starts = [0, *cuts.tolist()]
+    pieces = zip(starts, np.split(low, cuts), strict=True)
+    return [(start + first, start + last) for start, piece in pieces for first, last in stretches(piece)]
+
+
+def _support_words(value: float, standing: Sequence[str]) -> tuple[str, str]:
+    """Where a point is by the feet that stand, and what to do."""
+    distance = f"{abs(value) * 1000:.2f} mm"
+    if len(standing) == 1:
+        return f"{distance} from foot {standing[0]}, which stands alone", "Keep three feet down."
+    if len(standing) == 2:
+        words = f"{distance} from the line between feet {' and '.join(standing)}, which stand alone"
+        return words, "Keep three feet down."
+    side = "outside" if value < -TOLERANCE else "inside"
+    words = f"{distance} {side} the edge of the support polygon of feet {', '.join(standing)}"
+    return words, "Shift the body before the step, or ask the optimiser for a stability margin."
 
 
 def _standing_balance(model: RobotModel, waypoints: Waypoints) -> Outcome:
@@ -214,7 +244,7 @@ def _clearance(plan: CheckedPlan) -> Outcome:
     t = plan.trajectory
     smallest, findings = np.inf, []
     for foot in range(t.leg_count):
-        for first, last in _stretches(np.asarray(~t.contact[:, foot])):
+        for first, last in stretches(np.asarray(~t.contact[:, foot])):
             rise = float(t.feet_world[first : last + 1, foot, 2].max())
             smallest = min(smallest, rise - CLEARANCE_LIMIT)
             if rise < CLEARANCE_LIMIT - TOLERANCE:
@@ -237,7 +267,7 @@ def _contact(plan: CheckedPlan) -> Outcome:
     gap = np.where(t.contact, np.abs(height), np.maximum(-height, 0.0))
     findings = []
     for foot in range(t.leg_count):
-        for first, last in _stretches(np.asarray(gap[:, foot] > CONTACT_LIMIT + TOLERANCE)):
+        for first, last in stretches(np.asarray(gap[:, foot] > CONTACT_LIMIT + TOLERANCE)):
             worst = first + int(gap[first : last + 1, foot].argmax())
             where = "stand" if t.contact[worst, foot] else "swing"
             sentence = (
@@ -269,8 +299,8 @@ def _slip(plan: CheckedPlan) -> Outcome:
 
 
 def _motor_speed(plan: CheckedPlan) -> Outcome:
-    moves = np.abs(np.diff(plan.waypoints.strokes, axis=0))
-    speeds = moves / np.maximum(plan.waypoints.durations[1:], 1e-9)[:, None, None]
+    moves = np.abs(np.diff(plan.knots.strokes, axis=0))
+    speeds = moves / np.maximum(plan.knots.durations[1:], 1e-9)[:, None, None]
     limit = plan.model.stroke.speed
     margin = RuleMargin("motor_speed", limit - float(speeds.max(initial=0.0)), "m/s")
     if float(speeds.max(initial=0.0)) <= limit + TOLERANCE:

@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.arrays import Bools, Floats
+from core.footholds import way_shares
+from core.lifting import held_climb, is_held
 from core.motion_problem import MotionProblem
 from core.robot import RobotModel
 from core.support import GRAVITY
@@ -29,24 +31,25 @@ SMOOTHING_ROUNDS = 25
 def initial_motion(problem: MotionProblem) -> Trajectory:
     """Draws a motion: feet in arcs with the asked clearance, the body over the support polygons.
 
-    The feet obey p(k+1) = p(k) + dt·(v(k) + v(k+1))/2 exactly, stand still in stance, and share a foot's way
-    evenly over its swings. Contact forces are those of standing still at each knot.
+    The feet obey p(k+1) = p(k) + dt(k)·(v(k) + v(k+1))/2 exactly, stand still in stance, and share a
+    foot's way evenly over its swings. Contact forces are those of standing still at each knot.
 
     Args:
         problem: what is asked.
 
     Returns:
-        Trajectory with velocities and forces; contact at the last knot is stance for every foot.
+        Trajectory with velocities and forces; contact at the last knot is stance for every foot that is not
+        held up.
     """
     contact = closed_contact(problem)
     feet, feet_velocity = _feet(problem)
     body = _body(problem, feet, contact)
-    body_velocity = np.gradient(body, problem.timeline.sample_time, axis=0)
+    body_velocity = np.gradient(body, problem.times, axis=0)
     body_velocity[[0, -1]] = 0.0
     return Trajectory(
-        times=problem.timeline.times,
+        times=problem.times,
         body_world=body,
-        heading=np.zeros(problem.knot_count),
+        heading=problem.heading,
         feet_world=feet,
         contact=contact,
         body_velocity=body_velocity,
@@ -56,20 +59,45 @@ def initial_motion(problem: MotionProblem) -> Trajectory:
 
 
 def closed_contact(problem: MotionProblem) -> Bools:
-    """(n, legs) stance of each foot; the last knot is the goal, and stance for every foot."""
+    """(n, legs) stance of each foot; the last knot is the goal, where every foot stands or is held up."""
     contact = problem.timeline.contact.copy()
-    contact[-1] = True
+    contact[-1] = ~problem.held_end
     return contact
 
 
 def problem_swings(problem: MotionProblem) -> tuple[Swing, ...]:
-    """Every swing of the problem, the last knot being stance."""
-    return replace(problem.timeline, stance=closed_contact(problem).T).swings()
+    """Every swing of the problem, none with the last knot, where all rests."""
+    stance = problem.timeline.stance.copy()
+    stance[:, -1] = True
+    return replace(problem.timeline, stance=stance).swings()
 
 
-def clearance_knot(swing: Swing) -> int:
-    """The knot of a swing that is lifted to the clearance: the middle one."""
-    return (swing.first + swing.last) // 2
+def rise_times(swing: Swing, intervals: Floats) -> Floats:
+    """How long speed can act to lift a foot to each knot of its swing and to bring it down again.
+
+    Speed at a knot acts over half of both intervals beside it, and a foot rests beside its swing, so that a
+    knot's height is at most the foot's speed times the shorter of both times.
+
+    Args:
+        swing: knots in the air; at the very first knot everything rests, so a swing there moves one later.
+        intervals: (n − 1,) s.
+
+    Returns:
+        (knots from max(first, 1) to last,) the shorter of both, s.
+    """
+    times = np.append(0.0, np.cumsum(intervals))
+    first = max(swing.first, 1)
+    knots = times[first : swing.last + 1]
+    up = knots - (times[first - 1] + times[first]) / 2
+    down = (times[swing.last] + times[swing.last + 1]) / 2 - knots
+    return np.asarray(np.minimum(up, down))
+
+
+def clearance_knot(swing: Swing, intervals: Floats) -> int:
+    """The knot of a swing that can rise highest, and is lifted to the clearance: as a rule the middle one."""
+    # Where two can rise equally high, rounding must not choose; after the last one no knot is left to sink.
+    lasting = np.round(rise_times(swing, intervals), 9)
+    return max(swing.first, 1) + int((lasting[:-1] if len(lasting) > 1 else lasting).argmax())
 
 
 def next_standing(model: RobotModel, contact: Bools) -> Indices:
@@ -109,34 +137,71 @@ def standing_forces(model: RobotModel, body_world: Floats, feet_world: Floats, c
 
 
 def _feet(problem: MotionProblem) -> tuple[Floats, Floats]:
-    n, dt = problem.knot_count, problem.timeline.sample_time
-    feet = np.repeat(problem.start.feet_world[None], n, axis=0)
+    feet = np.repeat(problem.start.feet_world[None], problem.knot_count, axis=0)
     velocity = np.zeros_like(feet)
     swings = problem_swings(problem)
-    for foot, (start, goal) in enumerate(zip(problem.start.feet_world, problem.goal.feet_world, strict=True)):
+    shares = way_shares(problem, swings)
+    for foot in range(problem.model.leg_count):
         own = [swing for swing in swings if swing.foot == foot]
-        for number, swing in enumerate(own):
-            before = start + (goal - start) * (number / len(own))
-            after = goal if number + 1 == len(own) else start + (goal - start) * ((number + 1) / len(own))
+        places = _places(problem, foot, shares[foot])
+        for swing, before, after in zip(own, places[:-1], places[1:], strict=True):
             # At the very first knot everything rests, so a swing that begins there moves one knot later.
             first = max(swing.first, 1)
-            speeds = _arc(after - before, swing.last - first + 1, dt, problem.limits.clearance)
-            velocity[first : swing.last + 1, foot] = speeds
-            feet[first : swing.last + 1, foot] = before + dt * (np.cumsum(speeds, axis=0) - speeds / 2)
+            span = slice(first, swing.last + 1)
+            velocity[span, foot] = _flight(problem, swing, after - before)
+            around = velocity[first - 1 : swing.last + 1, foot]
+            steps = problem.intervals[first - 1 : swing.last, None] * (around[1:] + around[:-1]) / 2
+            feet[span, foot] = before + np.cumsum(steps, axis=0)
             feet[swing.last + 1 :, foot] = after
     feet[-1] = problem.goal.feet_world
     return feet, velocity
 
 
-def _arc(way: Floats, count: int, dt: float, clearance: float) -> Floats:
-    """(count, 3) velocities that travel `way` and rise to the clearance at the middle knot."""
+def _places(problem: MotionProblem, foot: int, shares: Floats) -> Floats:
+    """(swings + 1, 3) where a foot rests before, between and after its swings: on the ground in between."""
+    start, goal = problem.start.feet_world[foot], problem.goal.feet_world[foot]
+    places = start + (goal - start) * shares[:, None]
+    places[1:-1, 2] = 0.0
+    return np.asarray(places)
+
+
+def _flight(problem: MotionProblem, swing: Swing, way: Floats) -> Floats:
+    """(knots that it moves at, 3) velocities of a swing, m/s."""
+    first = max(swing.first, 1)
+    around = problem.intervals[first - 1 : swing.last + 1]
+    # The time that a knot's velocity acts for: half of each interval beside it.
+    shares = (around[1:] + around[:-1]) / 2
+    middle = clearance_knot(swing, problem.intervals) - first
+    if not is_held(problem, swing):
+        return _arc(way, shares, problem.limits.clearance, middle)
+    speeds = _arc(way * [1.0, 1.0, 0.0], shares, 0.0, middle)
+    speeds[:, 2] = held_climb(float(way[2]), around, problem.limits.foot_speed)
+    return speeds
+
+
+def _arc(way: Floats, shares: Floats, clearance: float, middle: int) -> Floats:
+    """(count, 3) velocities that travel `way` and rise to the clearance at the middle knot.
+
+    Args:
+        way: (3,) m.
+        shares: (count,) the time that each velocity acts for, s.
+        clearance: m.
+        middle: number of the middle knot.
+    """
+    count = len(shares)
     index = np.arange(count)
-    share = np.sin(np.pi * (index + 1) / (count + 1))
-    speeds = np.outer(share / share.sum(), way) / dt
+    speed = np.sin(np.pi * (index + 1) / (count + 1))
+    speeds = np.outer(speed / (speed @ shares), way)
     if count > 1:
         climb = np.cos(np.pi * (index + 0.5) / count)
-        height = dt * (np.cumsum(climb) - climb / 2)[(count - 1) // 2]
-        speeds[:, 2] += climb * clearance / height
+        up, down = (
+            np.where(index <= middle, np.abs(climb), 0.0),
+            np.where(index > middle, -np.abs(climb), 0.0),
+        )
+        if count % 2 and 2 * middle == count - 1:
+            up[middle] = 0.0
+        rise = up @ shares - up[middle] * shares[middle] / 2
+        speeds[:, 2] += clearance / rise * (up + down * (up @ shares) / -(down @ shares))
     return speeds
 
 

@@ -10,6 +10,9 @@ from enum import StrEnum
 
 from core.errors import StateError
 
+TOLERANCE = 1e-6
+"""What a limit may be passed by before it counts, m."""
+
 
 class Severity(StrEnum):
     """Errors block approval; warnings do not."""
@@ -53,6 +56,39 @@ class RuleMargin:
 
 
 @dataclass(frozen=True)
+class Outcome:
+    """What one rule found, and its distance to the limit."""
+
+    margin: RuleMargin
+    findings: tuple[Finding, ...] = ()
+
+
+@dataclass(frozen=True)
+class SendCost:
+    """About how long the robot takes under one stop bound, with merged waypoints and with every knot sent.
+
+    Args:
+        stop_bound: longest deafness, s; None for any.
+        merge: tolerance of the merging, m.
+        merged_waypoints: how many are sent.
+        merged_seconds: what they take, s.
+        every_waypoints: how many are sent where nothing is merged.
+        every_seconds: what they take, s.
+        stop_seconds: until Stop takes effect at the latest, as merging is chosen, s.
+        is_chosen: whether the gait is sent under this bound.
+    """
+
+    stop_bound: float | None
+    merge: float
+    merged_waypoints: int
+    merged_seconds: float
+    every_waypoints: int
+    every_seconds: float
+    stop_seconds: float
+    is_chosen: bool
+
+
+@dataclass(frozen=True)
 class Verdict:
     """Every rule's outcome for exactly these waypoints.
 
@@ -60,11 +96,15 @@ class Verdict:
         waypoints_hash: content hash of the waypoints that were checked.
         findings: what was found, errors first.
         margins: the distance to the limit of each rule, also where nothing was found.
+        costs: what stop bound and merging cost in robot seconds; empty where only waypoints are known.
+        notes: sentences on what the figures leave out.
     """
 
     waypoints_hash: str
     findings: tuple[Finding, ...]
     margins: tuple[RuleMargin, ...]
+    costs: tuple[SendCost, ...] = ()
+    notes: tuple[str, ...] = ()
 
     @property
     def passed(self) -> bool:

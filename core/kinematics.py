@@ -96,6 +96,20 @@ def feet_in_world(model: RobotModel, feet_module: Floats, pose: BodyPose) -> Flo
     return np.asarray(rotated + pose.position_world[..., None, :])
 
 
+def free_strokes(model: RobotModel, feet_world: Floats, pose: BodyPose) -> Floats:
+    """Strokes that put the feet somewhere, limits left aside (see `walker_strokes`).
+
+    Args:
+        model: the robot.
+        feet_world: (..., legs, 3) platform centres, m.
+        pose: the robot's frame.
+
+    Returns:
+        (..., legs, 3) m; nan where no rod is that long.
+    """
+    return strokes_from_foot(model.leg, feet_in_modules(model, feet_world, pose))
+
+
 def walker_strokes(model: RobotModel, feet_world: Floats, pose: BodyPose) -> Floats:
     """Inverse kinematics of the whole walker.
 

@@ -47,6 +47,24 @@ def strokes_from_foot(leg: LegGeometry, foot_module: Floats) -> Floats:
     return np.asarray(-(foot_module[..., 2:3] + depth))
 
 
+def stroke_rates(leg: LegGeometry, foot_module: Floats, velocity_module: Floats) -> Floats:
+    """Time derivative of the inverse kinematics: ḣ_i = −ż + (ρ − u_t e_i)·ρ̇ / √(l² − d_i), ρ = (x, y).
+
+    Args:
+        leg: geometry.
+        foot_module: (..., 3) platform centre in the module's frame, m.
+        velocity_module: (..., 3) its velocity there, m/s.
+
+    Returns:
+        (..., 3) m/s; nan where no rod is long enough.
+    """
+    arms = foot_module[..., None, :2] - leg.reach_radius * vertex_directions()
+    below = leg.link_length**2 - squared_offsets(leg, foot_module)
+    depth = np.sqrt(np.where(below > 0, below, np.nan))
+    along = (arms * velocity_module[..., None, :2]).sum(axis=-1)
+    return np.asarray(along / depth - velocity_module[..., 2:3])
+
+
 def foot_from_strokes(leg: LegGeometry, strokes: Floats) -> Floats:
     """Forward kinematics of one leg: the lower intersection of three spheres, (2.8) to (2.19).
 

@@ -49,7 +49,7 @@ def manual_motion(gait: Gait, model: RobotModel) -> ManualMotion:
     standing = np.roll(standing_1, shift, axis=1)
     feet_robot = displacement + model.module_centres_robot
     plane = np.zeros((len(feet_robot), 3))
-    plane[1:, :2] = np.cumsum(_advances(feet_robot, standing), axis=0)
+    plane[1:, :2] = np.cumsum(body_advances(feet_robot, standing), axis=0)
     plane[:, 2] = -feet_robot[:, :, 2].min(axis=1)
     feet_world = feet_robot + plane[:, None, :]
     times = np.asarray(np.arange(len(plane)) * gait.timeline.sample_time, dtype=np.float64)
@@ -66,7 +66,16 @@ def manual_motion(gait: Gait, model: RobotModel) -> ManualMotion:
     return ManualMotion(trajectory, stance_slip(feet_world, standing))
 
 
-def _advances(feet_robot: Floats, standing: Bools) -> Floats:
+def body_advances(feet_robot: Floats, standing: Bools) -> Floats:
+    """How far a body of constant heading goes between samples: −Σ Δfoot / legs over the feet that stand.
+
+    Args:
+        feet_robot: (n, legs, 3) platform centres in the robot's axes, m.
+        standing: (n, legs) true where a foot stands.
+
+    Returns:
+        (n − 1, 2) m.
+    """
     both = standing[1:] & standing[:-1]
     moved = np.diff(feet_robot[:, :, :2], axis=0) * both[:, :, None]
     return np.asarray(-moved.sum(axis=1) / feet_robot.shape[1])

@@ -1,7 +1,8 @@
 """The independent checker: holds a solved motion to every constraint of its problem, in plain numpy.
 
-It shares no code with the solvers. Each family has one function that returns its largest violation, 0 where
-the family holds: m, m/s, N, or N·m. Sources: thesis (3.5) to (3.18) with the corrections of DOMAIN.md.
+It shares only the leg's geometry with the solvers. Each family has one function that returns its largest
+violation, 0 where the family holds: m, m/s, N, or N·m. Sources: thesis (3.5) to (3.18) with the corrections
+of DOMAIN.md.
 """
 
 from __future__ import annotations
@@ -15,7 +16,8 @@ from core.arrays import Bools, Floats
 from core.errors import InputError
 from core.kinematics import actuator_plane_pose, feet_in_modules
 from core.leg import strokes_from_foot
-from core.motion_problem import CYLINDER, MotionProblem, Workspace
+from core.motion_problem import CYLINDER, Boundary, MotionProblem, Workspace
+from core.speeds import motor_rates
 from core.support import GRAVITY, centre_of_pressure, stability_margins
 from core.trajectory import Trajectory
 
@@ -60,21 +62,36 @@ class _Motion:
     """A trajectory with everything known, and its problem."""
 
     problem: MotionProblem
+    trajectory: Trajectory
     body: Floats
     feet: Floats
     body_velocity: Floats
     feet_velocity: Floats
     forces: Floats
     standing: Bools
-    interval: float
+    heading: Floats
+
+    @property
+    def intervals(self) -> Floats:
+        return self.problem.intervals[:, None]
 
     @property
     def body_acceleration(self) -> Floats:
-        return np.asarray(np.diff(self.body_velocity, axis=0) / self.interval)
+        return np.asarray(np.diff(self.body_velocity, axis=0) / self.intervals)
 
     @property
     def feet_acceleration(self) -> Floats:
-        return np.asarray(np.diff(self.feet_velocity, axis=0) / self.interval)
+        return np.asarray(np.diff(self.feet_velocity, axis=0) / self.intervals[..., None])
+
+    @property
+    def feet_module(self) -> Floats:
+        model = self.problem.model
+        return feet_in_modules(model, self.feet, actuator_plane_pose(model, self.body, self.problem.heading))
+
+    @property
+    def stroke_rates(self) -> Floats:
+        """(n, legs, 3) speed of every motor, m/s: a foot's velocity seen from the turning body."""
+        return motor_rates(self.problem.model, self.trajectory, self.problem.heading_rate)
 
 
 def check_motion(problem: MotionProblem, trajectory: Trajectory) -> MotionCheck:
@@ -85,10 +102,11 @@ def check_motion(problem: MotionProblem, trajectory: Trajectory) -> MotionCheck:
         trajectory: with velocities and contact forces; contact is taken from the problem's timeline.
 
     Raises:
-        InputError: velocities or forces are missing, or the knots do not match the problem.
+        InputError: velocities or forces are missing, or knots or contact do not match the problem.
     """
     motion = _motion(problem, trajectory)
-    violations = {name: _violation(float(family(motion))) for name, family in FAMILIES.items()}
+    families = FAMILIES | {name: OPTIONAL_FAMILIES[name] for name in _asked(problem)}
+    violations = {name: _violation(float(family(motion))) for name, family in families.items()}
     pressure = centre_of_pressure(
         motion.body[:-1],
         motion.body_acceleration,
@@ -97,13 +115,28 @@ def check_motion(problem: MotionProblem, trajectory: Trajectory) -> MotionCheck:
         problem.model.masses.foot,
     )
     feet, standing = motion.feet, motion.standing
-    min_cop_margin = float(stability_margins(pressure, feet[:-1], standing[:-1]).min())
+    margins = stability_margins(pressure, feet[:-1], standing[:-1])
+    min_cop_margin = min(float(margins.min()), *_rest_margins(problem))
+    late = _violation(float(np.abs(trajectory.times - problem.times).max()))
+    violations["dynamics"] = max(violations["dynamics"], late)
     violations["body_torque"] = max(violations["body_torque"], problem.limits.margin - min_cop_margin, 0.0)
     return MotionCheck(
         violations=violations,
         min_margin=float(stability_margins(motion.body[:, :2], feet, standing).min()),
         min_cop_margin=min_cop_margin,
     )
+
+
+def _rest_margins(problem: MotionProblem) -> list[float]:
+    """Distance of the resting body's ground point to the edge at ends where feet are held up, m."""
+    if problem.boundary is Boundary.PERIODIC:
+        return [float("inf")]
+    found = [float("inf")]
+    for pose, held in ((problem.start, problem.held_start), (problem.goal, problem.held_end)):
+        if held.any():
+            point, feet = pose.body_world[None, :2], pose.feet_world[None]
+            found.append(float(stability_margins(point, feet, ~held[None])[0]))
+    return found
 
 
 def _violation(value: float) -> float:
@@ -117,21 +150,48 @@ def _motion(problem: MotionProblem, trajectory: Trajectory) -> _Motion:
         raise InputError("The checker needs velocities and contact forces.", "trajectory")
     if trajectory.feet_world.shape[:2] != (problem.knot_count, problem.model.leg_count):
         raise InputError("The trajectory's knots or feet do not match its problem.", "trajectory")
+    # The last knot is the goal, where motions stand though a timeline may end in the air; held feet do not.
+    same = np.array_equal(trajectory.contact[:-1], problem.timeline.contact[:-1])
+    if not same or trajectory.contact[-1, problem.held_end].any():
+        raise InputError("The trajectory's contact is not that of its problem's timeline.", "trajectory")
     return _Motion(
         problem=problem,
+        trajectory=trajectory,
         body=trajectory.body_world,
         feet=trajectory.feet_world,
         body_velocity=velocities[0],
         feet_velocity=velocities[1],
         forces=trajectory.contact_forces[:-1],
         standing=problem.timeline.contact,
-        interval=problem.timeline.sample_time,
+        heading=trajectory.heading,
     )
 
 
+def _asked(problem: MotionProblem) -> list[str]:
+    limits = problem.limits
+    asked = {
+        "friction": limits.friction,
+        "motor_speed": limits.motor_speed,
+        "motor_acceleration": limits.motor_acceleration,
+    }
+    return [name for name, limit in asked.items() if limit is not None]
+
+
 def _boundary(m: _Motion) -> float:
-    """(3.5), (3.6): first and last state are the given poses at rest."""
+    """(3.5), (3.6): first and last state are the given poses at rest, or one is the other moved on."""
+    start, goal = m.problem.start, m.problem.goal
+    if m.problem.boundary is Boundary.PERIODIC:
+        differences = [
+            m.body[-1] - m.body[0] - (goal.body_world - start.body_world),
+            m.feet[-1] - m.feet[0] - (goal.feet_world - start.feet_world),
+            m.body[0, :2] - start.body_world[:2],
+            *(v[-1] - v[0] for v in (m.body_velocity, m.feet_velocity)),
+            np.where(m.problem.held_start, m.feet[0, :, 2] - start.feet_world[:, 2], 0.0),
+            m.heading - m.problem.heading,
+        ]
+        return max(float(np.abs(d).max()) for d in differences)
     differences = [
+        m.heading - m.problem.heading,
         m.body[0] - m.problem.start.body_world,
         m.body[-1] - m.problem.goal.body_world,
         m.feet[0] - m.problem.start.feet_world,
@@ -143,9 +203,9 @@ def _boundary(m: _Motion) -> float:
 
 def _dynamics(m: _Motion) -> float:
     """(3.2), (3.7): positions follow velocities exactly, and contact forces carry weight and acceleration."""
-    half = m.interval / 2
+    half = m.intervals / 2
     body_gap = np.diff(m.body, axis=0) - half * (m.body_velocity[1:] + m.body_velocity[:-1])
-    feet_gap = np.diff(m.feet, axis=0) - half * (m.feet_velocity[1:] + m.feet_velocity[:-1])
+    feet_gap = np.diff(m.feet, axis=0) - half[..., None] * (m.feet_velocity[1:] + m.feet_velocity[:-1])
     masses = m.problem.model.masses
     momentum = masses.body * m.body_acceleration + masses.foot * m.feet_acceleration.sum(axis=1)
     weight = np.array([0.0, 0.0, m.problem.model.total_model_mass * GRAVITY])
@@ -203,8 +263,7 @@ def _body_torque(m: _Motion) -> float:
 
 def _workspace(m: _Motion) -> float:
     """(3.16) to (3.18) with P's depth, or every motor within its stroke."""
-    model = m.problem.model
-    feet_module = feet_in_modules(model, m.feet, actuator_plane_pose(model, m.body, np.zeros(len(m.body))))
+    model, feet_module = m.problem.model, m.feet_module
     if m.problem.limits.workspace is Workspace.CYLINDER:
         height = feet_module[..., 2] + CYLINDER.depth
         outside = np.linalg.norm(feet_module[..., :2], axis=-1) - CYLINDER.radius
@@ -216,12 +275,33 @@ def _workspace(m: _Motion) -> float:
 
 
 def _clearance(m: _Motion) -> float:
-    """The highest knot of each swing is at least the clearance."""
+    """The highest knot of each swing is at least the clearance.
+
+    A foot that is held up at an end is as high as that there by the boundary, and need not rise further.
+    """
+    first_held, last_held = m.problem.held_start, m.problem.held_end
     shortfalls = [
         m.problem.limits.clearance - m.feet[swing.first : swing.last + 1, swing.foot, 2].max()
         for swing in m.problem.timeline.swings()
+        if not (swing.first == 0 and first_held[swing.foot])
+        and not (swing.last == m.problem.knot_count - 1 and last_held[swing.foot])
     ]
     return float(max(shortfalls, default=0.0))
+
+
+def _friction(m: _Motion) -> float:
+    """Friction cone of each foot: ‖λ_xy‖ ≤ μ λ_z."""
+    sideways = np.linalg.norm(m.forces[..., :2], axis=-1)
+    return float((sideways - (m.problem.limits.friction or 0.0) * m.forces[..., 2]).max())
+
+
+def _motor_speed(m: _Motion) -> float:
+    return float(np.abs(m.stroke_rates).max() - (m.problem.limits.motor_speed or 0.0))
+
+
+def _motor_acceleration(m: _Motion) -> float:
+    change = np.diff(m.stroke_rates, axis=0) / m.intervals[..., None]
+    return float(np.abs(change).max() - (m.problem.limits.motor_acceleration or 0.0))
 
 
 FAMILIES: dict[str, Callable[[_Motion], float]] = {
@@ -240,3 +320,10 @@ FAMILIES: dict[str, Callable[[_Motion], float]] = {
     "boundary": _boundary,
 }
 """Every family of constraints, by its name in the contract."""
+
+OPTIONAL_FAMILIES: dict[str, Callable[[_Motion], float]] = {
+    "friction": _friction,
+    "motor_speed": _motor_speed,
+    "motor_acceleration": _motor_acceleration,
+}
+"""Families that count only where the problem asks for them."""

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import tomllib
 from dataclasses import dataclass
+from enum import StrEnum
+from functools import cache
 from importlib import resources
 from typing import Any
 
 import numpy as np
 
 from core.arrays import Floats, frozen_floats
+from core.coupling import coupling_matrix
 from core.errors import InputError
 
 
@@ -52,6 +55,16 @@ class ModelMasses:
     foot: float
 
 
+class FootEnd(StrEnum):
+    """What a leg ends in (thesis 2.1.1 and 2.1.2)."""
+
+    SHOE = "shoe"
+    BARE = "bare"
+    """The foot without its shoe."""
+    FINGERTIP = "fingertip"
+    """The round tip of the DeltaHands."""
+
+
 @dataclass(frozen=True)
 class BodyShape:
     """Sizes that only pictures need, m; heights are of undersides above the actuator plane."""
@@ -66,7 +79,9 @@ class BodyShape:
     rod_diameter: float
     rod_spacing: float
     foot_diameter: float
-    shoe_diameter: float
+    sole_diameter: float
+    foot_end: FootEnd
+    rod_colour: str
     board: tuple[float, float, float]
 
 
@@ -87,6 +102,7 @@ class RobotModel:
         stroke: limits of every motor.
         com_height: centre of mass above the actuator plane, m.
         sole_depth: floor below the platform of a standing foot, m.
+        coupling: (motors, actuators) C of h = C·u, motors in wire order; the identity where none is shared.
         masses: point masses of the optimisation's model.
         mass_sets: every named set of masses as it stands in the file, kg.
         shape: sizes for pictures.
@@ -102,6 +118,7 @@ class RobotModel:
     stroke: StrokeLimits
     com_height: float
     sole_depth: float
+    coupling: Floats
     masses: ModelMasses
     mass_sets: dict[str, dict[str, float]]
     shape: BodyShape
@@ -116,6 +133,16 @@ class RobotModel:
     def motor_count(self) -> int:
         """Number of motors, three a leg."""
         return 3 * self.leg_count
+
+    @property
+    def actuator_count(self) -> int:
+        """Number of actuators that drive the motors; fewer where motors share one."""
+        return int(self.coupling.shape[1])
+
+    @property
+    def is_coupled(self) -> bool:
+        """Whether motors share an actuator, so that not every set of strokes can be made."""
+        return self.actuator_count < self.motor_count
 
     @property
     def total_model_mass(self) -> float:
@@ -135,17 +162,25 @@ class RobotModel:
 
     @property
     def module_centres_robot(self) -> Floats:
-        """(legs, 3) centre of each module in the robot's frame, m."""
+        """(legs, 3) centre of each module in the robot's frame, m.
+
+        A module on an axis stands exactly there, so that a robot turned by 90° is the same to the last bit.
+        """
         zeros = np.zeros(self.leg_count)
-        return self.radius * np.stack([np.cos(self.azimuths), np.sin(self.azimuths), zeros], axis=-1)
+        outwards = np.stack([np.cos(self.azimuths), np.sin(self.azimuths), zeros], axis=-1)
+        return self.radius * np.where(np.abs(outwards) < ROUNDING, 0.0, outwards)
 
 
-ROBOT_NAMES = ("deltawalker", "hexapod", "dodecapod")
+ROUNDING = 1e-15
+"""Cosines and sines below this are what rounding leaves of 0."""
+
+ROBOT_NAMES = ("deltawalker", "deltawalker9", "deltawalker5", "hexapod", "dodecapod")
 """Parameter files that come with the program."""
 
 
+@cache
 def load_robot(name: str) -> RobotModel:
-    """Reads a robot's parameters file.
+    """Reads a robot's parameters file; once, since every document asks for it.
 
     Raises:
         InputError: there is no robot of that name, or its file lacks something.
@@ -166,6 +201,7 @@ def robot_from_table(table: dict[str, Any], where: str) -> RobotModel:
         shape = dict(table["shape"])
         colours = tuple(shape.pop("colours"))
         board = tuple(shape.pop("board"))
+        foot_end = FootEnd(shape.pop("foot_end"))
         azimuths = np.radians(frozen_floats(table["ring"]["azimuths_deg"], (None,), "azimuths_deg"))
         azimuths.setflags(write=False)
         model = RobotModel(
@@ -178,12 +214,15 @@ def robot_from_table(table: dict[str, Any], where: str) -> RobotModel:
             stroke=StrokeLimits(**table["stroke"]),
             com_height=float(table["body"]["com_height"]),
             sole_depth=float(table["body"]["sole_depth"]),
+            coupling=coupling_matrix(
+                table.get("coupling", {}).get("shared", ()), 3 * len(azimuths), f"{where}, coupling"
+            ),
             masses=ModelMasses(**table["mass"]["model"]),
             mass_sets={key: dict(value) for key, value in table["mass"].items()},
-            shape=BodyShape(board=board, **shape),
+            shape=BodyShape(board=board, foot_end=foot_end, **shape),
             colours=colours,
         )
-    except (KeyError, TypeError) as error:
+    except (KeyError, TypeError, ValueError) as error:
         raise InputError(
             f"{where} does not describe a robot: {error} is missing or unknown.", where
         ) from error

@@ -60,11 +60,14 @@ def polygon_margin(polygon: Floats, point: Floats) -> float:
         return float("-inf")
     starts = polygon
     edges = np.roll(polygon, -1, axis=0) - starts
-    lengths = np.maximum(np.linalg.norm(edges, axis=1), SHORTEST_EDGE)
+    lengths = np.linalg.norm(edges, axis=1)
+    has_side = lengths > SHORTEST_EDGE
+    lengths = np.maximum(lengths, SHORTEST_EDGE)
     relative = point - starts
-    inside = (edges[:, 0] * relative[:, 1] - edges[:, 1] * relative[:, 0]) / lengths
-    if len(polygon) >= 3 and (inside >= 0).all():
-        return float(inside.min())
+    left = (edges[:, 0] * relative[:, 1] - edges[:, 1] * relative[:, 0]) / lengths
+    inside = float(np.where(has_side, left, np.inf).min())
+    if len(polygon) >= 3 and 0 <= inside < np.inf:
+        return inside
     fraction = np.clip((relative * edges).sum(axis=1) / lengths**2, 0.0, 1.0)
     nearest = starts + fraction[:, None] * edges
     return -float(np.linalg.norm(point - nearest, axis=1).min())
@@ -81,11 +84,44 @@ def stability_margins(points_xy: Floats, feet_world: Floats, contact: Bools) -> 
     Returns:
         (n,) signed distance to the support polygon's edge, m.
     """
-    margins = [
-        polygon_margin(support_polygon(feet[standing, :2]), point)
-        for point, feet, standing in zip(points_xy, feet_world, contact, strict=True)
-    ]
-    return np.array(margins)
+    corners = np.asarray(feet_world[..., :2], dtype=np.float64)
+    points = np.asarray(points_xy, dtype=np.float64)
+    legs = corners.shape[1]
+    # Every pair of feet once: the line the other way round has the other side on its left.
+    start, end = np.triu_indices(legs, 1)
+    a, edge = corners[:, start], corners[:, end] - corners[:, start]
+    length = np.linalg.norm(edge, axis=-1)
+    both = contact[:, start] & contact[:, end] & (length > SHORTEST_EDGE)
+    length = np.maximum(length, SHORTEST_EDGE)
+    # Signed distance of every standing foot, and of the point, to the left of every line between two feet.
+    sides = np.where(contact[:, None, :], _left_of(a, edge, length, corners[:, None]), 0.0)
+    leftmost, rightmost = sides.max(axis=-1), sides.min(axis=-1)
+    on_left, on_right = both & (rightmost >= -SHORTEST_EDGE), both & (leftmost <= SHORTEST_EDGE)
+    here = _left_of(a, edge, length, points[:, None, None])[..., 0]
+    inside = np.where(on_left, here, np.where(on_right, -here, np.inf)).min(axis=-1, initial=np.inf)
+    area = ((on_left & (leftmost > SHORTEST_EDGE)) | (on_right & (rightmost < -SHORTEST_EDGE))).any(axis=-1)
+    nearest = _nearest_distance(points, corners, contact, a, edge, both)
+    return np.asarray(np.where(area & (inside >= 0), inside, -nearest))
+
+
+def _left_of(start: Floats, edge: Floats, length: Floats, points: Floats) -> Floats:
+    """(n, edges, k) distance of points to the left of lines."""
+    offset = points - start[:, :, None]
+    return np.asarray(
+        (edge[:, :, None, 0] * offset[..., 1] - edge[:, :, None, 1] * offset[..., 0]) / length[..., None]
+    )
+
+
+def _nearest_distance(
+    points: Floats, corners: Floats, contact: Bools, start: Floats, edge: Floats, both: Bools
+) -> Floats:
+    """(n,) distance of a point to the nearest standing foot or line between two, inf where none stands."""
+    squared = np.maximum((edge**2).sum(axis=-1), SHORTEST_EDGE**2)
+    fraction = np.clip(((points[:, None] - start) * edge).sum(axis=-1) / squared, 0.0, 1.0)
+    to_edges = np.linalg.norm(points[:, None] - start - fraction[..., None] * edge, axis=-1)
+    to_feet = np.linalg.norm(points[:, None] - corners, axis=-1)
+    found = np.concatenate([np.where(both, to_edges, np.inf), np.where(contact, to_feet, np.inf)], axis=1)
+    return np.asarray(found.min(axis=1))
 
 
 def centre_of_pressure(

@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike
 from core.arrays import Bools, Floats, frozen_bools
 from core.errors import InputError
 
+SAME_INTERVAL = 1e-6
+"""Sample times that differ by less than this part are the same; files round theirs."""
 MAX_SAMPLES = 2000
 """More samples than any gait here needs; a guard against a slip of the pen in a file."""
 
@@ -124,7 +126,8 @@ def bits_from_rows(rows: Sequence[str], name: str) -> Bools:
             raise InputError(
                 f"{name}, foot {foot}: needs {len(rows[0])} characters, each 1 or 0, as foot 1 has.", name
             )
-    return np.array([[c == "1" for c in row] for row in rows], dtype=np.bool_).reshape(len(rows), -1)
+    samples = len(rows[0]) if rows else 0
+    return np.array([[c == "1" for c in row] for row in rows], dtype=np.bool_).reshape(len(rows), samples)
 
 
 def rows_from_bits(bits: ArrayLike) -> tuple[str, ...]:

@@ -1,7 +1,8 @@
-"""Trajectory CSV in and out, in the layout of the lab's own files.
+"""Trajectory CSV in and out, in the layouts of the lab's own files.
 
 30 rows × N knots: body xyz (z of the centre of mass), feet 1 to 4 xyz, then their velocities, SI, under a
-header `Column1,…,ColumnN`. What the layout cannot say travels in a companion JSON bound by the CSV's hash.
+header `Column1,…,ColumnN`. Older files have a first line 0, 1, 2, … or words, and no velocities. What the
+layout cannot say travels in a companion JSON bound by the CSV's hash.
 """
 
 from __future__ import annotations
@@ -17,12 +18,28 @@ import numpy as np
 from core.arrays import Bools, Floats
 from core.errors import InputError
 from core.trajectory import Trajectory, difference_velocities
+from core.waypoints import is_waypoint_text
 
 COMPANION_FORMAT = "footfall-trajectory"
 DEFAULT_INTERVAL = 0.4
 """Time between knots where no companion says otherwise, s."""
+FARTHEST = 10_000.0
+"""Numbers beyond this are no m or m/s of a gait; a guard against a slip of the pen in a file."""
 STANDING_HEIGHT = 0.00025 + 1e-6
 """A foot at rest below this height stands, where no companion says: 0.25 mm and the checks' tolerance, m."""
+
+
+@dataclass(frozen=True)
+class CsvLayout:
+    """How a trajectory CSV is laid out.
+
+    Args:
+        header: the first line as it stands; None where numbers begin at once.
+        has_velocities: whether rows of velocities follow the positions.
+    """
+
+    header: str | None
+    has_velocities: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,26 +49,50 @@ class TrajectoryFile:
     Args:
         trajectory: the motion.
         assumptions: sentences; empty where the companion said everything.
+        layout: of the file; written in it again, every number is the same to the last bit.
+        has_companion: whether times, heading and contact were stated, not assumed.
     """
 
     trajectory: Trajectory
     assumptions: tuple[str, ...]
+    layout: CsvLayout
+    has_companion: bool
 
 
-def format_trajectory_csv(trajectory: Trajectory) -> str:
-    """Writes header and rows; numbers so that they read back to the last bit."""
+def standard_layout(knots: int) -> CsvLayout:
+    """`Column1,…,ColumnN` over positions and velocities, as in the lab's files of direction 1."""
+    return CsvLayout(",".join(f"Column{k + 1}" for k in range(knots)), has_velocities=True)
+
+
+def format_trajectory_csv(trajectory: Trajectory, layout: CsvLayout | None = None) -> str:
+    """Writes header and rows; numbers so that they read back to the last bit.
+
+    Args:
+        trajectory: the motion.
+        layout: of the file; the standard one where None.
+    """
+    layout = layout or standard_layout(trajectory.knot_count)
+    columns = _positions(trajectory)
+    if layout.has_velocities:
+        columns = np.concatenate([columns, _velocities(trajectory)], axis=1)
+    lines = [] if layout.header is None else [layout.header]
+    lines += [",".join(repr(float(v)) for v in row) for row in columns.T]
+    return "\n".join(lines) + "\n"
+
+
+def _positions(trajectory: Trajectory) -> Floats:
+    flat = trajectory.feet_world.reshape(trajectory.knot_count, -1)
+    return np.concatenate([trajectory.body_world, flat], axis=1)
+
+
+def _velocities(trajectory: Trajectory) -> Floats:
     body_velocity = trajectory.body_velocity
     feet_velocity = trajectory.feet_velocity
     if body_velocity is None:
         body_velocity = difference_velocities(trajectory.times, trajectory.body_world)
     if feet_velocity is None:
         feet_velocity = difference_velocities(trajectory.times, trajectory.feet_world)
-    n = trajectory.knot_count
-    positions = np.concatenate([trajectory.body_world, trajectory.feet_world.reshape(n, -1)], axis=1)
-    velocities = np.concatenate([body_velocity, feet_velocity.reshape(n, -1)], axis=1)
-    header = ",".join(f"Column{k + 1}" for k in range(n))
-    rows = np.concatenate([positions, velocities], axis=1).T
-    return "\n".join([header, *(",".join(repr(float(v)) for v in row) for row in rows)]) + "\n"
+    return np.concatenate([body_velocity, feet_velocity.reshape(trajectory.knot_count, -1)], axis=1)
 
 
 def format_companion(trajectory: Trajectory, csv_text: str) -> str:
@@ -69,7 +110,8 @@ def format_companion(trajectory: Trajectory, csv_text: str) -> str:
 
 
 def _digest(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()
+    """SHA-256 of the text with line ends of any system, which copying a file may change."""
+    return hashlib.sha256(text.replace("\r\n", "\n").encode()).hexdigest()
 
 
 def parse_trajectory_csv(text: str, name: str, companion_text: str | None = None) -> TrajectoryFile:
@@ -83,7 +125,14 @@ def parse_trajectory_csv(text: str, name: str, companion_text: str | None = None
     Raises:
         InputError: naming line and column of what is wrong.
     """
-    table, first_line = _parse_table(text, name)
+    if is_waypoint_text(text):
+        raise InputError(
+            f"{name} is a waypoint file (line 1 begins with duration_s); a trajectory is wanted here.",
+            f"{name}:1",
+        )
+    text = text.removeprefix("\ufeff")
+    header, table = _parse_table(text, name)
+    first_line = 1 if header is None else 2
     companion, assumptions = _companion(companion_text, text, name)
     legs = _leg_count(companion, name)
     size = 3 + 3 * legs
@@ -96,7 +145,8 @@ def parse_trajectory_csv(text: str, name: str, companion_text: str | None = None
     if table.shape[1] < 2:
         raise InputError(f"{name}: one knot; a trajectory needs at least two columns.", name)
     try:
-        return _assemble(table, legs, companion, assumptions)
+        layout = CsvLayout(header, has_velocities=table.shape[0] == 2 * size)
+        return _assemble(table, legs, companion, assumptions, layout)
     except (KeyError, TypeError, ValueError, OverflowError) as error:
         raise InputError(
             f"The companion of {name} does not fit it: {error!r}. Write the file anew.", name
@@ -111,14 +161,18 @@ def _leg_count(companion: dict[str, Any] | None, name: str) -> int:
 
 
 def _assemble(
-    table: Floats, legs: int, companion: dict[str, Any] | None, assumptions: list[str]
+    table: Floats,
+    legs: int,
+    companion: dict[str, Any] | None,
+    assumptions: list[str],
+    layout: CsvLayout,
 ) -> TrajectoryFile:
     n, size = table.shape[1], 3 + 3 * legs
     columns = table.T
     body, feet = columns[:, :3], columns[:, 3:size].reshape(n, legs, 3)
     times = np.asarray(companion["times"] if companion else np.arange(n) * DEFAULT_INTERVAL, np.float64)
     heading = np.asarray(companion["heading"] if companion else np.zeros(n), np.float64)
-    if table.shape[0] == 2 * size:
+    if layout.has_velocities:
         body_velocity = columns[:, size : size + 3]
         feet_velocity = columns[:, size + 3 :].reshape(n, legs, 3)
     else:
@@ -127,7 +181,7 @@ def _assemble(
         assumptions.append("Velocities are missing; they are differences of the positions.")
     contact = np.array(companion["contact"], dtype=np.bool_) if companion else _standing(feet)
     trajectory = Trajectory(times, body, heading, feet, contact, body_velocity, feet_velocity)
-    return TrajectoryFile(trajectory, tuple(assumptions))
+    return TrajectoryFile(trajectory, tuple(assumptions), layout, companion is not None)
 
 
 def _standing(feet: Floats) -> Bools:
@@ -156,9 +210,11 @@ def _companion(text: str | None, csv_text: str, name: str) -> tuple[dict[str, An
     return content, []
 
 
-def _parse_table(text: str, name: str) -> tuple[Floats, int]:
+def _parse_table(text: str, name: str) -> tuple[str | None, Floats]:
+    """The first line where it is a header, and (rows, knots) numbers."""
     lines = text.replace("\r\n", "\n").rstrip("\n").split("\n")
-    first = 1 if _is_header(lines[0]) else 0
+    header = lines[0] if _is_header(lines[0]) else None
+    first = 0 if header is None else 1
     rows: list[list[float]] = []
     for number, line in enumerate(lines[first:], first + 1):
         fields = line.rstrip(",").split(",")
@@ -171,7 +227,7 @@ def _parse_table(text: str, name: str) -> tuple[Floats, int]:
         rows.append(row)
     if not rows:
         raise InputError(f"{name} holds no numbers; a trajectory file has 15 or 30 rows of them.", name)
-    return np.array(rows), first + 1
+    return header, np.array(rows)
 
 
 def _is_header(line: str) -> bool:
@@ -187,9 +243,16 @@ def _is_header(line: str) -> bool:
 
 def _number(field: str, where: str, column: int) -> float:
     try:
-        number = float(field)
+        # Python alone reads 1_000 as a number; a file with it is damaged.
+        number = float(field.replace("_", "?"))
     except ValueError:
         raise InputError(f"{where}, column {column}: “{field}” is not a number.", where) from None
     if not np.isfinite(number):
         raise InputError(f"{where}, column {column}: {field} is not a finite number.", where)
+    if abs(number) > FARTHEST:
+        raise InputError(
+            f"{where}, column {column}: {field} is no position or speed of a gait; it must lie within "
+            f"±{FARTHEST:g} m or m/s.",
+            where,
+        )
     return number

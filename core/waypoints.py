@@ -55,11 +55,38 @@ class Waypoints:
 
 def format_waypoint_csv(waypoints: Waypoints) -> str:
     """Writes `duration_s,h1,…` with a row a waypoint, mm with 4 decimals, wire order."""
-    motors = waypoints.strokes_mm.shape[1]
-    lines = ["duration_s," + ",".join(f"h{i + 1}" for i in range(motors))]
+    lines = [_header(waypoints.strokes.shape[1])]
     for duration, row in zip(waypoints.durations, waypoints.strokes_mm, strict=True):
         lines.append(f"{duration:.4f}," + ",".join(f"{h:.{MM_DECIMALS}f}" for h in row))
     return "\n".join(lines) + "\n"
+
+
+def is_waypoint_text(text: str) -> bool:
+    """Whether a text begins as a waypoint file does."""
+    return text.removeprefix("\ufeff").startswith("duration_s")
+
+
+def waypoint_legs(text: str, name: str = "waypoint file") -> int:
+    """Number of legs whose strokes a waypoint file holds, by its header.
+
+    Raises:
+        InputError: the header is not one of a waypoint file.
+    """
+    header = _header_of(text)
+    motors = header.count(",")
+    if motors < 3 or motors % 3 or header != _header(motors // 3):
+        raise InputError(
+            f"{name}, line 1: the header must read {_header(4)}, with three motors a foot.", f"{name}:1"
+        )
+    return motors // 3
+
+
+def _header(legs: int) -> str:
+    return "duration_s," + ",".join(f"h{i + 1}" for i in range(3 * legs))
+
+
+def _header_of(text: str) -> str:
+    return text.removeprefix("\ufeff").partition("\n")[0].strip()
 
 
 def parse_waypoint_csv(text: str, legs: int = 4, name: str = "waypoint file") -> Waypoints:
@@ -73,9 +100,9 @@ def parse_waypoint_csv(text: str, legs: int = 4, name: str = "waypoint file") ->
     Raises:
         InputError: naming line and column of the first thing that is wrong.
     """
-    header = "duration_s," + ",".join(f"h{i + 1}" for i in range(3 * legs))
+    header = _header(legs)
     lines = text.replace("\r\n", "\n").rstrip("\n").split("\n")
-    if lines[0].strip() != header:
+    if _header_of(text) != header:
         raise InputError(f"{name}, line 1: the header must read {header}.", f"{name}:1")
     rows = [_parse_row(line, 3 * legs + 1, f"{name}:{i}") for i, line in enumerate(lines[1:], 2)]
     if not rows:

@@ -23,6 +23,13 @@ SETUP_ACCELERATION = 0.0125
 LONGEST_SCAN = 0.37
 """Longest error scan that was seen in s, with slow input and output (PROTOCOL 3)."""
 
+OVERRUN = 0.18
+"""What a ramp lasts beyond its law, with the pass of the loop around it, at most, s: 2.42 s of silence for
+the 2.27 s of a 19 mm move and a pass of 0.03 s, with slow input and output (PROTOCOL 3)."""
+
+START_MOVE = 0.003
+"""Largest distance of a motor in one message on the way to the start pose, m."""
+
 ARRIVAL_THRESHOLD = THRESHOLD_MM / 1000.0
 """Distance in m within which the firmware calls a motor arrived."""
 
@@ -44,6 +51,18 @@ def ramp_time(distance: float, acceleration: float = RAMP_ACCELERATION) -> float
     return 2.0 * ramp + max(0.0, distance / RAMP_SPEED - RAMP_SPEED / acceleration)
 
 
+def ramp_distance(seconds: float) -> float:
+    """Distance of a ramp of some duration, m (see `ramp_time`).
+
+    Args:
+        seconds: at least 0.
+    """
+    until_full = RAMP_SPEED / RAMP_ACCELERATION
+    if seconds <= 2 * until_full:
+        return seconds * RAMP_SPEED / 2
+    return (seconds - until_full) * RAMP_SPEED
+
+
 def largest_moves(waypoints: Waypoints) -> Floats:
     """Largest distance of any motor from each waypoint to the next, (count − 1,) in m."""
     rows = waypoints.strokes.reshape(waypoints.count, -1)
@@ -51,8 +70,33 @@ def largest_moves(waypoints: Waypoints) -> Floats:
     return moves
 
 
-def stop_delay(waypoints: Waypoints, scan: float = LONGEST_SCAN, *, start_move: float = 0.0) -> float:
-    """Longest time from a stop's arrival at the robot until its motors are released.
+def longest_start_move(waypoints: Waypoints) -> float:
+    """Largest distance of any motor in one message on the way to a plan's start pose, m.
+
+    No longer than the plan's own largest move, so that its stop bound holds on the way too, and no shorter
+    than twice the firmware's threshold, below which parts of a move would not move.
+    """
+    largest = float(largest_moves(waypoints).max(initial=0.0))
+    return min(START_MOVE, max(largest, 2 * ARRIVAL_THRESHOLD))
+
+
+def stop_time(waypoints: Waypoints, scan: float = LONGEST_SCAN, approved: Waypoints | None = None) -> float:
+    """Longest time until a stop takes effect in a run of these waypoints, its start pose included.
+
+    Args:
+        waypoints: those that are sent.
+        scan: time of the robot's error scan in s, measured or of its profile.
+        approved: all of the plan, by which the way to the start pose is cut; None where all are sent.
+
+    Returns:
+        Seconds: the deafness, and what ramps last beyond their law.
+    """
+    start_move = longest_start_move(waypoints if approved is None else approved)
+    return deafness(waypoints, scan, start_move=start_move) + OVERRUN
+
+
+def deafness(waypoints: Waypoints, scan: float = LONGEST_SCAN, *, start_move: float = 0.0) -> float:
+    """Longest time for which the robot hears nothing, by the ramp's law; a stop bound is a bound of this.
 
     Each ramp may start up to the firmware's threshold away from the waypoint before it.
 

@@ -10,17 +10,29 @@ import trimesh
 
 from core.robot import ROBOT_NAMES, RobotModel, load_robot
 from robot_description import parts, urdf
+from robot_description.drive import yoke
 
 
 def meshes(models: Iterable[RobotModel]) -> dict[str, trimesh.Trimesh]:
     """Every mesh that the models' URDF files name, by name; parts are shared where sizes are."""
     found: dict[str, trimesh.Trimesh] = {}
     for model in models:
-        for make in (parts.board, parts.board_parts, parts.motor, parts.knee, parts.rod, parts.foot):
+        for make in (parts.board, parts.board_parts, parts.motor, parts.rod):
             found.setdefault(make.__name__, make(model))
+        found.setdefault(urdf.foot_mesh(model), parts.foot(model))
         for make in (parts.plate, parts.plate_rim):
             found[urdf.plate_mesh(model, make.__name__)] = make(model)
+        found = _knee_meshes(model) | found
     return found
+
+
+def _knee_meshes(model: RobotModel) -> dict[str, trimesh.Trimesh]:
+    """Knees with their own shafts, and what those need that share an actuator."""
+    arms = [yoke(model, motor) for motor in range(model.motor_count)]
+    found = {arm.mesh: parts.yoke(model, arm.length) for arm in arms if arm is not None}
+    if found:
+        found |= {"knee_bar": parts.knee_bar(model), "shaft": parts.shaft(model)}
+    return found | ({"knee": parts.knee(model)} if None in arms else {})
 
 
 def built_files() -> dict[str, bytes]:

@@ -11,7 +11,7 @@ import numpy as np
 import trimesh
 
 from core.leg import vertex_directions
-from core.robot import RobotModel
+from core.robot import FootEnd, RobotModel
 
 MOST_TRIANGLES = 500
 """Of one part: more is too much for drawing without a GPU."""
@@ -78,12 +78,29 @@ def motor(model: RobotModel) -> trimesh.Trimesh:
 
 def knee(model: RobotModel) -> trimesh.Trimesh:
     """The motor's shaft, as long as its travel, and the bar along y that carries both rods' upper ends."""
-    shape = model.shape
-    thick = 0.8 * shape.rod_diameter
-    bar = _box((thick, shape.rod_spacing + shape.rod_diameter, thick), (0, 0, 0))
+    return _joined([knee_bar(model), shaft(model)])
+
+
+def knee_bar(model: RobotModel) -> trimesh.Trimesh:
+    """The bar alone, of a knee that hangs on a yoke."""
+    thick = _bar_thickness(model)
+    return _box((thick, model.shape.rod_spacing + model.shape.rod_diameter, thick), (0, 0, 0))
+
+
+def shaft(model: RobotModel) -> trimesh.Trimesh:
+    """A motor's shaft standing on its knee or yoke."""
     radius, top = 0.002, model.stroke.travel + 0.002
-    shaft = _lathe([(0, 0), (radius, 0), (radius, top), (0, top)], 8)
-    return _joined([bar, shaft])
+    return _lathe([(0, 0), (radius, 0), (radius, top), (0, top)], 8)
+
+
+def yoke(model: RobotModel, length: float) -> trimesh.Trimesh:
+    """The arm along x from a knee to the shaft of the actuator that it shares; drawn, not measured."""
+    thick = _bar_thickness(model)
+    return _box((length, thick, 0.5 * thick), (length / 2, 0, 0))
+
+
+def _bar_thickness(model: RobotModel) -> float:
+    return 0.8 * model.shape.rod_diameter
 
 
 def rod(model: RobotModel) -> trimesh.Trimesh:
@@ -97,20 +114,31 @@ def rod(model: RobotModel) -> trimesh.Trimesh:
 
 
 def foot(model: RobotModel) -> trimesh.Trimesh:
-    """Platform with its three bars, foot and shoe; the platform's centre is the origin, the sole lowest."""
-    shape, sole = model.shape, model.sole_depth
-    stem, shoe = shape.foot_diameter / 2, shape.shoe_diameter / 2
-    outline = [
-        (0, -sole), (shoe - 0.001, -sole), (shoe, -sole + 0.001), (shoe, -sole + 0.006),
-        (shoe - 0.0015, -sole + 0.0075), (stem, -sole + 0.009), (stem, -0.003), (shoe - 0.002, -0.001),
-        (shoe - 0.002, 0.0015), (0, 0.0015),
-    ]  # fmt: skip
+    """Platform with its three bars, and what the leg ends in; the platform's centre is the origin."""
     bars = [_platform_bar(model, direction) for direction in vertex_directions()]
-    return _joined([_lathe(outline, 20), *bars])
+    return _joined([_lathe(_foot_outline(model), 20), *bars])
+
+
+def _foot_outline(model: RobotModel) -> list[tuple[float, float]]:
+    """(radius, height) from the sole's middle up to the platform's: shoe, bare foot or fingertip, m."""
+    shape, sole = model.shape, model.sole_depth
+    stem, end = shape.foot_diameter / 2, shape.sole_diameter / 2
+    platform = [(stem, -0.003), (0.0105, -0.001), (0.0105, 0.0015), (0, 0.0015)]
+    if shape.foot_end is FootEnd.SHOE:
+        return [
+            (0, -sole), (end - 0.001, -sole), (end, -sole + 0.001), (end, -sole + 0.006),
+            (end - 0.0015, -sole + 0.0075), (stem, -sole + 0.009), *platform,
+        ]  # fmt: skip
+    if shape.foot_end is FootEnd.BARE:
+        # Rounded from the small sole to the whole foot within 3 mm, T 2.1.1.
+        return [(0, -sole), (end, -sole), (0.85 * stem, -sole + 0.001), (stem, -sole + 0.003), *platform]
+    turns = np.linspace(0, np.pi / 2, 6)
+    round_tip = [(end * np.sin(turn), -sole + end * (1 - np.cos(turn))) for turn in turns]
+    return [*round_tip, (stem, -0.005), *platform]
 
 
 def _platform_bar(model: RobotModel, direction: np.ndarray) -> trimesh.Trimesh:
-    thick = 0.8 * model.shape.rod_diameter
+    thick = _bar_thickness(model)
     bar = _box(
         (thick, model.shape.rod_spacing + model.shape.rod_diameter, thick), (model.leg.platform_radius, 0, 0)
     )

@@ -10,19 +10,19 @@ from xml.etree import ElementTree
 
 import numpy as np
 
+from core.arrays import Floats
 from core.closed_chain import (
     BODY,
     TWINS,
     foot_joints,
     foot_link,
     knee_link,
-    knee_yaws,
     motor_joint,
     rod_joints,
     rod_link,
 )
-from core.leg import vertex_directions
-from core.robot import RobotModel
+from core.robot import FootEnd, RobotModel
+from robot_description.drive import actuator_places, actuator_yaws, motor_places, motor_yaws, yoke
 
 PAINT = {
     "plate": "#e4eaf26e",
@@ -31,13 +31,13 @@ PAINT = {
     "board_parts": "#2b3440",
     "motor": "#8d99a8",
     "knee": "#566273",
-    "rod": "#e6d3a3",
 }
-"""Colour of each part but the feet, which have the model's; the frames are clear acrylic (thesis 2.1.1)."""
+"""Colour of each part but rods and feet, which the model has; frames are clear acrylic (thesis 2.1.1)."""
 
 PLATE_PARTS = ("plate", "plate_rim")
 
 Element = ElementTree.Element
+Place = Sequence[float] | Floats
 
 
 def urdf_text(model: RobotModel) -> str:
@@ -60,13 +60,6 @@ def urdf_text(model: RobotModel) -> str:
     return ElementTree.tostring(robot, encoding="unicode") + "\n"
 
 
-def motor_position(model: RobotModel, leg: int, motor: int) -> tuple[float, float, float]:
-    """Where a motor meets the actuator plane, in the robot's frame, m."""
-    in_module = np.append(model.leg.base_radius * vertex_directions()[motor], 0.0)
-    at = model.module_centres_robot[leg] + model.R_robot_from_module[leg] @ in_module
-    return float(at[0]), float(at[1]), 0.0
-
-
 def module_yaw(model: RobotModel, leg: int) -> float:
     """Turn of a module's frame in the robot's, rad."""
     return float(model.azimuths[leg] - np.pi / 2)
@@ -77,6 +70,12 @@ def plate_mesh(model: RobotModel, part: str) -> str:
     return f"{part}_{model.name}"
 
 
+def foot_mesh(model: RobotModel) -> str:
+    """Name of the mesh of platform and foot, by what the leg ends in."""
+    end = model.shape.foot_end
+    return "foot" if end is FootEnd.SHOE else f"foot_{end}"
+
+
 def _add_body(robot: Element, model: RobotModel) -> None:
     shape = model.shape
     body = ElementTree.SubElement(robot, "link", name=BODY)
@@ -85,26 +84,35 @@ def _add_body(robot: Element, model: RobotModel) -> None:
             _add_visual(body, plate_mesh(model, part), PAINT[part], (0, 0, height))
     for part in ("board", "board_parts"):
         _add_visual(body, part, PAINT[part], (0, 0, shape.board_height))
-    for leg in range(model.leg_count):
-        for motor in range(3):
-            yaw = module_yaw(model, leg) + float(knee_yaws()[motor])
-            _add_visual(body, "motor", PAINT["motor"], motor_position(model, leg, motor), yaw)
+    for place, yaw in zip(actuator_places(model), actuator_yaws(model), strict=True):
+        _add_visual(body, "motor", PAINT["motor"], place, float(yaw))
+
+
+def _add_knee(robot: Element, model: RobotModel, leg: int, motor: int) -> None:
+    """A knee with its shaft, or on the yoke of the actuator that it shares."""
+    knee = ElementTree.SubElement(robot, "link", name=knee_link(leg, motor))
+    arm, paint = yoke(model, 3 * leg + motor), PAINT["knee"]
+    if arm is None:
+        _add_visual(knee, "knee", paint)
+        return
+    _add_visual(knee, "knee_bar", paint)
+    _add_visual(knee, arm.mesh, paint, (0, 0, 0), arm.yaw)
+    if arm.carries_shaft:
+        _add_visual(knee, "shaft", paint, arm.end)
 
 
 def _add_arm(robot: Element, model: RobotModel, leg: int, motor: int) -> None:
-    knee = knee_link(leg, motor)
-    _add_visual(ElementTree.SubElement(robot, "link", name=knee), "knee", PAINT["knee"])
-    yaw = module_yaw(model, leg) + float(knee_yaws()[motor])
-    slider = _add_joint(
-        robot, motor_joint(leg, motor), "prismatic", BODY, knee, motor_position(model, leg, motor), yaw
-    )
+    knee, index = knee_link(leg, motor), 3 * leg + motor
+    _add_knee(robot, model, leg, motor)
+    place, yaw = motor_places(model)[index], float(motor_yaws(model)[index])
+    slider = _add_joint(robot, motor_joint(leg, motor), "prismatic", BODY, knee, place, yaw)
     _add_limit(slider, (0, 0, -1), 0, model.stroke.travel, model.stroke.speed)
     for twin, side in zip(TWINS, (-0.5, 0.5), strict=True):
         lean_joint, sway_joint = rod_joints(leg, motor, twin)
         rod = rod_link(leg, motor, twin)
         hinge = f"{rod}_hinge"
         ElementTree.SubElement(robot, "link", name=hinge)
-        _add_visual(ElementTree.SubElement(robot, "link", name=rod), "rod", PAINT["rod"])
+        _add_visual(ElementTree.SubElement(robot, "link", name=rod), "rod", model.shape.rod_colour)
         at = (0, side * model.shape.rod_spacing, 0)
         lean = _add_joint(robot, lean_joint, "revolute", knee, hinge, at)
         _add_limit(lean, (0, 1, 0), -np.pi / 2, np.pi / 2, np.pi)
@@ -120,7 +128,7 @@ def _add_foot(robot: Element, model: RobotModel, leg: int) -> None:
     for axis, name in enumerate(names):
         link = ElementTree.SubElement(robot, "link", name=links[axis + 1])
         if axis == 2:
-            _add_visual(link, "foot", model.colours[leg])
+            _add_visual(link, foot_mesh(model), model.colours[leg])
         at, yaw = ((float(x), float(y), 0.0), module_yaw(model, leg)) if axis == 0 else ((0, 0, 0), 0.0)
         joint = _add_joint(robot, name, "prismatic", links[axis], links[axis + 1], at, yaw)
         low, high = (-length - model.stroke.travel, 0) if axis == 2 else (-length, length)
@@ -129,9 +137,7 @@ def _add_foot(robot: Element, model: RobotModel, leg: int) -> None:
         _add_limit(joint, direction, low, high, model.stroke.speed)
 
 
-def _add_visual(
-    link: Element, mesh: str, colour: str, at: Sequence[float] = (0, 0, 0), yaw: float = 0.0
-) -> None:
+def _add_visual(link: Element, mesh: str, colour: str, at: Place = (0, 0, 0), yaw: float = 0.0) -> None:
     visual = ElementTree.SubElement(link, "visual")
     ElementTree.SubElement(visual, "origin", xyz=_numbers(at), rpy=_numbers((0, 0, yaw)))
     geometry = ElementTree.SubElement(visual, "geometry")
@@ -147,7 +153,7 @@ def _add_joint(
     kind: str,
     parent: str,
     child: str,
-    at: Sequence[float] = (0, 0, 0),
+    at: Place = (0, 0, 0),
     yaw: float = 0.0,
 ) -> Element:
     joint = ElementTree.SubElement(robot, "joint", name=name, type=kind)
@@ -164,7 +170,7 @@ def _add_limit(joint: Element, axis: Sequence[float], lower: float, upper: float
     )
 
 
-def _numbers(values: Sequence[float]) -> str:
+def _numbers(values: Place) -> str:
     return " ".join(_number(value) for value in values)
 
 

@@ -8,34 +8,116 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from core.motion_problem import MotionProblem
+from core.patterns.problem import PatternProblem, PatternProgress, PatternResult
+from core.trajectory import Trajectory
+from solver_jobs.frontier import Frontier, FrontierSearch
 from solver_jobs.jobs import OPEN_STATES, Job, JobKind, JobState, result_sentence
-from solver_jobs.results import Evidence, Iterate, MotionResult, SolveStatus
+from solver_jobs.live_service import LiveSolver
+from solver_jobs.pattern_service import PatternSearch, PatternSolver
+from solver_jobs.remedies import Remedy, RemedySearch
+from solver_jobs.results import Evidence, Iterate, Lack, MotionResult, SolveStatus
 from solver_jobs.runner import JobRunner
+from solver_jobs.spawning import NICENESS
+from solver_jobs.timing import TimingResult, fastest_timing
 
 __all__ = [
+    "NICENESS",
     "OPEN_STATES",
     "Evidence",
+    "Frontier",
+    "FrontierSearch",
     "Iterate",
     "Job",
     "JobKind",
     "JobRunner",
     "JobState",
+    "Lack",
+    "LiveSolver",
     "MotionResult",
+    "PatternSearch",
+    "PatternSolver",
+    "Remedy",
+    "RemedySearch",
     "SolveStatus",
+    "TimingResult",
+    "fastest_timing",
     "result_sentence",
+    "shortest_problem",
+    "solve_exact",
+    "solve_live",
     "solve_motion",
+    "solve_pattern",
 ]
 
 
 def solve_motion(
-    problem: MotionProblem, progress: Callable[[Iterate], bool] = lambda iterate: True
+    problem: MotionProblem,
+    progress: Callable[[Iterate], bool] = lambda iterate: True,
+    start: Trajectory | None = None,
+    *,
+    resume: bool = False,
 ) -> MotionResult:
     """Solves a motion problem in this process; not for several threads at once.
 
     Args:
         problem: what is asked.
         progress: told of each iteration; false cancels.
+        start: a motion of the same knots with velocities and forces, such as the live tier's.
+        resume: whether to go on from the last solution of the same shape that was solved with `resume`.
     """
     from solver_jobs.motion_nlp import solve_motion as solve
 
-    return solve(problem, progress)
+    return solve(problem, progress, start, resume=resume)
+
+
+def solve_live(problem: MotionProblem) -> MotionResult:
+    """Solves a motion problem by the live tier in this process; not for several threads at once.
+
+    Args:
+        problem: what is asked.
+    """
+    from solver_jobs.live.solve import solve_live as solve
+
+    return solve(problem)
+
+
+def solve_exact(problem: MotionProblem) -> MotionResult:
+    """Solves a motion problem by the exact tier with its convex start, in this process (see `solve_live`).
+
+    Args:
+        problem: what is asked.
+    """
+    from solver_jobs.tiers import solve_exact as solve
+
+    return solve(problem)
+
+
+def solve_pattern(
+    problem: PatternProblem,
+    *,
+    count: int = 1,
+    seconds: float = 30.0,
+    progress: Callable[[PatternProgress], bool] = lambda known: True,
+) -> PatternResult:
+    """Finds the best footfall patterns in this process.
+
+    Args:
+        problem: what is sought.
+        count: how many different patterns, the best first.
+        seconds: longest search.
+        progress: told every 50 ms; false ends the search with what is known.
+    """
+    from solver_jobs.patterns.solve import solve_pattern as solve
+
+    return solve(problem, count=count, seconds=seconds, progress=progress)
+
+
+def shortest_problem(problem: PatternProblem) -> PatternProblem:
+    """A pattern's problem in the shortest length that has a pattern, in this process.
+
+    Args:
+        problem: what is sought, in the longest length that is tried; only ends and whole limbs are fixed.
+    """
+    from solver_jobs.patterns.shortest import shortest_problem as shorten
+
+    return shorten(problem)

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.draft import clearance_knot, standing_forces
+from core.lifting import held_knots, is_held, rest_heights
+from core.motion_problem import Boundary as Ends
 from core.motion_problem import RestPose
 from solver_jobs.constraint import Box, Family, Situation
 
@@ -15,7 +17,9 @@ from solver_jobs.constraint import Box, Family, Situation
 class Boundary:
     """Start and goal: x_1 = x_ic, x_N = x_g, both at rest, (3.5) and (3.6).
 
-    The forces of the last knot act on no interval; they are those of resting at the goal.
+    The forces of the last knot act on no interval; they are those of resting at the goal. Of a cycle's states
+    only the body's first place on the ground and the height of held feet are fixed here;
+    `rows_motion.ClosedCycle` ties the ends together.
     """
 
     family: Family = Family.BOUNDARY
@@ -30,10 +34,15 @@ class Boundary:
             situation.contact[-1:],
         )
         for side in (box.lower, box.upper):
+            side.force[-1] = last[0]
+            if problem.boundary is Ends.PERIODIC:
+                side.position[0, 0, :2] = problem.start.body_world[:2]
+                held = problem.held_start
+                side.position[0, 1:, 2][held] = problem.start.feet_world[held, 2]
+                continue
             side.position[0] = _points(problem.start)
             side.position[-1] = _points(problem.goal)
             side.velocity[[0, -1]] = 0.0
-            side.force[-1] = last[0]
 
 
 def _points(pose: RestPose) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
@@ -102,13 +111,18 @@ class FlatLanding:
     family: Family = Family.GROUNDED_HEIGHT
 
     def tighten(self, box: Box, situation: Situation) -> None:
-        """Bounds the z of each landing but the last one, which the goal fixes."""
-        start, goal = situation.problem.start.feet_world, situation.problem.goal.feet_world
+        """Bounds the z of each landing but the last, which the goal fixes; of a cycle all, and the start."""
+        problem = situation.problem
+        ends = ((problem.start, problem.held_start), (problem.goal, problem.held_end))
+        highest = np.maximum(*(np.where(held, 0.0, pose.feet_world[:, 2]) for pose, held in ends))
+        cycle = problem.boundary is Ends.PERIODIC
+        if cycle:
+            _at_most(box.upper.position[0, 1:, 2], np.where(problem.held_start, np.inf, highest))
         for swing in situation.swings:
             landing = swing.last + 1
-            if not situation.contact[landing:, swing.foot].all():
-                highest = float(max(start[swing.foot, 2], goal[swing.foot, 2]))
-                _at_most(box.upper.position[landing, 1 + swing.foot, 2:], highest)
+            lands = not rest_heights(problem, swing)[1]
+            if lands and (cycle or not situation.contact[landing:, swing.foot].all()):
+                _at_most(box.upper.position[landing, 1 + swing.foot, 2:], highest[swing.foot])
 
 
 @dataclass(frozen=True)
@@ -137,15 +151,23 @@ class FloatingForce:
 
 @dataclass(frozen=True)
 class Clearance:
-    """The middle knot of each swing is lifted; without it the optimum drags its feet."""
+    """The middle knot of each swing is lifted; without it the optimum drags its feet.
+
+    A foot that is held up at an end is as high as that up to where it comes down, or from where it has risen.
+    """
 
     family: Family = Family.CLEARANCE
 
     def tighten(self, box: Box, situation: Situation) -> None:
-        """Bounds the z of each swing's middle knot from below."""
+        """Bounds the z of each swing's middle knot from below, and of a held foot's knots."""
+        problem = situation.problem
         for swing in situation.swings:
-            knot = clearance_knot(swing)
-            _at_least(box.lower.position[knot, 1 + swing.foot, 2:], situation.problem.limits.clearance)
+            if is_held(problem, swing):
+                knots, height = held_knots(problem, swing)
+            else:
+                knot, height = clearance_knot(swing, problem.intervals), problem.limits.clearance
+                knots = range(knot, knot + 1)
+            _at_least(box.lower.position[knots.start : knots.stop, 1 + swing.foot, 2], height)
 
 
 Values = np.ndarray[tuple[int, ...], np.dtype[np.float64]]

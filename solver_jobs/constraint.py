@@ -40,6 +40,9 @@ class Family(StrEnum):
     WORKSPACE = "workspace"
     CLEARANCE = "clearance"
     MARGIN = "margin"
+    FRICTION = "friction"
+    MOTOR_SPEED = "motor_speed"
+    MOTOR_ACCELERATION = "motor_acceleration"
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +51,7 @@ class Situation:
 
     Args:
         problem: the problem.
-        contact: (n, legs) stance; the last knot is stance.
+        contact: (n, legs) stance; at the last knot of every foot that is not held up.
         swings: every swing.
         successor: (n, legs) next standing foot round the ring.
     """
@@ -137,6 +140,10 @@ class RowConstraint(Protocol):
     @property
     def per_unit(self) -> float:
         """About how much the rows change where `excess` changes by 1, near the bound."""
+
+    @property
+    def rows_per_foot(self) -> int:
+        """How many rows of a knot belong to each foot, foot after foot; 0 where they are the body's."""
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """(rows a knot, knots) in the solver's scale; knots count from the first."""

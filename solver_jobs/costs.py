@@ -7,15 +7,15 @@ from casadi import SX, dot
 from core.motion_problem import Cost
 from core.robot import RobotModel
 from core.support import GRAVITY
-from solver_jobs.variables import MM, Symbols
+from solver_jobs.variables import MM, Symbols, per_interval
 
 COST_SCALE = MM**2
 """The solver's cost is the thesis's in SI times this."""
 
 FORCE_PREFERENCE = 1.0
-"""Weight of ½‖λ‖² (N², in the solver's scale). It picks the smallest of equally good contact forces, which
-the thesis's cost leaves open and which would leave the Hessian singular; its share of the reported cost is
-taken off again."""
+"""Weight of ½‖λ‖² (N², in the solver's scale), and of the slopes where these are unknowns. It picks the
+smallest of equally good contact forces, which the thesis's cost leaves open and which would leave the Hessian
+singular; its share of the reported cost is taken off again."""
 
 
 def cost_of(kind: Cost, symbols: Symbols, model: RobotModel) -> SX:
@@ -26,7 +26,7 @@ def cost_of(kind: Cost, symbols: Symbols, model: RobotModel) -> SX:
 
 def force_preference(symbols: Symbols) -> SX:
     """What is added to the cost so that contact forces are unique."""
-    return FORCE_PREFERENCE / 2 * sum((dot(force, force) for force in symbols.force), SX(0))
+    return FORCE_PREFERENCE / 2 * sum((dot(part, part) for part in (*symbols.force, *symbols.slope)), SX(0))
 
 
 def _goal_distance(symbols: Symbols) -> SX:
@@ -42,7 +42,7 @@ def _effort(symbols: Symbols, model: RobotModel) -> SX:
     """½ Σ ‖F‖² over every interval, (3.3), with the internal forces F = m_f (a + g) − λ of (3.2), N²."""
     total = SX(0)
     for velocity, force in zip(symbols.velocity[1:], symbols.force, strict=True):
-        acceleration = (velocity[:, 1:] - velocity[:, :-1]) / (MM * symbols.sample_time)
+        acceleration = per_interval(velocity[:, 1:] - velocity[:, :-1], symbols) / MM
         internal = model.masses.foot * acceleration - force[:, :-1]
         weight = SX([0.0, 0.0, model.masses.foot * GRAVITY]) @ SX.ones(1, internal.shape[1])
         total += dot(internal + weight, internal + weight)

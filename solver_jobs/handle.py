@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import multiprocessing
+from collections.abc import Callable
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
+from typing import Any
 
-from core.motion_problem import MotionProblem
-from solver_jobs.worker import Broke, Finished, Progressed, Stop, Work, run_worker
+from solver_jobs.spawning import start_process
+from solver_jobs.worker import run_worker
 
 JOIN_SECONDS = 5.0
 """How long a killed process may take to be gone."""
@@ -18,10 +19,23 @@ class WorkerEndedError(Exception):
 
 
 class WorkerHandle:
-    """Starts, feeds, reads and ends one worker. For one thread; only `kill` may come from another."""
+    """Starts, feeds, reads and ends one worker. For one thread; only `kill` may come from another.
 
-    def __init__(self, warm_up: MotionProblem | None) -> None:
+    Args:
+        warm_up: what the worker solves ahead; None for nothing.
+        body: what the process runs, given its end of the pipe and `warm_up`.
+        name: of the process.
+    """
+
+    def __init__(
+        self,
+        warm_up: Any,
+        body: Callable[[Connection, Any], None] = run_worker,
+        name: str = "footfall-solver",
+    ) -> None:
         self._warm_up = warm_up
+        self._body = body
+        self._name = name
         self._process: SpawnProcess | None = None
         self._pipe: Connection | None = None
 
@@ -36,16 +50,9 @@ class WorkerHandle:
         if self.process_id is not None:
             return
         self.kill()
-        context = multiprocessing.get_context("spawn")
-        ours, theirs = context.Pipe()
-        process = context.Process(
-            target=run_worker, args=(theirs, self._warm_up), name="footfall-solver", daemon=True
-        )
-        process.start()
-        theirs.close()
-        self._process, self._pipe = process, ours
+        self._process, self._pipe = start_process(self._body, self._warm_up, self._name)
 
-    def send(self, message: Work | Stop) -> None:
+    def send(self, message: object) -> None:
         """Sends a message.
 
         Raises:
@@ -56,7 +63,7 @@ class WorkerHandle:
         except (OSError, ValueError) as error:
             raise self._ended() from error
 
-    def receive(self, timeout: float) -> Progressed | Finished | Broke | None:
+    def receive(self, timeout: float) -> Any:
         """The next message, or None when none came within `timeout` seconds.
 
         Raises:
@@ -66,10 +73,9 @@ class WorkerHandle:
         try:
             if not pipe.poll(timeout):
                 return None
-            message: Progressed | Finished | Broke = pipe.recv()
+            return pipe.recv()
         except (EOFError, OSError) as error:
             raise self._ended() from error
-        return message
 
     def kill(self) -> None:
         """Ends the process at once and waits until it is gone."""

@@ -7,12 +7,16 @@ from enum import StrEnum
 
 from core.motion_problem import MotionProblem
 from solver_jobs.results import Iterate, MotionResult, SolveStatus
+from solver_jobs.timing import TimingResult
 
 
 class JobKind(StrEnum):
     """What kind of computation it is."""
 
     MOTION = "motion"
+    """The motion of a gait."""
+    TIMING = "timing"
+    """The shortest phases for a gait's order and goal."""
 
 
 class JobState(StrEnum):
@@ -68,7 +72,7 @@ class Job:
     started: float | None = None
     ended: float | None = None
     progress: tuple[Iterate, ...] = ()
-    result: MotionResult | None = None
+    result: MotionResult | TimingResult | None = None
     sentence: str = ""
 
     @property
@@ -77,8 +81,24 @@ class Job:
         return self.state in OPEN_STATES
 
 
-def result_sentence(result: MotionResult) -> str:
+def result_sentence(result: MotionResult | TimingResult) -> str:
     """A result in one sentence."""
+    if isinstance(result, TimingResult):
+        return _timing_sentence(result)
     if result.status is SolveStatus.SOLVED:
         return f"Solved in {result.iteration_count} iterations, {result.solve_seconds * 1000:.0f} ms."
+    return result.explanation[0]
+
+
+def _timing_sentence(result: TimingResult) -> str:
+    if result.status is SolveStatus.SOLVED:
+        usable = (
+            ""
+            if result.usable_timeline is None
+            else f" In whole samples {result.usable_timeline.times[-1]:.1f} s."
+        )
+        return (
+            f"The fastest timing takes {result.total_seconds:.1f} s, as drawn {result.drawn_seconds:.1f} s "
+            f"({result.iterations} iterations, {result.solve_seconds:.1f} s).{usable}"
+        )
     return result.explanation[0]

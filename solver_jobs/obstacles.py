@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from core.motion_problem import missing_support
+from core.arrays import Floats
+from core.draft import rise_times
+from core.lifting import is_held
+from core.motion_problem import Boundary, MotionProblem, missing_support
 from core.support import GRAVITY
+from core.timeline import Swing
 from solver_jobs.constraint import Box, Situation
 from solver_jobs.diagnosis import knot_ranges
+from solver_jobs.held_obstacles import held_obstacles
 from solver_jobs.variables import MM
 from solver_jobs.words import FAMILY_WORDS, REMEDIES
 
@@ -23,6 +28,7 @@ def obstacles(situation: Situation, box: Box) -> tuple[str, ...]:
         _no_area(situation),
         _contradictions(situation, box),
         _short_swings(situation),
+        held_obstacles(situation.problem),
         _far_feet(situation),
         _far_body(situation),
     )
@@ -34,7 +40,7 @@ def _falling(situation: Situation) -> str | None:
     problem = situation.problem
     floating = tuple(int(k) for k in np.nonzero(~situation.contact[:-1].any(axis=1))[0])
     fastest = max(problem.limits.body_speed, problem.limits.foot_speed)
-    if not floating or GRAVITY * problem.timeline.sample_time <= 2 * fastest:
+    if not floating or GRAVITY * problem.intervals[list(floating)].max() <= 2 * fastest:
         return None
     return f"No foot stands at {knot_ranges(floating)}, so the robot falls. Keep at least three feet down."
 
@@ -58,29 +64,44 @@ def _contradictions(situation: Situation, box: Box) -> list[str]:
 
 
 def _short_swings(situation: Situation) -> list[str]:
-    """A swing of L knots lifts its middle knot by at most dt·v·(knots to the nearer end + ½)."""
+    """A foot rests beside its swing, so it rises at most v·(time to the nearer end) from where it stood."""
     problem, sentences = situation.problem, []
-    for swing in situation.swings:
-        half = (swing.last - swing.first) // 2
-        reach = problem.timeline.sample_time * problem.limits.foot_speed * (half + 0.5)
-        highest = 0.0 if swing.first == swing.last else reach
-        if highest < problem.limits.clearance - SLACK:
-            sentences.append(
-                f"Foot {swing.foot + 1} is in the air at knots {swing.first + 1} to {swing.last + 1}: too "
-                f"short to rise {problem.limits.clearance * MM:.1f} mm (at most {highest * MM:.1f} mm at "
-                f"{problem.limits.foot_speed * MM:.0f} mm/s). Lengthen the swing or lower the clearance."
-            )
+    for swing, highest in low_swings(problem, situation.swings):
+        sentences.append(
+            f"Foot {swing.foot + 1} is in the air at {knot_ranges(tuple(swing.samples))}: too short to rise "
+            f"{problem.limits.clearance * MM:.1f} mm (at most {highest * MM:.1f} mm at "
+            f"{problem.limits.foot_speed * MM:.0f} mm/s). Lengthen the swing or lower the clearance."
+        )
     return sentences
 
 
+def low_swings(problem: MotionProblem, swings: tuple[Swing, ...]) -> list[tuple[Swing, float]]:
+    """Swings that are too short for the clearance, and how high each can rise at most, m.
+
+    None is asked of a foot that is held up before or after its swing.
+    """
+    found = []
+    for swing in swings:
+        if is_held(problem, swing):
+            continue
+        lone = max(swing.first, 1) >= swing.last
+        acting = 0.0 if lone else float(rise_times(swing, problem.intervals).max())
+        highest = acting * problem.limits.foot_speed + problem.limits.grounded_height
+        if highest < problem.limits.clearance - SLACK:
+            found.append((swing, highest))
+    return found
+
+
 def _far_feet(situation: Situation) -> list[str]:
-    """A foot travels at most dt·v a knot in the air."""
+    """A foot travels at most v in the time that acts on its knots in the air."""
     problem, sentences = situation.problem, []
     inner = ~situation.contact[1:-1]
+    acting = _acting_times(problem)[1:-1]
     for foot in range(problem.model.leg_count):
         way = float(np.linalg.norm((problem.goal.feet_world - problem.start.feet_world)[foot, :2]))
         count = int(inner[:, foot].sum())
-        reach = count * problem.timeline.sample_time * problem.limits.foot_speed
+        seconds = float(inner[:, foot] @ acting)
+        reach = seconds * problem.limits.foot_speed
         if way > SLACK and count == 0:
             sentences.append(
                 f"Foot {foot + 1} has to travel {way * MM:.1f} mm but never swings. Give it a swing or "
@@ -88,7 +109,7 @@ def _far_feet(situation: Situation) -> list[str]:
             )
         elif way > reach + SLACK:
             sentences.append(
-                f"Foot {foot + 1} has to travel {way * MM:.1f} mm but its {count} knots in the air allow "
+                f"Foot {foot + 1} has to travel {way * MM:.1f} mm but its {seconds:.1f} s in the air allow "
                 f"{reach * MM:.1f} mm at {problem.limits.foot_speed * MM:.0f} mm/s. Lengthen its swing or "
                 "shorten the step."
             )
@@ -96,13 +117,20 @@ def _far_feet(situation: Situation) -> list[str]:
 
 
 def _far_body(situation: Situation) -> list[str]:
-    """The body travels at most dt·v a knot between its resting ends."""
+    """The body travels at most v in the time between its ends, where it rests or, in a cycle, goes on."""
     problem = situation.problem
     way = float(np.linalg.norm(problem.goal.body_world - problem.start.body_world))
-    reach = (problem.knot_count - 2) * problem.timeline.sample_time * problem.limits.body_speed
+    acting = _acting_times(problem)
+    span = acting.sum() if problem.boundary is Boundary.PERIODIC else acting[1:-1].sum()
+    reach = float(span) * problem.limits.body_speed
     if way <= reach + SLACK:
         return []
     return [
         f"The body has to travel {way * MM:.1f} mm but {problem.knot_count} knots allow {reach * MM:.1f} mm "
         f"at {problem.limits.body_speed * MM:.0f} mm/s. Lengthen the gait or shorten the step."
     ]
+
+
+def _acting_times(problem: MotionProblem) -> Floats:
+    """(n,) how long each knot's velocity acts: half of the intervals beside it, s."""
+    return np.asarray((np.append(problem.intervals, 0.0) + np.append(0.0, problem.intervals)) / 2)

@@ -45,6 +45,29 @@ class Iterate:
     step: float
 
 
+@dataclass(frozen=True)
+class Lack:
+    """A demand that the nearest motion found still misses.
+
+    Args:
+        family: which, by the checker's name, or `margin`.
+        amount: by how much, in `unit`.
+        unit: mm, mm/s or N; of the foot's load where it is friction.
+        first: first knot of the phase concerned, 0-based.
+        last: last knot of that phase, included.
+        feet: the foot concerned, or both feet of the support polygon's edge, 0-based; empty for the body.
+        sentence: all of this in words.
+    """
+
+    family: str
+    amount: float
+    unit: str
+    first: int
+    last: int
+    feet: tuple[int, ...]
+    sentence: str
+
+
 @dataclass(frozen=True, eq=False)
 class MotionResult:
     """The outcome of one solve.
@@ -60,7 +83,9 @@ class MotionResult:
         build_seconds: time to build the structure; 0 where it was at hand.
         trajectory: the last iterate, with velocities and forces. It is a motion that keeps the
             constraints only where the status is solved.
-        initial: the drawing that the solver started from.
+        initial: what the solver started from.
+        lacks: what the nearest motion misses, the worst first, where it is infeasible.
+        course: the motion at each of the iterations, the start included; empty where it was not kept.
     """
 
     status: SolveStatus
@@ -73,6 +98,8 @@ class MotionResult:
     build_seconds: float
     trajectory: Trajectory
     initial: Trajectory
+    lacks: tuple[Lack, ...] = ()
+    course: tuple[Trajectory, ...] = ()
 
     @property
     def iteration_count(self) -> int:

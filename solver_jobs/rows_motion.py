@@ -1,17 +1,17 @@
-"""Row constraints of the motion itself: integration, forces, torque, speeds."""
+"""Row constraints of the motion itself: integration, balance of forces, speeds, closed cycles."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
-from casadi import SX, vertcat
+from casadi import SX, repmat, vertcat
 
 from core.arrays import Floats
 from core.robot import RobotModel
 from core.support import GRAVITY
 from solver_jobs.constraint import Family, Situation, outside
-from solver_jobs.variables import MM, Symbols
+from solver_jobs.variables import MM, Symbols, axes_of, change_between_knots, per_interval
 
 
 @dataclass(frozen=True)
@@ -24,13 +24,14 @@ class Integration:
     family: Family = Family.DYNAMICS
     unit: str = "mm"
     per_unit: float = 1.0
+    rows_per_foot: int = 0
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """Three rows a point and interval, mm."""
         rows = []
         for p, v in zip(symbols.position, symbols.velocity, strict=True):
             mean = (v[:, :-1] + v[:, 1:]) / 2
-            rows.append(p[:, 1:] - p[:, :-1] - symbols.sample_time * mean)
+            rows.append(p[:, 1:] - p[:, :-1] - repmat(symbols.intervals, 3, 1) * mean)
         return vertcat(*rows)
 
     def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
@@ -49,16 +50,17 @@ class ForceBalance:
     family: Family = Family.DYNAMICS
     unit: str = "N"
     per_unit: float = 1.0
+    rows_per_foot: int = 0
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """Three rows an interval, N."""
-        change = model.masses.body * _change(symbols.velocity[0])
+        change = model.masses.body * change_between_knots(symbols.velocity[0])
         for velocity in symbols.velocity[1:]:
-            change += model.masses.foot * _change(velocity)
+            change += model.masses.foot * change_between_knots(velocity)
         contact = symbols.force[0]
         for force in symbols.force[1:]:
             contact = contact + force
-        return change / (MM * symbols.sample_time) - contact[:, :-1]
+        return per_interval(change, symbols) / MM - contact[:, :-1]
 
     def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
         """Equality to minus the weight."""
@@ -70,42 +72,32 @@ class ForceBalance:
         return outside(values, lower, upper)
 
 
-def _change(velocity: SX) -> SX:
-    return velocity[:, 1:] - velocity[:, :-1]
-
-
 @dataclass(frozen=True)
-class BodyTorque:
-    """No torque about the body's point, (3.15): Σ λ^(i) × (p^(i) − p^(b)) = 0 at every knot but the last.
+class ClosedCycle:
+    """The last knot is the first, moved on: x_N − x_1 = x_g − x_ic, the velocities equal."""
 
-    The rows are divided by the robot's weight: mm by which the centre of pressure is off.
-    """
-
-    family: Family = Family.BODY_TORQUE
+    family: Family = Family.BOUNDARY
     unit: str = "mm"
     per_unit: float = 1.0
+    rows_per_foot: int = 0
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
-        """Three rows an interval, mm."""
-        body = symbols.position[0][:, :-1]
-        torque = SX.zeros(*body.shape)
-        for force, foot in zip(symbols.force, symbols.position[1:], strict=True):
-            fx, fy, fz = _axes(force[:, :-1])
-            rx, ry, rz = _axes(foot[:, :-1] - body)
-            torque += vertcat(fy * rz - fz * ry, fz * rx - fx * rz, fx * ry - fy * rx)
-        return torque / (model.total_model_mass * GRAVITY)
+        """Positions and velocities of the last knot less those of the first, one column."""
+        parts = (*symbols.position, *symbols.velocity)
+        return vertcat(*(part[:, -1] - part[:, 0] for part in parts))
 
     def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
-        """Equality."""
-        return np.zeros(1), np.zeros(1)
+        """Equality to the way from start to goal."""
+        start, goal = situation.problem.start, situation.problem.goal
+        ways = np.concatenate(
+            [(goal.body_world - start.body_world)[None], goal.feet_world - start.feet_world]
+        )
+        values = np.concatenate([ways.reshape(-1) * MM, np.zeros(ways.size)])
+        return values, values
 
     def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
-        """How far off the centre of pressure is, mm."""
+        """How far the last knot is off, mm or mm/s."""
         return outside(values, lower, upper)
-
-
-def _axes(vectors: SX) -> tuple[SX, SX, SX]:
-    return vectors[0, :], vectors[1, :], vectors[2, :]
 
 
 @dataclass(frozen=True)
@@ -115,6 +107,7 @@ class FootSpeed:
     family: Family = Family.FOOT_SPEED
     unit: str = "mm/s"
     per_unit: float = 30.0
+    rows_per_foot: int = 1
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """A row a foot and knot, mm²/s²."""
@@ -136,6 +129,7 @@ class BodySpeed:
     family: Family = Family.BODY_SPEED
     unit: str = "mm/s"
     per_unit: float = 30.0
+    rows_per_foot: int = 0
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """A row a knot, mm²/s²."""
@@ -151,7 +145,7 @@ class BodySpeed:
 
 
 def _squared(vectors: SX) -> SX:
-    x, y, z = _axes(vectors)
+    x, y, z = axes_of(vectors)
     return x**2 + y**2 + z**2
 
 

@@ -12,21 +12,40 @@ from core.motion_problem import CYLINDER, CylinderWorkspace
 from core.robot import RobotModel
 from core.support import GRAVITY
 from solver_jobs.constraint import Family, Situation, outside
-from solver_jobs.leg_equations import squared_offsets
+from solver_jobs.leg_equations import VERTICES, Arms, squared_offsets
 from solver_jobs.variables import MM, Symbols
 
 _ROD_SLOPE = 90.0
 """d(d_i + (z + h)²)/dh at the middle of the workspace, mm, to speak of mm of stroke."""
 
 
-def feet_from_modules(symbols: Symbols, model: RobotModel) -> list[SX]:
-    """(3, n) each foot from its module's centre in the world's axes, heading 0, mm."""
-    centres = model.module_centres_robot + [0.0, 0.0, -model.com_height]
-    body = symbols.position[0]
-    return [
-        foot - body - SX(centre * MM) @ SX.ones(1, body.shape[1])
-        for foot, centre in zip(symbols.position[1:], centres, strict=True)
+def feet_from_body(symbols: Symbols) -> list[SX]:
+    """(3, n) each foot from the body's point in the world's axes, mm."""
+    return [foot - symbols.position[0] for foot in symbols.position[1:]]
+
+
+def turned_with_body(symbols: Symbols, x: float, y: float) -> tuple[SX, SX]:
+    """(1, n) world's axes of a horizontal vector that is fixed in the body's frame.
+
+    Distances do not change when both of their ends turn. So feet stay in the world's axes and the module's
+    points turn, which keeps x and y of the unknowns apart in second derivatives.
+    """
+    cosine, sine = symbols.turn
+    return cosine * x - sine * y, sine * x + cosine * y
+
+
+def motor_arms_world(symbols: Symbols, model: RobotModel) -> list[Arms]:
+    """For each foot, `leg_equations.motor_arms` in the world's axes, mm."""
+    reach = model.leg.reach_radius * MM
+    vertices = [
+        [R @ np.array([reach * ex, reach * ey, 0.0]) + centre * MM for ex, ey in VERTICES]
+        for R, centre in zip(model.R_robot_from_module, model.module_centres_robot, strict=True)
     ]
+    found: list[Arms] = []
+    for foot, own in zip(feet_from_body(symbols), vertices, strict=True):
+        anchors = [turned_with_body(symbols, float(v[0]), float(v[1])) for v in own]
+        found.append([(foot[0, :] - x, foot[1, :] - y) for x, y in anchors])
+    return found
 
 
 @dataclass(frozen=True)
@@ -37,11 +56,15 @@ class CylinderDisc:
     family: Family = Family.WORKSPACE
     unit: str = "mm"
     per_unit: float = 27.0
+    rows_per_foot: int = 1
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """A row a foot and knot, mm²."""
-        feet = feet_from_modules(symbols, model)
-        return vertcat(*(foot[0, :] ** 2 + foot[1, :] ** 2 for foot in feet))
+        rows = []
+        for foot, centre in zip(feet_from_body(symbols), model.module_centres_robot * MM, strict=True):
+            x, y = turned_with_body(symbols, float(centre[0]), float(centre[1]))
+            rows.append((foot[0, :] - x) ** 2 + (foot[1, :] - y) ** 2)
+        return vertcat(*rows)
 
     def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
         """At most the radius squared."""
@@ -60,10 +83,11 @@ class CylinderHeight:
     family: Family = Family.WORKSPACE
     unit: str = "mm"
     per_unit: float = 1.0
+    rows_per_foot: int = 1
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """A row a foot and knot, mm."""
-        return vertcat(*(foot[2, :] for foot in feet_from_modules(symbols, model)))
+        return vertcat(*(foot[2, :] + model.com_height * MM for foot in feet_from_body(symbols)))
 
     def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
         """Floor and lid under the actuator plane."""
@@ -83,6 +107,7 @@ class StrokeUpper:
     family: Family = Family.WORKSPACE
     unit: str = "mm"
     per_unit: float = _ROD_SLOPE
+    rows_per_foot: int = 3
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """Three rows a foot and knot, mm²."""
@@ -104,6 +129,7 @@ class StrokeLower:
     family: Family = Family.WORKSPACE
     unit: str = "mm"
     per_unit: float = _ROD_SLOPE
+    rows_per_foot: int = 3
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """Three rows a foot and knot, mm²."""
@@ -120,12 +146,10 @@ class StrokeLower:
 
 def _stroke_rows(symbols: Symbols, model: RobotModel, stroke: float) -> SX:
     rows: list[SX] = []
-    turns = model.R_robot_from_module
-    for foot, turn in zip(feet_from_modules(symbols, model), turns, strict=True):
-        module = SX(turn.T) @ foot
-        offsets = squared_offsets(model.leg.reach_radius * MM, [module[0, :], module[1, :], module[2, :]])
-        height = (module[2, :] + stroke * MM) ** 2 - (model.leg.link_length * MM) ** 2
-        rows.extend(offset + height for offset in offsets)
+    for foot, arms in zip(feet_from_body(symbols), motor_arms_world(symbols, model), strict=True):
+        depth = foot[2, :] + (model.com_height + stroke) * MM
+        height = depth**2 - (model.leg.link_length * MM) ** 2
+        rows.extend(offset + height for offset in squared_offsets(arms))
     return vertcat(*rows)
 
 
@@ -144,6 +168,7 @@ class StabilityMargin:
     family: Family = Family.MARGIN
     unit: str = "mm"
     per_unit: float = 1.0
+    rows_per_foot: int = 1
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """A row a foot and interval, mm."""

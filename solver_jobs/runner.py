@@ -71,7 +71,7 @@ class JobRunner:
     ) -> None:
         self.close()
 
-    def submit(self, problem: MotionProblem, label: str) -> str:
+    def submit(self, problem: MotionProblem, label: str, kind: JobKind = JobKind.MOTION) -> str:
         """Queues a job and returns its id.
 
         Raises:
@@ -87,7 +87,7 @@ class JobRunner:
                 )
             job = Job(
                 id=secrets.token_hex(6),
-                kind=JobKind.MOTION,
+                kind=kind,
                 label=label,
                 problem=problem,
                 state=JobState.QUEUED,

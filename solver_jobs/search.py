@@ -1,24 +1,47 @@
-"""One problem in the solver's hands: start, attempts, the course of iterations."""
+"""One problem in the solver's hands: starts, attempts, the course of iterations."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from core.arrays import Floats
 from core.trajectory import Trajectory
-from solver_jobs.constraint import Box, Situation
+from solver_jobs.assembly import asked_families
+from solver_jobs.constraint import Box, Family, Situation
 from solver_jobs.costs import COST_SCALE
 from solver_jobs.diagnosis import Shortfall, shortfalls
 from solver_jobs.results import Iterate
-from solver_jobs.structure import Structure
-from solver_jobs.variables import parameter_values, trajectory_of_vector, unpacked, vector_of_trajectory
+from solver_jobs.structure import Ipopt, Structure
+from solver_jobs.variables import (
+    forces_of_slopes,
+    parameter_values,
+    slopes_of_forces,
+    trajectory_of_vector,
+    unpacked,
+    vector_of_trajectory,
+)
 
 Progress = Callable[[Iterate], bool]
 """Is told of each iteration; false cancels."""
+
+
+@dataclass(frozen=True, eq=False)
+class Point:
+    """Where IPOPT starts or has ended.
+
+    Args:
+        vector: the unknowns in the solver's scale.
+        bound_multipliers: of each unknown's bounds, or None where unknown.
+        row_multipliers: of each row, or None where unknown.
+    """
+
+    vector: Floats
+    bound_multipliers: Floats | None = None
+    row_multipliers: Floats | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,13 +50,15 @@ class Attempt:
 
     Args:
         word: IPOPT's return status.
-        vector: the unknowns at its end.
-        cost: of these, SI.
-        missed: demands that they miss notably, the worst first.
+        begin: where it started.
+        end: where it ended.
+        cost: of the end, SI.
+        missed: demands that the end misses notably, the worst first.
     """
 
     word: str
-    vector: Floats
+    begin: Point
+    end: Point
     cost: float
     missed: tuple[Shortfall, ...]
 
@@ -46,74 +71,105 @@ class Search:
         initial: the drawing to start from.
         box: bounds of every unknown.
         progress: told of each iteration.
+        shift: by how many feet the problem was handed back to stand in direction 1.
     """
 
-    def __init__(self, situation: Situation, initial: Trajectory, box: Box, progress: Progress) -> None:
+    def __init__(
+        self, situation: Situation, initial: Trajectory, box: Box, progress: Progress, shift: int = 0
+    ) -> None:
         self._situation = situation
         self._initial = initial
         self._progress = progress
-        self._parameters = parameter_values(situation.problem, situation.successor)
-        self._lower, self._upper = box.lower.packed(), box.upper.packed()
-        # Within the bounds from the first, so that what is fixed is exact.
-        self.start = np.clip(vector_of_trajectory(initial).packed(), self._lower, self._upper)
+        self._shift = shift
+        self._slopes = Family.FRICTION in asked_families(situation.problem)
+        self.parameters = parameter_values(situation.problem, situation.successor)
+        self.lower, self.upper = box.lower.packed(), box.upper.packed()
+        self._vectors: list[Floats] = []
+        self.drawing = self.point(initial)
         self.iterates: list[Iterate] = []
         self.seconds = 0.0
 
+    def point(self, motion: Trajectory) -> Point:
+        """A motion as a start: within the bounds from the first, so that what is fixed is exact.
+
+        Raises:
+            ValueError: it lacks velocities or forces.
+        """
+        vector = vector_of_trajectory(motion)
+        packed = (slopes_of_forces(vector) if self._slopes else vector).packed()
+        return Point(np.clip(packed, self.lower, self.upper))
+
     def broken_constants(self, structure: Structure) -> tuple[Shortfall, ...]:
         """What the fixed unknowns alone decide, and break."""
-        values = self._rows(structure, self.start)
-        constant = structure.constant_rows(self._upper > self._lower)
+        values = self._rows(structure, self.drawing.vector)
+        constant = structure.constant_rows(self.upper > self.lower)
         lower, upper = structure.row_bounds(self._situation)
-        return shortfalls(
-            structure, self._situation, np.where(constant, values, np.clip(values, lower, upper))
-        )
+        values = np.where(constant, values, np.clip(values, lower, upper))
+        return shortfalls(structure, self._situation, values, self._shift)
 
-    def attempt(self, structure: Structure, start: Floats) -> Attempt:
-        """Runs IPOPT from a start."""
-        free = np.zeros(structure.misses)
+    def attempt(self, structure: Structure, start: Point, solver: Ipopt | None = None) -> Attempt:
+        """Runs IPOPT from a start.
+
+        Args:
+            structure: the problem's shape.
+            start: with multipliers for a solver that goes on from them.
+            solver: another one than the structure's own.
+        """
+        function, monitor = solver or structure.solver
         row_lower, row_upper = structure.row_bounds(self._situation)
-        monitor = structure.monitor
+        vector = np.clip(start.vector, self.lower, self.upper)
+        misses = structure.misses_of(self._rows(structure, vector), row_lower, row_upper)
+        none = np.zeros_like(misses)
+        known = {"lam_x0": start.bound_multipliers, "lam_g0": start.row_multipliers}
         monitor.error = None
-        monitor.listener = lambda vector, figures: self._note(structure, vector, figures)
+        monitor.listener = lambda now, figures: self._note(structure, now, figures)
         begin = time.perf_counter()
         try:
-            answer = structure.solver(
-                x0=np.concatenate([start, free]),
-                p=self._parameters,
-                lbx=np.concatenate([self._lower, free]),
-                ubx=np.concatenate([self._upper, free + np.inf]),
+            answer = function(
+                x0=np.concatenate([vector, misses]),
+                p=self.parameters,
+                lbx=np.concatenate([self.lower, none]),
+                ubx=np.concatenate([self.upper, none + np.inf]),
                 lbg=row_lower,
                 ubg=row_upper,
+                **{name: values for name, values in known.items() if values is not None},
             )
         finally:
             monitor.listener = None
             self.seconds += time.perf_counter() - begin
         if monitor.error is not None:
             raise monitor.error
-        vector = np.array(answer["x"]).reshape(-1)[: len(self.start)]
-        missed = shortfalls(structure, self._situation, self._rows(structure, vector))
-        word = str(structure.solver.stats()["return_status"])
-        return Attempt(word, vector, self._cost(structure, vector), missed)
+        found, bounds, rows = (np.array(answer[name]).reshape(-1) for name in ("x", "lam_x", "lam_g"))
+        end = Point(found[: len(vector)], bounds[: len(vector)], rows)
+        missed = shortfalls(structure, self._situation, self._rows(structure, end.vector), self._shift)
+        word = str(function.stats()["return_status"])
+        return Attempt(word, replace(start, vector=vector), end, self._cost(structure, end.vector), missed)
 
-    def trajectory(self, attempt: Attempt) -> Trajectory:
-        """The motion at the end of an attempt."""
+    def trajectory(self, vector: Floats) -> Trajectory:
+        """The motion of these unknowns."""
         problem = self._situation.problem
-        motion = unpacked(attempt.vector, problem.knot_count, problem.model.leg_count)
-        return trajectory_of_vector(motion, self._initial)
+        motion = unpacked(vector, problem.knot_count, problem.model.leg_count)
+        return trajectory_of_vector(forces_of_slopes(motion) if self._slopes else motion, self._initial)
+
+    def course(self) -> tuple[Trajectory, ...]:
+        """The motion at each of `iterates`."""
+        return tuple(self.trajectory(vector) for vector in self._vectors)
 
     def _note(self, structure: Structure, vector: Floats, figures: dict[str, float]) -> bool:
+        motion = vector[: len(self.drawing.vector)]
         iterate = Iterate(
             number=len(self.iterates),
-            objective=self._cost(structure, vector[: len(self.start)]),
+            objective=self._cost(structure, motion),
             primal_infeasibility=figures["inf_pr"],
             dual_infeasibility=figures["inf_du"],
             step=figures["alpha_pr"],
         )
         self.iterates.append(iterate)
+        self._vectors.append(motion)
         return self._progress(iterate)
 
     def _cost(self, structure: Structure, vector: Floats) -> float:
-        return float(structure.cost(vector, self._parameters)) / COST_SCALE
+        return float(structure.cost(vector, self.parameters)) / COST_SCALE
 
     def _rows(self, structure: Structure, vector: Floats) -> Floats:
-        return np.array(structure.rows(vector, self._parameters)).reshape(-1)
+        return np.array(structure.rows(vector, self.parameters)).reshape(-1)

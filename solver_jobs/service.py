@@ -12,6 +12,7 @@ from typing import Protocol
 from solver_jobs.handle import WorkerEndedError, WorkerHandle
 from solver_jobs.jobs import STATE_OF_STATUS, Job, JobState, result_sentence
 from solver_jobs.results import Iterate, MotionResult
+from solver_jobs.timing import TimingResult
 from solver_jobs.worker import Broke, Finished, Progressed, Stop, Work
 
 GRACE_SECONDS = 1.0
@@ -120,7 +121,7 @@ class JobService:
 
     def _serve(self, job: Job, course: _Course) -> None:
         self.worker.ensure_started()
-        self.worker.send(Work(job.id, job.problem))
+        self.worker.send(Work(job.id, job.problem, job.kind))
         while not self._board.closing and not self._advance(course):
             pass
 
@@ -170,7 +171,7 @@ class JobService:
             )
         return JobState.CANCELLED, f"Cancelled after {count} iterations."
 
-    def _finish(self, course: _Course, result: MotionResult) -> None:
+    def _finish(self, course: _Course, result: MotionResult | TimingResult) -> None:
         state, sentence = STATE_OF_STATUS[result.status], result_sentence(result)
         if state is JobState.CANCELLED:
             state, sentence = self._stopped(course)

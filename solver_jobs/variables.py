@@ -2,14 +2,16 @@
 
 The solver works in mm, mm/s and N. Point 0 is the body, points 1 to `legs` are the feet. A column holds one
 knot: positions, velocities, forces. The forces of the last knot act on no interval; they are held fixed.
+Where friction is asked for, a foot's unknowns are not λ but (λ_x/λ_z, λ_y/λ_z, λ_z): its slope and its load.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
-from casadi import SX, vec, vertcat
+from casadi import SX, cos, horzcat, repmat, sin, vec, vertcat
 
 from core.arrays import Floats
 from core.draft import Indices
@@ -18,6 +20,9 @@ from core.trajectory import Trajectory
 
 MM = 1000.0
 """Millimetres in a metre."""
+
+LEAST_LOAD = 1e-6
+"""Loads below this, N, have no slope to speak of."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +55,20 @@ def unpacked(vector: Floats, knots: int, legs: int) -> MotionVector:
         rows[:, state : 2 * state].reshape(knots, legs + 1, 3) / MM,
         rows[:, 2 * state :].reshape(knots, legs, 3),
     )
+
+
+def slopes_of_forces(motion: MotionVector) -> MotionVector:
+    """Each foot's force as slope and load; the slope of a foot without load is 0."""
+    load = motion.force[..., 2:]
+    carries = np.abs(load) > LEAST_LOAD
+    slope = np.where(carries, motion.force[..., :2] / np.where(carries, load, 1.0), 0.0)
+    return replace(motion, force=np.concatenate([slope, load], axis=-1))
+
+
+def forces_of_slopes(motion: MotionVector) -> MotionVector:
+    """Inverse of `slopes_of_forces` where feet carry load."""
+    load = motion.force[..., 2:]
+    return replace(motion, force=np.concatenate([motion.force[..., :2] * load, load], axis=-1))
 
 
 def vector_of_trajectory(trajectory: Trajectory) -> MotionVector:
@@ -87,47 +106,114 @@ class Symbols:
 
     Args:
         vector: every unknown in one column.
+        given_intervals: (1, n − 1) time from each knot to the next as the problem has it, s.
         position: 1 + legs matrices (3, n), mm.
         velocity: 1 + legs matrices (3, n), mm/s.
         force: legs matrices (3, n), N.
-        sample_time: s.
+        slope: legs matrices (2, n), sideways force over load; empty where forces are unknowns themselves.
+        intervals: the same as it acts, which differs where timing is sought.
+        heading: (1, n) turn of the body at each knot, rad.
+        heading_rate: (1, n) speed of turning at each knot, rad/s.
         goal: (3·(1 + legs), 1) goal positions, mm.
         margin: stability margin, mm.
+        friction: coefficient of the friction cones.
         successor: legs matrices (legs, n): 1 where foot j follows foot i round the standing feet.
     """
 
     vector: SX
+    given_intervals: SX
     position: tuple[SX, ...]
     velocity: tuple[SX, ...]
     force: tuple[SX, ...]
-    sample_time: SX
+    slope: tuple[SX, ...]
+    intervals: SX
+    heading: SX
+    heading_rate: SX
     goal: SX
     margin: SX
+    friction: SX
     successor: tuple[SX, ...]
 
     @property
     def parameters(self) -> SX:
         """Every parameter in one column, in the order of `parameter_values`."""
-        return vertcat(self.sample_time, self.goal, self.margin, *(vec(part) for part in self.successor))
+        numbers = (self.given_intervals.T, self.heading.T, self.goal, self.margin, self.friction)
+        return vertcat(*numbers, *(vec(part) for part in self.successor))
+
+    @cached_property
+    def turn(self) -> tuple[SX, SX]:
+        """(1, n) cosine and sine of the heading."""
+        return cos(self.heading), sin(self.heading)
 
 
-def make_symbols(legs: int, knots: int) -> Symbols:
-    """Symbols for a number of legs and knots."""
+def axes_of(vectors: SX) -> tuple[SX, SX, SX]:
+    """The rows of a (3, k) matrix."""
+    return vectors[0, :], vectors[1, :], vectors[2, :]
+
+
+def change_between_knots(values: SX) -> SX:
+    """(rows, n − 1) each knot's values less those of the knot before."""
+    return values[:, 1:] - values[:, :-1]
+
+
+def per_interval(changes: SX, symbols: Symbols) -> SX:
+    """(rows, n − 1) changes from knot to knot, divided by the time between them."""
+    return changes / repmat(symbols.intervals, changes.shape[0], 1)
+
+
+def rate_of(heading: SX, intervals: SX) -> SX:
+    """(1, n) speed of turning, rad/s: central differences of the second order, one-sided at the ends."""
+    slopes = change_between_knots(heading) / intervals
+    before, after = intervals[:, :-1], intervals[:, 1:]
+    inner = (after * slopes[:, :-1] + before * slopes[:, 1:]) / (before + after)
+    return horzcat(slopes[:, 0], inner, slopes[:, -1])
+
+
+def make_symbols(legs: int, knots: int, *, slopes: bool = False) -> Symbols:
+    """Symbols for a number of legs and knots, with forces or their slopes and loads as unknowns."""
     state = 3 * (legs + 1)
     columns = SX.sym("x", 2 * state + 3 * legs, knots)
 
     def points(first: int, count: int) -> tuple[SX, ...]:
         return tuple(columns[first + 3 * i : first + 3 * i + 3, :] for i in range(count))
 
+    force = points(2 * state, legs)
+    slope: tuple[SX, ...] = ()
+    if slopes:
+        slope = tuple(f[:2, :] for f in force)
+        force = tuple(vertcat(f[0, :] * f[2, :], f[1, :] * f[2, :], f[2, :]) for f in force)
+    intervals, heading = SX.sym("dt", 1, knots - 1), SX.sym("heading", 1, knots)
     return Symbols(
         vector=columns.reshape((-1, 1)),
+        given_intervals=intervals,
         position=points(0, legs + 1),
         velocity=points(state, legs + 1),
-        force=points(2 * state, legs),
-        sample_time=SX.sym("dt"),
+        force=force,
+        slope=slope,
+        intervals=intervals,
+        heading=heading,
+        heading_rate=rate_of(heading, intervals),
         goal=SX.sym("goal", state),
         margin=SX.sym("margin"),
+        friction=SX.sym("friction"),
         successor=tuple(SX.sym(f"next{foot}", legs, knots) for foot in range(legs)),
+    )
+
+
+def stretched(symbols: Symbols, phase_of_interval: tuple[int, ...]) -> Symbols:
+    """The same with a further unknown a phase, by which its given intervals are multiplied.
+
+    Args:
+        symbols: of a problem.
+        phase_of_interval: (n − 1) number of the phase that each interval belongs to, from 0.
+    """
+    stretch = SX.sym("stretch", max(phase_of_interval) + 1)
+    intervals = symbols.given_intervals * stretch[list(phase_of_interval)].T
+    return replace(
+        symbols,
+        vector=vertcat(symbols.vector, stretch),
+        intervals=intervals,
+        heading_rate=rate_of(symbols.heading, intervals),
     )
 
 
@@ -140,5 +226,6 @@ def parameter_values(problem: MotionProblem, successor: Indices) -> Floats:
     """
     goal = np.concatenate([problem.goal.body_world[None], problem.goal.feet_world]).reshape(-1) * MM
     chosen = np.eye(problem.model.leg_count)[successor]
-    head = [problem.timeline.sample_time, *goal, problem.limits.margin * MM]
-    return np.concatenate([head, chosen.transpose(1, 0, 2).reshape(-1)])
+    numbers = [*goal, problem.limits.margin * MM, problem.limits.friction or 0.0]
+    nexts = chosen.transpose(1, 0, 2).reshape(-1)
+    return np.concatenate([problem.intervals, problem.heading, numbers, nexts])

@@ -19,6 +19,9 @@ FAMILY_WORDS = {
     Family.WORKSPACE: "reach",
     Family.CLEARANCE: "swing clearance",
     Family.MARGIN: "stability margin",
+    Family.FRICTION: "friction",
+    Family.MOTOR_SPEED: "motor speed",
+    Family.MOTOR_ACCELERATION: "motor acceleration",
 }
 """Names in sentences."""
 
@@ -39,5 +42,8 @@ REMEDIES = {
     Family.WORKSPACE: "Shorten the step, change the body's height, or use the other workspace.",
     Family.CLEARANCE: "Lower the clearance or lengthen the swing.",
     Family.MARGIN: "Lower the margin, shorten the step, or keep a closing stance.",
+    Family.FRICTION: "Lengthen the phases or use feet with more grip.",
+    Family.MOTOR_SPEED: _SHORTER,
+    Family.MOTOR_ACCELERATION: "Lengthen the phases, shorten the step, or lower the clearance.",
 }
 """What to do about each."""

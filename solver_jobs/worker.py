@@ -8,11 +8,14 @@ from __future__ import annotations
 
 import signal
 import traceback
+from collections.abc import Callable
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 
 from core.motion_problem import MotionProblem
-from solver_jobs.results import Iterate, MotionResult
+from solver_jobs.jobs import JobKind
+from solver_jobs.results import Iterate, MotionResult, SolveStatus
+from solver_jobs.timing import TimingResult, fastest_timing
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,6 +24,7 @@ class Work:
 
     job: str
     problem: MotionProblem
+    kind: JobKind = JobKind.MOTION
 
 
 @dataclass(frozen=True)
@@ -43,7 +47,7 @@ class Finished:
     """From the worker: the result."""
 
     job: str
-    result: MotionResult
+    result: MotionResult | TimingResult
 
 
 @dataclass(frozen=True)
@@ -64,11 +68,11 @@ def run_worker(pipe: Connection, warm_up: MotionProblem | None) -> None:
     """
     # Ctrl-C in a terminal reaches the whole group; the parent decides when a worker ends.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    from solver_jobs.motion_nlp import solve_motion
+    from solver_jobs.tiers import solve_exact
 
     try:
         if warm_up is not None:
-            solve_motion(warm_up, lambda iterate: not pipe.poll())
+            solve_exact(warm_up, lambda iterate: not pipe.poll(), resume=True)
         while True:
             message = pipe.recv()
             if isinstance(message, Work):
@@ -78,7 +82,7 @@ def run_worker(pipe: Connection, warm_up: MotionProblem | None) -> None:
 
 
 def _solve(pipe: Connection, work: Work) -> None:
-    from solver_jobs.motion_nlp import solve_motion
+    from solver_jobs.tiers import solve_exact
 
     def progress(iterate: Iterate) -> bool:
         pipe.send(Progressed(work.job, iterate))
@@ -89,8 +93,18 @@ def _solve(pipe: Connection, work: Work) -> None:
         return True
 
     try:
-        pipe.send(Finished(work.job, solve_motion(work.problem, progress)))
+        if work.kind is JobKind.TIMING:
+            pipe.send(Finished(work.job, _timed(work.problem, progress)))
+        else:
+            pipe.send(Finished(work.job, solve_exact(work.problem, progress, resume=True)))
     except (EOFError, ConnectionError):
         raise
     except Exception as error:
         pipe.send(Broke(work.job, f"{type(error).__name__}: {error}", traceback.format_exc()))
+
+
+def _timed(problem: MotionProblem, progress: Callable[[Iterate], bool]) -> TimingResult:
+    from solver_jobs.timing_use import made_usable
+
+    timing = fastest_timing(problem, progress=progress)
+    return made_usable(timing, progress) if timing.status is SolveStatus.SOLVED else timing

@@ -5,19 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 
-_NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
-
-CHROMIUM_WORDS = (
-    "--no-sandbox",
-    "--use-gl=angle",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--no-first-run",
-)
-"""Software rendering, and nothing that looks for a network."""
+from app.bench.page import CHROMIUM_NAMES
 
 
 def chromium_path() -> str | None:
@@ -25,4 +13,4 @@ def chromium_path() -> str | None:
     named = os.environ.get("FOOTFALL_CHROMIUM")
     if named:
         return named
-    return next((path for name in _NAMES if (path := shutil.which(name))), None)
+    return next((path for name in CHROMIUM_NAMES if (path := shutil.which(name))), None)

@@ -1,13 +1,22 @@
-"""A headless Chromium with software rendering."""
+"""A headless Chromium with software rendering, and properties that are tried the same way each time."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 import pytest
+from hypothesis import HealthCheck, settings
 from playwright.sync_api import Browser, sync_playwright
 
-from tests.chromium import CHROMIUM_WORDS, chromium_path
+from app.bench.page import CHROMIUM_WORDS
+from tests.chromium import chromium_path
+
+# A slow machine is no failure, and one commit gives one answer; `--hypothesis-profile explore` looks further.
+settings.register_profile(
+    "same", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.register_profile("explore", deadline=None, max_examples=1000)
+settings.load_profile("same")
 
 
 @pytest.fixture(scope="session")

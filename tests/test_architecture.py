@@ -64,7 +64,8 @@ def forbidden_in_app(path: str, name: str, top: str) -> bool:
         edge = {"app/server.py", "app/serve.py", "app/security.py"}
         return path not in edge and not path.startswith("app/routes/")
     if top == "pydantic":
-        return path != "app/documents.py" and not path.startswith("app/routes/")
+        files = {"app/documents.py", "app/document_models.py"}
+        return path not in files and not path.startswith("app/routes/")
     return top == "serial"
 
 

@@ -40,6 +40,13 @@ class Board:
         """The board's own clock in ms."""
         return self.now_us // 1000
 
+    def cut_power(self) -> None:
+        """Releases every motor at once and forgets what waits on the line."""
+        for index in range(MOTORS):
+            self.motors.command(index, 0, self.now_us)
+        self.inbox.clear()
+        self._sent.clear()
+
     def take_sent(self) -> list[Chunk]:
         """Returns what was sent since the last call."""
         sent, self._sent = self._sent, []

@@ -7,11 +7,15 @@ from enum import Enum, auto
 from app.bridge.stopping import STOP_PAYLOAD
 from core.wire import QUANTUM_MM, THRESHOLD_MM, name_motor, payload_of
 from core.wire_lines import (
+    CurrentPoint,
     Echo,
     EndOfTrajectories,
+    ErrorScan,
+    ErrorsChecked,
     Execute,
     Line,
     NewData,
+    PointCount,
     Telemetry,
     TrajectoryPoint,
     numbers_equal,
@@ -24,8 +28,9 @@ COAST_MM = 0.1
 ARRIVAL_MM = THRESHOLD_MM + QUANTUM_MM + COAST_MM
 """Distance of a measured stroke from its target within which a waypoint counts as reached, mm."""
 
-ECHO_DEADLINE = 2.0
-"""An idle robot takes a message within one pass of its loop, 32 ms with slow input and output, s."""
+ECHO_DEADLINE = 1.9
+"""An idle robot takes a message within one pass of its loop, 32 ms with slow input and output; a fault has to
+be named within 2 s, s."""
 
 RAMP_FACTOR, PATIENCE = 2.0, 5.0
 """Slack for scans and further small ramps: the slowest of 2400 random moves of the emulator, all profiles,
@@ -35,6 +40,11 @@ START_PATIENCE = 15.0
 """On the way to the start pose; a controller that is wound up by the board's own first move from 20 mm
 needs up to 11 s for its first small step (hazard 11)."""
 
+
+IDLE_PASSES = 3
+"""A robot at work says so in every pass of its loop; after so many without a word of it the move is over."""
+
+_WORK = (Execute, CurrentPoint, ErrorScan, ErrorsChecked)
 
 HELD_STOP = "it still holds an old stop"
 """Part of the sentence where a stop from before this connection keeps the robot from moving."""
@@ -97,6 +107,7 @@ class Delivery:
         self._deadline = sent_at + deadline
         self._early_end = early_end
         self._executing = False
+        self._idle = 0
 
     @property
     def arrived(self) -> bool:
@@ -107,7 +118,7 @@ class Delivery:
         """Takes the next line from the robot."""
         if not self._left or self.failure is not None:
             return
-        self._executing = self._executing or isinstance(line, Execute)
+        self._follow(line)
         match self._left[0]:
             case Stage.ECHO:
                 self._await_echo(line)
@@ -117,6 +128,12 @@ class Delivery:
                 self._await_end(line)
             case Stage.MEASURE:
                 self._await_measurement(line)
+
+    def _follow(self, line: Line) -> None:
+        if isinstance(line, _WORK):
+            self._executing, self._idle = True, 0
+        elif isinstance(line, Telemetry):
+            self._idle += 1
 
     def check(self, now: float, measured_mm: tuple[float, ...]) -> None:
         """Fails the delivery if its time is over."""
@@ -153,7 +170,7 @@ class Delivery:
                 self._left.pop(0)
             else:
                 self.failure = "The robot read other strokes than were sent."
-        elif isinstance(line, NewData | EndOfTrajectories):
+        elif isinstance(line, NewData | PointCount | EndOfTrajectories):
             self.failure = "The robot did not confirm the strokes that it was sent."
 
     def _await_end(self, line: Line) -> None:
@@ -161,6 +178,8 @@ class Delivery:
             self._left.pop(0)
         elif isinstance(line, NewData) and not self._executing:
             self.failure = f"The robot took the message but does not move: {HELD_STOP}."
+        elif self._executing and self._idle >= IDLE_PASSES:
+            self.failure = "The robot works at the move no longer, but did not say that it arrived."
 
     def _await_measurement(self, line: Line) -> None:
         if not isinstance(line, Telemetry):

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import random
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from enum import StrEnum
 
+from app.bridge.faults import STRIKE_ONCE, Fault, Troubles
 from app.bridge.firmware import Firmware
 from app.bridge.ports import Port, PtyPort, TcpPort
 from app.bridge.profiles import PROFILES, ProfileName
@@ -24,20 +23,8 @@ PATIENCE = 2.0
 
 FAULT_AT_WAYPOINT = 3
 FAULT_AFTER = 0.4
-"""A fault asked for beforehand strikes this long after that many waypoints were taken, s."""
-
-DROP_CHANCE = 0.002
-STUCK_MOTOR = 4
-
-
-class Fault(StrEnum):
-    """What can go wrong on request; drop and stuck-motor last, the others strike once."""
-
-    STALL = "stall"
-    UNPLUG = "unplug"
-    RESET = "reset"
-    DROP = "drop"
-    STUCK_MOTOR = "stuck-motor"
+"""A fault that strikes once and was asked for beforehand does so this long after that many waypoints were
+taken, s; one that lasts is there from the start."""
 
 
 class RealTime:
@@ -98,6 +85,7 @@ class EmulatedRobot:
         pace: how fast the robot's time passes.
         faults: what shall go wrong in the first run.
         booted: the board was powered on long ago; its 5 s of silence and its first move are over.
+        seed: of the faults' dice.
 
     Attributes:
         firmware: messages taken, completions and fault state, to be read at any time.
@@ -111,6 +99,7 @@ class EmulatedRobot:
         pace: Pace | None = None,
         faults: Iterable[Fault] = (),
         booted: bool = False,
+        seed: int = 0,
     ) -> None:
         self.firmware = firmware
         self._port = port
@@ -118,9 +107,8 @@ class EmulatedRobot:
         self._pace = pace or RealTime()
         self._pending = set(faults)
         self._booted = booted
-        self._asked: list[Fault] = []
-        self._dropping = False
-        self._random = random.Random(0)
+        self._asked: list[Fault | None] = []
+        self._troubles = Troubles(firmware, port.close, seed)
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._live, name="emulated robot", daemon=True)
         self._thread.start()
@@ -133,6 +121,10 @@ class EmulatedRobot:
     def inject(self, fault: Fault) -> None:
         """Makes something go wrong at once."""
         self._asked.append(fault)
+
+    def mend(self) -> None:
+        """Ends what lasts: the cable is whole and the motors are sound again."""
+        self._asked.append(None)
 
     def close(self) -> None:
         """Ends the robot and hangs up; doing it twice does no harm."""
@@ -158,43 +150,27 @@ class EmulatedRobot:
         self.firmware.board.take_sent()
 
     def _exchange(self) -> None:
-        board = self.firmware.board
-        self._outbox.put(b"".join(self._pass_on(chunk.data) for chunk in board.take_sent()))
-        board.inbox += self._port.read()
-
-    def _pass_on(self, data: bytes) -> bytes:
-        if not self._dropping or self._random.random() > DROP_CHANCE * len(data):
-            return data
-        hole = self._random.randrange(len(data))
-        return data[:hole] + data[hole + 1 :]
+        board, now = self.firmware.board, self.firmware.now
+        said = b"".join(chunk.data for chunk in board.take_sent())
+        self._outbox.put(self._troubles.to_host.carry(said, now))
+        board.inbox += self._troubles.to_robot.carry(self._port.read(), now)
 
     def _strike(self) -> None:
-        if self._pending and self._is_time():
-            self._asked.extend(sorted(self._pending))
-            self._pending.clear()
+        due = self._pending if self._is_time() else self._pending - STRIKE_ONCE
+        self._asked.extend(sorted(due))
+        self._pending -= due
         while self._asked:
-            self._apply(self._asked.pop(0))
+            fault = self._asked.pop(0)
+            if fault is None:
+                self._troubles.mend()
+            else:
+                self._troubles.strike(fault)
 
     def _is_time(self) -> bool:
-        if self._pending & {Fault.DROP, Fault.STUCK_MOTOR}:
-            return True
         taken = [m.time for m in self.firmware.messages if m.strokes_mm is not None]
         return len(taken) >= FAULT_AT_WAYPOINT and (
             self.firmware.now >= taken[FAULT_AT_WAYPOINT - 1] + FAULT_AFTER
         )
-
-    def _apply(self, fault: Fault) -> None:
-        match fault:
-            case Fault.STALL:
-                self.firmware.stall("The program was stalled on request.")
-            case Fault.RESET:
-                self.firmware.reset()
-            case Fault.UNPLUG:
-                self._port.close()
-            case Fault.DROP:
-                self._dropping = True
-            case Fault.STUCK_MOTOR:
-                self.firmware.board.motors.jam(STUCK_MOTOR, self.firmware.board.now_us)
 
 
 def start_emulator(

@@ -22,6 +22,9 @@ BUFFER_BYTES = 20000
 LONGEST_PARTIAL = 65536
 """Bytes of an open message that the emulator keeps; a board would have died long before."""
 
+SURVIVED_POINTS = 6
+"""Waypoints of one message that the board survives, though it goes astray; its memory has room for one."""
+
 POWER_UP_US = 5_000_000
 BEGIN_US, BEGIN_WRITES = 45_600, 48
 """The board waits 5 s, then sets up its drivers (from the first line's time in the recordings)."""
@@ -69,6 +72,7 @@ class Firmware:
         messages: every message that was taken, in order.
         completions: every completed trajectory, in order.
         fault: why the program died, or None; a dead program is silent and holds its motors' commands.
+        spoilt: what has overwritten its memory, or None; it may live on and go astray (hazard 7).
     """
 
     def __init__(self, profile: Profile, strokes_mm: Sequence[float] = (RESET_MM,) * MOTORS) -> None:
@@ -76,6 +80,7 @@ class Firmware:
         self.messages: list[Message] = []
         self.completions: list[Completion] = []
         self.fault: str | None = None
+        self.spoilt: str | None = None
         self._reset_asked = False
         self._clear_memory()
 
@@ -92,6 +97,12 @@ class Firmware:
         """Restarts the controller while the motor drivers keep their power (hazard 20)."""
         self._reset_asked = True
 
+    def power_cycle(self, off: float = 0.0) -> None:
+        """Takes the power away for `off` s: motors stop where they are, nothing is remembered."""
+        self.board.cut_power()
+        self.board.now_us += round(off * 1e6)
+        self.reset()
+
     def run(self) -> Iterator[None]:
         """Lives for ever; each step advances the clock to the next point where the world may look in."""
         while True:
@@ -106,12 +117,13 @@ class Firmware:
 
     def _clear_memory(self) -> None:
         self._reset_asked = False
-        self.fault = None
+        self.fault = self.spoilt = None
         self._buffer = bytearray(BUFFER_BYTES + 1)
         self._partial: bytearray | None = None
         self._corruption: str | None = None
         self._stopped = False
         self._target_mm = [0.0] * MOTORS
+        self._errors_mm = [0.0] * MOTORS
         self._count, self._index, self._active = 0, 0, False
         self._controller = Controller()
         self._last_millis = 0
@@ -132,8 +144,9 @@ class Firmware:
 
     def _set_up(self) -> Iterator[None]:
         board = self.board
-        board.now_us += POWER_UP_US
-        yield
+        for _ in range(POWER_UP_US // SILENCE_US):
+            board.now_us += SILENCE_US
+            yield
         board.now_us += BEGIN_US + BEGIN_WRITES * board.profile.pwm_us
         board.release_all()
         board.read_strokes()
@@ -204,15 +217,21 @@ class Firmware:
         fields = Fields(self._buffer)
         fields.take()
         count = to_int(fields.take())
-        points = [self._read_point(index, fields) for index in range(count)]
+        points, durations = [], []
+        for index in range(count):
+            durations.append(to_float(fields.take()))
+            points.append(self._read_point(index, durations[-1], fields))
         self._go_to(points[0] if points else self._target_mm)
         self._count = count
+        if count > 1:
+            self.spoilt = f"A message of {count} waypoints overran the memory for one."
+            # The durations of the others lie where the first one's strokes are.
+            self._target_mm[: count - 1] = durations[1 : MOTORS + 1]
         board.write_line(b"Number of trajectory points \t", *_integer(count))
         return tuple(points[0]) if count == 1 else None
 
-    def _read_point(self, index: int, fields: Fields) -> list[float]:
+    def _read_point(self, index: int, duration: float, fields: Fields) -> list[float]:
         board = self.board
-        duration = to_float(fields.take())
         board.write(b"durations i")
         board.write_number(duration, 2)
         board.write_line()
@@ -246,7 +265,8 @@ class Firmware:
         reached = True
         for index in range(MOTORS):
             board.read_strokes()
-            error = single(board.readings_mm[index]) - single(self._target_mm[index])
+            error = single(board.readings_mm[index]) - single(self._wanted_mm[index])
+            self._errors_mm[index] = single(error)
             board.write_number(single(error), 4)
             board.write(b",")
             if abs(single(error)) > THRESHOLD_MM:
@@ -276,7 +296,7 @@ class Firmware:
             time = (self.board.millis - start) / 1000.0
             self._turn(time, speeds, acceleration_mm)
             if self._overrun(time):
-                self.stall(f"A message of {self._count} waypoints overran the memory for one.")
+                self.stall(self.spoilt or "")
             self.board.now_us += TURN_US
             yield
 
@@ -296,11 +316,17 @@ class Firmware:
             board.drive(index, commands[index])
 
     def _overrun(self, time: float) -> bool:
-        """Whether several waypoints have spoilt the memory: the program dies with motor 1 driven."""
-        return self._count > 1 and time > 0.0
+        """Whether the program dies of a spoilt memory, with motor 1 driven."""
+        return self._count > SURVIVED_POINTS and time > 0.0
+
+    @property
+    def _wanted_mm(self) -> list[float]:
+        """Strokes of the present point; where one beyond the first lies, there are other variables."""
+        memory = (self._target_mm, self._errors_mm, self.board.readings_mm)
+        return memory[self._index] if self._index < len(memory) else [0.0] * MOTORS
 
     def _distances(self) -> list[float]:
-        return [t - r for t, r in zip(self._target_mm, self.board.readings_mm, strict=True)]
+        return [t - r for t, r in zip(self._wanted_mm, self.board.readings_mm, strict=True)]
 
     def _update_state(self) -> float:
         elapsed = (self.board.millis - self._last_millis) / 1000.0

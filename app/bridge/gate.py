@@ -10,7 +10,10 @@ from app.bridge.states import Direction
 from core.wire import encode_flush, encode_stop
 
 Log = Callable[[Direction, bytes, float], None]
-"""Receives every byte both ways with the time of the bridge's clock; it must return at once."""
+"""Receives every byte both ways with the time of the bridge's clock; it must return at once.
+
+The time of a message is that before its first byte goes out, so that no answer to it is earlier.
+"""
 
 Clock = Callable[[], float]
 """Seconds that only grow."""
@@ -80,8 +83,9 @@ class Gate:
             RobotError: the line did not take it.
         """
         with self._lock:
+            now = self._clock()
             sent = permit == self._stops and not self._unsure and self._put(message)
-        return sent and self._note(message)
+        return sent and self._note(message, now)
 
     def flush(self) -> bool:
         """Sends what closes a message that was cut off; the line stays unsure until it is trusted.
@@ -94,8 +98,9 @@ class Gate:
         """
         message = encode_flush()
         with self._lock:
+            now = self._clock()
             sent = self._put(message)
-        return sent and self._note(message)
+        return sent and self._note(message, now)
 
     def stop(self) -> bool:
         """Revokes every permit and sends the stop, behind a flush if the line is unsure.
@@ -109,8 +114,9 @@ class Gate:
         with self._lock:
             self._stops += 1
             message = encode_flush() + encode_stop() if self._unsure else encode_stop()
+            now = self._clock()
             sent = self._put(message)
-        return sent and self._note(message)
+        return sent and self._note(message, now)
 
     def _put(self, data: bytes) -> bool:
         if self._outlet is None:
@@ -120,6 +126,6 @@ class Gate:
         self._failed = failed
         return True
 
-    def _note(self, data: bytes) -> bool:
-        self._log(Direction.TO_ROBOT, data, self._clock())
+    def _note(self, data: bytes, began: float) -> bool:
+        self._log(Direction.TO_ROBOT, data, began)
         return True

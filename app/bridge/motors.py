@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from core.wire import MOTORS, QUANTUM_MM
 
@@ -24,20 +24,43 @@ class Motors:
         self._start_mm = [float(s) for s in strokes_mm]
         self._speed_mm = [0.0] * MOTORS
         self._since_us = [0] * MOTORS
-        self._stuck: set[int] = set()
+        self._command = [0] * MOTORS
+        self._strength = [1.0] * MOTORS
+        self._dead_mm: dict[int, float] = {}
+        self._noise: Callable[[], float] | None = None
 
     def command(self, index: int, command: int, now_us: int) -> None:
         """Drives one motor with −255 to 255; 0 releases it."""
-        speed = 0.0 if index in self._stuck else command / FULL_COMMAND * FULL_SPEED_MM
+        self._command[index] = command
+        speed = self._strength[index] * command / FULL_COMMAND * FULL_SPEED_MM
         if speed != self._speed_mm[index]:
             self._start_mm[index] = self.stroke_mm(index, now_us)
             self._since_us[index] = now_us
             self._speed_mm[index] = speed
 
+    def weaken(self, index: int, share: float, now_us: int) -> None:
+        """Gives one motor a share of its speed from now on."""
+        self._strength[index] = share
+        self.command(index, self._command[index], now_us)
+
     def jam(self, index: int, now_us: int) -> None:
         """Blocks one motor where it is, whatever it is told from now on."""
-        self.command(index, 0, now_us)
-        self._stuck.add(index)
+        self.weaken(index, 0.0, now_us)
+
+    def blind(self, index: int, now_us: int) -> None:
+        """Has one potentiometer read for ever what it reads now."""
+        self._dead_mm[index] = self.reading_mm(index, now_us)
+
+    def disturb(self, noise: Callable[[], float]) -> None:
+        """Adds to each reading what `noise` gives, mm."""
+        self._noise = noise
+
+    def mend(self, now_us: int) -> None:
+        """Ends all faults of motors and potentiometers."""
+        self._dead_mm.clear()
+        self._noise = None
+        for index in range(MOTORS):
+            self.weaken(index, 1.0, now_us)
 
     def stroke_mm(self, index: int, now_us: int) -> float:
         """True stroke of one motor in mm."""
@@ -46,4 +69,9 @@ class Motors:
 
     def reading_mm(self, index: int, now_us: int) -> float:
         """Stroke of one motor as the robot's converter sees it, a multiple of 0.012 mm."""
-        return round(self.stroke_mm(index, now_us) / QUANTUM_MM) * QUANTUM_MM
+        if index in self._dead_mm:
+            return self._dead_mm[index]
+        seen = self.stroke_mm(index, now_us)
+        if self._noise is not None:
+            seen = max(seen + self._noise(), 0.0)
+        return round(seen / QUANTUM_MM) * QUANTUM_MM

@@ -46,6 +46,10 @@ class PtyPort:
         """Path of the host's end."""
         return self._device
 
+    def fileno(self) -> int:
+        """For waiting until the host has written."""
+        return self._master
+
     def write(self, data: bytes) -> int:
         """Sends what fits, drops the rest, and returns how many bytes fitted."""
         try:

@@ -78,12 +78,14 @@ def ramp_reference(distance_mm: float, time: float, speed: float, acceleration: 
     Returns:
         Offset from the last reading in mm, speed in mm/s.
     """
+    distance_mm, time = single(distance_mm), single(time)
+    speed, acceleration = single(speed), single(acceleration)
     if distance_mm < 0:
         speed, acceleration = -speed, -acceleration
     rise = _least(_ratio(distance_mm, speed), _ratio(speed, acceleration))
     cruise = _most(0.0, _ratio(distance_mm, speed) - _ratio(speed, acceleration))
     offset, rate = _trapezoid(distance_mm, time, rise, cruise, speed, acceleration)
-    return offset, 0.0 if abs(distance_mm) < FEEDBACK_ONLY_MM else rate
+    return single(offset), 0.0 if abs(distance_mm) < FEEDBACK_ONLY_MM else single(rate)
 
 
 def _trapezoid(

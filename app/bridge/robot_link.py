@@ -145,9 +145,11 @@ class RobotLink(Ledger, ABC):
         if self.link is LinkState.READY and silence > SILENCE_LIMIT:
             self._lose(silent_sentence(silence, SILENCE_LIMIT, self._place), now)
         elif self.link is LinkState.CONNECTING and self._opening.overdue(now):
-            flushed = self._opening.flushed_at is not None
-            describe = restless_sentence if flushed else stranger_sentence
-            self._lose(describe(self.device, START_LIMIT), now)
+            if self._opening.flushed_at is None:
+                sentence = stranger_sentence(self.device, START_LIMIT, talks=self.watch.talks)
+            else:
+                sentence = restless_sentence(self.device, START_LIMIT)
+            self._lose(sentence, now)
 
     def _check_stop(self, now: float) -> None:
         try:

@@ -6,6 +6,7 @@ and each change has its cause.
 
 from __future__ import annotations
 
+import itertools
 import re
 import uuid
 
@@ -49,6 +50,7 @@ class RobotSession(RobotLink):
         self._run: Run | None = None
         self._delivery: Delivery | None = None
         self._permit = -1
+        self._numbers = itertools.count(1)
 
     def snapshot(self, now: float) -> RobotSnapshot:
         """Everything there is to show."""
@@ -64,6 +66,7 @@ class RobotSession(RobotLink):
             device=self.device,
             last_error=self.last_error,
             measured_scan=self.watch.longest_scan,
+            number=next(self._numbers),
         )
 
     def tick(self, now: float) -> None:

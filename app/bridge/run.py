@@ -12,10 +12,7 @@ from app.bridge.states import RunPhase, RunPlan, RunProgress
 from app.bridge.words import displaced_sentence
 from core.errors import StateError
 from core.wire import HIGHEST_MM, LOWEST_MM, THRESHOLD_MM, encode_waypoint, strokes_to_mm
-from core.wire_timing import ramp_time
-
-START_MOVE_MM = 3.0
-"""Largest move of a motor in one message on the way to the start pose."""
+from core.wire_timing import START_MOVE, longest_start_move, ramp_time
 
 
 @dataclass(frozen=True)
@@ -28,22 +25,25 @@ class Move:
     hold_ok: bool
 
 
-def start_targets(measured_mm: tuple[float, ...], first_mm: tuple[float, ...]) -> list[tuple[float, ...]]:
+def start_targets(
+    measured_mm: tuple[float, ...], first_mm: tuple[float, ...], longest_mm: float = START_MOVE * 1000.0
+) -> list[tuple[float, ...]]:
     """Cuts the way from where the motors stand to the first waypoint.
 
     Args:
         measured_mm: (12,) measured strokes.
         first_mm: (12,) strokes of the first waypoint.
+        longest_mm: largest move of a motor in one message.
 
     Returns:
-        Targets at most 3 mm apart and more than the firmware's 1 mm, the last one the first waypoint;
+        Targets at most so far apart and more than the firmware's 1 mm, the last one the first waypoint;
         none when every motor is within 1 mm of it already.
     """
     here, there = np.array(measured_mm), np.array(first_mm)
     distance = float(np.abs(there - here).max())
     if distance <= THRESHOLD_MM:
         return []
-    count = math.ceil(distance / START_MOVE_MM)
+    count = math.ceil(distance / longest_mm)
     between = [here + (there - here) * (i / count) for i in range(1, count)]
     limited = [np.clip(row, LOWEST_MM, HIGHEST_MM) for row in between]
     return [*(strokes_to_mm(row / 1000.0) for row in limited), first_mm]
@@ -62,18 +62,19 @@ def plan_moves(plan: RunPlan, measured_mm: tuple[float, ...]) -> list[Move]:
             "approval",
         )
     waypoints = plan.waypoints
-    streamed = [
+    encoded = [
         Move(encode_waypoint(strokes, duration), strokes_to_mm(strokes), RunPhase.STREAMING, hold)
         for strokes, duration, hold in zip(
             waypoints.strokes, waypoints.durations.tolist(), plan.hold_ok, strict=True
         )
     ]
-    return [*_start_moves(measured_mm, streamed[0]), *streamed]
+    streamed = [encoded[i] for i in plan.course.order(waypoints.count)]
+    return [*_start_moves(measured_mm, streamed[0], longest_start_move(waypoints) * 1000.0), *streamed]
 
 
-def _start_moves(measured_mm: tuple[float, ...], first: Move) -> list[Move]:
+def _start_moves(measured_mm: tuple[float, ...], first: Move, longest_mm: float) -> list[Move]:
     here, moves = measured_mm, []
-    for target in start_targets(measured_mm, first.target_mm):
+    for target in start_targets(measured_mm, first.target_mm, longest_mm):
         farthest = max(abs(t - h) for t, h in zip(target, here, strict=True))
         message = encode_waypoint(np.array(target) / 1000.0, ramp_time(farthest / 1000.0))
         hold = first.hold_ok and target == first.target_mm
@@ -100,8 +101,10 @@ class Run:
         self, plan: RunPlan, measured_mm: tuple[float, ...], run_id: str, by: str, now: float
     ) -> None:
         self._moves = plan_moves(plan, measured_mm)
-        self._start_count = len(self._moves) - plan.waypoints.count
-        self._count = plan.waypoints.count
+        self._order = plan.course.order(plan.waypoints.count)
+        self._course = plan.course
+        self._start_count = len(self._moves) - len(self._order)
+        self._plan_count = plan.waypoints.count
         self._sent = 0
         self._reached = 0
         self._began = now
@@ -124,7 +127,10 @@ class Run:
         """Where the run is, for a person."""
         if self._sent <= self._start_count:
             return "on the way to the start pose"
-        return f"at waypoint {self._sent - self._start_count} of {self._count}"
+        sent = self._sent - self._start_count
+        course = self._course
+        again = f", iteration {self._iteration(sent)} of {course.iterations}" if course.iterations > 1 else ""
+        return f"at waypoint {self._waypoint(sent) + 1} of {self._plan_count}{again}"
 
     def require_in_place(self, measured_mm: tuple[float, ...]) -> None:
         """Refuses if a motor was moved since the last target was reached.
@@ -158,12 +164,25 @@ class Run:
     def progress(self, now: float) -> RunProgress:
         """What to show of the run."""
         streaming = self._sent > self._start_count
+        sent = max(self._sent - self._start_count, 0)
+        reached = max(self._reached - self._start_count, 0)
         return RunProgress(
             run_id=self.run_id,
             by=self.by,
             phase=RunPhase.STREAMING if streaming else RunPhase.START_POSE,
-            sent=max(self._sent - self._start_count, 0),
-            reached=max(self._reached - self._start_count, 0),
-            count=self._count,
+            sent=sent,
+            reached=reached,
+            count=len(self._order),
             elapsed=self.elapsed(now),
+            waypoint_sent=self._waypoint(sent),
+            waypoint_reached=self._waypoint(reached),
+            iteration=self._iteration(sent),
+            iterations=self._course.iterations,
         )
+
+    def _waypoint(self, done: int) -> int:
+        """The last of the first `done` waypoints that the run sends."""
+        return self._order[max(done - 1, 0)]
+
+    def _iteration(self, done: int) -> int:
+        return 1 + (max(done - 1, 0) + self._course.first) // self._plan_count

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
+from app.bridge.course import WHOLE, Course
 from core.errors import InputError
 from core.findings import Approval
 from core.waypoints import Waypoints
@@ -60,11 +61,13 @@ class RunPlan:
         waypoints: strokes to reach one after the other.
         approval: must be of exactly these waypoints.
         hold_ok: for each waypoint whether all feet are down there, so that a pause may end at it.
+        course: from which waypoint on they are sent, and how many times over.
     """
 
     waypoints: Waypoints
     approval: Approval
     hold_ok: tuple[bool, ...]
+    course: Course = WHOLE
 
     def __post_init__(self) -> None:
         if len(self.hold_ok) != self.waypoints.count:
@@ -72,6 +75,7 @@ class RunPlan:
                 f"{len(self.hold_ok)} hold marks for {self.waypoints.count} waypoints; give one for each.",
                 "hold_ok",
             )
+        self.course.require_fit(self.waypoints, self.hold_ok)
 
 
 @dataclass(frozen=True)
@@ -82,10 +86,14 @@ class RunProgress:
         run_id: given by whoever sent it, or made when the run began.
         by: who sent it.
         phase: start pose or streaming.
-        sent: number of approved waypoints sent so far; the last has index `sent - 1`.
+        sent: number of approved waypoints sent so far.
         reached: number of approved waypoints that were confirmed as reached.
-        count: number of approved waypoints.
+        count: number of approved waypoints that the run sends, those of all its iterations.
         elapsed: time since the run began, until its end, s.
+        waypoint_sent: index among the approved waypoints of the last one sent; before that, of the first.
+        waypoint_reached: the same of the last one reached.
+        iteration: number of the iteration of the last waypoint sent, from 1.
+        iterations: number of iterations.
     """
 
     run_id: str
@@ -95,6 +103,10 @@ class RunProgress:
     reached: int
     count: int
     elapsed: float
+    waypoint_sent: int = 0
+    waypoint_reached: int = 0
+    iteration: int = 1
+    iterations: int = 1
 
 
 @dataclass(frozen=True)
@@ -111,7 +123,8 @@ class RobotSnapshot:
         unknown_lines: lines that fit no kind, since connecting.
         device: what is or was connected.
         last_error: sentence of the last fault or loss.
-        measured_scan: longest error scan seen since connecting, s (see `core.wire_timing.stop_delay`).
+        measured_scan: longest error scan seen since connecting, s (see `core.wire_timing.stop_time`).
+        number: counts the snapshots of a bridge, so that who gets two knows the later one.
     """
 
     link: LinkState
@@ -124,6 +137,7 @@ class RobotSnapshot:
     device: str | None
     last_error: str | None
     measured_scan: float | None
+    number: int
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,9 @@ import threading
 from collections.abc import Callable
 
 import serial
+from serial.tools import list_ports
 
+from app.bridge.devices import SerialDevice
 from core.errors import RobotError
 
 BAUD = 9600
@@ -19,6 +21,19 @@ WRITE_DEADLINE = 0.5
 """A message of 110 bytes that is not out after this long never will be, s."""
 
 CHUNK_BYTES = 65536
+
+
+def serial_devices() -> tuple[SerialDevice, ...]:
+    """What is plugged in, boards with a serial number first, then by name."""
+    found = (
+        SerialDevice(port.device, _said(port.description), port.serial_number or None)
+        for port in list_ports.comports()
+    )
+    return tuple(sorted(found, key=lambda one: (one.serial_number is None, one.device)))
+
+
+def _said(description: str | None) -> str:
+    return "" if description in (None, "n/a") else str(description)
 
 
 class Transport:

@@ -36,6 +36,7 @@ class Watch:
         longest_scan: longest error scan, s, or None.
         last_line: last line that tells more than that the robot is alive.
         readings: telemetry lines so far.
+        talks: whether anything at all has come.
     """
 
     def __init__(self, now: float) -> None:
@@ -46,6 +47,7 @@ class Watch:
         self.longest_scan: float | None = None
         self.last_line: Line | None = None
         self.readings = 0
+        self.talks = False
         self._still_from: tuple[float, ...] | None = None
         self._still_since = now
         self._last_reading = now
@@ -54,6 +56,7 @@ class Watch:
     def heard(self, now: float) -> None:
         """Bytes arrived."""
         self.last_byte = now
+        self.talks = True
 
     def stands_still(self, now: float) -> bool:
         """Whether every motor has been where it is for 0.3 s, by readings that are still coming in."""

@@ -51,11 +51,16 @@ def silent_sentence(silence: float, limit: float, place: str) -> str:
     ).replace("  ", " ")
 
 
-def stranger_sentence(device: str | None, limit: float) -> str:
-    """Says that nothing like the robot is on the line."""
+def stranger_sentence(device: str | None, limit: float, *, talks: bool) -> str:
+    """Says that nothing like the robot is on the line: something else, or nothing at all."""
+    if talks:
+        return (
+            f"Something on {device} sends, but no line answered like the robot within {limit:.0f} s: "
+            "it is another device. Choose the robot's, then connect again."
+        )
     return (
-        f"Nothing on {device} answered like the robot within {limit:.0f} s. "
-        "Check device and power, then connect again."
+        f"Nothing on {device} answered like the robot within {limit:.0f} s; not a byte came. "
+        "Check power and cable or choose another device, then connect again."
     )
 
 

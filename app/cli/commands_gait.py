@@ -2,23 +2,32 @@
 
 from __future__ import annotations
 
+import json
 from argparse import Namespace
 from dataclasses import replace
+from itertools import groupby
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
+from app.cli.gait_options import asked_gait
+from app.cli.methods import SOLVERS, Method
 from app.cli.report import end_on_sigterm, note, show
-from app.documents import parse_gait
+from app.documents import gait_schema
 from app.judgement import Judgement, judge
 from app.store.files import GaitFiles, default_data_folder
-from app.trajectory_files import read_text, write_trajectory
+from app.trajectory_files import write_trajectory
 from core.errors import InputError
-from core.gait import Gait, GaitOptions, heading_step, motion_problem
-from core.library import library, manual_entry, optimised_entry
+from core.gait import Gait, heading_step, motion_problem
+from core.library import library, manual_entry
+from core.making import making
 from core.manual import manual_motion
+from core.new_gait import with_robot
 from core.robot import load_robot
-from core.timeline import timeline_from_order
-from solver_jobs import SolveStatus, solve_motion
+from solver_jobs import SolveStatus
+
+SAVED_GROUP = "Saved"
+"""Group of the gaits that a person has saved."""
 
 EXIT_OF_STATUS = {
     SolveStatus.SOLVED: 0,
@@ -29,38 +38,53 @@ EXIT_OF_STATUS = {
 
 
 def run_gaits(options: Namespace) -> int:
-    """Lists gaits."""
-    rows = [(entry.id, entry.gait, "built-in") for entry in library().values()]
-    rows += _saved(options.data or default_data_folder())
+    """Lists gaits, or prints the document's schema."""
+    if options.schema:
+        schema = gait_schema()
+        show(options, schema, [json.dumps(schema, indent=2, ensure_ascii=False)])
+        return 0
     content = [
-        {
-            "id": gait_id,
-            "name": gait.name,
-            "orientation": gait.orientation.value,
-            "order": list(gait.order),
-            "kind": kind,
-            "made": "optimised" if gait.segment_table is None else "manual",
-        }
-        for gait_id, gait, kind in rows
+        _listed(entry.id, entry.gait, "built-in") | {"group": entry.group.value}
+        for entry in library().values()
     ]
-    lines = [
-        f"{c['id']:<20} {c['name']:<26} {c['orientation']:<4} "
-        f"{'-'.join(map(str, c['order'])):<10} {c['made']:<10} {c['kind']}"
-        for c in content
-    ]
+    saved = _saved(options.data or default_data_folder())
+    content += [_listed(gait_id, gait, "saved") | {"group": SAVED_GROUP} for gait_id, gait in saved]
+    lines: list[str] = []
+    for group, listed in groupby(content, key=itemgetter("group")):
+        lines += [f"{group}:", *(_line(gait) for gait in listed)]
     show(options, {"gaits": content}, lines)
     return 0
 
 
-def _saved(data: Path) -> list[tuple[str, Gait, str]]:
+def _listed(gait_id: str, gait: Gait, kind: str) -> dict[str, Any]:
+    return {
+        "id": gait_id,
+        "name": gait.name,
+        "robot": gait.robot,
+        "orientation": gait.orientation.value,
+        "order": list(gait.order),
+        "kind": kind,
+        "made": making(gait).value,
+    }
+
+
+def _line(listed: dict[str, Any]) -> str:
+    order = "-".join(map(str, listed["order"]))
+    return (
+        f"  {listed['id']:<18} {listed['name']:<28} {listed['robot']:<12} {listed['orientation']:<4} "
+        f"{listed['made']:<10} {listed['kind']:<9} {order}"
+    )
+
+
+def _saved(data: Path) -> list[tuple[str, Gait]]:
     """Saved gaits; listing makes no folder, and a damaged file is said and left out."""
-    rows: list[tuple[str, Gait, str]] = []
+    rows: list[tuple[str, Gait]] = []
     if not data.exists():
         return rows
     files = GaitFiles(data)
     for gait_id in files.ids():
         try:
-            rows.append((gait_id, files.read(gait_id), "saved"))
+            rows.append((gait_id, files.read(gait_id)))
         except InputError as error:
             note(error.sentence)
     return rows
@@ -82,7 +106,8 @@ def run_manual(options: Namespace) -> int:
         segment_table=table,
         timeline=implied.timeline(gait.timeline.sample_time),
     )
-    model = load_robot(gait.robot)
+    model = load_robot(gait.robot if options.robot is None else options.robot)
+    gait = with_robot(gait, model)
     motion = manual_motion(gait, model)
     motion.trajectory.strokes(model)
     if options.output is not None:
@@ -95,6 +120,7 @@ def run_manual(options: Namespace) -> int:
         "knot_time": gait.timeline.sample_time,
         "travel": motion.trajectory.body_world[-1, :2].tolist(),
         "slip": motion.slip.tolist(),
+        "robot": model.name,
         "trajectory": _path(options.output),
     }
     slips = ", ".join(f"{s * 1000:.1f}" for s in motion.slip)
@@ -115,80 +141,28 @@ def _written(path: Path | None) -> list[str]:
     return [] if path is None else [f"Wrote {path}."]
 
 
-def gait_to_optimise(name: str) -> Gait:
-    """A built-in gait with the command's own defaults, or one from a file with its options.
-
-    Raises:
-        InputError: there is neither, or the gait is made by hand.
-    """
-    path = Path(name)
-    if name in library() or (path.suffix != ".json" and not path.exists()):
-        return replace(optimised_entry(name).gait, options=GaitOptions())
-    gait = parse_gait(read_text(path), path.name)
-    if gait.segment_table is not None:
-        raise InputError(
-            f"{path.name} is made by hand from a segment table; there is nothing to optimise.", name
-        )
-    return gait
-
-
-def _with_options(gait: Gait, options: Namespace) -> Gait:
-    """The gait with everything that the command line changes; its timeline is drawn anew where it must be."""
-    names = ("clearance", "margin", "body_speed", "workspace", "cost", "phase_knots", "closing_knots")
-    given = {name: getattr(options, name) for name in names if getattr(options, name) is not None}
-    asked: GaitOptions = replace(gait.options, **given)
-    direction = options.direction or gait.direction
-    iterations = options.iterations or gait.iterations
-    order = options.order or gait.order
-    step = gait.step
-    if options.step is not None:
-        step = (*heading_step(gait.orientation, options.step)[:2], step[2])
-    if options.goal is not None:
-        step = (options.goal[0] / iterations, options.goal[1] / iterations, step[2])
-    sample_time = options.knot_time or gait.timeline.sample_time
-    timeline = replace(gait.timeline, sample_time=sample_time)
-    if any(getattr(options, n) is not None for n in ("order", "iterations", "phase_knots", "closing_knots")):
-        timeline = timeline_from_order(
-            timeline.leg_count,
-            order,
-            phase_knots=asked.phase_knots,
-            closing_knots=asked.closing_knots,
-            iterations=iterations,
-            sample_time=sample_time,
-        ).turned(direction - 1)
-    elif direction != gait.direction:
-        timeline = timeline.turned(direction - gait.direction)
-    return replace(
-        gait,
-        direction=direction,
-        iterations=iterations,
-        order=order,
-        step=(step[0], step[1], step[2] if options.yaw is None else options.yaw),
-        timeline=timeline,
-        options=asked,
-    )
-
-
-def optimise(gait: Gait) -> Judgement:
+def optimise(gait: Gait, method: Method = Method.NLP) -> Judgement:
     """Solves a gait in this process and holds the result to the independent checker."""
     problem = motion_problem(gait, load_robot(gait.robot))
-    return judge(problem, solve_motion(problem))
+    return judge(problem, SOLVERS[method](problem))
 
 
 def run_optimise(options: Namespace) -> int:
     """Optimises a gait and writes its trajectory."""
     end_on_sigterm()
-    gait = _with_options(gait_to_optimise(options.gait), options)
-    judged = optimise(gait)
+    gait = asked_gait(options)
+    judged = optimise(gait, options.method)
     output = options.output if judged.status is SolveStatus.SOLVED else None
     if output is not None:
         write_trajectory(output, judged.trajectory)
     content: dict[str, Any] = {
         "gait": options.gait,
-        "method": options.method,
+        "method": options.method.value,
         "knots": gait.timeline.sample_count,
         "knot_time": gait.timeline.sample_time,
+        "robot": gait.robot,
         **judged.content,
+        "evidence": None if judged.result.evidence is None else judged.result.evidence.value,
         "trajectory": _path(output),
     }
     show(options, content, [*_optimise_lines(content), *_written(output)])
@@ -199,10 +173,14 @@ def _optimise_lines(content: dict[str, Any]) -> list[str]:
     margins = [content["min_margin"], content["min_cop_margin"]]
     shown = ["–" if margin is None else f"{margin * 1000:.2f} mm" for margin in margins]
     lines = [
-        f"{content['gait']}: {content['status']} in {content['iterations']} iterations, "
+        f"{content['gait']}: {content['status']}{_iterations(content)}, "
         f"{content['solve_seconds'] * 1000:.0f} ms (build {content['build_seconds'] * 1000:.0f} ms), "
         f"{content['knots']} knots.",
         f"Largest violation found by the checker: {content['max_violation'] or 0.0:.1e}.",
         f"Smallest stability margin {shown[0]}, of the centre of pressure {shown[1]}.",
     ]
     return [*lines, *content["explanation"]]
+
+
+def _iterations(content: dict[str, Any]) -> str:
+    return f" in {content['iterations']} iterations" if content["iterations"] else ""

@@ -1,29 +1,34 @@
-"""`waypoints`, `check` and `bench`."""
+"""`waypoints` and `check`."""
 
 from __future__ import annotations
 
 import sys
 from argparse import Namespace
+from functools import partial
 from pathlib import Path
-from typing import Any
 
-from app.bench import BENCHMARKS, conditions
 from app.cli.commands_gait import optimise
 from app.cli.report import note, show, verdict_lines
 from app.documents import parse_gait
+from app.sequence_plans import steps_between
 from app.trajectory_files import read_text, read_trajectory, write_waypoints
 from app.views import verdict_view
 from core.checks import CheckedPlan, check_plan
-from core.errors import CheckError, InfeasibleError, InputError
+from core.errors import CheckError, FootfallError, InfeasibleError
 from core.findings import Verdict
-from core.gait import Gait
+from core.gait import Gait, travel_world
 from core.manual import manual_motion
-from core.robot import load_robot
+from core.new_gait import with_robot
+from core.path_merging import plan_waypoints
+from core.recorded_motion import gait_trajectory
+from core.robot import RobotModel, load_robot
+from core.sequence import chain_runs, part_name, require_own, run_of
+from core.sequence_part import SequencePart
 from core.trajectory import Trajectory
-from core.waypoint_path import cut_moves, estimate_seconds, merge_waypoints, waypoints_from_trajectory
+from core.waypoint_path import estimate_seconds
 from core.waypoints import format_waypoint_csv
-from core.wire_timing import stop_delay
-from solver_jobs import SolveStatus
+from core.wire_timing import stop_time
+from solver_jobs import SolveStatus, solve_live
 
 NOT_FIT = 4
 ROBOT = "deltawalker"
@@ -34,18 +39,15 @@ def run_waypoints(options: Namespace) -> int:
     read = read_trajectory(options.file)
     for assumption in read.assumptions:
         note(assumption)
-    waypoints = waypoints_from_trajectory(load_robot(ROBOT), read.trajectory)
-    if options.merge is not None:
-        waypoints = merge_waypoints(waypoints, options.merge)
-    if options.stop_bound is not None:
-        waypoints = cut_moves(waypoints, options.stop_bound)
+    model = load_robot(options.robot or ROBOT)
+    waypoints = plan_waypoints(model, read.trajectory, options.merge or 0.0, options.stop_bound).waypoints
     if options.output is not None:
         write_waypoints(options.output, waypoints)
     content = {
         "waypoints": waypoints.count,
         "hash": waypoints.content_hash,
         "estimated_seconds": estimate_seconds(waypoints),
-        "stop_seconds": stop_delay(waypoints),
+        "stop_seconds": stop_time(waypoints),
         "assumptions": list(read.assumptions),
         "file": None if options.output is None else str(options.output),
     }
@@ -65,30 +67,40 @@ def run_check(options: Namespace) -> int:
     path: Path = options.file
     if path.suffix == ".json":
         gait = parse_gait(read_text(path), path.name)
-        verdict = _verdict(_trajectory_of(gait), gait)
+        if options.robot is not None:
+            gait = with_robot(gait, load_robot(options.robot))
+        verdict = _verdict(load_robot(gait.robot), _trajectory_of(gait), gait)
     else:
         read = read_trajectory(path)
         for assumption in read.assumptions:
             note(assumption)
-        verdict = _verdict(read.trajectory, None)
+        verdict = _verdict(load_robot(options.robot or ROBOT), read.trajectory, None)
     show(options, verdict_view(verdict), verdict_lines(verdict))
     return 0 if verdict.passed else NOT_FIT
 
 
-def _verdict(trajectory: Trajectory, gait: Gait | None) -> Verdict:
-    model = load_robot(ROBOT if gait is None else gait.robot)
-    waypoints = waypoints_from_trajectory(model, trajectory)
-    travel = None if gait is None else gait.step_world * gait.iterations
-    return check_plan(CheckedPlan(model, trajectory, waypoints, travel))
+def _verdict(model: RobotModel, trajectory: Trajectory, gait: Gait | None) -> Verdict:
+    merge, bound = (0.0, None) if gait is None else (gait.options.merge, gait.options.stop_bound)
+    way = plan_waypoints(model, trajectory, merge, bound)
+    travel = None if gait is None else travel_world(gait, model)
+    return check_plan(CheckedPlan(model, trajectory, way.waypoints, travel, way=way))
 
 
 def _trajectory_of(gait: Gait) -> Trajectory:
-    """By hand table, or solved now and confirmed.
+    """Recorded, by hand table, or solved now and confirmed; of a sequence those of its parts, chained.
 
     Raises:
+        InputError: the recorded motion is not that of the document.
         InfeasibleError: there is no motion.
         CheckError: the optimiser found none that the checker confirms.
     """
+    if gait.sequence:
+        motions = [_part_trajectory(index, part) for index, part in enumerate(gait.sequence)]
+        whole = chain_runs(gait, load_robot(gait.robot), motions, partial(steps_between, solve_live))
+        require_own(gait, whole)
+        return whole.trajectory
+    if gait.recorded is not None:
+        return gait_trajectory(gait, gait.recorded, load_robot(gait.robot))
     if gait.segment_table is not None:
         return manual_motion(gait, load_robot(gait.robot)).trajectory
     judged = optimise(gait)
@@ -100,26 +112,16 @@ def _trajectory_of(gait: Gait) -> Trajectory:
     raise CheckError(sentence, gait.name)
 
 
-def run_bench(options: Namespace) -> int:
-    """Runs benchmarks and prints their conditions."""
-    unknown = [name for name in options.names if name not in BENCHMARKS]
-    if unknown:
-        raise InputError(f"There is no benchmark “{unknown[0]}”; choose of {', '.join(BENCHMARKS)}.", "NAME")
-    results = {name: BENCHMARKS[name]() for name in options.names or BENCHMARKS}
-    where = conditions()
-    lines = [", ".join(f"{key}: {value}" for key, value in where.items())]
-    for name, rows in results.items():
-        lines += ["", name, *_table(rows)]
-    show(options, {"conditions": where, "results": results}, lines)
-    return 0
+def _part_trajectory(index: int, part: SequencePart) -> Trajectory:
+    """The motion of a part with all its iterations; a refusal says which part it is about.
 
-
-def _table(rows: list[dict[str, Any]]) -> list[str]:
-    """Rows for people: a header and aligned columns."""
-    header = list(rows[0])
-    cells = [header, *([str(row[key]) for key in header] for row in rows)]
-    widths = [max(len(line[column]) for line in cells) for column in range(len(header))]
-    return [
-        "  " + "  ".join(text.rjust(width) for text, width in zip(line, widths, strict=True))
-        for line in cells
-    ]
+    Raises:
+        InfeasibleError: there is no motion.
+        CheckError: no motion was confirmed, or the part makes none.
+    """
+    try:
+        return _trajectory_of(run_of(part).gait)
+    except FootfallError as refusal:
+        sentence = f"{part_name(index, part)}, has no motion: {refusal.sentence}"
+        kind = InfeasibleError if isinstance(refusal, InfeasibleError) else CheckError
+        raise kind(sentence, "sequence") from refusal

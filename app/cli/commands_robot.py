@@ -32,6 +32,8 @@ READY_SECONDS = 20.0
 """The board needs about 8 s; later than this nothing will come."""
 CLEAR_SECONDS = 10.0
 """A stop is confirmed or overdue by then."""
+LOOK_SECONDS = 0.2
+"""How often an emulated robot is looked at for fault states."""
 ROBOT_FAILED = 5
 NOT_FIT = 4
 _ENDS = frozenset({RobotState.DONE, RobotState.STOPPED, RobotState.FAULT})
@@ -88,7 +90,12 @@ def run_emulate(options: Namespace) -> int:
     try:
         show(options, {"device": robot.device}, [robot.device])
         sys.stdout.flush()
-        ended.wait()
+        told: str | None = None
+        while not ended.wait(LOOK_SECONDS):
+            wrong = robot.firmware.fault or robot.firmware.spoilt
+            if wrong is not None and wrong != told:
+                note(f"The emulated robot is in a fault state. {wrong}")
+            told = wrong
     finally:
         robot.close()
     return 0

@@ -11,7 +11,7 @@ from types import FrameType
 from typing import Any
 
 from app.finite import finite
-from core.findings import Severity, Verdict
+from core.findings import SendCost, Severity, Verdict
 
 
 class Interrupted(Exception):  # noqa: N818 - it is no error
@@ -26,6 +26,12 @@ def end_on_sigterm() -> None:
         raise Interrupted
 
     signal.signal(signal.SIGTERM, raise_interrupted)
+
+
+def ignore_interrupts() -> None:
+    """Lets a command that has been interrupted end what it does without being broken off again."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)
 
 
 def show(options: Namespace, content: dict[str, Any], lines: Sequence[str]) -> None:
@@ -46,7 +52,18 @@ def verdict_lines(verdict: Verdict) -> list[str]:
     lines = [f"{'Passed' if verdict.passed else 'Not fit'}: {errors} errors, {warnings} warnings."]
     lines += [f"  {f.severity.value}: {f.rule}: {f.sentence}" for f in verdict.findings]
     lines += [f"  margin {m.rule:<12} {_in_unit(m.margin, m.unit)}" for m in verdict.margins]
+    lines += [_cost_line(cost) for cost in verdict.costs]
+    lines += [f"  {sentence}" for sentence in verdict.notes]
     return lines
+
+
+def _cost_line(cost: SendCost) -> str:
+    bound = "none" if cost.stop_bound is None else f"{cost.stop_bound:g} s"
+    chosen = " (chosen)" if cost.is_chosen else ""
+    return (
+        f"  stop bound {bound}{chosen}: {cost.merged_seconds:.1f} s merged within "
+        f"{cost.merge * 1000:g} mm, {cost.every_seconds:.1f} s with one waypoint a knot"
+    )
 
 
 def _in_unit(value: float | None, unit: str) -> str:

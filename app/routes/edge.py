@@ -3,23 +3,41 @@
 from __future__ import annotations
 
 import asyncio
+import re
 from collections.abc import Callable
-from typing import TypeVar
+from typing import Annotated, Any, TypeVar
+from urllib.parse import unquote
 
-from fastapi import FastAPI, Request
+from fastapi import Depends, FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 
-from app.gait_desk import UnknownGaitError, refusal_text
+from app.gait_desk import UnknownGaitError
+from app.history import Author
 from app.job_desk import UnknownJobError
+from app.open_gait import OpenGait
+from app.pattern_desk import UnknownSearchError
+from app.runs.record import UnknownRunError
 from app.studio import Studio
+from app.versions import UnknownVersionError
 from core.errors import CheckError, FootfallError, InfeasibleError, InputError, RobotError, StateError
 
 Result = TypeVar("Result")
 
+PAGE_HEADER, NAME_HEADER = "x-footfall-page", "x-footfall-name"
+"""Which page asks (one tab of a browser), and the percent-encoded name of who sits there."""
+
+MOST_NAME = 80
+"""Characters of a person's name."""
+
+_PAGE = re.compile(r"[A-Za-z0-9-]{1,64}")
+
 _STATUS: tuple[tuple[type[FootfallError], int], ...] = (
     (UnknownGaitError, 404),
     (UnknownJobError, 404),
+    (UnknownVersionError, 404),
+    (UnknownSearchError, 404),
+    (UnknownRunError, 404),
     (StateError, 409),
     (CheckError, 409),
     (RobotError, 503),
@@ -34,9 +52,42 @@ def studio_of(request: Request) -> Studio:
     return studio
 
 
+def is_page(text: str) -> bool:
+    """Whether a text can be a page's id."""
+    return _PAGE.fullmatch(text) is not None
+
+
+def author_of(request: Request) -> Author:
+    """Who edits; a script where no page is named.
+
+    Raises:
+        InputError: the page's id or the name cannot be one.
+    """
+    page, name = request.headers.get(PAGE_HEADER), unquote(request.headers.get(NAME_HEADER, ""))
+    if page is not None and not is_page(page):
+        raise InputError(f"{PAGE_HEADER} takes up to 64 letters, digits and hyphens.", PAGE_HEADER)
+    if len(name) > MOST_NAME:
+        raise InputError(f"The name has {len(name)} characters; at most {MOST_NAME} are kept.", NAME_HEADER)
+    return Author(name=name) if page is None else Author(page, name)
+
+
+TheAuthor = Annotated[Author, Depends(author_of)]
+"""Who edits, for a route."""
+
+
 async def on_session(studio: Studio, action: Callable[[], Result]) -> Result:
     """Does something on the session's thread and waits for it."""
     return await asyncio.wrap_future(studio.call(action))
+
+
+async def on_planned(studio: Studio, gait_id: str, action: Callable[[], Result]) -> Result:
+    """Does something on the session's thread that finds the plan of a gait made, and waits for it."""
+    return await asyncio.wrap_future(studio.call_planned(gait_id, action))
+
+
+async def changed(studio: Studio, action: Callable[[], OpenGait]) -> dict[str, Any]:
+    """Changes a gait, shows it to every page, and waits for its view."""
+    return await asyncio.wrap_future(studio.change(action))
 
 
 def install_error_handlers(app: FastAPI) -> None:
@@ -50,7 +101,7 @@ async def _refused(request: Request, error: Exception) -> JSONResponse:
     if not isinstance(error, FootfallError):
         raise error
     status = next((code for kind, code in _STATUS if isinstance(error, kind)), 422)
-    return JSONResponse(refusal_text(error), status_code=status)
+    return _refusal(error.sentence, error.where, status)
 
 
 async def _invalid(request: Request, error: Exception) -> JSONResponse:
@@ -59,4 +110,11 @@ async def _invalid(request: Request, error: Exception) -> JSONResponse:
         raise error
     first = error.errors()[0]
     field = ".".join(str(part) for part in first["loc"])
-    return JSONResponse({"error": f"{field}: {first['msg']}.", "where": field}, status_code=422)
+    return _refusal(f"{field}: {first['msg']}.", field, 422)
+
+
+def _refusal(sentence: str, where: str | None, status: int) -> JSONResponse:
+    """The answer; what a refusal quotes may hold halves of characters."""
+    words = {"error": sentence, "where": where}
+    whole = {key: text and text.encode(errors="backslashreplace").decode() for key, text in words.items()}
+    return JSONResponse(whole, status_code=status)

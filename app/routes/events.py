@@ -10,7 +10,7 @@ from fastapi import APIRouter, WebSocket
 from starlette.websockets import WebSocketDisconnect
 
 from app.events import Subscriber
-from app.routes.edge import on_session
+from app.routes.edge import is_page, on_session
 from app.studio import Studio
 
 router = APIRouter()
@@ -18,13 +18,15 @@ router = APIRouter()
 
 @router.websocket("/api/events")
 async def events(socket: WebSocket) -> None:
-    """Sends `hello`, then every change; what a client sends is ignored."""
+    """Sends `hello`, then every change; whatever a client sends is a sign of life of its page."""
     studio: Studio = socket.app.state.studio
+    page = socket.query_params.get("page", "")
     await socket.accept()
-    subscriber = studio.hub.subscribe()
-    listening = asyncio.create_task(_drain(socket))
+    subscriber = studio.hub.subscribe(page if is_page(page) else "")
+    listening = asyncio.create_task(_drain(socket, studio, subscriber.page))
     try:
         await socket.send_text(json.dumps(await on_session(studio, studio.hello), allow_nan=False))
+        studio.session.tell(lambda: studio.page_came_or_went(subscriber.page))
         while (event := await _next_or_gone(subscriber, listening)) is not None:
             await socket.send_text(event)
         await socket.close()
@@ -32,6 +34,7 @@ async def events(socket: WebSocket) -> None:
         pass  # the page is gone
     finally:
         studio.hub.unsubscribe(subscriber)
+        studio.session.tell(lambda: studio.page_came_or_went(subscriber.page))
         listening.cancel()
         with contextlib.suppress(asyncio.CancelledError, WebSocketDisconnect, RuntimeError):
             await listening
@@ -47,6 +50,7 @@ async def _next_or_gone(subscriber: Subscriber, listening: asyncio.Task[None]) -
     return event.result()
 
 
-async def _drain(socket: WebSocket) -> None:
+async def _drain(socket: WebSocket, studio: Studio, page: str) -> None:
     while True:
+        studio.robot.lease.heard(page)
         await socket.receive_text()

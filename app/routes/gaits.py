@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict, replace
 from functools import partial
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Query, Request, Response
-from pydantic import BaseModel, ConfigDict, Field
+from fastapi.responses import JSONResponse
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from starlette.concurrency import run_in_threadpool
 
-from app.documents import GaitDocument, gait_content, parse_gait
-from app.routes.edge import on_session, studio_of
+from app.bridge.course import Course
+from app.deleted_gaits import ROUTE
+from app.documents import MOST_BYTES, gait_content, parse_gait
+from app.open_gait import OpenGait
+from app.routes.edge import TheAuthor, changed, on_planned, on_session, studio_of
 from app.scene.overlay import plan_poses
-from app.scene.server import SceneServer
 from app.studio import Studio
 from app.views import approval_view, verdict_view
 from core.errors import InputError, StateError
+from core.gait import MOST_NAME, Gait
 
 router = APIRouter(prefix="/api/gaits", tags=["gaits"])
 TheStudio = Annotated[Studio, Depends(studio_of)]
@@ -23,11 +28,9 @@ TheStudio = Annotated[Studio, Depends(studio_of)]
 _DOCUMENT = {
     "requestBody": {
         "required": True,
-        "content": {"application/json": {"schema": GaitDocument.model_json_schema()}},
+        "content": {"application/json": {"schema": {"$ref": "/api/schema/gait"}}},
     }
 }
-MOST_BYTES = 2_000_000
-"""A gait document is far smaller; more is refused."""
 
 
 class Redraw(BaseModel):
@@ -47,6 +50,14 @@ class Approve(BaseModel):
     verdict_hash: str | None = None
 
 
+class Live(BaseModel):
+    """A document to try, and whether changes that make it feasible are wanted."""
+
+    model_config = ConfigDict(extra="forbid")
+    document: dict[str, Any] | None = None
+    remedies: bool = False
+
+
 async def _document(request: Request) -> bytes:
     body = await request.body()
     if len(body) > MOST_BYTES:
@@ -60,6 +71,13 @@ async def list_gaits(studio: TheStudio) -> dict[str, Any]:
     return {"gaits": await on_session(studio, studio.summaries)}
 
 
+@router.get(f"/{ROUTE}")
+async def list_deleted(studio: TheStudio) -> dict[str, Any]:
+    """Deleted gaits that can be brought back, the last deleted first: id, name, when (s since the epoch)."""
+    deleted = await on_session(studio, studio.gaits.deleted)
+    return {"gaits": [asdict(gait) for gait in deleted]}
+
+
 @router.post("", status_code=201, openapi_extra=_DOCUMENT)
 async def create_gait(
     request: Request,
@@ -70,17 +88,17 @@ async def create_gait(
     """Saves a new gait from a document, or from a copy of another."""
     body = await _document(request)
 
-    def create() -> dict[str, Any]:
-        content = None if copy_of is None else gait_content(studio.gaits.open_gait(copy_of).gait)
-        gait = parse_gait(body if content is None else _renamed(content, name), "body")
-        return studio.publish_gait(studio.gaits.create(gait))
+    def create() -> OpenGait:
+        gait = parse_gait(body, "body") if copy_of is None else _copy(studio.gaits.document(copy_of), name)
+        return studio.gaits.create(gait)
 
-    return await on_session(studio, create)
+    return await changed(studio, create)
 
 
-def _renamed(content: dict[str, Any], name: str | None) -> bytes:
-    document = GaitDocument.model_validate({**content, "name": name or f"{content['name']} copy"})
-    return document.model_dump_json().encode()
+def _copy(gait: Gait, name: str | None) -> Gait:
+    """The gait under another name; its own with “copy” behind it where none is given."""
+    word = " copy"
+    return replace(gait, name=name or f"{gait.name[: MOST_NAME - len(word)]}{word}")
 
 
 @router.get("/{gait_id}")
@@ -92,7 +110,7 @@ async def read_gait(gait_id: str, studio: TheStudio) -> dict[str, Any]:
 @router.get("/{gait_id}/view")
 async def view_gait(gait_id: str, studio: TheStudio) -> dict[str, Any]:
     """The gait with its plan, verdict and approval."""
-    return await on_session(studio, lambda: studio.view(gait_id))
+    return await on_planned(studio, gait_id, lambda: studio.view(gait_id))
 
 
 @router.put("/{gait_id}", openapi_extra=_DOCUMENT)
@@ -100,17 +118,17 @@ async def edit_gait(
     gait_id: str,
     request: Request,
     studio: TheStudio,
+    author: TheAuthor,
     label: Annotated[str, Query(max_length=120)] = "Edit",
     revision: int | None = None,
 ) -> dict[str, Any]:
     """Puts a changed document on the desk as one undo step."""
     body = await _document(request)
 
-    def edit() -> dict[str, Any]:
-        gait = parse_gait(body, "body")
-        return studio.publish_gait(studio.gaits.edit(gait_id, gait, label, revision))
+    def edit() -> OpenGait:
+        return studio.gaits.edit(gait_id, parse_gait(body, "body"), label, revision, author)
 
-    return await on_session(studio, edit)
+    return await changed(studio, edit)
 
 
 @router.delete("/{gait_id}")
@@ -118,7 +136,9 @@ async def delete_gait(gait_id: str, studio: TheStudio) -> dict[str, Any]:
     """Takes a saved gait away; it can be restored."""
 
     def delete() -> dict[str, Any]:
-        studio.gaits.delete(gait_id)
+        instead = studio.gaits.delete(gait_id)
+        if instead is not None:
+            studio.publish_soon(instead.id)
         studio.publish_list()
         return {"deleted": gait_id}
 
@@ -126,36 +146,56 @@ async def delete_gait(gait_id: str, studio: TheStudio) -> dict[str, Any]:
 
 
 @router.post("/{gait_id}/redraw")
-async def redraw_gait(gait_id: str, redraw: Redraw, studio: TheStudio) -> dict[str, Any]:
+async def redraw_gait(gait_id: str, redraw: Redraw, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
     """Draws the timeline anew from a foot order."""
     change = partial(
-        studio.gaits.redraw, gait_id, tuple(redraw.order), redraw.phase_knots, redraw.closing_knots
+        studio.gaits.redraw, gait_id, tuple(redraw.order), redraw.phase_knots, redraw.closing_knots, author
     )
-    return await on_session(studio, lambda: studio.publish_gait(change()))
+    return await changed(studio, change)
 
 
 @router.post("/{gait_id}/undo")
-async def undo(gait_id: str, studio: TheStudio) -> dict[str, Any]:
-    """One step back."""
-    return await on_session(studio, lambda: studio.publish_gait(studio.gaits.undo(gait_id)))
+async def undo(gait_id: str, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+    """Takes back the newest edit of who asks; a page names itself by the header X-Footfall-Page."""
+    return await changed(studio, lambda: studio.gaits.undo(gait_id, author))
 
 
 @router.post("/{gait_id}/redo")
-async def redo(gait_id: str, studio: TheStudio) -> dict[str, Any]:
-    """One step forward again."""
-    return await on_session(studio, lambda: studio.publish_gait(studio.gaits.redo(gait_id)))
+async def redo(gait_id: str, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+    """Does the newest undone edit of who asks again."""
+    return await changed(studio, lambda: studio.gaits.redo(gait_id, author))
 
 
 @router.post("/{gait_id}/save")
-async def save(gait_id: str, studio: TheStudio) -> dict[str, Any]:
+async def save(gait_id: str, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
     """Writes the gait to the data folder."""
-    return await on_session(studio, lambda: studio.publish_gait(studio.gaits.save(gait_id)))
+    return await changed(studio, lambda: studio.gaits.save(gait_id, author))
 
 
 @router.post("/{gait_id}/restore")
 async def restore(gait_id: str, studio: TheStudio) -> dict[str, Any]:
     """Brings a deleted gait back."""
-    return await on_session(studio, lambda: studio.publish_gait(studio.gaits.restore(gait_id)))
+    return await changed(studio, lambda: studio.gaits.restore(gait_id))
+
+
+@router.post("/{gait_id}/live", response_model=dict[str, Any])
+async def live(gait_id: str, request: Request, studio: TheStudio) -> JSONResponse:
+    """What the gait, or a changed document of it, would amount to; the desk stays as it is."""
+    asked = _asked(await _document(request))
+    gait = await on_session(studio, lambda: studio.gaits.open_gait(gait_id).gait)
+    # As a finished answer: the framework's own way through every number takes longer than all the rest.
+    return await run_in_threadpool(
+        lambda: JSONResponse(studio.live.answer(gait, asked.document, asked.remedies))
+    )
+
+
+def _asked(body: bytes) -> Live:
+    try:
+        return Live.model_validate_json(body or b"{}")
+    except ValidationError as error:
+        first = error.errors()[0]
+        field = ".".join(str(part) for part in first["loc"])
+        raise InputError(f"body, field {field}: {first['msg']}.", f"body.{field}") from error
 
 
 @router.post("/{gait_id}/check")
@@ -169,7 +209,7 @@ async def check(gait_id: str, studio: TheStudio) -> dict[str, Any]:
             raise StateError("The check gave no verdict.", "check")
         return verdict_view(open_gait.verdict)
 
-    return await on_session(studio, checked)
+    return await on_planned(studio, gait_id, checked)
 
 
 @router.post("/{gait_id}/approve")
@@ -183,31 +223,30 @@ async def approve(gait_id: str, approval: Approve, studio: TheStudio) -> dict[st
             raise StateError("The approval was not recorded.", "approve")
         return approval_view(open_gait.approval)
 
-    return await on_session(studio, approved)
+    return await on_planned(studio, gait_id, approved)
 
 
 @router.get("/{gait_id}/poses", response_class=Response)
-async def poses(gait_id: str, plan: str, request: Request, studio: TheStudio) -> Response:
+async def poses(gait_id: str, plan: str, studio: TheStudio) -> Response:
     """Every moving part's pose over the plan, for playback; binary."""
-    shown = await on_session(studio, lambda: studio.gaits.plan(gait_id))
-    trajectory = shown.trajectory
+    shown = await on_planned(studio, gait_id, lambda: studio.gaits.plan(gait_id))
     if shown.hash != plan:
-        raise StateError("The plan changed meanwhile; ask for the new one.", "plan")
-    if trajectory is None or shown.waypoints is None:
-        raise StateError("This plan cannot be shown: a foot is out of reach.", "plan")
-
-    # All pages look into one scene: it holds the robot of the gait that was opened last.
-    scene: SceneServer = request.app.state.scene
-    await run_in_threadpool(scene.show, shown.model.name)
+        shown = studio.live.kept(plan)
+    trajectory = shown.trajectory
+    if trajectory is None:
+        raise StateError("This plan cannot be shown: there is no motion.", "plan")
     blob = await run_in_threadpool(plan_poses, shown.model, trajectory)
     return Response(blob.to_bytes(), media_type="application/octet-stream")
 
 
 @router.get("/{gait_id}/run")
-async def run(gait_id: str, studio: TheStudio) -> dict[str, Any]:
+async def run(
+    gait_id: str, studio: TheStudio, first: Annotated[int, Query(alias="from")] = 0, iterations: int = 1
+) -> dict[str, Any]:
     """What a person should know before they press Send."""
 
     def summary() -> dict[str, Any]:
-        return studio.robot.run_summary(studio.gaits.open_gait(gait_id), studio.gaits.plan(gait_id))
+        open_gait, plan = studio.gaits.open_gait(gait_id), studio.gaits.plan(gait_id)
+        return studio.robot.run_summary(open_gait, plan, Course(first, iterations))
 
-    return await on_session(studio, summary)
+    return await on_planned(studio, gait_id, summary)

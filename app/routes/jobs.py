@@ -6,9 +6,12 @@ from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Depends
 from pydantic import BaseModel, ConfigDict
+from starlette.concurrency import run_in_threadpool
 
-from app.routes.edge import on_session, studio_of
+from app.routes.edge import TheAuthor, on_session, studio_of
 from app.studio import Studio
+from app.views import plan_view
+from solver_jobs import JobKind
 
 router = APIRouter(prefix="/api/jobs", tags=["jobs"])
 TheStudio = Annotated[Studio, Depends(studio_of)]
@@ -18,14 +21,15 @@ class JobRequest(BaseModel):
     """What to compute, for which gait."""
 
     model_config = ConfigDict(extra="forbid")
-    kind: Literal["optimise"] = "optimise"
+    kind: Literal["optimise", "timing"] = "optimise"
     gait: str
 
 
 @router.post("", status_code=202)
-async def submit(job: JobRequest, studio: TheStudio) -> dict[str, Any]:
-    """Starts the optimisation of a gait as it is now."""
-    content = await on_session(studio, lambda: studio.submit_job(job.gait))
+async def submit(job: JobRequest, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+    """Starts the optimisation of a gait as it is now, or the search for its fastest timing."""
+    kind = JobKind.TIMING if job.kind == "timing" else JobKind.MOTION
+    content = await on_session(studio, lambda: studio.submit_job(job.gait, kind, author))
     return {"id": content["id"]}
 
 
@@ -45,3 +49,10 @@ async def read_job(job_id: str, studio: TheStudio) -> dict[str, Any]:
 async def cancel(job_id: str, studio: TheStudio) -> dict[str, Any]:
     """Cancels a job; one that has ended stays as it is."""
     return await on_session(studio, lambda: studio.job_view(studio.jobs.cancel(job_id)))
+
+
+@router.get("/{job_id}/course/{number}")
+async def iterate(job_id: str, number: int, studio: TheStudio) -> dict[str, Any]:
+    """The motion at one of a job's iterations, as a plan to look at; 0 is the start."""
+    plan = await on_session(studio, lambda: studio.jobs.iterate(job_id, number))
+    return await run_in_threadpool(lambda: plan_view(studio.live.keep(plan)))

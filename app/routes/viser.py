@@ -1,8 +1,9 @@
 """The embedded Viser client and its web socket, behind our own port.
 
 The client is the installed package's one HTML file, with our head script and style put in; the socket is
-relayed, message by message, to Viser on loopback. `/viser/poses` is the slow way for pages that can't reach
-into the client: names of nodes as a JSON text, then one binary of float32 a pose, each answered by a text.
+relayed, message by message, to Viser on loopback; `?robot=NAME` says whose scene. `/viser/poses` is the slow
+way for pages that can't reach into the client: names of nodes as a JSON text, then one binary of float32 a
+pose, each answered by a text.
 """
 
 from __future__ import annotations
@@ -10,9 +11,11 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import hashlib
+import importlib.util
 import json
-from collections.abc import Coroutine, Sequence
+from collections.abc import Callable, Coroutine, Sequence
 from importlib import resources
+from pathlib import Path
 from typing import Protocol
 
 import numpy as np
@@ -23,7 +26,8 @@ from starlette.websockets import WebSocketDisconnect, WebSocketState
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
-from core.errors import FootfallError
+from app.scene.scenes import FIRST_ROBOT
+from core.errors import FootfallError, StateError
 
 CONTENT_SECURITY = "; ".join(
     [
@@ -64,11 +68,11 @@ class ViserScene(Protocol):
         """Moves nodes to (nodes, 7) poses."""
 
 
-def make_viser_router(scene: ViserScene) -> APIRouter:
+def make_viser_router(scene_of: Callable[[str], ViserScene]) -> APIRouter:
     """Serves the client at `/viser/` and relays its web socket at `/viser/ws`.
 
     Args:
-        scene: the running scene; its port is read at each connection.
+        scene_of: gives the running scene of a robot by its name; asked at each connection.
     """
     router = APIRouter()
     page = client_page()
@@ -87,16 +91,30 @@ def make_viser_router(scene: ViserScene) -> APIRouter:
         return Response(page, media_type="text/html; charset=utf-8", headers=headers)
 
     @router.websocket("/viser/ws")
-    async def socket(browser: WebSocket) -> None:
-        await relay(browser, scene.port)
+    async def socket(browser: WebSocket, robot: str = FIRST_ROBOT) -> None:
+        scene = await _opened(browser, scene_of, robot)
+        if scene is not None:
+            await relay(browser, scene.port)
 
     @router.websocket("/viser/poses")
-    async def poses(browser: WebSocket) -> None:
-        await browser.accept()
-        with contextlib.suppress(WebSocketDisconnect):
-            await take_poses(browser, scene)
+    async def poses(browser: WebSocket, robot: str = FIRST_ROBOT) -> None:
+        scene = await _opened(browser, scene_of, robot)
+        if scene is not None:
+            await browser.accept()
+            with contextlib.suppress(WebSocketDisconnect):
+                await take_poses(browser, scene)
 
     return router
+
+
+async def _opened(browser: WebSocket, scene_of: Callable[[str], ViserScene], robot: str) -> ViserScene | None:
+    """The robot's scene; None, with the socket closed, where there is none."""
+    try:
+        # The first page on a robot waits for its scene to be built.
+        return await asyncio.to_thread(scene_of, robot)
+    except FootfallError as error:
+        await browser.close(UNSUPPORTED_DATA, str(error)[:LONGEST_REASON])
+        return None
 
 
 async def take_poses(browser: WebSocket, scene: ViserScene) -> None:
@@ -120,12 +138,22 @@ async def take_poses(browser: WebSocket, scene: ViserScene) -> None:
 
 def client_page() -> bytes:
     """The installed client's page with our script and style first in its head."""
-    built = resources.files("viser").joinpath("client", "build", "index.html").read_text("utf-8")
+    built = _viser_folder().joinpath("client", "build", "index.html").read_text("utf-8")
     ours = resources.files("app").joinpath("static", "preview")
     script = ours.joinpath("viser_frame.js").read_text("utf-8")
     style = ours.joinpath("viser_frame.css").read_text("utf-8")
     addition = f"<script>{script}</script><style>{style}</style>"
     return built.replace("<head>", f"<head>{addition}", 1).encode()
+
+
+def _viser_folder() -> Path:
+    """Where Viser is installed, without loading it."""
+    found = importlib.util.find_spec("viser")
+    if found is None or found.origin is None:
+        raise StateError(
+            "Viser is not installed, which draws in 3D; install the studio's packages again.", "viser"
+        )
+    return Path(found.origin).parent
 
 
 async def relay(browser: WebSocket, port: int) -> None:

@@ -1,7 +1,7 @@
-"""The 3D scene: a Viser server on loopback, the robot's nodes, and the poses of plans."""
+"""The 3D scenes: Viser servers on loopback, each with a robot's nodes, and the poses of plans."""
 
 from app.scene.overlay import overlay_table, plan_poses
 from app.scene.poses import PoseBlob, pose_frames
-from app.scene.server import SceneServer
+from app.scene.scenes import Scenes
 
-__all__ = ["PoseBlob", "SceneServer", "overlay_table", "plan_poses", "pose_frames"]
+__all__ = ["PoseBlob", "Scenes", "overlay_table", "plan_poses", "pose_frames"]

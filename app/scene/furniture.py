@@ -11,20 +11,35 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from app.scene.poses import COM_NODE, FLOOR_GAP
+from app.scene.poses import COM_NODE, FLOOR_GAP, ROBOT_ROOT
 from core.arrays import Floats
+from core.closed_chain import BODY
 from core.robot import RobotModel
 
 Colour = tuple[int, int, int]
 
 INK: Colour = (27, 36, 48)
 GOOD: Colour = (31, 138, 91)
+BAD: Colour = (192, 54, 44)
+ACCENT: Colour = (58, 92, 204)
+
+COP_NODE = "/overlay/cop"
+"""Scene path of the marker on the floor at the centre of pressure."""
+
+REACH_NODE = f"{ROBOT_ROOT}/{BODY}/reach"
+"""Scene path of the lines round each foot's reach; it moves along with the body."""
+
+GHOST_NODES = ("/ghost/before", "/ghost/saved", "/ghost/measured")
+"""Scene paths of other versions of the gait, each drawn with the lines of one node."""
 
 FLOOR_THEMES: dict[str, tuple[Colour, Colour]] = {
     "light": ((212, 219, 228), (246, 248, 250)),
     "dark": ((84, 96, 114), (38, 44, 54)),
 }
 """Colours of the floor's lines near and far, by the page's theme."""
+
+SHADOW = 0.2
+"""Darkness of the shadows on the floor, 0 to 1."""
 
 CELL = 0.02
 """Distance of the floor's lines, m."""
@@ -52,7 +67,10 @@ def add_light(server: viser.ViserServer) -> None:
 
 
 def add_floor(server: viser.ViserServer, model: RobotModel) -> None:
-    """Lines `sole_depth` under the standing platforms, fading outwards, once for each theme."""
+    """Lines `sole_depth` under the standing platforms, fading outwards, once for each theme.
+
+    What shadows fall on is hidden; pages with a GPU show it.
+    """
     reach = _reach(model) * FLOOR_RADIUS
     points = _grid_points(reach, -model.sole_depth)
     distance = np.linalg.norm(points[..., :2], axis=-1, keepdims=True)
@@ -69,10 +87,20 @@ def add_floor(server: viser.ViserServer, model: RobotModel) -> None:
             thickness_units="screen",
             visible=theme == "light",
         )
+    server.scene.add_grid(
+        "/floor/shadow",
+        width=2 * reach,
+        height=2 * reach,
+        cell_thickness=0.0,
+        section_thickness=0.0,
+        shadow_opacity=SHADOW,
+        position=(0.0, 0.0, -model.sole_depth - FLOOR_GAP),
+        visible=False,
+    )
 
 
 def add_overlay(server: viser.ViserServer, model: RobotModel) -> None:
-    """Hidden marks: support polygon and its edge, centre-of-mass trace and point, swings and footholds."""
+    """Hidden marks: support polygon, centres of mass and pressure, swings, footholds, reach, and ghosts."""
     floor = -model.sole_depth
     triangle = np.array([[0, 0, floor], [1e-3, 0, floor], [0, 1e-3, floor]], dtype=np.float32)
     server.scene.add_mesh_simple(
@@ -88,22 +116,18 @@ def add_overlay(server: viser.ViserServer, model: RobotModel) -> None:
     )
     _add_lines(server, "/overlay/polygon_edge", GOOD, 2.5)
     _add_lines(server, "/overlay/com_trace", INK, 2.0)
+    _add_lines(server, "/overlay/cop_trace", ACCENT, 1.5)
+    _add_lines(server, "/overlay/trouble", BAD, 3.5)
+    # A colour for each end from the first: the client makes no lines of many colours of lines of one.
+    _add_lines(server, REACH_NODE, np.full((1, 2, 3), INK, dtype=np.uint8), 1.5)
+    for node in GHOST_NODES:
+        _add_lines(server, node, INK, 1.25)
     for leg, colour in enumerate(model.colours):
         rgb = (int(colour[1:3], 16), int(colour[3:5], 16), int(colour[5:7], 16))
         _add_lines(server, f"/overlay/swing{leg + 1}", rgb, 2.5)
         _add_lines(server, f"/overlay/foothold{leg + 1}", rgb, 2.0)
-    disc, faces = _disc(0.003, 20)
-    server.scene.add_mesh_simple(
-        COM_NODE,
-        disc,
-        faces,
-        color=INK,
-        side="double",
-        cast_shadow=False,
-        receive_shadow=False,
-        position=(0, 0, floor + 3 * FLOOR_GAP),
-        visible=False,
-    )
+    _add_point(server, COM_NODE, 0.003, 20, INK, floor + 3 * FLOOR_GAP)
+    _add_point(server, COP_NODE, 0.0034, 4, ACCENT, floor + 4 * FLOOR_GAP)
 
 
 def set_camera(server: viser.ViserServer, model: RobotModel) -> None:
@@ -119,7 +143,7 @@ def set_camera(server: viser.ViserServer, model: RobotModel) -> None:
 
 def _reach(model: RobotModel) -> float:
     # Outermost shoe and plate.
-    return max(model.radius + model.shape.shoe_diameter, model.shape.plate_across / 2) + 0.01
+    return max(model.radius + model.shape.sole_diameter, model.shape.plate_across / 2) + 0.01
 
 
 def _grid_points(reach: float, height: float) -> Floats:
@@ -136,13 +160,32 @@ def _grid_points(reach: float, height: float) -> Floats:
     return np.array(pieces)
 
 
-def _add_lines(server: viser.ViserServer, path: str, colour: Colour, thickness: float) -> None:
+def _add_lines(
+    server: viser.ViserServer, path: str, colour: Colour | NDArray[np.uint8], thickness: float
+) -> None:
     server.scene.add_line_segments(
         path,
         np.zeros((1, 2, 3), dtype=np.float32),
         colour,
         thickness=thickness,
         thickness_units="screen",
+        visible=False,
+    )
+
+
+def _add_point(
+    server: viser.ViserServer, path: str, radius: float, corners: int, colour: Colour, height: float
+) -> None:
+    disc, faces = _disc(radius, corners)
+    server.scene.add_mesh_simple(
+        path,
+        disc,
+        faces,
+        color=colour,
+        side="double",
+        cast_shadow=False,
+        receive_shadow=False,
+        position=(0, 0, height),
         visible=False,
     )
 

@@ -20,6 +20,7 @@ from core.closed_chain import BODY, TWINS, foot_link, knee_link, knee_yaws, rod_
 from core.errors import InputError
 from core.kinematics import actuator_plane_pose, feet_in_modules
 from core.leg import strokes_from_foot, vertex_directions
+from core.real_motion import real_feet
 from core.robot import RobotModel
 
 ROBOT_ROOT = "/robot"
@@ -135,6 +136,7 @@ def _interpolated(wanted: Floats, times: Floats, values: Floats) -> Floats:
 
 def _frames(model: RobotModel, com: Floats, heading: Floats, feet: Floats) -> NDArray[np.float32]:
     pose = actuator_plane_pose(model, com, heading)
+    feet = real_feet(model, feet, pose)
     feet_module = feet_in_modules(model, feet, pose)
     exact = strokes_from_foot(model.leg, feet_module)
     strokes = np.where(np.isnan(exact), model.stroke.travel, exact)

@@ -22,18 +22,25 @@ OPAQUE = 255
 
 
 class SceneServer:
-    """Starts and stops Viser and keeps one robot in its scene.
+    """Starts and stops Viser with one robot in its scene.
 
     Every client sees the same nodes; what a plan looks like at a time is played in each browser.
+
+    Args:
+        robot_name: of the robot in the scene.
+
+    Raises:
+        InputError: there is no robot of that name.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, robot_name: str) -> None:
+        self._model = load_robot(robot_name)
+        self._surfaces = link_surfaces(robot_name)
         self._server: viser.ViserServer | None = None
-        self._robot_name: str | None = None
         self._lock = threading.Lock()
 
     def start(self) -> None:
-        """Starts listening on any free port of the loopback interface."""
+        """Starts listening on any free port of the loopback interface, with the robot standing."""
         with self._lock:
             if self._server is not None:
                 return
@@ -41,15 +48,25 @@ class SceneServer:
             rich.get_console().quiet = True
             server = viser.ViserServer(host=LOOPBACK, port=0, label="Footfall Studio", verbose=False)
             server.gui.configure_theme(show_logo=False, show_share_button=False)
-            add_light(server)
+            with server.atomic():
+                self._furnish(server)
             self._server = server
+
+    def _furnish(self, server: viser.ViserServer) -> None:
+        add_light(server)
+        add_floor(server, self._model)
+        set_camera(server, self._model)
+        _add_robot(server, self._surfaces)
+        add_overlay(server, self._model)
+        standing = standing_blob(self._model)
+        _place(server, standing.names, standing.frames[0])
 
     def stop(self) -> None:
         """Stops listening; a scene that was never started is left alone."""
         with self._lock:
             if self._server is not None:
                 self._server.stop()
-            self._server, self._robot_name = None, None
+            self._server = None
 
     @property
     def port(self) -> int:
@@ -60,39 +77,11 @@ class SceneServer:
         """
         return self._running().get_port()
 
-    @property
-    def robot_name(self) -> str | None:
-        """Name of the robot in the scene, or None."""
-        return self._robot_name
-
-    def show(self, robot_name: str) -> None:
-        """Puts a standing robot into the scene in place of any other.
-
-        Raises:
-            InputError: there is no robot of that name.
-            StateError: the scene is not running.
-        """
-        model = load_robot(robot_name)
-        surfaces = link_surfaces(robot_name)
-        with self._lock:
-            server = self._running()
-            if self._robot_name == robot_name:
-                return
-            with server.atomic():
-                _remove_robot(server)
-                add_floor(server, model)
-                set_camera(server, model)
-                _add_robot(server, surfaces)
-                add_overlay(server, model)
-                standing = standing_blob(model)
-                _place(server, standing.names, standing.frames[0])
-            self._robot_name = robot_name
-
     def place(self, names: Sequence[str], poses: NDArray[np.float32]) -> None:
         """Moves nodes in every client: the slow way, for pages that can't reach into their client.
 
         Args:
-            names: scene paths; those that the scene lacks are passed over (the robot may just have changed).
+            names: scene paths; those that the scene lacks are passed over.
             poses: (nodes, 7) quaternion wxyz and position xyz, m.
 
         Raises:
@@ -119,11 +108,6 @@ def standing_blob(model: RobotModel) -> PoseBlob:
     depth = model.leg.link_length**2 - model.leg.reach_radius**2
     rest = standing_pose(model, float(np.sqrt(depth)) + model.stroke.travel / 2, (0.0, 0.0))
     return pose_frames(model, np.zeros(1), rest.body_world[None], np.zeros(1), rest.feet_world[None])
-
-
-def _remove_robot(server: viser.ViserServer) -> None:
-    for path in (ROBOT_ROOT, "/overlay", "/floor"):
-        server.scene.remove_by_name(path)
 
 
 def _add_robot(server: viser.ViserServer, surfaces: dict[str, tuple[Surface, ...]]) -> None:

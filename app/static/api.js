@@ -1,5 +1,7 @@
 /** The HTTP side of the server. Every refusal becomes an ApiError whose message is meant for people. */
 
+import { authorHeaders } from "./author.js";
+
 export class ApiError extends Error {
   /**
    * @param {string} message sentence for the user
@@ -24,19 +26,35 @@ async function refusal(response) {
   return new ApiError(`The studio refused this with status ${response.status}.`, response.status);
 }
 
-async function request(method, path, body) {
+async function answer(method, path, body) {
   let response;
   try {
     response = await fetch(path, {
       method,
-      headers: body === undefined ? {} : { "Content-Type": "application/json" },
+      headers: { ...authorHeaders(), ...(body === undefined ? {} : { "Content-Type": "application/json" }) },
       body: body === undefined ? undefined : JSON.stringify(body),
     });
   } catch {
     throw new ApiError("The studio does not answer. Is it still running?", 0);
   }
   if (!response.ok) throw await refusal(response);
+  return response;
+}
+
+const request = async (method, path, body) => (await answer(method, path, body)).json();
+
+/** Takes text or a file as it stands, such as a CSV or JSON file. */
+async function sendText(path, text) {
+  const response = await fetch(path, { method: "POST", body: text, headers: { "Content-Type": "text/plain" } });
+  if (!response.ok) throw await refusal(response);
   return response.json();
+}
+
+/** A file that the server makes: its name and its bytes. */
+async function download(path) {
+  const response = await answer("GET", path);
+  const name = /filename="([^"]*)"/.exec(response.headers.get("content-disposition") ?? "")?.[1] ?? "gait";
+  return { name, blob: await response.blob() };
 }
 
 const gait = (id) => `/api/gaits/${encodeURIComponent(id)}`;
@@ -49,15 +67,51 @@ export const api = {
   redraw: (id, body) => request("POST", `${gait(id)}/redraw`, body),
   history: (id, verb) => request("POST", `${gait(id)}/${verb}`),
   copy: (id, name) => request("POST", `/api/gaits?copy_of=${encodeURIComponent(id)}&name=${encodeURIComponent(name)}`),
+  importFile: (body, file) => sendText(`/api/gaits/import?file=${encodeURIComponent(file)}`, body),
+  exportFile: (id, form) => download(`${gait(id)}/export/${form}`),
+  robots: () => request("GET", "/api/robots"),
+  draw: (words) => request("POST", "/api/gaits/drawn", words),
+  sequence: (body) => request("POST", "/api/sequences", body),
+  refreshSequence: (id, part) => request("POST", `${gait(id)}/sequence/refresh${part === null ? "" : `?part=${part}`}`),
   create: (document) => request("POST", "/api/gaits", document),
+  deleted: async () => (await request("GET", "/api/gaits/deleted")).gaits,
   remove: (id) => request("DELETE", gait(id)),
+  versions: (id) => request("GET", `${gait(id)}/versions`),
+  nameVersion: (id, name) => request("POST", `${gait(id)}/versions`, { name }),
+  difference: (id, number, to = null) => request("GET", `${gait(id)}/versions/${number}/difference${to === null ? "" : `?to=${to}`}`),
+  restoreVersion: (id, number) => request("POST", `${gait(id)}/versions/${number}/restore`),
   restore: (id) => request("POST", `${gait(id)}/restore`),
   check: (id) => request("POST", `${gait(id)}/check`),
   approve: (id, by, verdict) => request("POST", `${gait(id)}/approve`, { by, verdict_hash: verdict }),
-  run: (id) => request("GET", `${gait(id)}/run`),
-  posesPath: (id, plan) => `${gait(id)}/poses?plan=${encodeURIComponent(plan)}`,
+  run: (id, { first, iterations }) => request("GET", `${gait(id)}/run?from=${first}&iterations=${iterations}`),
+  optimiseParts: (id) => request("POST", `${gait(id)}/sequence/optimise`),
+  madeTable: (document) => request("POST", "/api/tables/made", { document }),
+  tableRepairs: (body) => request("POST", "/api/tables/repairs", body),
+  poses: async (id, plan) => (await answer("GET", `${gait(id)}/poses?plan=${encodeURIComponent(plan)}`)).arrayBuffer(),
+  ghost: async (id, of) => (await answer("GET", `${gait(id)}/ghost?of=${of}`)).arrayBuffer(),
+  reach: (id, plan, workspace) => request("GET", `${gait(id)}/reach?plan=${encodeURIComponent(plan)}&workspace=${workspace}`),
+  live: (id, body) => request("POST", `${gait(id)}/live`, body),
+  iterate: (job, number) => request("GET", `/api/jobs/${encodeURIComponent(job)}/course/${number}`),
+  patterns: (question) => request("POST", "/api/patterns", question),
+  pattern: (id) => request("GET", `/api/patterns/${id}`),
+  cancelPattern: (id) => request("DELETE", `/api/patterns/${id}`),
+  usePattern: (id) => request("POST", `/api/patterns/${id}/use`),
+  patternGait: (body) => request("POST", "/api/patterns/gait", body),
+  patternPlan: (body) => request("POST", "/api/patterns/plan", body),
+  patternDocument: (body) => request("POST", "/api/patterns/document", body),
   optimise: (id) => request("POST", "/api/jobs", { kind: "optimise", gait: id }),
+  timing: (id) => request("POST", "/api/jobs", { kind: "timing", gait: id }),
   cancelJob: (id) => request("DELETE", `/api/jobs/${encodeURIComponent(id)}`),
+  lease: (act, by) => request("POST", `/api/robot/lease/${act}`, by ? { by } : {}),
+  ports: () => request("GET", "/api/robot/ports"),
+  transitions: () => request("GET", "/api/robot/transitions"),
+  runs: (wanted) => request("GET", `/api/runs?${new URLSearchParams(Object.entries(wanted).filter(([, value]) => value !== ""))}`),
+  keptRun: (id) => request("GET", `/api/runs/${encodeURIComponent(id)}`),
+  runStrokes: (id) => request("GET", `/api/runs/${encodeURIComponent(id)}/strokes`),
+  runGhost: async (id) => (await answer("GET", `/api/runs/${encodeURIComponent(id)}/ghost`)).arrayBuffer(),
+  noteRun: (id, note) => request("PUT", `/api/runs/${encodeURIComponent(id)}/note`, { note }),
+  deleteRun: (id) => request("DELETE", `/api/runs/${encodeURIComponent(id)}`),
+  restoreRun: (id) => request("POST", `/api/runs/${encodeURIComponent(id)}/restore`),
   robot: (verb, body = {}) => request("POST", `/api/robot/${verb}`, body),
 };
 

@@ -4,6 +4,7 @@ import { api } from "./api.js";
 import { byId, h, onPress, setAllowed } from "./dom.js";
 import { clockTime, readable, ruleName, shortHash } from "./format.js";
 import { needOperator } from "./operator.js";
+import { costTable, sendingFields } from "./sending.js";
 import { attempt, toast } from "./toasts.js";
 
 function findingItem(finding, goTo) {
@@ -49,6 +50,7 @@ function approvalBox({ approval }) {
 function whyNotCheck({ view, pending }) {
   if (!view) return "No gait is selected.";
   if (pending.length) return "The last edit is not accepted yet.";
+  if (view.plan?.live?.status === "infeasible") return "There is no motion to check: the live tier finds none. Optimise says what is missing and offers ways out.";
   if (!view.plan || view.plan.refusal) return view.plan?.refusal?.sentence ?? "There is no plan to check. Optimise first.";
   return null;
 }
@@ -82,14 +84,14 @@ async function check(store) {
 }
 
 /** Builds the section; `goTo` shows a finding's place. */
-export function mountCheck(store, goTo) {
+export function mountCheck(store, edits, goTo) {
   const checkButton = h("button", { class: "primary wide", text: "Check" });
   const approveButton = h("button", { class: "wide", text: "Approve" });
   const why = h("p", { class: "why" });
   const [head, body, foot] = [h("div"), h("div", { class: "findings" }), h("div")];
   onPress(checkButton, attempt(() => check(store)), (reason) => toast(reason));
   onPress(approveButton, attempt(() => approve(store)), (reason) => toast(reason));
-  byId("check").append(checkButton, head, approveButton, why, foot, body);
+  byId("check").append(sendingFields(store, edits), checkButton, head, approveButton, why, foot, body);
 
   store.watch(({ view, pending, checked }) => [view, pending.length, checked], (state) => {
     const { view, checked } = state;
@@ -104,6 +106,6 @@ export function mountCheck(store, goTo) {
     foot.replaceChildren(approvalBox(view));
     const findings = (view.verdict?.findings ?? []).map((finding) => findingItem(finding, goTo));
     body.replaceChildren(...(findings.length ? [h("h3", { text: "Findings" }), h("ul", { class: "findings", role: "list", "aria-label": "Findings" }, ...findings)] : []),
-      ...(view.verdict?.margins?.length ? marginList(view.verdict.margins) : []));
+      ...costTable(view.verdict), ...(view.verdict?.margins?.length ? marginList(view.verdict.margins) : []));
   });
 }

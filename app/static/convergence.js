@@ -67,6 +67,11 @@ function stateWords(job) {
   return `${stale ? "older version" : job.state}${figures}`;
 }
 
+/** The iteration that is looked at, else the last one. */
+function lookedAt(progress, job, iterate) {
+  return iterate?.job === job?.id && iterate ? progress.find(({ iteration }) => iteration === iterate.number) : progress.at(-1);
+}
+
 /** Appends the curve to a section and keeps it current. */
 export function mountConvergence(store, section) {
   const state = h("span");
@@ -79,7 +84,7 @@ export function mountConvergence(store, section) {
   section.append(h("h3", {}, "Convergence", state), plot, line);
   let drawn = null;
 
-  store.watch(({ jobs, shownJob, selected }) => [jobs, shownJob, selected], (now) => {
+  store.watch(({ jobs, shownJob, selected, iterate }) => [jobs, shownJob, selected, iterate], (now) => {
     const job = jobOf(now);
     const progress = job?.progress ?? [];
     const stale = isOlder(job);
@@ -88,8 +93,9 @@ export function mountConvergence(store, section) {
     state.dataset.toneText = stale ? "caution" : job ? jobTone(job) : "";
     line.hidden = progress.length > 0;
     setText(line, job ? job.sentence : "The curve of the last optimisation stays here.");
-    setText(last.objective, compact(progress.at(-1)?.objective));
-    setText(last.primal, compact(progress.at(-1)?.primal));
+    const point = lookedAt(progress, job, now.iterate);
+    setText(last.objective, compact(point?.objective));
+    setText(last.primal, compact(point?.primal));
     plot.hidden = progress.length === 0;
     frame.setAttribute("aria-label", `Convergence over ${progress.length} iterations: ${key.textContent}`);
     const version = `${job?.id}/${progress.length}`;

@@ -4,7 +4,8 @@
 
 import { byId, h } from "./dom.js";
 
-function open(build) {
+/** Opens what `build(close)` makes; resolves to what `close` is given, or to null after Escape. */
+export function openDialog(build) {
   return new Promise((resolve) => {
     const before = document.activeElement;
     const close = (value) => {
@@ -23,7 +24,8 @@ function open(build) {
   });
 }
 
-function frame(title, close, accept, ...content) {
+/** A dialog's frame: its title, and a form that `accept` takes. */
+export function dialogFrame(title, close, accept, ...content) {
   const id = "dialog-title";
   const submit = (event) => { event.preventDefault(); accept(); };
   return h("div", { class: "dialog", role: "dialog", "aria-labelledby": id },
@@ -32,10 +34,10 @@ function frame(title, close, accept, ...content) {
 
 /** Asks for a name; resolves to it, or to null where the user thought better of it. */
 export function askName(title, sentence, value = "") {
-  return open((close) => {
+  return openDialog((close) => {
     const input = h("input", { "aria-label": "Your name", placeholder: "Your name", maxlength: "60", autocomplete: "name", required: true, value });
     const accept = () => { if (input.value.trim()) close(input.value.trim()); };
-    return frame(title, close, accept, h("p", { class: "quiet", text: sentence }), input,
+    return dialogFrame(title, close, accept, h("p", { class: "quiet", text: sentence }), input,
       h("div", { class: "buttons" },
         h("button", { type: "button", text: "Not now", on: { click: () => close(null) } }),
         h("button", { type: "submit", class: "primary", text: "Continue" })));
@@ -44,31 +46,10 @@ export function askName(title, sentence, value = "") {
 
 /** Asks before something that moves the robot; resolves to true or null. */
 export function confirmAct(title, sentence, label) {
-  return open((close) => frame(title, close, () => close(true), h("p", { text: sentence }),
+  return openDialog((close) => dialogFrame(title, close, () => close(true), h("p", { text: sentence }),
     h("div", { class: "buttons" },
       h("button", { type: "button", text: "Leave it", on: { click: () => close(null) } }),
       h("button", { type: "submit", class: "primary", "data-robot": true, text: label }))));
-}
-
-const KEYS = [
-  ["Space", "Play or pause the preview. Never starts the robot."],
-  ["Esc", "Stop the robot while a run is on; otherwise leave the drag or dialog"],
-  ["Left, Right", "One sample; with Shift ten"],
-  ["Home, End", "First and last sample"],
-  ["L", "Loop"],
-  ["Ctrl+Z", "Undo"],
-  ["Ctrl+Shift+Z, Ctrl+Y", "Redo"],
-  ["Ctrl+S", "Save"],
-  ["Arrows, Space", "In the timeline: move between cells, toggle the cell"],
-  ["?", "This list"],
-];
-
-/** Shows the keyboard. */
-export function showKeys() {
-  if (byId("dialogs").firstElementChild) return;
-  open((close) => frame("Keyboard", close, () => close(null),
-    h("dl", {}, ...KEYS.flatMap(([key, does]) => [h("dt", {}, h("kbd", { text: key })), h("dd", { text: does })])),
-    h("div", { class: "buttons" }, h("button", { type: "submit", text: "Close" }))));
 }
 
 /** Closes whatever dialog is open; true if there was one. */

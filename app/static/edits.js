@@ -6,11 +6,14 @@
  */
 
 import { api } from "./api.js";
+import { undoDraft } from "./sheet_draft.js";
+import { FOLLOWS, isSequence } from "./sequence_edits.js";
 import { acceptView, shownDocument } from "./store.js";
-import { report } from "./toasts.js";
+import { report, toast } from "./toasts.js";
 
 const STALE = 409;
 const REFUSED = 422;
+const MOST_TRIES = 8;
 
 /** Sets cells of the timeline; locked cells keep their value. `cells` are [foot, sample], 0-based. */
 export function paintCells(document, cells, swing) {
@@ -34,16 +37,17 @@ export function paintLabel(cells, swing) {
 /** Creates the editing functions of the page. */
 export function createEdits(store) {
   let sending = null;
+  let turn = Promise.resolve();
 
-  async function put(batch, retry = true) {
+  async function put(batch, tries = 1) {
     const { view } = store.state;
     const document = batch.reduce((result, edit) => edit.apply(result), view.document);
     try {
       return await api.put(view.id, document, batch.at(-1).label, view.revision);
     } catch (error) {
-      if (error.status !== STALE || !retry) throw error;
+      if (error.status !== STALE || error.where !== "revision" || tries === MOST_TRIES) throw error;
       acceptView(store, await api.view(view.id));
-      return put(batch, false);
+      return put(batch, tries + 1);
     }
   }
 
@@ -51,7 +55,7 @@ export function createEdits(store) {
     const rest = () => store.state.pending.filter((edit) => !batch.includes(edit));
     try {
       const view = await put(batch);
-      store.set({ pending: rest(), refused: null });
+      store.set({ pending: rest(), refused: null, formError: null });
       acceptView(store, view);
     } catch (error) {
       const drawing = batch.at(-1).drawing && [REFUSED, STALE].includes(error.status);
@@ -75,12 +79,23 @@ export function createEdits(store) {
     }
   }
 
+  /** Requests that change the gait reach the studio one at a time, in the order of the acts behind them. */
+  function inTurn(act) {
+    const mine = turn.then(act);
+    turn = mine.catch(() => {});
+    return mine;
+  }
+
   function flush() {
-    sending ??= drain().finally(() => { sending = null; });
+    sending ??= inTurn(drain).finally(() => { sending = null; });
     return sending;
   }
 
   function edit(apply, label, { drawing = false } = {}) {
+    if (drawing && isSequence(store.state.view?.document)) {
+      toast(FOLLOWS);
+      return Promise.resolve();
+    }
     store.set({ pending: [...store.state.pending, { apply, label, drawing, refused: false }], formError: null });
     return flush();
   }
@@ -89,8 +104,8 @@ export function createEdits(store) {
     store.set({ pending: store.state.pending.filter((one) => !one.refused), refused: null });
   }
 
-  async function history(verb) {
-    await flush();
+  async function passHistory(verb) {
+    if (verb === "undo" && undoDraft(store)) return undefined;
     if (verb === "undo" && store.state.pending.length) return dropRefused();
     const { selected } = store.state;
     if (!selected) return undefined;
@@ -102,19 +117,37 @@ export function createEdits(store) {
     return undefined;
   }
 
+  function history(verb) {
+    flush();
+    return inTurn(() => passHistory(verb));
+  }
+
+  async function passRedraw(body) {
+    dropRefused();
+    try {
+      acceptView(store, await api.redraw(store.state.selected, body));
+      store.set({ formError: null });
+    } catch (error) {
+      store.set({ formError: error.message });
+    }
+  }
+
+  async function passRestore(number) {
+    dropRefused();
+    acceptView(store, await api.restoreVersion(store.state.selected, number));
+  }
+
   return {
     edit,
     dropRefused,
     paint: (cells, swing) => edit((document) => paintCells(document, cells, swing), paintLabel(cells, swing), { drawing: true }),
-    redraw: async (body) => {
-      await flush();
-      dropRefused();
-      try {
-        acceptView(store, await api.redraw(store.state.selected, body));
-        store.set({ formError: null });
-      } catch (error) {
-        store.set({ formError: error.message });
-      }
+    redraw: (body) => {
+      flush();
+      return inTurn(() => passRedraw(body));
+    },
+    restoreVersion: (number) => {
+      flush();
+      return inTurn(() => passRestore(number));
     },
     undo: () => history("undo"),
     redo: () => history("redo"),

@@ -1,6 +1,8 @@
 /** The server's pushes: one WebSocket that comes back by itself, each time with the whole truth. */
 
-import { acceptView, withJob } from "./store.js";
+import { onRenamed } from "./author.js";
+import { openSocket, takeFirst } from "./socket.js";
+import { acceptLine, acceptRobot, acceptSources, acceptSteps, acceptView, withJob } from "./store.js";
 
 const FIRST_WAIT_MS = 300;
 const LONGEST_WAIT_MS = 5000;
@@ -15,9 +17,15 @@ function receive(store, message, onHello) {
       onHello();
       break;
     case "gaits": store.set({ gaits: message.gaits }); break;
-    case "gait": acceptView(store, message.view); break;
+    case "gait":
+      acceptView(store, message.view);
+      acceptLine(store, message.view);
+      break;
+    case "steps": acceptSteps(store, message); break;
+    case "sources": acceptSources(store, message); break;
     case "job": store.set({ jobs: withJob(store.state.jobs, message.job) }); break;
-    case "robot": store.set({ robot: message.robot }); break;
+    case "pattern": store.set({ pattern: message }); break;
+    case "robot": acceptRobot(store, message.robot); break;
     default: break;
   }
 }
@@ -25,20 +33,31 @@ function receive(store, message, onHello) {
 /** Keeps a connection to /api/events; `onHello` runs after every greeting, also after a reconnection. */
 export function listen(store, onHello) {
   let wait = FIRST_WAIT_MS;
-  const address = `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/events${location.search}`;
+  let closeSocket = () => {};
+  let answer = () => {};
+  onRenamed(() => closeSocket());
 
-  function connect() {
-    const socket = new WebSocket(address);
-    socket.addEventListener("message", (event) => {
-      wait = FIRST_WAIT_MS;
-      receive(store, JSON.parse(event.data), onHello);
-    });
-    socket.addEventListener("close", () => {
-      if (store.state.connected) store.set({ connected: false });
-      setTimeout(connect, wait);
-      wait = Math.min(wait * 2, LONGEST_WAIT_MS);
-    });
+  function take(data) {
+    wait = FIRST_WAIT_MS;
+    const message = JSON.parse(data);
+    if (message.type === "beat") answer("here");
+    else receive(store, message, onHello);
   }
 
-  connect();
+  function closed() {
+    if (store.state.connected) store.set({ connected: false });
+    setTimeout(() => follow({ socket: openSocket(), early: [] }), wait);
+    wait = Math.min(wait * 2, LONGEST_WAIT_MS);
+  }
+
+  function follow({ socket, early }) {
+    closeSocket = () => socket.close();
+    answer = (text) => { if (socket.readyState === WebSocket.OPEN) socket.send(text); };
+    socket.addEventListener("message", ({ data }) => take(data));
+    if (socket.readyState === WebSocket.CLOSED) closed();
+    else socket.addEventListener("close", closed);
+    early.forEach(take);
+  }
+
+  follow(takeFirst());
 }

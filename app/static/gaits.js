@@ -1,9 +1,10 @@
-/** The list of gaits: select, duplicate, import, export, delete with a way back. */
+/** The list of gaits, in groups that fold, and the choice of one. */
 
 import { api } from "./api.js";
 import { byId, h, setAttribute, setText } from "./dom.js";
+import { found, gaitSearch } from "./gait_search.js";
 import { acceptView } from "./store.js";
-import { attempt, report, toast } from "./toasts.js";
+import { clearOfGait, report } from "./toasts.js";
 
 const KEY = "footfall.gait";
 
@@ -26,7 +27,8 @@ function lastUsed() {
 /** Shows a gait: fetches its view and remembers it for the next visit. */
 export async function selectGait(store, id) {
   if (store.state.selected !== id) {
-    store.set({ selected: id, view: null, pending: [], gesture: null, refused: null, formError: null, shownJob: null, runSummary: null });
+    clearOfGait();
+    store.set({ selected: id, view: null, pending: [], gesture: null, live: null, remedies: null, iterate: null, refused: null, formError: null, shownJob: null, runSummary: null });
   }
   try {
     acceptView(store, await api.view(id));
@@ -45,93 +47,97 @@ export function selectAfterHello(store) {
   if (choice) selectGait(store, choice);
 }
 
-function item(store, gait) {
-  const dot = h("span", { class: "dot", title: "Unsaved changes" });
-  const name = h("span", { class: "name" });
-  const tag = h("span", {});
-  const button = h("button", { class: "gait", on: { click: () => selectGait(store, gait.id) } }, name, h("span", { class: "tag" }, dot, tag));
-  return { element: h("li", {}, button), button, name, tag, dot };
+const ROW = h("li", {}, h("button", { class: "gait" }, h("span", { class: "name" }), h("span", { class: "tag" }, h("span", { class: "dot", title: "Unsaved changes" }), h("span"))));
+
+/** A row, as a copy: hundreds are made before anything else is seen. */
+function item(gait) {
+  const element = ROW.cloneNode(true);
+  const button = element.firstChild;
+  const [name, { firstChild: dot, lastChild: tag }] = button.children;
+  button.dataset.gait = gait.id;
+  return { element, button, name, tag, dot };
 }
 
 function show(part, gait, selected) {
   setText(part.name, gait.name);
-  setText(part.tag, gait.orientation);
+  setText(part.tag, gait.source === "sequence" ? "seq." : gait.orientation);
   part.dot.hidden = !gait.edited;
   setAttribute(part.button, "aria-current", gait.id === selected ? "true" : null);
-  setAttribute(part.button, "title", `${gait.name}: ${gait.source}, ${gait.kind}, foot order ${gait.order.join(" ")}${gait.edited ? ", unsaved changes" : ""}`);
+  setAttribute(part.button, "title", `${gait.name}: ${gait.robot}, ${gait.source}, ${gait.kind}${gait.source === "sequence" ? "" : `, foot order ${gait.order.join(" ")}`}${gait.edited ? ", unsaved changes" : ""}`);
 }
 
-function importFile(store) {
-  const input = h("input", { type: "file", accept: ".json,application/json" });
-  input.addEventListener("change", attempt(async () => {
-    const text = await input.files[0].text();
-    let document;
-    try {
-      document = JSON.parse(text);
-    } catch (error) {
-      throw new Error(`${input.files[0].name} is not JSON: ${error.message}. Choose a gait file (footfall-gait).`);
-    }
-    const view = await api.create(document);
-    await selectGait(store, view.id);
-  }));
-  input.click();
+const FIRST = "Saved";
+const FOLDED_AT_FIRST = ["By hand", "Orders of Appendix A", "Textbook"];
+
+/** A group's heading, which folds it; the group that is shown stays open. */
+function heading(group, folded, redraw) {
+  const text = h("span", {});
+  const button = h("button", { class: "group", on: { click: () => {
+    if (!folded.delete(group)) folded.add(group);
+    redraw();
+  } } }, text);
+  return { element: h("li", { class: "group-row" }, button), button, text };
 }
 
-async function exportFile(store) {
-  const document = await api.document(store.state.selected);
-  const address = URL.createObjectURL(new Blob([JSON.stringify(document, null, 2)], { type: "application/json" }));
-  h("a", { href: address, download: `${document.name.replace(/[^\p{L}\p{N}]+/gu, "-")}.json` }).click();
-  setTimeout(() => URL.revokeObjectURL(address), 1000);
-}
-
-async function remove(store) {
-  const { selected, gaits } = store.state;
-  const name = gaits.find(({ id }) => id === selected).name;
-  await api.remove(selected);
-  const restore = attempt(async () => {
-    await api.restore(selected);
-    await selectGait(store, selected);
-  });
-  toast(`${name} is deleted.`, { action: { label: "Bring it back", act: restore } });
-  const next = store.state.gaits.find(({ id }) => id !== selected) ?? null;
-  await selectGait(store, store.state.gaits.some(({ id }) => id === selected) ? selected : next?.id);
-}
-
-async function duplicate(store) {
-  const { selected, gaits } = store.state;
-  const names = new Set(gaits.map(({ name }) => name));
-  const base = gaits.find(({ id }) => id === selected).name;
-  let name = `${base} copy`;
-  for (let count = 2; names.has(name); count += 1) name = `${base} copy ${count}`;
-  const view = await api.copy(selected, name);
-  await selectGait(store, view.id);
-}
-
-function tools(store) {
-  const link = (text, title, act) => h("button", { class: "link", text, title, on: { click: attempt(() => act(store)) } });
-  const deletion = link("Delete", "Delete this saved gait; it can be brought back", remove);
-  byId("gait-tools").append(
-    link("Duplicate", "A copy of this gait under another name", duplicate),
-    link("Import…", "Read a gait file", importFile), link("Export", "Write this gait as a file", exportFile), deletion);
-  store.watch(({ gaits, selected }) => [gaits, selected], ({ gaits, selected }) => {
-    deletion.hidden = gaits.find(({ id }) => id === selected)?.kind !== "saved";
-  });
+function grouped(gaits) {
+  const groups = new Map();
+  for (const gait of gaits) {
+    if (!groups.has(gait.group)) groups.set(gait.group, []);
+    groups.get(gait.group).push(gait);
+  }
+  return [...groups].sort(([a], [b]) => (b === FIRST) - (a === FIRST));
 }
 
 /** Builds the list and keeps it current; moves on where the shown gait has gone. */
 export function mountGaits(store) {
   const list = byId("gaits");
-  const parts = new Map();
-  tools(store);
-  store.watch(({ gaits, selected }) => [gaits, selected], ({ gaits, selected, greeted }) => {
+  let listed = null;
+  const [parts, headings, folded] = [new Map(), new Map(), new Set(FOLDED_AT_FIRST)];
+
+  const search = gaitSearch(() => draw(store.state));
+  list.before(search.element);
+  list.addEventListener("click", ({ target }) => {
+    const id = target.closest("[data-gait]")?.dataset.gait;
+    if (id) selectGait(store, id);
+  });
+
+  function draw({ gaits, selected }) {
+    const wanted = new Set();
+    const searched = search.search();
+    const matching = searched ? gaits.filter((gait) => found(gait, searched)) : gaits;
+    let listed = 0;
+    for (const [group, members] of grouped(matching)) {
+      const open = Boolean(searched) || !folded.has(group) || members.some(({ id }) => id === selected);
+      if (!headings.has(group)) headings.set(group, heading(group, folded, () => draw(store.state)));
+      const head = headings.get(group);
+      if (open) listed += members.length;
+      setText(head.text, open ? group : `${group} (${members.length})`);
+      setAttribute(head.button, "aria-expanded", String(open));
+      wanted.add(head.element);
+      for (const gait of members) {
+        if (!parts.has(gait.id)) parts.set(gait.id, item(gait));
+        show(parts.get(gait.id), gait, selected);
+        if (open) wanted.add(parts.get(gait.id).element);
+      }
+    }
+    search.show(listed, gaits.length);
+    for (const child of [...list.children]) if (!wanted.has(child)) child.remove();
+    let next = list.firstElementChild;
+    for (const element of wanted) {
+      if (element === next) next = next.nextElementSibling;
+      else list.insertBefore(element, next);
+    }
+  }
+
+  store.watch(({ gaits, selected }) => [gaits, selected], (state) => {
+    const { gaits, selected, greeted } = state;
     const kept = new Set(gaits.map(({ id }) => id));
-    for (const [id, part] of parts) if (!kept.has(id)) { part.element.remove(); parts.delete(id); }
-    gaits.forEach((gait, index) => {
-      if (!parts.has(gait.id)) parts.set(gait.id, item(store, gait));
-      const part = parts.get(gait.id);
-      show(part, gait, selected);
-      if (list.children[index] !== part.element) list.insertBefore(part.element, list.children[index] ?? null);
-    });
-    if (greeted && selected && gaits.length && !kept.has(selected)) selectGait(store, gaits[0].id);
+    for (const id of parts.keys()) if (!kept.has(id)) parts.delete(id);
+    draw(state);
+    // A gait that was just made may be shown before the list tells of it: only one that was listed can be gone.
+    if (kept.has(selected)) {
+      if (listed !== selected) parts.get(selected)?.element.scrollIntoView({ block: "nearest" });
+      listed = selected;
+    } else if (greeted && selected && selected === listed && gaits.length) selectGait(store, gaits[0].id);
   });
 }

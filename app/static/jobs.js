@@ -17,14 +17,18 @@ export const jobTone = (job) => TONES[job.state] ?? "quiet";
 /** Whether a finished job's answer belongs to an older version of its gait. */
 export const isOlder = (job) => Boolean(job) && ["done", "infeasible", "failed"].includes(job.state) && !job.fresh;
 
-/** The job whose curve and explanation are shown: the one picked, else the newest of this gait. */
+/** The optimisation whose curve and explanation are shown: the one picked, else the newest of this gait. */
 export function jobOf({ jobs, shownJob, selected }) {
-  return jobs.find((job) => job.id === shownJob && job.gait === selected) ?? jobs.find((job) => job.gait === selected) ?? null;
+  const own = jobs.filter((job) => job.gait === selected && job.kind === "optimise");
+  return own.find((job) => job.id === shownJob) ?? own[0] ?? null;
 }
+
+const isTiming = (job) => job.kind === "timing";
 
 function figures(job) {
   const last = job.progress?.at(-1);
   if (jobIsOn(job)) return last ? `iteration ${last.iteration} · violation ${compact(last.primal)}` : job.sentence;
+  if (job.state === "done" && job.result && isTiming(job)) return `fastest ${seconds(job.result.total_seconds)} s, drawn ${seconds(job.result.drawn_seconds)} s`;
   if (job.state === "done" && job.result) return `${job.result.iterations} iterations · ${seconds(job.result.solve_seconds)} s`;
   return job.sentence;
 }
@@ -68,7 +72,7 @@ function show(part, job, shown) {
 function tellEnded(before, jobs) {
   for (const job of jobs) {
     const known = before.get(job.id);
-    if (known && jobIsOn(known) && !jobIsOn(job)) announce(`Optimise ${job.gait_name}: ${job.state}. ${job.sentence}`);
+    if (known && jobIsOn(known) && !jobIsOn(job)) announce(`${isTiming(job) ? "Fastest timing of" : "Optimise"} ${job.gait_name}: ${job.state}. ${job.sentence}`);
   }
   return new Map(jobs.map((job) => [job.id, job]));
 }

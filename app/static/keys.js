@@ -1,47 +1,62 @@
 /** The keyboard of the whole page. Nothing here powers, starts or moves the robot; Esc stops it. */
 
-import { dialogOpen, showKeys } from "./dialogs.js";
+import { dialogOpen } from "./dialogs.js";
 import { byId } from "./dom.js";
+import { showKeys } from "./key_list.js";
 import { runIsOn } from "./store.js";
 import { stopRobot } from "./topbar.js";
 
 const isTyping = (target) => target.closest?.("input, textarea, [contenteditable]") !== null && target.closest !== undefined;
 
-/** True where Space belongs to the focused control: never on a control that acts on the robot. */
-function ownsSpace(target) {
-  if (target.closest?.("[data-robot]")) return false;
+/** True where Space belongs to the focused control: never on a control that acts on the robot, or a cell that was pointed at. */
+function ownsSpace(target, withShift) {
+  if (target.closest?.("[data-robot]") || (!withShift && target.closest?.("[data-pointed]"))) return false;
   return Boolean(target.closest?.("button, select, summary, a[href], [role=gridcell]"));
 }
 
-function withControl(event, edits) {
+/** True where letters, Delete and Ctrl with a letter mean something else than the timeline. */
+const ownsLetters = (target) => Boolean(target.closest?.("select, [role=grid]:not(#timeline), [role=listbox], [role=dialog]"));
+
+function withControl(event, { edits, timeline, actions }) {
   const key = event.key.toLowerCase();
   if (key === "s") return edits.save;
   if (isTyping(event.target)) return null;
   if (key === "z") return event.shiftKey ? edits.redo : edits.undo;
-  return key === "y" ? edits.redo : null;
+  if (key === "y") return edits.redo;
+  if (ownsLetters(event.target)) return null;
+  return { a: timeline.selectAll, d: () => actions.act("duplicate") }[key] ?? null;
 }
 
-function plain(event, playback) {
+function onTimeline(event, { store, actions, zoom }) {
+  const acts = {
+    l: actions.loop, k: actions.toggleLock, f: zoom.fit, b: () => store.set({ tool: "paint" }),
+    "+": () => zoom.closer(true), "=": () => zoom.closer(true), "-": () => zoom.closer(false), "−": () => zoom.closer(false),
+    delete: actions.clear, backspace: actions.clear,
+  };
+  return ownsLetters(event.target) ? null : (acts[event.key.toLowerCase()] ?? null);
+}
+
+function plain(event, page) {
+  const { playback, store } = page;
   const far = event.shiftKey ? 10 : 1;
   const acts = {
     ArrowLeft: () => playback.step(-far), ArrowRight: () => playback.step(far),
     Home: () => playback.toStart(), End: () => playback.toEnd(),
-    l: () => playback.setLoop(!playback.loop), L: () => playback.setLoop(!playback.loop), "?": showKeys,
   };
-  if (event.key === " " && !ownsSpace(event.target)) return () => playback.toggle();
-  if (event.target.closest?.("select, [role=gridcell], [role=tab]") && event.key !== "?") return null;
-  return acts[event.key] ?? null;
+  if (event.key === " " && !ownsSpace(event.target, event.shiftKey)) return () => playback.toggle();
+  if (event.key === "?") return showKeys;
+  const does = store.state.view && onTimeline(event, page);
+  if (does) return does;
+  return event.target.closest?.("select, [role=gridcell], [role=tab], [role=menu], [data-arrows]") ? null : (acts[event.key] ?? null);
 }
 
 /**
  * Wires the keyboard.
- * @param {object} options
- * @param {object} options.store
- * @param {object} options.edits
- * @param {Playback} options.playback
- * @param {(() => boolean)[]} options.escapes tried in order while no run is on; the first that did something wins
+ * @param {object} page `store`, `edits`, `playback`, the timeline with its `actions` and `zoom`, and `escapes`: tried in
+ *   order while no run is on; the first that did something wins
  */
-export function mountKeys({ store, edits, playback, escapes }) {
+export function mountKeys(page) {
+  const { store, escapes } = page;
   function escape(event) {
     if (runIsOn(store.state.robot)) {
       stopRobot(store);
@@ -54,13 +69,13 @@ export function mountKeys({ store, edits, playback, escapes }) {
   function press(event) {
     if (event.key === "Escape") return escape(event);
     if (event.ctrlKey || event.metaKey) {
-      const act = withControl(event, edits);
+      const act = withControl(event, page);
       if (!act) return undefined;
       event.preventDefault();
       return act();
     }
     if (event.altKey || isTyping(event.target)) return undefined;
-    const act = plain(event, playback);
+    const act = plain(event, page);
     if (!act) return undefined;
     event.preventDefault();
     return act();

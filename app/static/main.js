@@ -1,51 +1,83 @@
-/** The page: one store, one playhead, and the parts that watch them. */
+/** The page around the list of gaits: one store, one playhead, and the parts that watch them. */
 
-import { mountCheck } from "./check.js";
+import { nameAuthor } from "./author.js";
+import { createActions } from "./actions.js";
+import { mountClipboard } from "./clipboard.js";
+import { mountDecimalComma } from "./decimal_comma.js";
 import { createEdits } from "./edits.js";
-import { listen } from "./events.js";
-import { mountGaits, selectAfterHello } from "./gaits.js";
+import { mountGaitTools } from "./gait_tools.js";
+import { selectGait } from "./gaits.js";
 import { mountJobs } from "./jobs.js";
 import { mountKeys } from "./keys.js";
+import { mountLive, painted } from "./live.js";
+import { mountLowerSize } from "./lower_size.js";
 import { recallOperator } from "./operator.js";
 import { mountOptimise } from "./optimise.js";
+import { mountPatternEntry } from "./pattern_entry.js";
 import { mountPlots } from "./plots.js";
 import { Playback } from "./preview/playback.js";
-import { mountRobot } from "./robot.js";
 import { robotTime } from "./samples.js";
-import { mountSegments } from "./segments.js";
-import { mountStage } from "./stage.js";
-import { createStore, runIsOn } from "./store.js";
+import { runIsOn, shownPlan } from "./store.js";
 import { mountTabs, openTab } from "./tabs.js";
 import { mountTimeline } from "./timeline.js";
-import { clearRefusals } from "./toasts.js";
+import { mountTools } from "./timeline_tools.js";
+import { clearRefusals, report } from "./toasts.js";
 import { mountTopbar } from "./topbar.js";
 import { mountTransport } from "./transport.js";
+import { createZoom, mountZoom, zoomAtPlayhead } from "./zoom.js";
+
+/** A tab in the background is not painted. */
+const LONGEST_PAINT_MS = 400;
 
 function goToFinding(store, playback, timeline) {
   return ({ sample, foot }) => {
     const { view } = store.state;
     playback.pause();
-    playback.setTime(view.plan?.times?.[sample] ?? sample * view.document.timeline.sample_time);
+    playback.setTime(shownPlan(store.state)?.times?.[sample] ?? sample * view.document.timeline.sample_time);
     if (foot !== null) timeline.focusCell(foot, Math.min(sample, view.document.timeline.feet[0].length - 1));
   };
 }
 
-function start() {
-  const store = createStore();
+function mountEditor(store, edits, playback) {
+  const zoom = createZoom(store);
+  zoom.closer = (closer) => zoomAtPlayhead(store, playback, zoom, closer);
+  const timeline = mountTimeline(store, edits, playback, zoom.reveal);
+  const actions = createActions({ store, edits, playback, focused: timeline.focused });
+  const tools = mountTools(store, actions, zoom, timeline.selectAll);
+  mountClipboard({ copy: actions.take, cut: actions.cut, paste: actions.paste });
+  mountZoom(store, playback, zoom, timeline.cancelGesture);
+  return { timeline, actions, zoom, tools };
+}
+
+/** Builds the other panels once what is seen first has been painted; what they do on Escape comes into what this gives back. */
+function panelsAfterPaint(page) {
+  const escapes = {};
+  const paintedOrHidden = Promise.race([painted(), new Promise((resume) => { setTimeout(resume, LONGEST_PAINT_MS); })]);
+  Promise.all([import("./panels.js"), paintedOrHidden]).then(([{ mountPanels }]) => Object.assign(escapes, mountPanels(page)))
+    .catch((error) => report(new Error(`Panels of this page could not be built: ${error.message}. Reload it.`)));
+  return escapes;
+}
+
+/** Builds the parts that are seen first over a store that may have been filled already. */
+export function start(store) {
   const playback = new Playback();
   const edits = createEdits(store);
   recallOperator(store);
+  mountDecimalComma();
+  store.watch(({ operator }) => [operator], ({ operator }) => nameAuthor(operator));
   mountTabs();
   mountTopbar(store, edits);
-  mountGaits(store);
+  const gaitTools = mountGaitTools(store, (id) => selectGait(store, id));
   mountJobs(store);
-  const timeline = mountTimeline(store, edits, playback);
-  mountTransport(store, playback, mountPlots(store));
-  mountOptimise(store, edits);
-  mountSegments(store);
-  mountCheck(store, goToFinding(store, playback, timeline));
-  const cancelCountdown = mountRobot(store);
-  mountKeys({ store, edits, playback, escapes: [timeline.cancelGesture, cancelCountdown] });
+  const { timeline, actions, zoom, tools } = mountEditor(store, edits, playback);
+  mountTransport(store, playback, mountPlots(store), actions.loop);
+  mountLowerSize();
+  const goTo = goToFinding(store, playback, timeline);
+  const optimise = mountOptimise(store, edits, goTo);
+  mountLive(store);
+  const panels = panelsAfterPaint({ store, edits, playback, goTo, gaitTools });
+  const patterns = mountPatternEntry(store, { edits, playback, show: (id) => selectGait(store, id) });
+  mountKeys({ store, edits, playback, timeline, actions, zoom, escapes: [patterns.cancel, () => panels.segments?.(), timeline.cancelGesture, () => panels.sequence?.(), tools.close, optimise.cancel, () => panels.countdown?.(), () => panels.runs?.(), timeline.clearSelection] });
 
   // During a run the preview stands where the robot is, unless somebody plays the plan.
   store.watch(({ robot, view }) => [robot?.run?.plan_time, view?.plan], ({ robot, view }) => {
@@ -54,8 +86,4 @@ function start() {
   });
   store.watch(({ selected, view }) => [selected, view?.revision], () => clearRefusals());
   store.watch(({ robot }) => [runIsOn(robot)], ({ robot }) => { if (runIsOn(robot)) openTab("robot"); });
-  listen(store, () => selectAfterHello(store));
-  mountStage(store, playback);
 }
-
-start();

@@ -4,13 +4,18 @@ import { api } from "./api.js";
 import { confirmAct } from "./dialogs.js";
 import { byId, h, onPress, setAllowed, setText } from "./dom.js";
 import { fixed, seconds, shortHash } from "./format.js";
+import { leasePart, whyNotHeld } from "./lease.js";
 import { needOperator } from "./operator.js";
+import { portChooser } from "./ports.js";
+import { robotFaults } from "./robot_faults.js";
+import { robotLog } from "./robot_log.js";
+import { courseOf, coursePart, isOfCourse } from "./run_course.js";
 import { commandedStrokes } from "./samples.js";
 import { sendControl } from "./send.js";
-import { runIsOn } from "./store.js";
+import { acceptRobot, runIsOn } from "./store.js";
 import { strokeBars } from "./strokes.js";
-import { robotTone } from "./topbar.js";
 import { attempt, report, toast } from "./toasts.js";
+import { robotTone } from "./topbar.js";
 
 const CONNECT_WARNING = "Connecting resets the board: its motors may move for about 8 s. Keep hands away.";
 
@@ -22,14 +27,14 @@ function stopSentence(limit) {
 function act(store, verb, extra = () => ({})) {
   return attempt(async () => {
     const by = store.state.operator || undefined;
-    store.set({ robot: await api.robot(verb, { ...(by ? { by } : {}), ...extra() }) });
+    acceptRobot(store, await api.robot(verb, { ...(by ? { by } : {}), ...extra() }));
   });
 }
 
 function robotButton(store, text, verb, options = {}) {
   const button = h("button", { text, "data-robot": true });
-  onPress(button, options.act ?? act(store, verb, options.extra), (why) => toast(why));
-  return { button, allow: (robot) => setAllowed(button, robot ? robot.allowed?.[verb] : "The studio has not answered yet.", options.help) };
+  onPress(button, options.act ?? act(store, verb, options.extra), (why) => toast(why, { of: "studio" }));
+  return { button, allow: (robot) => setAllowed(button, robot ? (whyNotHeld(robot) ?? robot.allowed?.[verb]) : "The studio has not answered yet.", options.help) };
 }
 
 function way(step, ...children) {
@@ -41,7 +46,8 @@ function progressOf(run) {
   if (run.phase === "start pose") return { fraction: 0, text: "Moving slowly to the start pose" };
   const time = run.elapsed === null || run.elapsed === undefined ? "" : ` · ${seconds(run.elapsed)} s`;
   const what = run.gait_name ? `${run.gait_name}, ${shortHash(run.waypoints_hash)}: ` : "";
-  return { fraction: run.count ? run.reached / run.count : 0, text: `${what}${run.reached} of ${run.count} reached, ${run.sent} sent${time}` };
+  const again = run.iterations > 1 ? `iteration ${run.iteration} of ${run.iterations}, ` : "";
+  return { fraction: run.count ? run.reached / run.count : 0, text: `${what}${again}${run.reached} of ${run.count} reached, ${run.sent} sent${time}` };
 }
 
 function summaryRows({ runSummary: run, view, selected }) {
@@ -55,15 +61,14 @@ function summaryRows({ runSummary: run, view, selected }) {
 }
 
 function build(store) {
-  const device = h("input", { "aria-label": "Device", title: "emulator, a serial port such as /dev/ttyACM0, or socket://HOST:PORT", spellcheck: "false", autocomplete: "off" });
-  const extra = () => (device.value.trim() ? { device: device.value.trim() } : {});
+  const ports = portChooser(store, () => connect.button.click());
+  const connect = robotButton(store, "Connect", "connect", { extra: () => ({ device: ports.value() }), help: CONNECT_WARNING });
   const reset = attempt(async () => {
     if (await confirmAct("Reset the robot?", "Reset moves all 12 motors to 0.5 mm, at full speed and at the same time.", "Move all motors to 0.5 mm")) await act(store, "reset")();
   });
   return {
-    device,
+    ports, connect,
     dot: h("span", { class: "dot" }), word: h("b"), sentence: h("p"),
-    connect: robotButton(store, "Connect", "connect", { extra, help: CONNECT_WARNING }),
     disconnect: robotButton(store, "Disconnect", "disconnect"),
     arm: robotButton(store, "Arm", "arm", { help: "Allow this robot to be moved from here" }),
     pause: robotButton(store, "Pause robot", "pause", { help: "Stands still at the next pose with all feet down" }),
@@ -72,21 +77,21 @@ function build(store) {
     reset: robotButton(store, "Reset", "reset", { act: reset, help: "Moves all motors to 0.5 mm" }),
     connectNote: h("p", { class: "why" }), armNote: h("p", { class: "why" }), sendNote: h("p", { class: "why" }),
     summary: h("dl", { class: "summary" }),
-    bar: h("i"), progress: h("p", { class: "why number" }),
+    bar: h("i"), later: h("p", { class: "why", role: "status", "aria-label": "Later edit", data: { toneText: "caution" } }), progress: h("p", { class: "why number" }),
     bars: strokeBars(),
     stopText: h("p", { class: "stop-text" }),
   };
 }
 
-function assemble(parts, send) {
-  const connect = way(1, h("div", { class: "device" }, parts.device, parts.connect.button, parts.disconnect.button), parts.connectNote);
+function assemble({ store, playback }, parts, send) {
+  const connect = way(1, parts.ports.offer, h("div", { class: "device" }, parts.ports.element, parts.connect.button, parts.disconnect.button), parts.connectNote);
   const arm = way(2, h("div", { class: "buttons" }, parts.arm.button, parts.clear.button, parts.armNote));
-  const start = way(3, parts.summary, send.element, parts.sendNote);
-  const run = way(4, h("div", { class: "progress" }, parts.bar), parts.progress,
+  const start = way(3, coursePart(store, playback), parts.summary, send.element, parts.sendNote);
+  const run = way(4, h("div", { class: "progress" }, parts.bar), parts.progress, parts.later,
     h("div", { class: "buttons" }, parts.pause.button, parts.resume.button, parts.reset.button));
-  byId("robot").append(h("div", { class: "robot-state" }, parts.dot, parts.word, parts.sentence),
+  byId("robot").append(h("div", { class: "robot-state" }, parts.dot, parts.word, parts.sentence), leasePart(store),
     h("ol", { class: "steps", role: "list", "aria-label": "The robot's way" }, connect, arm, start, run),
-    h("h3", {}, "Strokes measured", h("span", { text: "mm" })), parts.bars.element, parts.stopText);
+    h("h3", {}, "Strokes measured", h("span", { text: "mm" })), parts.bars.element, parts.stopText, robotLog(store), robotFaults(store));
   return { connect, arm, start, run };
 }
 
@@ -118,20 +123,28 @@ function showRobot(parts, ways, robot) {
   parts.pause.button.hidden = paused;
   parts.resume.button.hidden = !paused;
   setText(parts.connectNote, ready ? (robot.link === "connecting" ? CONNECT_WARNING : "") : CONNECT_WARNING);
-  setText(parts.armNote, ready && !on ? (robot.allowed?.arm ?? "") : "");
-  if (document.activeElement !== parts.device) parts.device.value = robot?.device ?? "";
-  parts.device.readOnly = ready;
+  setText(parts.armNote, ready && !on ? (whyNotHeld(robot) ?? robot.allowed?.arm ?? "") : "");
   const progress = progressOf(robot?.run);
   parts.bar.style.transform = `scaleX(${progress?.fraction ?? 0})`;
   setText(parts.progress, progress?.text ?? (before ? `Last run: ${before.gait_name}, ${before.state}.` : "No run yet."));
   showWay(ways, robot);
 }
 
-function whyNotSend({ robot, view, runSummary }) {
+/** What to know of a run whose gait is no longer as it was approved and sent. */
+function laterEdit({ robot, view, selected, pending, gesture }) {
+  if (!runIsOn(robot) || !view || robot.run?.gait !== selected) return "";
+  const same = !pending.length && !gesture && view.approval?.waypoints_hash === robot.run.waypoints_hash;
+  return same ? "" : "The run goes on with the approved version; what you see is a later edit.";
+}
+
+function whyNotSend(state) {
+  const { robot, view, runSummary } = state;
+  if (runSummary?.unwired && runSummary.waypoints_hash === view?.plan?.waypoints_hash) return runSummary.unwired;
   if (!robot) return "The studio has not answered yet.";
   if (!view?.approval) return "Only an approved plan can be sent: check and approve it first.";
+  if (whyNotHeld(robot)) return whyNotHeld(robot);
   if (robot.allowed?.send) return robot.allowed.send;
-  if (!runSummary || runSummary.waypoints_hash !== view.approval.waypoints_hash) return "The summary of this plan is not there yet.";
+  if (!runSummary || runSummary.waypoints_hash !== view.approval.waypoints_hash || !isOfCourse(runSummary, state)) return "The summary of this plan is not there yet.";
   return runSummary.reason ?? null;
 }
 
@@ -139,8 +152,9 @@ async function fetchSummary(store) {
   const { selected, view } = store.state;
   if (!selected || !view?.plan || view.plan.refusal) return store.set({ runSummary: null });
   try {
-    const summary = await api.run(selected);
-    if (store.state.selected === selected) store.set({ runSummary: { ...summary, gait: selected } });
+    const asked = courseOf(store.state);
+    const summary = await api.run(selected, asked);
+    if (store.state.selected === selected && courseOf(store.state) === asked) store.set({ runSummary: { ...summary, gait: selected } });
   } catch (error) {
     store.set({ runSummary: null });
     if (error.status !== 409 && error.status !== 422) report(error);
@@ -149,21 +163,22 @@ async function fetchSummary(store) {
 }
 
 /** Builds the section; returns what Esc may cancel. */
-export function mountRobot(store) {
+export function mountRobot(store, playback) {
   const send = sendControl({
     prepare: async () => Boolean(await needOperator(store, "The run is kept with the name of who started it.")),
     send: attempt(async () => {
       const { selected, runSummary, operator } = store.state;
-      store.set({ robot: await api.robot("send", { gait: selected, waypoints_hash: runSummary.waypoints_hash, by: operator }) });
+      acceptRobot(store, await api.robot("send", { gait: selected, waypoints_hash: runSummary.waypoints_hash, from: runSummary.from, iterations: runSummary.iterations, by: operator }));
     }),
   });
   const parts = build(store);
-  const ways = assemble(parts, send);
+  const ways = assemble({ store, playback }, parts, send);
   store.watch(({ robot }) => [robot], ({ robot }) => showRobot(parts, ways, robot));
   store.watch(({ robot, view }) => [robot?.strokes_mm, robot?.run, view?.plan], ({ robot, view }) => {
     parts.bars.show(robot?.strokes_mm ?? null, commandedStrokes(robot, view));
   });
-  store.watch(({ robot, view, runSummary, selected }) => [robot, view, runSummary, selected], (state) => {
+  store.watch((state) => [laterEdit(state)], (state) => setText(parts.later, laterEdit(state)));
+  store.watch(({ robot, view, runSummary, selected, runCourse }) => [robot, view, runSummary, selected, runCourse], (state) => {
     const reason = whyNotSend(state);
     send.allow(reason);
     setText(parts.sendNote, reason ?? "Hold for a second, or click for a countdown.");
@@ -172,6 +187,6 @@ export function mountRobot(store) {
     ways.start.hidden = runIsOn(state.robot);
     parts.summary.hidden = parts.summary.childElementCount === 0;
   });
-  store.watch(({ selected, view, robot }) => [selected, view?.plan?.waypoints_hash, view?.approval?.waypoints_hash, robot?.link, robot?.robot], () => fetchSummary(store));
+  store.watch(({ selected, view, robot, runCourse }) => [selected, runCourse, view?.plan?.waypoints_hash, view?.approval?.waypoints_hash, robot?.link, robot?.robot], () => fetchSummary(store));
   return send.cancel;
 }

@@ -1,32 +1,6 @@
-/** Figures of a plan: at a moment, and over all of it. */
-
-function indexAt(times, time) {
-  let low = 0;
-  let high = times.length - 1;
-  while (low < high) {
-    const middle = (low + high + 1) >> 1;
-    if (times[middle] <= time + 1e-9) low = middle;
-    else high = middle - 1;
-  }
-  return low < times.length - 1 && times[low + 1] - time < time - times[low] ? low + 1 : low;
-}
+/** Figures of a plan as a whole, and where on it the robot is. */
 
 const finite = (values) => values.filter((value) => value !== null && Number.isFinite(value));
-
-/** Margin (m), range of strokes (mm) and highest foot (m) at the sample nearest to `time`. */
-export function plotsAt(plan, time) {
-  const nothing = { margin: null, strokes: null, height: null };
-  if (!plan?.times?.length) return nothing;
-  const index = indexAt(plan.times, time);
-  const strokes = plan.strokes_mm?.[index];
-  const heights = plan.feet?.[index]?.map((foot) => foot[2]) ?? [];
-  const top = heights.indexOf(Math.max(...heights));
-  return {
-    margin: plan.margin?.[index] ?? null,
-    strokes: strokes ? [Math.min(...strokes), Math.max(...strokes)] : null,
-    height: heights.length ? { foot: top, value: heights[top] } : null,
-  };
-}
 
 /** Smallest margin (m), least and greatest stroke (mm) of a plan, null where it has none. */
 export function extremes(plan) {
@@ -48,8 +22,8 @@ export function robotTime(robot, view) {
   if (!run || !plan?.times?.length || run.gait !== view.id || run.waypoints_hash !== plan.waypoints_hash) return null;
   if (run.phase === "ended" && !["done", "stopped", "fault"].includes(robot.robot)) return null;
   if (typeof run.plan_time === "number") return run.plan_time;
-  const last = Math.max(1, run.count - 1);
-  return plan.times.at(-1) * Math.min(1, Math.max(0, run.reached - 1) / last);
+  const times = plan.waypoint_times ?? [];
+  return times[Math.min(Math.max(run.reached - 1, 0), times.length - 1)] ?? null;
 }
 
 /** The strokes asked for by the waypoint sent last, mm, where they can be known. */
@@ -57,7 +31,7 @@ export function commandedStrokes(robot, view) {
   if (robot?.commanded_mm) return robot.commanded_mm;
   const run = robot?.run;
   const plan = view?.plan;
-  if (!run || run.phase !== "streaming" || !plan?.strokes_mm || run.count !== plan.strokes_mm.length) return null;
+  if (!run || run.phase !== "streaming" || !plan?.waypoint_strokes_mm?.length) return null;
   if (run.waypoints_hash !== plan.waypoints_hash) return null;
-  return plan.strokes_mm[Math.min(Math.max(run.sent - 1, 0), run.count - 1)];
+  return plan.waypoint_strokes_mm[Math.min(Math.max(run.sent - 1, 0), run.count - 1)] ?? null;
 }

@@ -1,14 +1,18 @@
 /** The 3D preview's frame: loads a plan's poses once, follows the playhead, says what the plan is worth. */
 
+import { planState } from "./answer.js";
 import { api } from "./api.js";
 import { byId, h, setText } from "./dom.js";
 import { fixed, mm } from "./format.js";
+import { mountGhosts } from "./ghosts.js";
+import { mountGoal } from "./goal.js";
+import { troubleOf } from "./lacks.js";
+import { lane } from "./lane.js";
+import { measured, painted } from "./live.js";
 import { Preview } from "./preview/preview.js";
 import { extremes } from "./samples.js";
-
-const SOURCES = {
-  optimised: ["Feasible", "good"], manual: ["Manual", "good"], draft: ["Draft", "caution"],
-};
+import { mountTools } from "./stage_tools.js";
+import { shownPlan } from "./store.js";
 
 function message(text) {
   byId("stage-message").hidden = !text;
@@ -16,26 +20,12 @@ function message(text) {
 }
 
 async function openPreview(dark) {
-  const frame = byId("viser");
-  frame.src = Preview.url({ dark: dark.matches });
-  const preview = new Preview(frame);
+  const preview = new Preview(byId("viser"));
   dark.addEventListener("change", () => preview.setDark(dark.matches));
   await preview.ready();
   preview.setDark(dark.matches);
   message(null);
   return preview;
-}
-
-function mountTools(preview) {
-  byId("camera").addEventListener("change", () => preview.setView(byId("camera").value));
-  const toggles = { "show-polygon": ["polygon"], "show-traces": ["traces", "com"] };
-  for (const [id, parts] of Object.entries(toggles)) {
-    byId(id).addEventListener("click", () => {
-      const visible = byId(id).getAttribute("aria-pressed") !== "true";
-      byId(id).setAttribute("aria-pressed", String(visible));
-      parts.forEach((part) => preview.show(part, visible));
-    });
-  }
 }
 
 function verdictWords(view, before) {
@@ -45,23 +35,34 @@ function verdictWords(view, before) {
   return [before ? "check gone: the gait changed" : "not checked", before ? "caution" : "quiet"];
 }
 
-function planNote({ view, checked }) {
-  const plan = view?.plan;
+/** What the check says of the plan, unless what is shown is not the plan. */
+function checkWords(state, plan) {
+  if (state.iterate) return null;
+  if (plan !== state.view.plan) return ["edit under way", "quiet"];
+  return verdictWords(state.view, state.checked[state.view.id]);
+}
+
+const MARGIN_HELP = "Least distance from the edge of the support polygon: of the centre of pressure where the motion is solved, else of the centre of mass";
+
+function planNote(state) {
+  const plan = shownPlan(state);
+  const { view } = state;
   if (!plan) return view ? [h("div", { class: "sentence", text: "No plan: optimise this gait to see it move." })] : [];
-  if (plan.refusal) {
+  if (!plan.times.length) {
     return [h("div", {}, h("b", { text: "No motion", data: { toneText: "bad" } }), " · the reason stands at the timeline")];
   }
   const { strokes } = extremes(plan);
-  const margin = plan.balance;
-  const failed = view.verdict && !view.verdict.passed;
-  const [word, tone] = failed ? ["Check failed", "bad"] : (SOURCES[plan.source] ?? [plan.source, "quiet"]);
-  const [state, stateTone] = verdictWords(view, checked[view.id]);
+  const failed = plan === view.plan && view.verdict && !view.verdict.passed;
+  const [word, tone] = failed ? ["Check failed", "bad"] : planState(plan);
+  const infeasible = planState(plan)[0] === "Infeasible";
+  const checked = failed || infeasible ? null : checkWords(state, plan);
+  // Of the nearest motion to one that there is not, no figure may look like the plan's.
+  const margin = !infeasible && plan.balance !== null;
   const figures = h("div", { class: "figures" }, h("b", { text: word, data: { toneText: tone } }),
-    margin !== null && " · ", margin !== null && h("span", { text: `margin ${mm(margin)} mm`, title: "Least distance from the edge of the support polygon: of the centre of pressure where the motion is optimised, else of the centre of mass", data: { toneText: margin < 0 ? "bad" : "" } }),
-    strokes && ` · strokes ${fixed(strokes[0])}…${fixed(strokes[1])} mm`,
-    !failed && " · ", !failed && h("span", { text: state, data: { toneText: stateTone } }));
-  const sentence = plan.note.replace(/^\w+: /, "");
-  return [figures, h("div", { class: "sentence", text: sentence, title: plan.note })];
+    margin && " · ", margin && h("span", { text: `margin ${mm(plan.balance)} mm`, title: MARGIN_HELP, data: { toneText: plan.balance < 0 ? "bad" : "" } }),
+    strokes && !infeasible && ` · strokes ${fixed(strokes[0])}…${fixed(strokes[1])} mm`,
+    checked && " · ", checked && h("span", { text: checked[0], data: { toneText: checked[1] } }));
+  return [figures, h("div", { class: "sentence", text: plan.note.replace(/^\w+: /, ""), title: plan.note })];
 }
 
 function mountLegend(store) {
@@ -69,14 +70,56 @@ function mountLegend(store) {
     const feet = (view?.roles ?? []).map((role, foot) =>
       h("span", { data: { foot: foot + 1 }, title: `Foot ${foot + 1}: ${role}` }, h("i", { class: "foot-dot" }), String(foot + 1)));
     byId("legend").hidden = feet.length === 0;
+    byId("legend").toggleAttribute("data-many", feet.length > 4);
     byId("legend").replaceChildren("foot", ...feet);
   });
 }
 
+function followPlan(store, playback, preview) {
+  let drawn = Promise.resolve();
+  const offer = lane(async ({ id, plan, since }) => {
+    try {
+      // Drawing without a GPU must not hold up the plots: they are painted first, and so is the pose before.
+      const [poses] = await Promise.all([api.poses(id, plan.hash), painted(), drawn]);
+      await preview.loadPoses(poses, troubleOf(plan));
+      preview.setTime(playback.time);
+      message(null);
+      drawn = preview.drawn();
+      if (since !== null) drawn.then(() => measured("edit to 3D", since));
+    } catch (error) {
+      // A plan that has been replaced meanwhile is no longer wanted.
+      if (shownPlan(store.state) === plan) message(`The plan cannot be shown: ${error.message}`);
+    }
+  });
+  followHand(store, preview);
+  store.watch((state) => [state.view?.id, shownPlan(state)?.hash, shownPlan(state)?.live?.lacks], (state) => {
+    const plan = shownPlan(state);
+    if (plan?.times.length) offer({ id: state.view.id, plan, since: state.live?.plan === plan ? state.live.since : null });
+  });
+}
+
+/** Tells the preview that an edit is on, or may begin: the pointer or the keyboard is where edits are made. */
+function followHand(store, preview) {
+  const near = new Set();
+  const tell = () => preview.setBusy(near.size > 0 || store.state.gesture !== null);
+  for (const id of ["timeline", "optimise", "goal"]) {
+    const note = (kind, on) => () => {
+      if (on) near.add(`${id} ${kind}`);
+      else near.delete(`${id} ${kind}`);
+      tell();
+    };
+    for (const [kind, comes, goes] of [["pointer", "pointerover", "pointerleave"], ["keyboard", "focusin", "focusout"]]) {
+      byId(id).addEventListener(comes, note(kind, true));
+      byId(id).addEventListener(goes, note(kind, false));
+    }
+  }
+  store.watch(({ gesture }) => [gesture !== null], tell);
+}
+
 /** Opens the preview; the page works without it, and says so. */
-export async function mountStage(store, playback) {
+export async function mountStage(store, edits, playback) {
   mountLegend(store);
-  store.watch(({ view, checked }) => [view, checked], (state) => byId("plan-note").replaceChildren(...planNote(state)));
+  store.watch((state) => [state.view, state.checked, shownPlan(state)], (state) => byId("plan-note").replaceChildren(...planNote(state)));
   store.watch(({ connected, greeted }) => [connected, greeted], ({ connected, greeted }) => {
     byId("banner").hidden = connected || !greeted;
     setText(byId("banner"), connected ? "" : "Connection to the studio lost: what stands here may be old. Trying again; Stop is tried all the same.");
@@ -88,17 +131,12 @@ export async function mountStage(store, playback) {
     message(`The 3D scene could not be loaded: ${error.message}`);
     return null;
   }
-  mountTools(preview);
-  playback.addEventListener("time", () => preview.setTime(playback.time));
-  store.watch(({ view }) => [view?.id, view?.plan?.hash, Boolean(view?.plan?.refusal)], async ({ view }) => {
-    if (!view?.plan || view.plan.refusal) return;
-    try {
-      await preview.loadPoses(api.posesPath(view.id, view.plan.hash));
-      preview.setTime(playback.time);
-      message(null);
-    } catch (error) {
-      message(`The plan cannot be shown: ${error.message}`);
-    }
-  });
+  preview.addEventListener("opening", () => message("The 3D scene of this robot is being loaded."));
+  preview.addEventListener("ready", () => message(null));
+  mountTools(store, preview);
+  mountGhosts(store, preview);
+  playback.addEventListener("time", ({ detail }) => preview.setTime(detail.time, detail.cause === "clock"));
+  followPlan(store, playback, preview);
+  mountGoal(store, edits, preview);
   return preview;
 }

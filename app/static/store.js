@@ -2,7 +2,8 @@
  * The page's only state: one frozen object, replaced as a whole, watched by selection.
  *
  * Everything that several tabs must agree on comes from the server; the rest (`selected`, `shownJob`, `pending`,
- * `gesture`) belongs to this tab alone.
+ * `gesture`, `tool`, `selection`, `preview`, `zoom`, `live`, `remedies`,
+ * `iterate`, `tableDrafts`, `runCourse`) belongs to this tab alone.
  */
 
 const INITIAL = Object.freeze({
@@ -16,17 +17,32 @@ const INITIAL = Object.freeze({
   view: null,
   pending: Object.freeze([]),
   gesture: null,
+  tool: "paint",
+  selection: null,
+  preview: null,
+  zoom: null,
+  live: null,
+  remedies: null,
+  iterate: null,
+  pattern: null,
   refused: null,
+  tableDrafts: Object.freeze({}),
   formError: null,
   shownJob: null,
   checked: Object.freeze({}),
   runSummary: null,
+  run: null,
+  trace: null,
+  runCourse: null,
   operator: "",
 });
 
-/** Creates the store; `watch` calls back after the current task, once for any number of changes. */
-export function createStore(initial = {}) {
-  let state = Object.freeze({ ...INITIAL, ...initial });
+/** Creates the page's store. */
+export const createStore = (initial = {}) => watchable({ ...INITIAL, ...initial });
+
+/** A state that can be watched; `watch` calls back after the current task, once for any number of changes. */
+export function watchable(initial) {
+  let state = Object.freeze({ ...initial });
   let scheduled = false;
   const watchers = [];
 
@@ -56,11 +72,29 @@ export function createStore(initial = {}) {
   };
 }
 
+const shown = { view: null, pending: null, gesture: null, document: null };
+
 /** The document as the user sees it: the server's, with edits under way and the running gesture on top. */
 export function shownDocument({ view, pending, gesture }) {
   if (!view) return null;
-  const edits = gesture ? [...pending, gesture] : pending;
-  return edits.reduce((document, edit) => edit.apply(document), view.document);
+  if (shown.view !== view || shown.pending !== pending || shown.gesture !== gesture) {
+    const edits = gesture ? [...pending, gesture] : pending;
+    Object.assign(shown, { view, pending, gesture, document: edits.reduce((document, edit) => edit.apply(document), view.document) });
+  }
+  return shown.document;
+}
+
+/** The document as the timeline draws it: what an operation would make of it, while that is only looked at. */
+export const previewedDocument = (state) => state.preview ?? shownDocument(state);
+
+/** What the shown document says: two states with the same text ask for the same plan and the same ways out. */
+export function shownText(state) {
+  return state.view ? JSON.stringify([state.view.id, shownDocument(state)]) : null;
+}
+
+/** The plan that is looked at: an iteration of the solver, else what an edit under way leads to, else the server's. */
+export function shownPlan({ iterate, live, view }) {
+  return iterate?.plan ?? live?.plan ?? view?.plan ?? null;
 }
 
 /** Takes over a view unless it is of another gait or older than what is shown. */
@@ -70,6 +104,32 @@ export function acceptView(store, view) {
   if (current && current.id === view.id && view.stamp < current.stamp) return;
   const seen = view.approval ? "approved" : view.verdict ? (checked[view.id] ?? "checked") : checked[view.id];
   store.set({ view, checked: seen ? { ...checked, [view.id]: seen } : checked });
+}
+
+/** Takes over a state of the robot unless it is older than what is shown: an answer may come after a later event. */
+export function acceptRobot(store, robot) {
+  if (robot.stamp >= (store.state.robot?.stamp ?? 0)) store.set({ robot });
+}
+
+/** Takes a changed gait's line over into the list. */
+export function acceptLine(store, view) {
+  const { gaits } = store.state;
+  const old = gaits.find(({ id }) => id === view.id);
+  if (!old) return;
+  const line = Object.fromEntries(Object.keys(old).map((key) => [key, view[key]]));
+  if (JSON.stringify(line) !== JSON.stringify(old)) store.set({ gaits: gaits.map((one) => (one === old ? line : one)) });
+}
+
+/** Takes over what can be undone now, where it is of the shown state: other tabs come and go. */
+export function acceptSteps(store, { id, revision, undo, redo, steps }) {
+  const { view } = store.state;
+  if (view?.id === id && view.revision === revision) store.set({ view: { ...view, undo, redo, steps } });
+}
+
+/** Takes over how the shown sequence's parts stand to the gaits that they were copied from. */
+export function acceptSources(store, { id, revision, sources }) {
+  const { view } = store.state;
+  if (view?.id === id && view.revision === revision) store.set({ view: { ...view, sources } });
 }
 
 /** Replaces one job in the list, newest first. */

@@ -6,23 +6,38 @@
 import { byId } from "./dom.js";
 
 const NAMES = ["optimise", "segments", "check", "robot"];
-const place = { name: NAMES[0], offset: 0 };
+/** The last tab opens a part of its own over the sections, with the pattern search. */
+const TABS = [...NAMES, "patterns"];
+
+/** A tab's section; a sequence has its parts where other gaits have their segment table. */
+const sectionOf = (name) => (name === "segments" && !byId("sequence").hidden ? byId("sequence") : byId(name));
+
+const place = { name: NAMES[0], offset: 0, scroll: 0 };
+let told = () => {};
+
+/** `act` is told of each tab that is opened. */
+export function onTab(act) {
+  told = act;
+}
 
 function keepPlace() {
-  const [sections, section] = [byId("sections"), byId(place.name)];
+  const [sections, section] = [byId("sections"), sectionOf(place.name)];
   place.offset = Math.min(place.offset, Math.max(0, section.offsetHeight - sections.clientHeight));
   sections.scrollTop = section.offsetTop + place.offset;
+  place.scroll = sections.scrollTop;
 }
 
 /** Brings a section to the top. */
 export function openTab(name) {
+  told(name);
+  mark(name);
+  if (!NAMES.includes(name)) return;
   Object.assign(place, { name, offset: 0 });
   keepPlace();
-  mark(name);
 }
 
 function mark(current) {
-  for (const name of NAMES) {
+  for (const name of TABS) {
     const tab = byId(`tab-${name}`);
     tab.setAttribute("aria-selected", String(name === current));
     tab.tabIndex = name === current ? 0 : -1;
@@ -32,8 +47,10 @@ function mark(current) {
 /** Takes note of where a person has scrolled to; the section that fills most of the view is the current one. */
 function notePlace() {
   const { scrollTop, clientHeight } = byId("sections");
-  const name = NAMES.filter((one) => byId(one).offsetTop <= scrollTop + clientHeight * 0.4).at(-1);
-  Object.assign(place, { name, offset: scrollTop - byId(name).offsetTop });
+  // What was scrolled here and not by hand says nothing, least of all once the sections have another height.
+  if (scrollTop === place.scroll) return;
+  const name = NAMES.filter((one) => sectionOf(one).offsetTop <= scrollTop + clientHeight * 0.4).at(-1);
+  Object.assign(place, { name, offset: scrollTop - sectionOf(name).offsetTop });
   mark(name);
 }
 
@@ -45,7 +62,7 @@ function mountTab(name, index) {
     if (to === undefined) return;
     event.preventDefault();
     event.stopPropagation();
-    const next = NAMES[(to + NAMES.length) % NAMES.length];
+    const next = TABS[(to + TABS.length) % TABS.length];
     openTab(next);
     byId(`tab-${next}`).focus();
   });
@@ -57,10 +74,13 @@ export function mountTabs() {
   const resized = new ResizeObserver(keepPlace);
   resized.observe(sections);
   mark(NAMES[0]);
-  NAMES.forEach((name, index) => {
-    mountTab(name, index);
-    resized.observe(byId(name));
-    byId(name).addEventListener("click", () => { if (byId(name).offsetTop > sections.scrollTop + 8) openTab(name); });
+  TABS.forEach(mountTab);
+  NAMES.forEach((name) => {
+    const own = name === "segments" ? [byId(name), byId("sequence")] : [byId(name)];
+    for (const section of own) {
+      resized.observe(section);
+      section.addEventListener("click", () => { if (section.offsetTop > sections.scrollTop + 8) openTab(name); });
+    }
   });
   sections.addEventListener("scroll", notePlace, { passive: true });
 }

@@ -1,129 +1,86 @@
-/** The footfall timeline: an ARIA grid, a row a foot, a cell a sample. Only cells that changed are touched. */
+/** The footfall timeline: an ARIA grid, a row a foot, a cell a sample. */
 
-import { axisOf, fractionAt, labelEvery, timeAt } from "./axis.js";
-import { byId, h, setAttribute, setText } from "./dom.js";
-import { shownDocument } from "./store.js";
+import { axisKey, axisOf } from "./axis.js";
+import { byId, h } from "./dom.js";
+import { lacksByCell } from "./lacks.js";
+import { mountRuler } from "./ruler.js";
+import { mountSelection } from "./selection.js";
+import { previewedDocument, shownDocument, shownPlan } from "./store.js";
 import { mountTimelineInput } from "./timeline_input.js";
+import { buildRow, drawRow, findingsByCell, fitRow } from "./timeline_rows.js";
 
-const name = (foot, sample, swing, locked) => `foot ${foot + 1}, sample ${sample + 1}: ${swing ? "swing" : "stance"}${locked ? ", locked" : ""}`;
-
-function buildRow(foot, samples) {
-  const role = h("span", { class: "role" });
-  const cells = Array.from({ length: samples }, (_, sample) =>
-    h("div", { role: "gridcell", class: "cell", tabindex: "-1", "aria-colindex": sample + 1 }));
-  const strip = h("div", { class: "cells", role: "presentation" }, ...cells);
-  const row = h("div", { class: "timeline-row", role: "row", "aria-label": `Foot ${foot + 1}`, data: { foot: foot + 1 } },
-    h("div", { class: "row-label", role: "rowheader" }, h("span", { class: "foot-dot" }), h("span", { text: `Foot ${foot + 1}` }), role), strip);
-  return { row, role, cells, strip, drawn: new Array(samples).fill("") };
-}
-
-function drawRow(part, foot, steps, locked, findings) {
-  for (let sample = 0; sample < part.cells.length; sample += 1) {
-    const swing = steps[sample] === "0";
-    const fixed = locked?.[sample] === "1";
-    const finding = findings.get(`${foot},${sample}`);
-    const key = `${swing}${fixed}${finding?.sentence ?? ""}`;
-    if (part.drawn[sample] === key) continue;
-    part.drawn[sample] = key;
-    const cell = part.cells[sample];
-    cell.dataset.state = swing ? "swing" : "stance";
-    cell.toggleAttribute("data-locked", fixed);
-    setAttribute(cell, "aria-readonly", fixed ? "true" : null);
-    setAttribute(cell, "data-finding", finding?.severity);
-    setAttribute(cell, "title", finding?.sentence);
-    cell.setAttribute("aria-label", name(foot, sample, swing, fixed));
-  }
-}
-
-function findingsByCell(verdict) {
-  const found = new Map();
-  for (const finding of verdict?.findings ?? []) {
-    if (finding.sample === null || finding.foot === null) continue;
-    const key = `${finding.foot},${finding.sample}`;
-    if (found.get(key)?.severity !== "error") found.set(key, finding);
-  }
-  return found;
-}
-
-function drawRuler(axis, verdict) {
-  const ruler = byId("ruler");
-  const every = labelEvery(axis, ruler.clientWidth || 1000);
-  const marks = [];
-  for (let time = 0; time <= (axis.columns - 1) * axis.step + 1e-9; time += every) {
-    const left = `${100 * fractionAt(axis, time)}%`;
-    const label = h("span", { text: time === 0 ? "0 s" : String(Math.round(time * 10) / 10) });
-    const tick = h("i");
-    [label.style.left, tick.style.left] = [left, left];
-    marks.push(label, tick);
-  }
-  for (const finding of verdict?.findings ?? []) {
-    if (finding.sample === null || finding.foot !== null) continue;
-    const mark = h("b", { class: "mark", title: finding.sentence, data: { severity: finding.severity } });
-    mark.style.left = `${100 * fractionAt(axis, finding.sample * axis.step)}%`;
-    marks.push(mark);
-  }
-  ruler.replaceChildren(...marks);
-}
+/** With more columns in the window the cells stand without gaps. */
+const DENSE = 140;
 
 function showNote(store, edits) {
   const note = byId("edit-note");
   const { refused, view } = store.state;
-  const sentence = refused ?? view?.plan?.refusal?.sentence ?? view?.notice ?? null;
+  const plan = shownPlan(store.state);
+  const refusal = plan?.live?.status === "infeasible" ? null : plan?.refusal?.sentence;
+  const sentence = refused ?? refusal ?? view?.notice ?? null;
   if (!sentence) return note.replaceChildren();
-  const text = h("p", { text: refused ? `Not accepted: ${refused}` : sentence, title: sentence, data: { toneText: refused || view?.plan?.refusal ? "bad" : "caution" } });
+  const text = h("p", { text: refused ? `Not accepted: ${refused}` : sentence, title: sentence, data: { toneText: refused || refusal ? "bad" : "caution" } });
   return note.replaceChildren(text, ...(refused ? [h("button", { text: "Take it back", on: { click: edits.dropRefused } })] : []));
 }
 
-/** Builds the grid and keeps it current. `playback` is scrubbed by the ruler. */
-export function mountTimeline(store, edits, playback) {
-  const grid = byId("timeline");
-  let parts = [];
-  const input = mountTimelineInput(store, edits, grid, () => parts);
+/** Gives back what a function made of a value the last time, as long as the value is the same. */
+function remembered(make) {
+  let last = [];
+  return (value) => {
+    if (last.length === 0 || !Object.is(last[0], value)) last = [value, make(value)];
+    return last[1];
+  };
+}
 
-  function rebuild(document) {
-    const samples = document.timeline.feet[0].length;
-    parts = document.timeline.feet.map((_, foot) => buildRow(foot, samples));
-    grid.replaceChildren(...parts.map(({ row }) => row));
-    grid.dataset.feet = parts.length;
+/** Builds the grid and keeps it current. The ruler scrubs `playback`; `reveal` brings a sample into the shown window. */
+export function mountTimeline(store, edits, playback, reveal) {
+  const grid = byId("timeline");
+  const marks = h("div", { class: "timeline-marks", "aria-hidden": "true" });
+  const [findingsOf, lacksOf] = [remembered(findingsByCell), remembered(lacksByCell)];
+  let parts = [];
+  const input = mountTimelineInput(store, edits, grid, () => parts, reveal);
+
+  function fit(feet, samples) {
+    const focused = grid.contains(document.activeElement);
+    if (parts.length !== feet) {
+      parts = Array.from({ length: feet }, (_, foot) => buildRow(foot));
+      grid.replaceChildren(...parts.map(({ row }) => row), marks);
+      grid.dataset.feet = feet;
+      grid.setAttribute("aria-rowcount", feet);
+    }
+    parts.forEach((part) => fitRow(part, samples));
     grid.setAttribute("aria-colcount", samples);
-    grid.setAttribute("aria-rowcount", parts.length);
-    input.rebuilt();
+    input.rebuilt(focused && !grid.contains(document.activeElement));
+  }
+
+  function place({ samples, shown, first }) {
+    grid.toggleAttribute("data-dense", shown > DENSE);
+    for (const { strip } of parts) {
+      strip.style.width = `${(100 * samples) / shown}%`;
+      strip.style.transform = first ? `translateX(${(-100 * first) / samples}%)` : "";
+    }
   }
 
   function render(state) {
-    const document = shownDocument(state);
-    if (!document) return;
-    if (parts.length !== document.timeline.feet.length || parts[0].cells.length !== document.timeline.feet[0].length) rebuild(document);
-    const axis = axisOf(state);
-    const findings = findingsByCell(state.view.verdict);
-    parts.forEach((part, foot) => {
-      setText(part.role, state.view.roles?.[foot] ?? "");
-      part.strip.style.width = `${(100 * axis.samples) / axis.columns}%`;
-      drawRow(part, foot, document.timeline.feet[foot], document.timeline.locked?.[foot], findings);
-    });
+    const gait = previewedDocument(state);
+    if (!gait) return;
+    const { feet, locked } = gait.timeline;
+    if (parts.length !== feet.length || parts[0].cells.length !== feet[0].length) fit(feet.length, feet[0].length);
+    const before = state.preview ? shownDocument(state).timeline : null;
+    const [findings, lacks] = [findingsOf(state.live ? null : state.view.verdict), lacksOf(shownPlan(state))];
+    parts.forEach((part, foot) => drawRow(part, {
+      foot, steps: feet[foot], locked: locked?.[foot], findings, lacks, periodic: gait.options?.boundary === "periodic",
+      before: before && { steps: before.feet[foot], locked: before.locked?.[foot] }, role: state.view.roles?.[foot] ?? "",
+    }));
     grid.toggleAttribute("data-refused", Boolean(state.refused));
   }
 
-  const ruler = () => drawRuler(axisOf(store.state), store.state.view?.verdict);
-  store.watch(({ view, pending, gesture, refused }) => [view, pending, gesture, refused], render);
-  store.watch(({ view }) => [view?.id, view?.plan, view?.verdict, view?.document.timeline.sample_time], ruler);
-  store.watch(({ view, refused }) => [view, refused], () => showNote(store, edits));
-  new ResizeObserver(ruler).observe(byId("ruler"));
-  mountScrubbing(store, playback);
+  store.watch((state) => [state.view, state.pending, state.gesture, state.preview, state.refused, shownPlan(state)], render);
+  store.watch((state) => [axisKey(state), parts.length], (state) => place(axisOf(state)));
+  store.watch((state) => [state.view, state.refused, shownPlan(state)], () => showNote(store, edits));
+  store.watch(({ selected }) => [selected], () => store.set({ selection: null, preview: null, zoom: null }));
+  store.watch(({ view, pending }) => [view, pending], ({ preview }) => { if (preview) store.set({ preview: null }); });
+  mountSelection(store, marks, () => parts);
+  mountRuler(store, playback);
   return input;
-}
-
-function mountScrubbing(store, playback) {
-  const ruler = byId("ruler");
-  const scrub = (event) => {
-    const box = ruler.getBoundingClientRect();
-    playback.setTime(timeAt(axisOf(store.state), (event.clientX - box.left) / box.width));
-  };
-  ruler.addEventListener("pointerdown", (event) => {
-    ruler.setPointerCapture(event.pointerId);
-    scrub(event);
-  });
-  ruler.addEventListener("pointermove", (event) => {
-    if (ruler.hasPointerCapture(event.pointerId)) scrub(event);
-  });
 }

@@ -2,31 +2,44 @@
 
 import { byId, h, icon } from "./dom.js";
 
+const MOST = 3;
 const STAY_MS = 9000;
 const STAY_BAD_MS = 15000;
 const STAY_ACTION_MS = 90000;
 
+/** What makes room where too many stand: the oldest, an offer only after all others. */
+function tooMany(stack) {
+  const older = [...stack.children].slice(0, -1);
+  return older.find(({ dataset }) => dataset.of !== "studio") ?? older[0];
+}
+
 /**
  * Shows a sentence: a refusal longer than news, an offer such as bringing something back the longest.
  * @param {string} sentence
- * @param {{tone?: "bad"|"plain", action?: {label: string, act: () => void}}} [options]
+ * @param {{tone?: "bad"|"plain", action?: {label: string, act: () => void}, of?: "gait"|"studio"}} [options] `of` says whether
+ *   it belongs to the shown gait, and goes with it; an offer does not
  */
-export function toast(sentence, { tone = "plain", action = null } = {}) {
+export function toast(sentence, { tone = "plain", action = null, of = action ? "studio" : "gait" } = {}) {
   const close = () => element.remove();
-  const element = h("div", { class: "toast", role: tone === "bad" ? "alert" : "status", data: { tone } },
+  const element = h("div", { class: "toast", role: tone === "bad" ? "alert" : "status", data: { tone, of } },
     h("p", { text: sentence }),
     action && h("button", { text: action.label, on: { click: () => { close(); action.act(); } } }),
     h("button", { class: "plain icon-only", "aria-label": "Dismiss", on: { click: close } }, icon("close")));
   const stack = byId("toasts");
   [...stack.children].filter((other) => other.querySelector("p").textContent === sentence).forEach((other) => other.remove());
   stack.append(element);
-  while (stack.children.length > 2) stack.firstElementChild.remove();
+  while (stack.children.length > MOST) tooMany(stack).remove();
   setTimeout(close, action ? STAY_ACTION_MS : tone === "bad" ? STAY_BAD_MS : STAY_MS);
 }
 
 /** Takes refusals away whose cause is gone: the gait changed, or another one is shown. */
 export function clearRefusals() {
-  byId("toasts").querySelectorAll('[data-tone="bad"]').forEach((element) => element.remove());
+  byId("toasts").querySelectorAll('[data-tone="bad"][data-of="gait"]').forEach((element) => element.remove());
+}
+
+/** Takes away what belongs to the gait that was shown until now. */
+export function clearOfGait() {
+  byId("toasts").querySelectorAll('[data-of="gait"]').forEach((element) => element.remove());
 }
 
 /** Shows what an ApiError says; anything else is a defect and goes to the console as well. */

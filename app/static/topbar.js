@@ -1,11 +1,16 @@
 /** The top bar: name, saved state, undo and redo, link, robot, operator, and Stop. */
 
 import { sendStop } from "./api.js";
+import { ownSteps } from "./author.js";
 import { byId, h, onPress, setAllowed, setAttribute, setText, stateParts } from "./dom.js";
-import { showKeys } from "./dialogs.js";
 import { clockTime, seconds } from "./format.js";
+import { freeName } from "./gait_names.js";
+import { showKeys } from "./key_list.js";
+import { holderSentence } from "./lease.js";
 import { changeOperator } from "./operator.js";
-import { runIsOn } from "./store.js";
+import { refusalOf } from "./refusal.js";
+import { draftOf } from "./sheet_draft.js";
+import { acceptRobot, runIsOn } from "./store.js";
 import { toast } from "./toasts.js";
 
 const LINK_TONES = { ready: "good", connecting: "caution", lost: "bad" };
@@ -22,34 +27,70 @@ export async function stopRobot(store) {
   const button = byId("stop");
   button.dataset.busy = "";
   try {
-    store.set({ robot: await sendStop(store.state.operator) });
+    acceptRobot(store, await sendStop(store.state.operator));
   } catch {
-    toast("Stop did not reach the studio: it does not answer. Cut the robot's power.", { tone: "bad" });
+    toast("Stop did not reach the studio: it does not answer. Cut the robot's power.", { tone: "bad", of: "studio" });
   } finally {
     delete button.dataset.busy;
   }
 }
 
-function mountName(store, edits) {
+/** What is wrong with a name; null where nothing is. */
+function refusedName(name, { gaits, selected }) {
+  if (!name) return "A gait needs a name. Write one, or press Escape.";
+  const taken = gaits.some((gait) => gait.id !== selected && gait.name === name);
+  return taken ? `Another gait is called “${name}”. Write another name, such as “${freeName({ gaits }, name)}”, or press Escape.` : null;
+}
+
+/** The field with the name; a name that was refused stays, with the sentence under it, until it is repaired or given up. */
+function nameField(store, edits) {
   const input = byId("gait-name");
-  const rename = () => {
+  const refusal = refusalOf(input);
+  input.parentElement.append(refusal.element);
+  const show = () => {
+    if (refusal.isSaid()) return;
+    input.value = edits.shown()?.name ?? "";
+  };
+  const giveUp = () => {
+    refusal.say(null);
+    show();
+  };
+  input.addEventListener("change", () => {
     const name = input.value.trim();
     const current = edits.shown()?.name;
-    if (name && current && name !== current) edits.edit((document) => ({ ...document, name }), `Name to ${name}`);
-    else input.value = current ?? "";
-  };
-  input.addEventListener("change", rename);
+    if (current === undefined) return;
+    refusal.say(name === current ? null : refusedName(name, store.state));
+    if (!refusal.isSaid() && name !== current) edits.edit((document) => ({ ...document, name }), `Name to ${name}`);
+    show();
+  });
   input.addEventListener("keydown", (event) => {
     if (event.key === "Enter") input.blur();
-    if (event.key === "Escape") { input.value = edits.shown()?.name ?? ""; input.blur(); }
+    if (event.key === "Escape") { giveUp(); input.blur(); }
   });
-  store.watch(({ view, pending, refused }) => [view, pending, refused], ({ view, pending, refused }) => {
-    if (document.activeElement !== input) input.value = edits.shown()?.name ?? "";
+  store.watch(({ selected }) => [selected], giveUp);
+  return { input, show: () => { if (document.activeElement !== input) show(); } };
+}
+
+function mountName(store, edits) {
+  const { input, show } = nameField(store, edits);
+  store.watch((state) => [state.view, state.pending, state.refused, state.tableDrafts], (now) => {
+    const { view, pending, refused } = now;
+    const unfit = draftOf(now).steps.length > 0;
+    show();
     input.size = Math.max(4, input.value.length);
-    const state = !view ? "" : refused ? "· drawing not accepted" : pending.length ? "· saving the edit" : view.edited ? "· edited" : "· saved";
+    setAttribute(input, "title", view ? `Name of the gait. Its file stays gaits/${view.id}.json under another name too` : null);
+    const state = !view ? "" : refused ? "· drawing not accepted" : unfit ? "· table does not fit" : pending.length ? "· saving the edit" : view.edited ? "· edited, kept" : "· saved";
     setText(byId("saved-state"), state);
-    setAttribute(byId("saved-state"), "title", view?.saved_at ? `Saved ${clockTime(view.saved_at)}` : null);
+    setAttribute(byId("saved-state"), "title", view ? `${unfit ? `${UNFIT} ` : ""}${savedHelp(view)}` : null);
   });
+}
+
+const UNFIT = "The last change of the segment table does not fit together yet: this tab keeps it, the gait has its last good table.";
+
+/** Every edit is in the studio's database before it is shown as done; Save writes the file that others can read. */
+function savedHelp(view) {
+  const file = view.saved_at ? `The file in the data folder is of ${clockTime(view.saved_at)}.` : "There is no file of it in the data folder yet.";
+  return view.edited ? `Every edit is kept and survives a restart. ${file} Save writes it anew.` : file;
 }
 
 function mountHistory(store, edits) {
@@ -57,14 +98,17 @@ function mountHistory(store, edits) {
   onPress(undo, edits.undo);
   onPress(redo, edits.redo);
   onPress(save, edits.save);
-  store.watch(({ view, refused }) => [view, refused], ({ view, refused }) => {
-    const label = refused ? "the drawing that was not accepted" : (view?.undo ?? null);
+  store.watch(({ view, refused, tableDrafts }) => [view, refused, tableDrafts], (state) => {
+    const { view, refused } = state;
+    const own = ownSteps(view);
+    const draft = draftOf(state).steps.at(-1)?.label;
+    const label = draft ?? (refused ? "the drawing that was not accepted" : own.undo);
     setText(byId("undo-label"), label ? label.charAt(0).toLowerCase() + label.slice(1) : "");
     setAllowed(undo, label ? null : "Nothing to undo.", `Undo: ${label} (Ctrl+Z)`);
-    setAllowed(redo, view?.redo ? null : "Nothing to redo.", `Redo: ${view?.redo} (Ctrl+Shift+Z)`);
+    setAllowed(redo, own.redo ? null : "Nothing to redo.", `Redo: ${own.redo} (Ctrl+Shift+Z)`);
     if (label) setAttribute(undo, "aria-description", label);
-    if (view?.redo) setAttribute(redo, "aria-description", view.redo);
-    setAllowed(save, !view ? "No gait is selected." : view.edited ? null : "Everything is saved.", "Save to the data folder (Ctrl+S)");
+    if (own.redo) setAttribute(redo, "aria-description", own.redo);
+    setAllowed(save, !view ? "No gait is selected." : view.edited ? null : draft ? UNFIT : "Everything is saved.", "Save to the data folder (Ctrl+S)");
   });
 }
 
@@ -77,8 +121,8 @@ function mountStates(store) {
     document.querySelector(".states").toggleAttribute("data-stale", !connected);
     robot.replaceChildren(...stateParts(robotTone(now), "Robot", `${now?.robot ?? "unknown"}${runIsOn(now) && now.run?.gait_name && now.run.gait !== selected ? `: ${now.run.gait_name}` : ""}`), sentence);
   });
-  store.watch(({ robot: now }) => [now?.sentence, now?.stop_text], ({ robot: now }) => {
-    const words = [now?.sentence, now?.stop_text].filter(Boolean).join(" ");
+  store.watch(({ robot: now }) => [now?.sentence, now?.stop_text, now?.lease?.page, now?.lease?.is_gone], ({ robot: now }) => {
+    const words = [now?.sentence, now?.stop_text, holderSentence(now)].filter(Boolean).join(" ");
     setText(sentence, words);
     setAttribute(robot, "title", words || null);
   });

@@ -1,17 +1,18 @@
 /** Play, step, speed, loop, clock and the playhead. A moved playhead changes a transform and a few texts. */
 
-import { axisOf, fractionAt } from "./axis.js";
+import { axisKey, axisOf, fractionAt } from "./axis.js";
 import { byId, h, icon, setAttribute, setText } from "./dom.js";
 import { fixed } from "./format.js";
 import { robotTime } from "./samples.js";
+import { shownPlan } from "./store.js";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10];
 
-function mountButtons(playback) {
+function mountButtons(playback, loop) {
   byId("play").addEventListener("click", () => playback.toggle());
   byId("step-back").addEventListener("click", () => playback.step(-1));
   byId("step-forward").addEventListener("click", () => playback.step(1));
-  byId("loop").addEventListener("click", () => playback.setLoop(!playback.loop));
+  byId("loop").addEventListener("click", loop);
   const speed = byId("speed");
   speed.append(...SPEEDS.map((value) => h("option", { value, text: `${value}×` })));
   speed.value = "1";
@@ -54,8 +55,9 @@ function place(marker, overlayWidth, fraction) {
  * @param {object} store
  * @param {Playback} playback
  * @param {(time: number) => void} showFigures called with every move of the playhead
+ * @param {() => void} loop what the key L does
  */
-export function mountTransport(store, playback, showFigures) {
+export function mountTransport(store, playback, showFigures, loop) {
   const overlay = byId("overlay");
   const showClock = mountClock();
   let axis = axisOf(store.state);
@@ -74,7 +76,7 @@ export function mountTransport(store, playback, showFigures) {
     place(byId("robot-cursor"), width, fractionAt(axis, time));
   };
 
-  mountButtons(playback);
+  mountButtons(playback, loop);
   playback.addEventListener("time", movePlayhead);
   playback.addEventListener("state", () => showState(playback));
   new ResizeObserver(() => {
@@ -82,10 +84,15 @@ export function mountTransport(store, playback, showFigures) {
     movePlayhead();
     moveRobot();
   }).observe(overlay);
-  store.watch(({ view, pending }) => [view?.id, view?.plan, view?.document.timeline.sample_time, pending.length], (state) => {
+  store.watch((state) => [state.view?.id, shownPlan(state), state.view?.document.timeline.sample_time, state.pending.length], (state) => {
     axis = axisOf(state);
     playback.setPlan(axis.duration, axis.step);
     movePlayhead();
+  });
+  store.watch((state) => [axisKey(state)], (state) => {
+    axis = axisOf(state);
+    movePlayhead();
+    moveRobot();
   });
   store.watch(({ robot, view }) => [robot?.run, robot?.robot, view?.plan], moveRobot);
   showState(playback);

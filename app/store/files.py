@@ -6,7 +6,9 @@ import json
 import os
 import re
 import sys
+from collections.abc import Set
 from contextlib import suppress
+from itertools import chain, count
 from pathlib import Path
 
 from app.documents import gait_content, parse_gait
@@ -25,7 +27,7 @@ def default_data_folder() -> Path:
     return Path(os.environ.get("XDG_DATA_HOME", Path.home() / ".local" / "share")) / "footfall-studio"
 
 
-def write_atomically(path: Path, text: str) -> None:
+def write_atomically(path: Path, content: str | bytes) -> None:
     """Writes a file whole or not at all, and on disk when this returns.
 
     Raises:
@@ -33,8 +35,8 @@ def write_atomically(path: Path, text: str) -> None:
     """
     partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
     try:
-        with partial.open("w", encoding="utf-8", newline="") as file:
-            file.write(text)
+        with partial.open("wb") as file:
+            file.write(content if isinstance(content, bytes) else content.encode())
             file.flush()
             os.fsync(file.fileno())
         partial.replace(path)
@@ -50,10 +52,31 @@ def write_atomically(path: Path, text: str) -> None:
             partial.unlink(missing_ok=True)
 
 
-def slug(name: str) -> str:
-    """An id from a name: lower-case letters, digits and hyphens."""
-    words = re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-")
-    return words[:60] or "gait"
+def _sweep(folder: Path) -> None:
+    """Takes away what a killed program had half written; what counts are the whole files beside it."""
+    for partial in folder.glob(".*.partial"):
+        writer = partial.name.split(".")[-2]
+        if not (writer.isdigit() and _is_running(int(writer))):
+            partial.unlink(missing_ok=True)
+
+
+def _is_running(process: int) -> bool:
+    if process == os.getpid() or sys.platform == "win32":  # there, asking would end it
+        return True
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        return True
+    return True
+
+
+def free_id(name: str, taken: Set[str]) -> str:
+    """An id from a name, lower-case letters, digits and hyphens, with a number where it is taken."""
+    base = re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-")[:60] or "gait"
+    ids = chain((base,), (f"{base}-{number}" for number in count(2)))
+    return next(candidate for candidate in ids if candidate not in taken)
 
 
 class GaitFiles:
@@ -74,10 +97,40 @@ class GaitFiles:
                 f"The data folder {data} cannot be made: {error.strerror}. Give another with --data.",
                 "--data",
             ) from error
+        _sweep(self._gaits)
+
+    def stamps(self) -> dict[str, tuple[int, int]]:
+        """Every saved gait's id with what changes whenever its file does: time in ns, and size."""
+        stamps = {}
+        with os.scandir(self._gaits) as found:
+            for entry in found:
+                gait_id, _, ending = entry.name.rpartition(".")
+                if ending == "json" and self.is_id(gait_id):
+                    with suppress(FileNotFoundError):
+                        state = entry.stat()
+                        stamps[gait_id] = (state.st_mtime_ns, state.st_size)
+        return stamps
 
     def ids(self) -> tuple[str, ...]:
         """Ids of all saved gaits, by name."""
-        return tuple(sorted(p.stem for p in self._gaits.glob("*.json") if _ID.fullmatch(p.stem)))
+        return tuple(sorted(self.stamps()))
+
+    def deleted_ids(self) -> tuple[str, ...]:
+        """Ids of gaits in the trash."""
+        return tuple(p.stem for p in self._trash.glob("*.json"))
+
+    def deleted(self, gait_id: str) -> tuple[Gait, float]:
+        """A gait in the trash, and when it came there, s since the epoch.
+
+        Raises:
+            InputError: it is not there, or its file is damaged.
+        """
+        path = self._trash / self._path(gait_id).name
+        try:
+            # Moving a file leaves its time of writing (st_mtime) alone and sets st_ctime.
+            return parse_gait(path.read_bytes(), path.name), path.stat().st_ctime
+        except OSError as error:
+            raise InputError(f"There is no deleted gait “{gait_id}”.", gait_id) from error
 
     def read(self, gait_id: str) -> Gait:
         """Reads a saved gait.

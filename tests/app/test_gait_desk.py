@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,6 +10,8 @@ import pytest
 
 from app.documents import motion_hash
 from app.gait_desk import GaitDesk, UnknownGaitError
+from app.gait_list import GaitList
+from app.live_desk import FAILED_SECONDS, LiveDesk
 from app.plans import PlanSource
 from app.store.database import Database
 from app.store.files import GaitFiles
@@ -17,25 +19,27 @@ from app.trajectory_content import trajectory_content
 from core.errors import CheckError, InputError, StateError
 from core.gait import Gait
 from core.library import library
+from solver_jobs import SolveStatus, solve_live
+from tests.app.live_tiers import FixedTier
 
 WALK = "walk"
 MANUAL = "walk-manual-0"
 
 
 @pytest.fixture
-def database(tmp_path: Path) -> Iterator[Database]:
-    opened = Database(tmp_path / "studio.sqlite3")
-    yield opened
-    opened.close()
-
-
-@pytest.fixture
 def desk(tmp_path: Path, database: Database) -> GaitDesk:
-    return GaitDesk(GaitFiles(tmp_path), database)
+    return reopened(tmp_path, database)
 
 
 def reopened(tmp_path: Path, database: Database) -> GaitDesk:
-    return GaitDesk(GaitFiles(tmp_path), database)
+    """A desk whose live tier finds everything infeasible."""
+    tier = FixedTier(SolveStatus.INFEASIBLE)
+    return GaitDesk(GaitFiles(tmp_path), database, LiveDesk(tier).solve_for)
+
+
+def solving(tmp_path: Path, database: Database) -> GaitDesk:
+    """A desk with the live tier itself."""
+    return GaitDesk(GaitFiles(tmp_path), database, lambda gait: solve_live)
 
 
 def toggled(gait: Gait, foot: int, sample: int) -> Gait:
@@ -56,7 +60,7 @@ def test_an_edit_is_one_undo_step_that_survives_a_restart(
     edit(desk, WALK, sample=21)
     again = reopened(tmp_path, database)
     assert again.open_gait(WALK).gait == desk.open_gait(WALK).gait
-    assert again.open_gait(WALK).undo_label == "Toggle"
+    assert again.open_gait(WALK).undo_label() == "Toggle"
     again.undo(WALK)
     again.undo(WALK)
     assert again.open_gait(WALK).gait == before
@@ -71,7 +75,7 @@ def test_an_edit_after_undo_forgets_what_could_be_redone(desk: GaitDesk) -> None
     edit(desk, WALK)
     desk.undo(WALK)
     edit(desk, WALK, foot=3)
-    assert desk.open_gait(WALK).redo_label is None
+    assert desk.open_gait(WALK).redo_label() is None
     with pytest.raises(StateError, match="nothing to undo"):
         desk.undo(desk.undo(WALK).id)
 
@@ -108,6 +112,25 @@ def test_a_deleted_gait_can_be_restored(desk: GaitDesk) -> None:
         desk.delete(WALK)
 
 
+def test_deleted_gaits_are_listed_by_their_last_names_until_they_are_back(
+    desk: GaitDesk, tmp_path: Path, database: Database
+) -> None:
+    assert desk.deleted() == ()
+    began = time.time() - 1
+    made = [desk.create(replace(library()[WALK].gait, name=name)) for name in ("One", "Two", "Deleted")]
+    assert [gait.id for gait in made] == ["one", "two", "deleted-2"]  # /api/gaits/deleted is the list itself
+    desk.edit("one", replace(made[0].gait, name="First"), "Rename", None)
+    for gait in made:
+        desk.delete(gait.id)
+    (tmp_path / "trash" / "broken.json").write_text("{")
+    listed = reopened(tmp_path, database).deleted()
+    assert {gait.id: gait.name for gait in listed} == {"one": "First", "two": "Two", "deleted-2": "Deleted"}
+    assert [gait.when for gait in listed] == sorted((gait.when for gait in listed), reverse=True)
+    assert all(began < gait.when <= time.time() for gait in listed)
+    desk.restore("two")
+    assert "two" not in [gait.id for gait in desk.deleted()]
+
+
 @pytest.mark.parametrize("gait_id", ["nope", "../walk", "", "Walk", "a" * 200])
 def test_unknown_ids_are_refused(desk: GaitDesk, gait_id: str) -> None:
     with pytest.raises(InputError):
@@ -118,7 +141,7 @@ def test_a_damaged_file_is_named_and_the_others_are_listed(desk: GaitDesk, tmp_p
     (tmp_path / "gaits" / "broken.json").write_text("{")
     with pytest.raises(InputError, match=r"broken\.json is not JSON"):
         desk.open_gait("broken")
-    assert {open_gait.id for open_gait in desk.open_gaits()} == set(library())
+    assert {line["id"] for line in GaitList(desk).lines()} == set(library())
 
 
 def test_drawing_over_a_segment_table_sets_it_aside_until_undo(desk: GaitDesk) -> None:
@@ -147,7 +170,9 @@ def test_a_manual_gait_is_checked_approved_and_the_approval_survives_a_restart(
     waypoints = desk.plan(MANUAL).waypoints
     assert waypoints is not None
     assert approval.waypoints_hash == waypoints.content_hash
-    assert reopened(tmp_path, database).open_gait(MANUAL).approval == approval
+    again = reopened(tmp_path, database)
+    again.plan(MANUAL)
+    assert again.open_gait(MANUAL).approval == approval
 
 
 def test_any_edit_takes_the_approval_away_and_undo_does_not_bring_it_back(desk: GaitDesk) -> None:
@@ -223,3 +248,68 @@ def test_two_feet_in_the_air_are_named_at_once(desk: GaitDesk) -> None:
     plan = desk.plan(WALK)
     words = plan.note if plan.refusal is None else plan.refusal.sentence
     assert "Feet 1, 2 are in the air together at samples 16 to 20" in words
+
+
+def test_a_drawn_gait_is_solved_approved_and_its_approval_survives_a_restart(
+    tmp_path: Path, database: Database
+) -> None:
+    desk = solving(tmp_path, database)
+    assert desk.plan(WALK).source is PlanSource.LIVE
+    assert "live tier" in desk.plan(WALK).note
+    desk.check(WALK)
+    approval = desk.approve(WALK, "Ada").approval
+    assert approval is not None
+    again = solving(tmp_path, database)
+    assert again.plan(WALK).hash == desk.plan(WALK).hash
+    assert again.open_gait(WALK).approval == approval
+    # Another answer of the solver for the same document is not what was approved.
+    other = reopened(tmp_path, database)
+    other.plan(WALK)
+    assert other.open_gait(WALK).approval is None
+
+
+def test_an_edit_takes_the_approval_of_a_live_plan_away(tmp_path: Path, database: Database) -> None:
+    desk = solving(tmp_path, database)
+    desk.check(WALK)
+    desk.approve(WALK, "Ada")
+    edit(desk, WALK, foot=1, sample=20)
+    assert desk.open_gait(WALK).approval is None
+    assert desk.open_gait(WALK).verdict is None
+
+
+def test_an_infeasible_gait_shows_the_nearest_motion_and_what_it_lacks(desk: GaitDesk) -> None:
+    plan = desk.plan(WALK)
+    assert plan.source is PlanSource.DRAFT
+    assert plan.trajectory is not None
+    assert plan.live is not None
+    assert plan.live.result.lacks[0].feet == (2,)
+
+
+def test_a_live_tier_that_broke_off_is_asked_again_and_the_old_verdict_is_gone(
+    tmp_path: Path, database: Database
+) -> None:
+    tier, now = FixedTier(SolveStatus.FAILED), [0.0]
+    desk = GaitDesk(GaitFiles(tmp_path), database, LiveDesk(tier, lambda: now[0]).solve_for)
+    desk.check(WALK)
+    desk.ask_again(WALK)
+    assert desk.open_gait(WALK).verdict is not None
+    assert tier.asked == 1
+    tier.status = SolveStatus.INFEASIBLE
+    asked = tier.asked
+    now[0] += FAILED_SECONDS
+    desk.ask_again(WALK)
+    desk.ask_again(WALK)
+    assert tier.asked == asked + 1
+    live = desk.plan(WALK).live
+    assert live is not None
+    assert live.status is SolveStatus.INFEASIBLE
+
+
+def test_what_the_live_tier_says_is_solved_counts_only_if_the_checker_confirms_it(
+    tmp_path: Path, database: Database
+) -> None:
+    tier = FixedTier(SolveStatus.SOLVED)
+    desk = GaitDesk(GaitFiles(tmp_path), database, LiveDesk(tier).solve_for)
+    plan = desk.plan(WALK)
+    assert plan.source is PlanSource.DRAFT
+    assert "the checker found" in plan.note

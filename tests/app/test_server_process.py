@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import socket
 import sqlite3
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -17,19 +16,6 @@ from tests.studio_process import StudioProcess, footfall, running_studio, wait_f
 
 SPEED = 15.0
 """Seconds of the emulated robot in a second."""
-
-
-@pytest.fixture(scope="module")
-def robot() -> Iterator[EmulatedRobot]:
-    emulated = start_emulator("nominal", SPEED)
-    yield emulated
-    emulated.close()
-
-
-@pytest.fixture(scope="module")
-def studio(tmp_path_factory: pytest.TempPathFactory, robot: EmulatedRobot) -> Iterator[StudioProcess]:
-    with running_studio(tmp_path_factory.mktemp("data"), "--robot", robot.device) as running:
-        yield running
 
 
 def optimised(studio: StudioProcess, gait: str) -> dict[str, Any]:
@@ -127,7 +113,7 @@ def test_a_gait_goes_all_the_way_and_the_robot_parses_exactly_what_was_approved(
     messages = [m for m in robot.firmware.messages[first:] if m.strokes_mm is not None]
     # The board keeps numbers in single precision; four decimals come through.
     parsed = [[round(h, 4) for h in m.strokes_mm or ()] for m in messages]
-    assert parsed[summary["start_moves"] :] == view["plan"]["strokes_mm"]
+    assert parsed[summary["start_moves"] :] == view["plan"]["waypoint_strokes_mm"]
     assert len(messages) == len(robot.firmware.messages[first:])
     assert all(done.worst_mm <= ARRIVAL_MM for done in robot.firmware.completions)
 
@@ -220,7 +206,28 @@ def test_results_edits_and_the_job_list_survive_a_restart(tmp_path: Path) -> Non
     with running_studio(tmp_path) as studio:
         assert studio.ask("GET", "/api/gaits/walk/view").content["plan"]["source"] == "optimised"
         assert studio.ask("GET", "/api/gaits/c-gait/view").content["undo"] == "Notes"
-        assert [job["state"] for job in studio.ask("GET", "/api/jobs").content["jobs"]] == ["done"]
+        job = studio.ask("GET", "/api/jobs").content["jobs"][0]
+        assert (job["state"], job["course"]) == ("done", 0)
+        gone = studio.ask("GET", f"/api/jobs/{job['id']}/course/0")
+        assert gone.status == 409
+        assert "not kept any more" in gone.content["error"]
+
+
+def test_an_approved_live_plan_is_still_approved_after_a_restart(tmp_path: Path) -> None:
+    with running_studio(tmp_path) as studio:
+        plan = studio.ask("GET", "/api/gaits/walk/view").content["plan"]
+        assert plan["source"] == "live"
+        assert studio.ask("POST", "/api/gaits/walk/check").content["passed"]
+        approval = studio.ask("POST", "/api/gaits/walk/approve", {"by": "Ada"}).content
+    with running_studio(tmp_path) as studio:
+        view = studio.ask("GET", "/api/gaits/walk/view").content
+        assert view["plan"]["hash"] == plan["hash"]
+        assert view["approval"] == approval
+        document = view["document"] | {"step": [0.0069, 0.0069, 0.0]}
+        assert studio.ask("PUT", "/api/gaits/walk?label=Step", document).content["approval"] is None
+        # What was approved comes back with undo as a plan, and not as an approval.
+        undone = studio.ask("POST", "/api/gaits/walk/undo").content
+        assert (undone["plan"]["hash"], undone["approval"]) == (plan["hash"], None)
 
 
 def test_a_busy_port_is_exit_2_and_names_the_option(tmp_path: Path) -> None:
@@ -232,3 +239,60 @@ def test_a_busy_port_is_exit_2_and_names_the_option(tmp_path: Path) -> None:
     assert ended.returncode == 2
     assert "--port" in ended.stderr
     assert ended.stdout == ""
+
+
+def test_a_live_answer_follows_a_document_and_leaves_the_desk_alone(studio: StudioProcess) -> None:
+    before = studio.ask("GET", "/api/gaits/walk/view").content
+    document = before["document"] | {"step": [0.0085, 0.0085, 0.0]}
+    answer = studio.ask("POST", "/api/gaits/walk/live", {"document": document}).content
+    assert (answer["status"], answer["method"], answer["remedies"]) == ("solved", "live", None)
+    assert answer["check"]["max_violation"] <= 1e-6
+    poses = studio.blob(f"/api/gaits/walk/poses?plan={answer['plan']['hash']}")
+    assert len(poses) > 100_000
+    after = studio.ask("GET", "/api/gaits/walk/view").content
+    assert after["revision"] == before["revision"]
+    assert after["plan"]["hash"] == before["plan"]["hash"]
+    assert studio.ask("POST", "/api/gaits/walk/live").content["plan"]["hash"]
+
+
+def test_an_infeasible_gait_is_explained_and_its_remedies_work(studio: StudioProcess) -> None:
+    document = studio.ask("GET", "/api/gaits/s-gait").content | {"step": [0.03, 0.0, 0.0]}
+    answer = studio.ask("POST", "/api/gaits/s-gait/live", {"document": document, "remedies": True}).content
+    assert answer["status"] == "infeasible"
+    assert answer["evidence"] in ("proven", "diagnosed")
+    worst = answer["lacks"][0]
+    assert worst["amount"] > 0
+    assert 0 <= worst["first"] <= worst["last"] < 45
+    assert worst["sentence"]
+    assert answer["remedies"]
+    for remedy in answer["remedies"]:
+        cured = studio.ask("POST", "/api/gaits/s-gait/live", {"document": remedy["document"]}).content
+        assert cured["status"] == "solved", remedy["label"]
+
+
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        (b"[1]", "body"),
+        (b'{"document": {"format": "x"}}', "not a gait document"),
+        (b'{"documents": {}}', "documents"),
+        (b"{", "body"),
+    ],
+)
+def test_bad_live_questions_are_422_with_a_sentence(studio: StudioProcess, body: bytes, words: str) -> None:
+    refused = studio.ask("POST", "/api/gaits/walk/live", body)
+    assert refused.status == 422
+    assert words in refused.content["error"]
+
+
+def test_the_iterations_of_a_job_can_be_looked_at(studio: StudioProcess) -> None:
+    job = optimised(studio, "s-gait")
+    assert job["course"] == len(job["progress"])
+    first = studio.ask("GET", f"/api/jobs/{job['id']}/course/0").content
+    assert first["source"] == "iterate"
+    assert len(first["times"]) == 45
+    assert len(studio.blob(f"/api/gaits/s-gait/poses?plan={first['hash']}")) > 100_000
+    beyond = studio.ask("GET", f"/api/jobs/{job['id']}/course/{job['course']}")
+    assert beyond.status == 422
+    assert "iterations 0 to" in beyond.content["error"]
+    assert studio.ask("GET", "/api/jobs/none/course/0").status == 404

@@ -8,11 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.bridge.profiles import ProfileName
-from app.bridge.run import START_MOVE_MM
+from app.bridge.run import start_targets
 from app.bridge.states import LinkState, RobotState, RunPhase
 from core.errors import InputError, StateError
+from core.waypoint_path import cut_parts
+from core.waypoints import Waypoints
 from core.wire import encode_flush, encode_waypoint
-from core.wire_timing import stop_delay
+from core.wire_timing import START_MOVE, deafness, longest_start_move
 from tests.bridge.virtual_robot import VirtualRobot, make_plan, random_plan
 
 SHORT = [[4.0] * 12, [6.0] * 12, [3.0, 8.0] * 6, [5.0] * 12]
@@ -63,7 +65,7 @@ def test_the_way_to_the_start_pose_is_cut_into_small_moves_that_the_firmware_mak
     robot.until_robot(RobotState.DONE)
     path = np.array(waypoints_taken(robot))
     moves = np.abs(np.diff(path, axis=0)).max(axis=1)
-    assert moves[:-1].max() <= START_MOVE_MM + 1e-4
+    assert moves[:-1].max() <= START_MOVE * 1000.0 + 1e-4
     assert moves[:-1].min() > 1.0
     assert moves[-1] == 0.0
 
@@ -83,7 +85,7 @@ def test_a_stop_at_any_time_ends_the_run_for_good(delay: float) -> None:
     robot.stop("Grace")
     began = robot.now
     snapshot = robot.until_robot(RobotState.STOPPED)
-    longest = stop_delay(plan.waypoints, 0.5, start_move=0.003)
+    longest = deafness(plan.waypoints, 0.5, start_move=0.003)
     assert robot.now - began < longest + 0.5
     assert snapshot.stop_text is not None
     assert snapshot.stop_text.endswith("s by Grace")
@@ -310,3 +312,18 @@ def test_a_stop_that_nobody_confirms_is_shown_as_not_stopped(robot: VirtualRobot
     robot.wait(7.0)
     assert robot.snapshot.robot is RobotState.STOPPING
     assert "NOT STOPPED" in robot.snapshot.sentence
+
+
+@pytest.mark.parametrize("bound", [0.8, 1.0])
+def test_the_way_to_the_start_pose_keeps_the_plan_s_stop_bound(bound: float) -> None:
+    rows = np.array([[2.0] * 12, [12.0] * 12]) / 1000.0
+    parts = cut_parts(Waypoints(rows.reshape(-1, 4, 3), np.full(2, 0.4)), bound)
+    ways = np.linspace(rows[0], rows[1], int(parts[1]) + 1).reshape(-1, 4, 3)
+    bounded = Waypoints(ways, np.full(len(ways), 0.4))
+    longest = longest_start_move(bounded)
+    assert 0.002 <= longest <= START_MOVE
+    assert deafness(bounded, start_move=longest) <= bound
+    targets = [(0.5,) * 12, *start_targets((0.5,) * 12, (12.0,) * 12, longest * 1000.0)]
+    moves = np.abs(np.diff(np.array(targets), axis=0)).max(axis=1)
+    assert moves.max() <= longest * 1000.0 + 1e-4
+    assert moves.min() > 1.0

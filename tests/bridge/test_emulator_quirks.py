@@ -5,7 +5,8 @@ import threading
 import pytest
 
 from app.bridge.c_text import Fields, c_string, padded_text, print_pieces, to_float, to_int
-from app.bridge.emulated import EmulatedRobot, Fault, start_emulator
+from app.bridge.emulated import EmulatedRobot, start_emulator
+from app.bridge.faults import Fault
 from app.bridge.firmware import Firmware
 from app.bridge.ports import PtyPort
 from app.bridge.profiles import PROFILES, ProfileName
@@ -69,14 +70,26 @@ def test_a_second_waypoint_replaces_the_first(bench: Bench) -> None:
     assert bench.first_mm == pytest.approx(3.0, abs=1.0)
 
 
-def test_more_than_one_waypoint_is_a_fault_that_is_reported_in_silence(bench: Bench) -> None:
-    numbers = ",".join(["1", *["6"] * 12, "1", *["9"] * 12])
-    text = bench.say(f"<p,2,{numbers}>".encode(), 3.0)
-    assert "Trajectory Point 1: " in text
+def waypoints(duration: int, *strokes: str) -> bytes:
+    numbers = [f"{duration},{','.join([stroke] * 12)}" for stroke in strokes]
+    return f"<p,{len(strokes)},{','.join(numbers)}>".encode()
+
+
+def test_seven_waypoints_in_a_message_are_a_fault_that_is_reported_in_silence(bench: Bench) -> None:
+    text = bench.say(waypoints(9, *"6969696"), 3.0)
+    assert "Trajectory Point 6: " in text
     assert bench.say(b"<s,1>", 5.0) == ""
-    assert bench.firmware.fault is not None
-    assert "2 waypoints" in bench.firmware.fault
+    assert bench.firmware.fault == "A message of 7 waypoints overran the memory for one."
     assert bench.first_mm > 2.0
+
+
+@pytest.mark.parametrize("count", [2, 3, 4, 6])
+def test_a_few_waypoints_in_a_message_are_reported_and_go_astray(bench: Bench, count: int) -> None:
+    text = bench.say(waypoints(1, *["9"] * count), 12.0)
+    assert text.count("reached point, onto next trajectory") == count
+    assert bench.first_mm < 2.0
+    assert bench.firmware.spoilt == f"A message of {count} waypoints overran the memory for one."
+    assert bench.firmware.fault is None
 
 
 def test_an_overlong_message_is_a_fault_at_the_next_movement(bench: Bench) -> None:

@@ -50,6 +50,28 @@ def test_standing_still_passes_without_a_word() -> None:
     assert all(m.margin is not None and m.margin >= 0 for m in verdict.margins)
 
 
+def test_each_set_of_too_few_standing_feet_is_found() -> None:
+    still = standing(8)
+    contact = np.array(still.contact)
+    contact[2:4, [1, 3]] = False
+    contact[4, [0, 2]] = False
+    contact[5] = False
+    contact[6, 1:] = False
+    body = still.body_world + [0.002, 0.0, 0.0]
+    motion = replace(still, times=np.linspace(0.0, 2.8, 8), contact=contact, body_world=body)
+    found = [f for f in check_plan(plan_of(motion)).findings if f.rule == "balance"]
+    assert [(f.sample, f.severity) for f in found] == [
+        (4, Severity.ERROR),
+        (5, Severity.ERROR),
+        (6, Severity.ERROR),
+        (2, Severity.WARNING),
+    ]
+    assert "2.00 mm from the line between feet 2 and 4, which stand alone (1.6 to 1.6 s)" in found[0].sentence
+    assert "no foot stands (2.0 to 2.0 s)" in found[1].sentence
+    assert "38.00 mm from foot 1, which stands alone (2.4 to 2.4 s)" in found[2].sentence
+    assert "0.00 mm from the line between feet 1 and 3, which stand alone (0.8 to 1.2 s)" in found[3].sentence
+
+
 def test_a_body_outside_its_feet_tips() -> None:
     still = standing()
     contact = np.array(still.contact)

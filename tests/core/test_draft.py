@@ -63,7 +63,7 @@ def test_each_swing_rises_to_the_clearance_in_its_middle() -> None:
     for swing in problem_swings(problem):
         heights = motion.feet_world[swing.first : swing.last + 1, swing.foot, 2]
         assert heights.max() == pytest.approx(problem.limits.clearance, abs=1e-12)
-        assert motion.feet_world[clearance_knot(swing), swing.foot, 2] == heights.max()
+        assert motion.feet_world[clearance_knot(swing, problem.intervals), swing.foot, 2] == heights.max()
 
 
 @pytest.mark.parametrize("order", ORDERS)

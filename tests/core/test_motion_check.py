@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
+from core.errors import InputError
 from core.gait import heading_step, motion_problem
 from core.library import library
-from core.motion_check import FAMILIES, check_motion
-from core.motion_problem import MotionLimits, MotionProblem, Workspace
+from core.motion_check import FAMILIES, OPTIONAL_FAMILIES, check_motion
+from core.motion_problem import Boundary, MotionLimits, MotionProblem, Workspace
 from core.robot import load_robot
 from core.support import GRAVITY
 from core.timeline import ContactTimeline
@@ -141,9 +143,97 @@ def test_the_cylinder_has_its_own_edge() -> None:
     assert check_motion(cylinder, moved).violations["workspace"] == pytest.approx(0.0005)
 
 
+OPTIONAL = [
+    ("friction", 0.5, force((2, 1, 0), 1.0), 1.0 - 0.5 * MODEL.total_model_mass * GRAVITY / 4),
+    ("motor_speed", 0.015, feet_speed((2, 1, 2), 0.020), 0.005),
+    ("motor_acceleration", 0.015, feet_speed((2, 1, 2), 0.020), 0.020 / 0.4 - 0.015),
+]
+
+
+@pytest.mark.parametrize(("family", "limit", "break_it", "size"), OPTIONAL)
+def test_an_optional_family_counts_only_where_it_is_asked_for(
+    family: str, limit: float, break_it: Callable[[Trajectory], Trajectory], size: float
+) -> None:
+    problem = standing_problem()
+    changes: dict[str, Any] = {family: limit}
+    asked = replace(problem, limits=replace(problem.limits, **changes))
+    broken = break_it(standing(problem))
+    assert family not in check_motion(problem, broken).violations
+    assert check_motion(asked, standing(asked)).confirmed
+    assert check_motion(asked, broken).violations[family] == pytest.approx(size, rel=1e-6)
+
+
+def test_motor_speed_is_seen_from_the_turning_body() -> None:
+    problem = standing_problem()
+    turning = np.linspace(0.0, 0.5, KNOTS)
+    limits = replace(problem.limits, motor_speed=0.001)
+    turned = replace(problem, heading_profile=turning, limits=limits)
+    # Standing feet move sideways in the module's frame at rate · radius, and motors 2 and 3 follow.
+    found = check_motion(turned, standing(problem, heading=turning)).violations
+    assert found["motor_speed"] > 0.001
+    assert found["boundary"] == 0.0
+    at_rest = replace(problem, limits=limits)
+    assert check_motion(at_rest, standing(problem)).violations["motor_speed"] == 0.0
+
+
+def test_a_heading_other_than_the_given_one_breaks_the_boundary() -> None:
+    problem = standing_problem()
+    check = check_motion(problem, standing(problem, heading=np.full(KNOTS, 0.01)))
+    assert check.violations["boundary"] == pytest.approx(0.01)
+
+
+def test_the_module_turns_with_the_body() -> None:
+    problem = standing_problem()
+    heading = np.full(KNOTS, 0.5)
+    limits = replace(problem.limits, workspace=Workspace.CYLINDER)
+    turned = replace(problem, heading_profile=heading, limits=limits)
+    wanted = 2 * MODEL.radius * np.sin(0.25) - 0.0135
+    found = check_motion(turned, standing(problem, heading=heading)).violations["workspace"]
+    assert found == pytest.approx(wanted)
+
+
+def test_uneven_knots_count_in_the_dynamics() -> None:
+    problem = standing_problem()
+    uneven = replace(problem, durations=np.array([0.1, 0.2, 0.3, 0.4, 0.5]))
+    motion = standing(problem, times=uneven.times)
+    assert check_motion(uneven, motion).confirmed
+    velocity = np.zeros((KNOTS, 3))
+    velocity[2, 0] = 0.001
+    moved = check_motion(uneven, replace(motion, body_velocity=velocity))
+    assert moved.violations["dynamics"] == pytest.approx(
+        max(0.001 / 0.2 * MODEL.masses.body, 0.001 / 0.3 * MODEL.masses.body)
+    )
+
+
+@pytest.mark.parametrize(
+    ("break_it", "size"),
+    [
+        (body((0, 0), 0.001), 0.001),
+        (feet((KNOTS - 1, 2, 1), -0.002), 0.002),
+        (feet_speed((0, 1, 0), 0.003), 0.003),
+    ],
+)
+def test_a_cycle_that_does_not_close_breaks_the_boundary(
+    break_it: Callable[[Trajectory], Trajectory], size: float
+) -> None:
+    problem = replace(standing_problem(), boundary=Boundary.PERIODIC)
+    check = check_motion(problem, break_it(standing(problem)))
+    assert check.violations["boundary"] == pytest.approx(size)
+
+
+def test_a_cycle_may_pass_its_ends_at_speed_and_with_other_feet() -> None:
+    problem = standing_problem()
+    cycle = replace(problem, boundary=Boundary.PERIODIC)
+    motion = standing(problem, body_velocity=np.full((KNOTS, 3), 0.001))
+    motion = feet((0, 1, 0), 0.001)(feet((KNOTS - 1, 1, 0), 0.001)(motion))
+    assert check_motion(cycle, motion).violations["boundary"] == 0.0
+    assert check_motion(problem, motion).violations["boundary"] == pytest.approx(0.001)
+
+
 def test_every_family_has_a_hand_made_violation() -> None:
     covered = {family for family, _, _ in HAND_MADE} | {"body_speed", "clearance", "floating_force"}
     assert covered == set(FAMILIES)
+    assert {family for family, *_ in OPTIONAL} == set(OPTIONAL_FAMILIES)
 
 
 def test_the_published_walk_starts_below_the_body_height_bound() -> None:
@@ -172,3 +262,15 @@ def test_a_number_that_is_none_is_a_violation() -> None:
     # A frozen trajectory refuses nan; the checker must not depend on that.
     object.__setattr__(motion, "body_velocity", broken)
     assert check_motion(problem, motion).max_violation == float("inf")
+
+
+def test_a_motion_with_other_times_is_not_the_problems() -> None:
+    problem = standing_problem()
+    slower = standing(problem, times=problem.times * 1.5)
+    assert check_motion(problem, slower).violations["dynamics"] == pytest.approx(0.2 * (KNOTS - 1))
+
+
+def test_a_motion_with_other_contact_is_refused() -> None:
+    problem = standing_problem(swinging_foot=1)
+    with pytest.raises(InputError, match="contact"):
+        check_motion(problem, standing(problem, contact=np.ones((KNOTS, 4), dtype=np.bool_)))

@@ -1,8 +1,6 @@
-"""Waypoints: files, hashes, merging and cutting."""
+"""Waypoints: files, hashes, and how long the robot takes."""
 
 from __future__ import annotations
-
-import itertools
 
 import numpy as np
 import pytest
@@ -17,15 +15,9 @@ from core.errors import InputError
 from core.library import library
 from core.manual import manual_motion
 from core.robot import load_robot
-from core.waypoint_path import (
-    cut_moves,
-    estimate_seconds,
-    merge_waypoints,
-    waypoints_from_trajectory,
-)
+from core.waypoint_path import estimate_seconds, waypoints_from_trajectory
 from core.waypoints import Waypoints, format_waypoint_csv, parse_waypoint_csv
 from core.wire import encode_waypoint
-from core.wire_timing import stop_delay
 
 strokes = st.integers(1, 12).flatmap(
     lambda n: arrays(np.float64, (n, 4, 3), elements=st.floats(0.0005, 0.0195))
@@ -51,38 +43,6 @@ def test_a_change_that_is_sent_changes_the_hash() -> None:
     assert waypoints_of(values).content_hash != waypoints_of(changed).content_hash
 
 
-@given(strokes, st.floats(0.0, 0.003))
-def test_merging_keeps_ends_and_total_time_and_stays_near_what_it_leaves_out(
-    values: Floats, tolerance: float
-) -> None:
-    merged = merge_waypoints(waypoints_of(values), tolerance)
-    assert np.array_equal(merged.strokes[[0, -1]], values[[0, -1]])
-    assert merged.durations.sum() == pytest.approx(0.4 * len(values))
-    for row in values.reshape(len(values), -1):
-        assert distance_to_path(merged.strokes.reshape(merged.count, -1), row) <= tolerance + 1e-9
-
-
-def distance_to_path(path: Floats, point: Floats) -> float:
-    fractions = np.linspace(0.0, 1.0, 201)[:, None]
-    pieces = [path[:1], *(a + fractions * (b - a) for a, b in itertools.pairwise(path))]
-    gaps = np.abs(np.concatenate(pieces) - point).max(axis=1)
-    # The path is sampled; between samples it may come nearer by half a sample's length.
-    return float(gaps.min()) - 0.019 / 400
-
-
-def test_a_straight_way_needs_its_ends_only() -> None:
-    line = np.linspace(0.001, 0.019, 9)[:, None, None] * np.ones((1, 4, 3))
-    assert merge_waypoints(waypoints_of(line), 0.0001).count == 2
-
-
-@given(strokes, st.floats(0.8, 3.0))
-def test_cut_moves_keep_the_robot_within_earshot(values: Floats, bound: float) -> None:
-    cut = cut_moves(waypoints_of(values), bound)
-    assert stop_delay(cut) <= bound + 1e-9
-    assert cut.durations.sum() == pytest.approx(0.4 * len(values))
-    assert np.array_equal(cut.strokes[-1], values[-1])
-
-
 def test_the_estimate_is_near_what_the_emulated_board_takes() -> None:
     motion = manual_motion(library()["walk-manual-0"].gait, load_robot("deltawalker")).trajectory
     waypoints = waypoints_from_trajectory(load_robot("deltawalker"), motion)
@@ -97,11 +57,6 @@ def test_the_estimate_is_near_what_the_emulated_board_takes() -> None:
             next(program)
             board.board.take_sent()
     assert estimate_seconds(waypoints) == pytest.approx(board.now - start, rel=0.12)
-
-
-def test_a_bound_below_what_moves_anything_is_refused() -> None:
-    with pytest.raises(InputError, match="must be longer than"):
-        cut_moves(waypoints_of(np.full((2, 4, 3), 0.01)), 0.4)
 
 
 HEADER = "duration_s," + ",".join(f"h{i}" for i in range(1, 13))

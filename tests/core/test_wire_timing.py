@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.waypoints import Waypoints
-from core.wire_timing import SETUP_ACCELERATION, ramp_time, stop_delay
+from core.wire_timing import SETUP_ACCELERATION, deafness, ramp_time
 
 
 @pytest.mark.parametrize(("distance_mm", "seconds"), [(0, 0), (3, 0.4), (15, 2.0), (18, 2.2), (195, 14.0)])
@@ -27,9 +27,9 @@ def test_a_longer_way_never_takes_less_time(a: float, b: float) -> None:
 def test_a_stop_takes_effect_after_the_scan_and_the_largest_ramp() -> None:
     strokes = np.full((3, 4, 3), 0.005)
     strokes[2, 1, 1] = 0.009
-    assert stop_delay(Waypoints(strokes, np.ones(3)), scan=0.3) == pytest.approx(0.3 + 2 * 5 / 15)
+    assert deafness(Waypoints(strokes, np.ones(3)), scan=0.3) == pytest.approx(0.3 + 2 * 5 / 15)
 
 
 def test_a_single_waypoint_is_reached_by_the_moves_to_the_start_pose() -> None:
     plan = Waypoints(np.full((1, 4, 3), 0.005), np.ones(1))
-    assert stop_delay(plan, scan=0.3, start_move=0.003) == pytest.approx(0.3 + 2 * 4 / 15)
+    assert deafness(plan, scan=0.3, start_move=0.003) == pytest.approx(0.3 + 2 * 4 / 15)

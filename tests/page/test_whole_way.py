@@ -12,6 +12,7 @@ from playwright.sync_api import Browser, Page, expect
 
 from app.bridge.delivery import ARRIVAL_MM
 from app.bridge.emulated import EmulatedRobot, start_emulator
+from tests.page.opened import opened_page
 from tests.studio_process import StudioProcess, running_studio, wait_for
 
 SPEED = 5.0
@@ -34,13 +35,8 @@ def studio(tmp_path: Path, robot: EmulatedRobot) -> Iterator[StudioProcess]:
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    opened = browser.new_page(viewport={"width": 1280, "height": 720})
-    problems: list[str] = []
-    opened.on("pageerror", lambda error: problems.append(str(error)))
-    opened.goto(studio.url)
-    yield opened
-    opened.close()
-    assert problems == []
+    with opened_page(browser, studio.url, 1280, 720) as opened:
+        yield opened
 
 
 def look(page: Page, name: str) -> None:
@@ -51,7 +47,7 @@ def look(page: Page, name: str) -> None:
 
 
 def see_the_sample_gait_walk(page: Page) -> None:
-    expect(page.get_by_role("list", name="Gaits").get_by_text("Walk 10 mm")).to_be_visible()
+    expect(page.get_by_role("list", name="Gaits").get_by_text("Walk 10 mm", exact=True)).to_be_visible()
     expect(page.get_by_role("region", name="3D preview")).to_be_visible()
     frame = page.frame_locator("iframe").locator("canvas").first
     frame.wait_for(timeout=LONG_MS)
@@ -128,7 +124,7 @@ def test_from_opening_the_page_to_the_robots_measured_strokes(
     plan = studio.ask("GET", "/api/gaits/walk/view").content["plan"]
     messages = [m for m in robot.firmware.messages if m.strokes_mm is not None]
     parsed = [[round(h, 4) for h in m.strokes_mm or ()] for m in messages]
-    assert parsed[-plan["waypoint_count"] :] == plan["strokes_mm"]
+    assert parsed[-plan["waypoint_count"] :] == plan["waypoint_strokes_mm"]
     start_moves = parsed[: -plan["waypoint_count"]]
     assert len(start_moves) <= 3
     assert len(messages) == len(robot.firmware.messages)
@@ -136,7 +132,19 @@ def test_from_opening_the_page_to_the_robots_measured_strokes(
     assert all(done.worst_mm <= ARRIVAL_MM for done in reached)
     shown = [float(text) for text in page.locator(".strokes .bar span").all_inner_texts()]
     assert len(shown) == 12
-    assert max(abs(a - b) for a, b in zip(shown, plan["strokes_mm"][-1], strict=True)) <= 1.1
+    assert max(abs(a - b) for a, b in zip(shown, plan["waypoint_strokes_mm"][-1], strict=True)) <= 1.1
+
+
+def edit_while_the_robot_moves(page: Page) -> None:
+    later = page.get_by_role("status", name="Later edit")
+    expect(later).to_be_hidden()
+    page.get_by_role("tab", name="Optimise").click()
+    step = page.get_by_role("spinbutton", name="Step", exact=True)
+    step.fill("9")
+    step.press("Enter")
+    expect(later).to_have_text("The run goes on with the approved version; what you see is a later edit.")
+    page.get_by_role("tab", name="Robot").click()
+    look(page, "edited while it runs")
 
 
 def test_stop_on_the_page_latches_until_it_is_cleared(
@@ -149,6 +157,7 @@ def test_stop_on_the_page_latches_until_it_is_cleared(
     say_who_you_are(page, "Ada")
     go_the_robots_way(page)
     wait_for(lambda: (studio.robot()["run"] or {}).get("reached", 0) > 2, "some waypoints are reached", 60)
+    edit_while_the_robot_moves(page)
     page.get_by_role("button", name="Stop", exact=True).click()
     status = page.get_by_role("status", name="Robot")
     wait_for(lambda: studio.robot()["robot"] == "stopped", "the robot stands still")

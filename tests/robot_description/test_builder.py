@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 import trimesh
 
-from core.leg import vertex_directions
-from core.robot import ROBOT_NAMES, RobotModel, load_robot
+from core.robot import ROBOT_NAMES, load_robot
 from robot_description.builder import built_files, main, meshes
+from robot_description.drive import actuator_places, motor_places, motor_yaws, yoke
 from robot_description.parts import MOST_TRIANGLES
 from robot_description.urdf import urdf_text
 
@@ -84,18 +84,48 @@ def test_rod_is_as_long_as_the_link() -> None:
     assert rod.bounds[0][2] == pytest.approx(-model.leg.link_length - 0.9 * radius, abs=1e-6)
 
 
+@pytest.mark.parametrize(("name", "end"), [("deltawalker9", "foot_bare"), ("deltawalker5", "foot_fingertip")])
+def test_feet_without_shoes_end_in_what_the_parameters_say(name: str, end: str) -> None:
+    model = load_robot(name)
+    foot = meshes([model])[end]
+    assert foot.bounds[0][2] == pytest.approx(-model.sole_depth, abs=1e-6)
+    below = foot.vertices[foot.vertices[:, 2] < -0.004]
+    assert np.hypot(*below[:, :2].T).max() == pytest.approx(model.shape.foot_diameter / 2, abs=1e-6)
+    sole = foot.vertices[foot.vertices[:, 2] < -model.sole_depth + 1e-6]
+    assert np.hypot(*sole[:, :2].T).max() <= model.shape.sole_diameter / 2 + 1e-9
+    assert f"meshes/{end}.stl" in urdf_text(model)
+
+
+@pytest.mark.parametrize("name", ROBOT_NAMES)
+def test_every_actuator_is_drawn_once_amid_the_motors_that_it_drives(name: str) -> None:
+    model = load_robot(name)
+    text = urdf_text(model)
+    assert text.count("meshes/motor.stl") == model.actuator_count
+    shared = int((model.coupling.sum(axis=0) > 1).sum())
+    assert text.count("meshes/shaft.stl") == shared
+    assert text.count("meshes/knee.stl") == model.actuator_count - shared
+    assert text.count("meshes/yoke_") == model.motor_count - (model.actuator_count - shared)
+
+
+@pytest.mark.parametrize("name", ["deltawalker9", "deltawalker5"])
+def test_the_arms_of_an_actuator_meet_at_its_shaft(name: str) -> None:
+    model = load_robot(name)
+    places, yaws = motor_places(model), motor_yaws(model)
+    for motor in range(model.motor_count):
+        arm = yoke(model, motor)
+        if arm is None:
+            continue
+        turn = np.array([np.cos(yaws[motor] + arm.yaw), np.sin(yaws[motor] + arm.yaw), 0.0])
+        expected = actuator_places(model)[model.coupling[motor].argmax()]
+        assert places[motor] + arm.length * turn == pytest.approx(expected, abs=1e-12)
+
+
 @pytest.mark.parametrize("name", ROBOT_NAMES)
 def test_modules_of_a_ring_do_not_overlap(name: str) -> None:
-    motors = motor_positions(load_robot(name))
+    motors = motor_places(load_robot(name))
     gaps = np.linalg.norm(motors[:, None] - motors[None, :], axis=-1)
     np.fill_diagonal(gaps, np.inf)
     assert gaps.min() > 0.010 * np.sqrt(2)
-
-
-def motor_positions(model: RobotModel) -> np.ndarray:
-    in_module = np.column_stack([model.leg.base_radius * vertex_directions(), np.zeros(3)])
-    turned = np.einsum("lij,mj->lmi", model.R_robot_from_module, in_module)
-    return np.asarray((turned + model.module_centres_robot[:, None]).reshape(-1, 3))
 
 
 @pytest.mark.parametrize("name", ["hexapod", "dodecapod"])

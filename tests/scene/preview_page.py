@@ -9,7 +9,7 @@ from fastapi.responses import HTMLResponse
 from fastapi.staticfiles import StaticFiles
 
 from app.routes.viser import make_viser_router
-from app.scene import SceneServer, plan_poses
+from app.scene import Scenes, plan_poses
 from core.draft import initial_motion
 from core.gait import motion_problem
 from core.library import optimised_entry
@@ -24,7 +24,6 @@ PAGE = """<!doctype html><title>Preview</title>
   import { Preview } from "/static/preview/preview.js";
   import { Playback } from "/static/preview/playback.js";
   const frame = document.querySelector("iframe");
-  frame.src = Preview.url();
   const preview = new Preview(frame);
   await preview.ready();
   const info = await preview.loadPoses("/poses");
@@ -40,10 +39,10 @@ def walk() -> Trajectory:
     return initial_motion(motion_problem(optimised_entry("walk").gait, load_robot("deltawalker")))
 
 
-def preview_application(scene: SceneServer) -> FastAPI:
+def preview_application(scenes: Scenes) -> FastAPI:
     """Serves the page at /, the walk's poses at /poses, the modules and the Viser client."""
     app = FastAPI()
-    app.include_router(make_viser_router(scene))
+    app.include_router(make_viser_router(scenes.of))
     app.mount("/static", StaticFiles(directory=str(resources.files("app").joinpath("static"))))
     blob = plan_poses(load_robot("deltawalker"), walk()).to_bytes()
 

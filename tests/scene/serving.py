@@ -12,7 +12,7 @@ from threading import Event, Thread
 import uvicorn
 from fastapi import FastAPI
 
-from app.scene import SceneServer
+from app.scene import Scenes
 
 DEADLINE = 10.0
 
@@ -47,13 +47,13 @@ def serving(app: FastAPI) -> Iterator[str]:
         listener.close()
 
 
-def stop_under_clients(scene: SceneServer) -> None:
-    """Stops a scene that browsers are connected to.
+def stop_under_clients(scenes: Scenes) -> None:
+    """Stops scenes that browsers are connected to.
 
     Viser closes its event loop before the last callbacks of these connections have run; their remains warn
     when they are collected, which would fail whatever test runs then.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ResourceWarning)
-        scene.stop()
+        scenes.stop()
         gc.collect()

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page
 
-from app.scene import SceneServer
+from app.scene import Scenes
 from tests.scene.preview_page import preview_application
 from tests.scene.serving import serving
 
@@ -34,8 +34,7 @@ SETUP = """async () => {
 
 @pytest.fixture(scope="module")
 def page(browser: Browser) -> Iterator[Page]:
-    scene = SceneServer()
-    with serving(preview_application(scene)) as host:
+    with serving(preview_application(Scenes())) as host:
         page = browser.new_page()
         page.route("**/viser/**", lambda route: route.abort())
         page.goto(f"http://{host}/poses-page-that-is-not-there")

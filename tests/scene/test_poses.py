@@ -3,6 +3,7 @@
 import json
 import time
 from importlib import resources
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ import yourdfpy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.scene.overlay import plan_poses
+from app.scene.overlay import FRAMES_A_SECOND, MOST_POSES, frames_a_second, plan_poses
 from app.scene.poses import COM_NODE, ROBOT_ROOT, PoseBlob, node_names, pose_frames
 from core.arrays import Floats
 from core.closed_chain import joint_values
@@ -20,6 +21,7 @@ from core.gait import motion_problem
 from core.kinematics import actuator_plane_pose, feet_in_modules, feet_in_world
 from core.leg import foot_from_strokes, strokes_from_foot
 from core.library import optimised_entry
+from core.real_motion import real_strokes
 from core.robot import ROBOT_NAMES, RobotModel, load_robot
 from core.trajectory import Trajectory
 
@@ -41,7 +43,7 @@ def walk() -> tuple[RobotModel, Trajectory]:
     return model, initial_motion(motion_problem(optimised_entry("walk").gait, model))
 
 
-def header_of(data: bytes) -> tuple[dict[str, object], int]:
+def header_of(data: bytes) -> tuple[dict[str, Any], int]:
     length = int.from_bytes(data[:4], "little")
     return json.loads(data[4 : 4 + length]), 4 + length
 
@@ -50,11 +52,13 @@ def header_of(data: bytes) -> tuple[dict[str, object], int]:
 def test_every_node_stands_where_the_urdf_puts_its_link(name: str) -> None:
     model = load_robot(name)
     random = np.random.default_rng(11)
-    strokes = random.uniform(model.stroke.lower, model.stroke.upper, (1, model.leg_count, 3))
+    wanted = random.uniform(model.stroke.lower, model.stroke.upper, (1, model.leg_count, 3))
+    strokes = real_strokes(model, wanted)
     com, heading = np.array([[0.02, -0.01, 0.075]]), np.array([0.4])
     feet_module = foot_from_strokes(model.leg, strokes)
     body = actuator_plane_pose(model, com, heading)
-    blob = pose_frames(model, np.zeros(1), com, heading, feet_in_world(model, feet_module, body))
+    asked = feet_in_world(model, foot_from_strokes(model.leg, wanted), body)
+    blob = pose_frames(model, np.zeros(1), com, heading, asked)
     path = resources.files("robot_description").joinpath(f"{name}.urdf")
     urdf = yourdfpy.URDF.load(str(path), load_meshes=False)
     values = joint_values(model, strokes, feet_module)
@@ -129,7 +133,24 @@ def test_bytes_are_a_header_and_aligned_floats() -> None:
     assert header["frames"] == len(blob.times)
     values = np.frombuffer(data[offset:], dtype="<f4").reshape(blob.frames.shape)
     assert np.array_equal(values, blob.frames)
-    assert header["start"] + header["step"] * (header["frames"] - 1) == pytest.approx(plan.times[-1])  # type: ignore[operator]
+    assert header["start"] + header["step"] * (header["frames"] - 1) == pytest.approx(plan.times[-1])
+
+
+@pytest.mark.parametrize(
+    ("robot", "samples", "sample_time"), [("dodecapod", 240, 0.4), ("deltawalker", 45, 0.4)]
+)
+def test_a_long_plan_of_many_feet_stays_small_and_keeps_its_samples(
+    robot: str, samples: int, sample_time: float
+) -> None:
+    model = load_robot(robot)
+    times = sample_time * np.arange(samples, dtype=np.float64)
+    feet = np.zeros((samples, model.leg_count, 3))
+    plan = Trajectory(times, np.zeros((samples, 3)), np.zeros(samples), feet, np.ones(feet.shape[:2], bool))
+    wanted = frames_a_second(model, plan)
+    frames = times[-1] * wanted + 1
+    assert frames * len(node_names(model)) <= MOST_POSES + len(node_names(model))
+    assert sample_time * wanted == pytest.approx(round(sample_time * wanted), abs=1e-9)
+    assert wanted == FRAMES_A_SECOND or frames * len(node_names(model)) > MOST_POSES / 2
 
 
 def test_overlay_says_what_stands_and_how_far_from_tipping() -> None:

@@ -4,16 +4,17 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from app.scene import SceneServer
+from app.scene import Scenes
 from app.scene.nodes import crisp, link_surfaces
 from app.scene.poses import node_names
+from app.scene.server import SceneServer
 from core.errors import InputError, StateError
 from core.robot import load_robot
 
 
 @pytest.fixture
 def scene() -> Iterator[SceneServer]:
-    scene = SceneServer()
+    scene = SceneServer("deltawalker")
     scene.start()
     yield scene
     scene.stop()
@@ -29,7 +30,7 @@ def test_viser_listens_on_loopback_only(scene: SceneServer) -> None:
 
 
 def test_two_scenes_get_different_ports(scene: SceneServer) -> None:
-    second = SceneServer()
+    second = SceneServer("deltawalker")
     second.start()
     try:
         assert second.port != scene.port
@@ -38,7 +39,7 @@ def test_two_scenes_get_different_ports(scene: SceneServer) -> None:
 
 
 def test_starting_writes_nothing_on_standard_output(capfd: pytest.CaptureFixture[str]) -> None:
-    scene = SceneServer()
+    scene = SceneServer("deltawalker")
     scene.start()
     scene.stop()
     assert capfd.readouterr().out == ""
@@ -51,24 +52,36 @@ def test_stopping_twice_is_harmless_and_the_port_is_gone(scene: SceneServer) -> 
         _ = scene.port
 
 
-def test_every_moving_node_exists_after_showing_a_robot(scene: SceneServer) -> None:
-    for name in ("deltawalker", "dodecapod", "deltawalker"):
-        scene.show(name)
-        assert scene.robot_name == name
+@pytest.mark.parametrize("name", ["deltawalker", "dodecapod"])
+def test_every_moving_node_of_the_robot_exists(name: str) -> None:
+    scene = SceneServer(name)
+    scene.start()
+    try:
         nodes = node_names(load_robot(name))
         scene.place(nodes, np.tile(np.array([1, 0, 0, 0, 0, 0, 0.1], dtype=np.float32), (len(nodes), 1)))
+    finally:
+        scene.stop()
 
 
-def test_an_unknown_robot_is_refused_and_the_old_one_stays(scene: SceneServer) -> None:
-    scene.show("deltawalker")
+def test_each_robot_has_a_scene_of_its_own_which_is_started_once() -> None:
+    scenes = Scenes()
+    try:
+        first, other = scenes.of("deltawalker"), scenes.of("hexapod")
+        assert first is scenes.of("deltawalker")
+        assert first.port != other.port
+    finally:
+        scenes.stop()
+    with pytest.raises(StateError, match="not running"):
+        _ = first.port
+
+
+def test_an_unknown_robot_has_no_scene() -> None:
     with pytest.raises(InputError, match="no robot “spot”"):
-        scene.show("spot")
-    assert scene.robot_name == "deltawalker"
+        Scenes().of("spot")
 
 
 @pytest.mark.parametrize("poses", [np.zeros((1, 6)), np.zeros((2, 7)), np.full((1, 7), np.nan)])
 def test_poses_that_do_not_fit_are_refused(scene: SceneServer, poses: np.ndarray) -> None:
-    scene.show("deltawalker")
     with pytest.raises(InputError, match="give seven finite ones each"):
         scene.place(["/robot/body"], poses.astype(np.float32))
 

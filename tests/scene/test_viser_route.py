@@ -58,7 +58,7 @@ def stand_in() -> Iterator[StandIn]:
 @pytest.fixture
 def host(stand_in: StandIn) -> Iterator[str]:
     app = FastAPI()
-    app.include_router(make_viser_router(stand_in))
+    app.include_router(make_viser_router(lambda _: stand_in))
     with serving(app) as address:
         yield address
 
@@ -97,7 +97,7 @@ def test_the_browser_learns_that_viser_went(host: str) -> None:
 
 def test_a_scene_that_does_not_answer_refuses_the_browser() -> None:
     app = FastAPI()
-    app.include_router(make_viser_router(StandIn(port=9)))
+    app.include_router(make_viser_router(lambda _: StandIn(port=9)))
     with serving(app) as host, pytest.raises(Exception, match="403"):
         browser(host)
 

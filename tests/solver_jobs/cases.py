@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from core.gait import GaitOptions, heading_step, motion_problem
-from core.library import library
+from core.library import Group, group_ids, library
 from core.motion_problem import Cost, MotionProblem, Workspace
 from core.robot import load_robot
 
-GAITS = tuple(entry.id for entry in library().values() if entry.manual is None)
+GAITS = group_ids(Group.OPTIMISED)
 
 
 def gait_problem(gait: str, step: float, workspace: Workspace, *, cost: Cost = Cost.GOAL) -> MotionProblem:

@@ -11,9 +11,16 @@ from core.arrays import Floats
 from core.leg import foot_from_strokes as numpy_foot
 from core.leg import foot_jacobian
 from core.leg import squared_offsets as numpy_offsets
+from core.leg import stroke_rates as numpy_rates
 from core.leg import strokes_from_foot as numpy_strokes
 from core.robot import load_robot
-from solver_jobs.leg_equations import foot_from_strokes, squared_offsets, strokes_from_foot
+from solver_jobs.leg_equations import (
+    foot_from_strokes,
+    motor_arms,
+    squared_offsets,
+    stroke_rates,
+    strokes_from_foot,
+)
 
 LEG = load_robot("deltawalker").leg
 REACH, LINK = LEG.reach_radius, LEG.link_length
@@ -54,6 +61,17 @@ def test_inverse_kinematics_agrees_in_value_and_jacobian() -> None:
 
 
 def test_squared_offsets_agree() -> None:
-    value, _ = compiled(lambda foot: squared_offsets(REACH, foot))
+    value, _ = compiled(lambda foot: squared_offsets(motor_arms(REACH, foot)))
     for foot in numpy_foot(LEG, random_strokes(20)):
         np.testing.assert_allclose(np.array(value(foot)).ravel(), numpy_offsets(LEG, foot), atol=1e-17)
+
+
+def test_motor_speeds_agree() -> None:
+    rng = np.random.default_rng(4)
+    symbol = SX.sym("x", 6)
+    place, velocity = ([symbol[i + k] for k in range(3)] for i in (0, 3))
+    value = Function("rates", [symbol], [vertcat(*stroke_rates(LINK, motor_arms(REACH, place), velocity))])
+    for foot in numpy_foot(LEG, random_strokes(20)):
+        speed = rng.normal(0.0, 0.01, 3)
+        found = np.array(value(np.append(foot, speed))).ravel()
+        np.testing.assert_allclose(found, numpy_rates(LEG, foot, speed), atol=1e-16)

@@ -190,7 +190,7 @@ def test_a_swing_too_short_for_its_clearance_is_named() -> None:
     stance = problem.timeline.stance.copy()
     stance[2, 6:10] = True
     sentence = proven(replace(problem, timeline=replace(problem.timeline, stance=stance)))
-    assert sentence.startswith("Foot 3 is in the air at knots 6 to 6: too short to rise 3.0 mm")
+    assert sentence.startswith("Foot 3 is in the air at knot 6: too short to rise 3.0 mm")
 
 
 def test_a_knot_with_no_foot_down_is_named() -> None:
@@ -213,7 +213,7 @@ def test_a_start_out_of_reach_is_named() -> None:
     problem = gait_problem("walk", 0.010, Workspace.CYLINDER)
     feet = problem.start.feet_world + [[0.020, 0.0, 0.0], [0, 0, 0], [0, 0, 0], [0, 0, 0]]
     sentence = proven(replace(problem, start=RestPose(problem.start.body_world, feet)))
-    assert "6.5 mm in reach at knot 1" in sentence
+    assert "6.5 mm in reach of foot 1 at knot 1" in sentence
 
 
 def test_progress_that_says_no_ends_the_solve_at_that_iteration() -> None:

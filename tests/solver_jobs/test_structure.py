@@ -2,50 +2,149 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from casadi import Function
+from casadi import Function, vertcat
 
 from core.arrays import Floats
 from core.draft import initial_motion
 from core.kinematics import feet_in_modules
 from core.leg import strokes_from_foot
-from core.motion_problem import Cost, Workspace
-from core.robot import load_robot
-from solver_jobs.constraint import situation_of
-from solver_jobs.structure import Shape, Structure, StructureCache, build_structure
-from solver_jobs.variables import MotionVector, parameter_values, unpacked, vector_of_trajectory
+from core.motion_check import check_motion
+from core.motion_problem import Boundary, Cost, MotionProblem, Workspace
+from core.timeline import timeline_from_order
+from solver_jobs.constraint import Family, situation_of
+from solver_jobs.structure import Structure, StructureCache, assembled_rows, build_structure, shape_of
+from solver_jobs.variables import (
+    MM,
+    MotionVector,
+    forces_of_slopes,
+    make_symbols,
+    parameter_values,
+    slopes_of_forces,
+    stretched,
+    unpacked,
+    vector_of_trajectory,
+)
 from tests.solver_jobs.cases import gait_problem
 
 PROBLEM = gait_problem("walk", 0.010, Workspace.STROKE)
 
 
+LIMITS = replace(PROBLEM.limits, margin=0.002, friction=0.4, motor_speed=0.015, motor_acceleration=0.02)
+SHORT = timeline_from_order(4, (3, 2, 4, 1), phase_knots=2, closing_knots=2)
+EVERYTHING = replace(
+    PROBLEM,
+    timeline=SHORT,
+    limits=LIMITS,
+    boundary=Boundary.PERIODIC,
+    heading_profile=np.linspace(0.0, 0.2, SHORT.sample_count) ** 2,
+    durations=np.linspace(0.3, 0.5, SHORT.sample_count - 1),
+    cost=Cost.GOAL_EFFORT,
+)
+"""Every optional row, turning, uneven knots; few of them."""
+
+
 @pytest.fixture(scope="module", params=list(Workspace))
-def structure(request: pytest.FixtureRequest) -> Structure:
-    shape = Shape(PROBLEM.knot_count, request.param, Cost.GOAL_EFFORT, margin=True, elastic=False)
-    return build_structure(load_robot("deltawalker"), shape)
+def everything(request: pytest.FixtureRequest) -> tuple[Structure, MotionProblem]:
+    problem = replace(EVERYTHING, limits=replace(LIMITS, workspace=request.param))
+    return build_structure(problem.model, shape_of(problem)), problem
 
 
-def shaken_start() -> tuple[Floats, Floats]:
+def shaken_start(problem: MotionProblem) -> tuple[Floats, Floats]:
     """A point near the drawing, and the parameters."""
-    start = vector_of_trajectory(initial_motion(PROBLEM)).packed()
+    start = slopes_of_forces(vector_of_trajectory(initial_motion(problem))).packed()
     noise = np.random.default_rng(7).normal(0.0, 0.3, start.shape)
-    return start + noise, parameter_values(PROBLEM, situation_of(PROBLEM).successor)
+    return start + noise, parameter_values(problem, situation_of(problem).successor)
 
 
-@pytest.mark.parametrize("part", ["rows", "cost"])
-def test_derivatives_agree_with_finite_differences(structure: Structure, part: str) -> None:
-    function: Function = getattr(structure, part)
-    point, parameters = shaken_start()
-    slope = function.factory("slope", ["i0", "i1"], ["jac:o0:i0"])(point, parameters)
+def expect_slopes(value: Callable[[Floats], Floats], slope: Floats, point: Floats) -> None:
+    """Compares a Jacobian with central differences along a few directions."""
     rng = np.random.default_rng(8)
     for _ in range(6):
         direction = rng.normal(size=point.shape)
-        ahead = np.array(function(point + 1e-5 * direction, parameters)).ravel()
-        behind = np.array(function(point - 1e-5 * direction, parameters)).ravel()
-        analytic = np.array(slope @ direction).ravel()
+        along = (value(point + 1e-5 * direction) - value(point - 1e-5 * direction)) / 2e-5
+        analytic = (slope @ direction).ravel()
         scale = np.maximum(1.0, np.abs(analytic))
-        np.testing.assert_allclose((ahead - behind) / 2e-5 / scale, analytic / scale, atol=2e-5)
+        np.testing.assert_allclose(along / scale, analytic / scale, atol=2e-5)
+
+
+@pytest.mark.parametrize("part", ["rows", "cost"])
+def test_derivatives_agree_with_finite_differences(
+    everything: tuple[Structure, MotionProblem], part: str
+) -> None:
+    structure, problem = everything
+    function: Function = getattr(structure, part)
+    point, parameters = shaken_start(problem)
+    slope = function.factory("slope", ["i0", "i1"], ["jac:o0:i0"])(point, parameters).full()
+    expect_slopes(lambda x: np.array(function(x, parameters)).ravel(), slope, point)
+
+
+@pytest.mark.parametrize("elastic", [False, True])
+def test_the_solvers_own_derivatives_agree_with_finite_differences(elastic: bool) -> None:
+    structure = build_structure(EVERYTHING.model, shape_of(EVERYTHING, elastic=elastic))
+    point, parameters = shaken_start(EVERYTHING)
+    rows = np.array(structure.rows(point, parameters)).ravel()
+    lower, upper_bound = structure.row_bounds(situation_of(EVERYTHING))
+    point = np.append(point, structure.misses_of(rows, lower, upper_bound))
+    function = structure.solver.function
+    parts = {name: function.get_function(f"nlp_{name}") for name in ("grad_f", "jac_g")}
+    hessian = function.get_function("nlp_hess_l")
+    weights = np.random.default_rng(9).normal(size=len(rows))
+    values = function.get_function("nlp_g")
+    slope = parts["jac_g"](point, parameters)[1].full()
+    expect_slopes(lambda x: np.array(values(x, parameters)).ravel(), slope, point)
+
+    def gradient(x: Floats) -> Floats:
+        slope = np.array(parts["grad_f"](x, parameters)[1]).ravel()
+        return np.asarray(slope + parts["jac_g"](x, parameters)[1].T @ weights).ravel()
+
+    upper = hessian(point, parameters, 1.0, weights).full()
+    expect_slopes(gradient, upper + np.triu(upper, 1).T, point)
+
+
+def test_stretched_intervals_have_right_derivatives() -> None:
+    phases = tuple(k // 4 for k in range(EVERYTHING.knot_count - 1))
+    symbols = stretched(make_symbols(4, EVERYTHING.knot_count, slopes=True), phases)
+    _, rows = assembled_rows(symbols, EVERYTHING.model, shape_of(EVERYTHING))
+    function = Function("rows", [symbols.vector, symbols.parameters], [vertcat(*rows)])
+    point, parameters = shaken_start(EVERYTHING)
+    point = np.append(point, np.linspace(0.7, 1.3, max(phases) + 1))
+    slope = function.factory("slope", ["i0", "i1"], ["jac:o0:i0"])(point, parameters).full()
+    expect_slopes(lambda x: np.array(function(x, parameters)).ravel(), slope, point)
+
+
+def test_a_stretch_of_its_intervals_is_what_a_problem_with_longer_ones_has() -> None:
+    phases = tuple(k // 4 for k in range(EVERYTHING.knot_count - 1))
+    symbols = stretched(make_symbols(4, EVERYTHING.knot_count, slopes=True), phases)
+    _, rows = assembled_rows(symbols, EVERYTHING.model, shape_of(EVERYTHING))
+    function = Function("rows", [symbols.vector, symbols.parameters], [vertcat(*rows)])
+    point, parameters = shaken_start(EVERYTHING)
+    stretch = np.linspace(0.7, 1.3, max(phases) + 1)
+    longer = replace(EVERYTHING, durations=EVERYTHING.intervals * stretch[list(phases)])
+    plain = build_structure(longer.model, shape_of(longer)).rows(point, shaken_start(longer)[1])
+    found = function(np.append(point, stretch), parameters)
+    np.testing.assert_allclose(np.array(found), np.array(plain), atol=1e-9)
+
+
+def test_rows_mean_what_the_checker_measures() -> None:
+    structure = build_structure(EVERYTHING.model, shape_of(EVERYTHING))
+    motion = initial_motion(EVERYTHING)
+    feet_velocity = np.random.default_rng(5).normal(0.0, 0.01, motion.feet_world.shape)
+    motion = replace(motion, feet_velocity=feet_velocity)
+    vector = slopes_of_forces(vector_of_trajectory(motion)).packed()
+    situation = situation_of(EVERYTHING)
+    parameters = parameter_values(EVERYTHING, situation.successor)
+    rows = np.array(structure.rows(vector, parameters)).ravel()
+    measured = check_motion(EVERYTHING, motion).violations
+    lower, upper = structure.row_bounds(situation)
+    for block in structure.blocks:
+        if block.constraint.family in (Family.MOTOR_SPEED, Family.MOTOR_ACCELERATION):
+            excess = block.constraint.excess(block.of(rows), block.of(lower), block.of(upper))
+            assert excess.max() / MM == pytest.approx(measured[block.constraint.family], abs=1e-12)
 
 
 def test_packing_is_undone_by_unpacking() -> None:
@@ -56,12 +155,20 @@ def test_packing_is_undone_by_unpacking() -> None:
         np.testing.assert_allclose(getattr(back, name), getattr(motion, name), rtol=1e-14)
 
 
+def test_slopes_are_undone_by_forces() -> None:
+    rng = np.random.default_rng(12)
+    force = rng.normal(size=(7, 4, 3))
+    force[2, 1] = 0.0
+    motion = MotionVector(np.zeros((7, 5, 3)), np.zeros((7, 5, 3)), force)
+    np.testing.assert_allclose(forces_of_slopes(slopes_of_forces(motion)).force, force, rtol=1e-12)
+
+
 def test_the_form_without_roots_is_the_stroke_limit_of_inverse_kinematics() -> None:
-    shape = Shape(PROBLEM.knot_count, Workspace.STROKE, Cost.GOAL, margin=False, elastic=False)
-    structure = build_structure(PROBLEM.model, shape)
+    turned = replace(PROBLEM, heading_profile=np.linspace(0.0, 0.3, PROBLEM.knot_count))
+    structure = build_structure(turned.model, shape_of(turned))
     upper, lower = structure.blocks[-2:]
-    _, parameters = shaken_start()
-    motion = initial_motion(PROBLEM)
+    parameters = parameter_values(turned, situation_of(turned).successor)
+    motion = initial_motion(turned)
     n, legs = PROBLEM.knot_count, PROBLEM.model.leg_count
     rng = np.random.default_rng(10)
     feet = motion.feet_world + rng.uniform(-0.02, 0.02, motion.feet_world.shape)

@@ -1,11 +1,12 @@
 /**
  * What lies on the floor under the robot, as updates of the marks that the server put into the scene.
  *
- * Floor marks: support polygon of the current sample, coloured by its margin; trace and point of the centre of
- * mass; each foot's swings and footholds. Heights in m; the floor is `SOLE_DEPTH` under a standing platform.
+ * Floor marks: support polygon of the current sample, coloured by its margin; traces and points of the centres of
+ * mass and pressure; each foot's swings and footholds. Heights in m; `overlay.floor` is the floor's.
  */
 
-const SOLE_DEPTH = 0.018;
+/** Height of the floor under a robot with shoes, m. */
+export const SHOD_FLOOR = -0.018;
 const GAP = 0.0004;
 const RING_RADIUS = 0.0125;
 const RING_PIECES = 20;
@@ -13,6 +14,7 @@ const GOOD = [31, 138, 91];
 const CAUTION = [183, 121, 31];
 const BAD = [192, 54, 44];
 const INK = { light: [27, 36, 48], dark: [214, 221, 231] };
+const ACCENT = { light: [58, 92, 204], dark: [125, 152, 243] };
 
 /** Convex hull of [x, y] points, counter-clockwise (monotone chain). */
 export function hull(points) {
@@ -59,16 +61,23 @@ export function marginColour(margin, caution) {
   return margin < caution ? CAUTION : GOOD;
 }
 
-const floorPoint = ([x, y], layer) => [x, y, -SOLE_DEPTH + layer * GAP];
+/** Height of the floor, m. */
+export const floorOf = (overlay) => overlay?.floor ?? SHOD_FLOOR;
 
-/** Updates that show one sample's support polygon: [node, properties] pairs. */
-export function polygonUpdates(overlay, sample, caution) {
+const floorPoint = (overlay, [x, y], layer) => [x, y, floorOf(overlay) + layer * GAP];
+
+const BALANCE = new Set(["body_torque", "margin"]);
+const missing = (trouble, sample) => trouble.filter(({ first, last }) => first <= sample && sample <= last);
+
+/** Updates that show one sample's support polygon: [node, properties] pairs; it is red where balance is lacking. */
+export function polygonUpdates(overlay, sample, caution, trouble = []) {
   const standing = overlay.feet[sample].filter((_, foot) => overlay.contact[sample][foot]);
   const corners = hull(standing.map(([x, y]) => [x, y]));
-  const colour = Uint8Array.from(marginColour(overlay.margins[sample], caution));
-  const edge = corners.map((corner) => floorPoint(corner, 2));
+  const lacks = missing(trouble, sample).some(({ family }) => BALANCE.has(family));
+  const colour = Uint8Array.from(lacks ? BAD : marginColour(overlay.margins[sample], caution));
+  const edge = corners.map((corner) => floorPoint(overlay, corner, 2));
   const area = corners.length >= 3 ? corners : [[0, 0], [0, 0], [0, 0]];
-  const vertices = Float32Array.from(area.flatMap((corner) => floorPoint(corner, 1)));
+  const vertices = Float32Array.from(area.flatMap((corner) => floorPoint(overlay, corner, 1)));
   const faces = new Uint32Array((area.length - 2) * 3);
   for (let i = 0; i < area.length - 2; i += 1) faces.set([0, i + 1, i + 2], 3 * i);
   return [
@@ -77,14 +86,45 @@ export function polygonUpdates(overlay, sample, caution) {
   ];
 }
 
+/** The update that marks what one sample lacks: the polygon's edge, and where the foot could be. */
+export function troubleUpdates(overlay, sample, trouble) {
+  const at = (foot) => floorPoint(overlay, overlay.feet[sample][foot], 4);
+  const lines = [];
+  for (const { first, feet, rings } of missing(trouble, sample)) {
+    const ring = rings?.[sample - first];
+    if (ring) lines.push(...pieces(ring.map((corner) => floorPoint(overlay, corner, 4)), true), ...cross(at(feet[0])));
+    else if (feet.length === 2) lines.push(...pieces(feet.map(at)));
+  }
+  return ["/overlay/trouble", { points: lines.length ? Float32Array.from(lines) : new Float32Array(6), colors: Uint8Array.from(BAD) }];
+}
+
+function cross([x, y, z]) {
+  const arm = 0.004;
+  return [...pieces([[x - arm, y - arm, z], [x + arm, y + arm, z]]), ...pieces([[x - arm, y + arm, z], [x + arm, y - arm, z]])];
+}
+
+/** Where the centre of pressure is on the floor at a time, linear between samples; null where it is not known. */
+export function pressureAt(overlay, time) {
+  const { cop, times } = overlay;
+  if (!cop) return null;
+  const at = sampleAt(times, time);
+  const next = Math.min(at + 1, times.length - 1);
+  const part = next > at ? Math.min(Math.max((time - times[at]) / (times[next] - times[at]), 0), 1) : 0;
+  return floorPoint(overlay, [0, 1].map((axis) => cop[at][axis] * (1 - part) + cop[next][axis] * part), 5);
+}
+
 /** Updates for everything that stays the same all through a plan: [node, properties] pairs. */
 export function planUpdates(overlay, theme) {
   const ink = Uint8Array.from(INK[theme]);
-  const trace = overlay.com.map((point) => floorPoint(point, 3));
+  const trace = overlay.com.map((point) => floorPoint(overlay, point, 3));
   const updates = [
     ["/overlay/com_trace", { points: pieces(trace), colors: ink }],
     ["/overlay/com", { color: [...ink] }],
   ];
+  if (overlay.cop) {
+    const accent = Uint8Array.from(ACCENT[theme]);
+    updates.push(["/overlay/cop_trace", { points: pieces(overlay.cop.map((point) => floorPoint(overlay, point, 4))), colors: accent }], ["/overlay/cop", { color: [...accent] }]);
+  }
   for (let foot = 0; foot < overlay.feet[0].length; foot += 1) {
     updates.push([`/overlay/swing${foot + 1}`, { points: swings(overlay, foot) }]);
     updates.push([`/overlay/foothold${foot + 1}`, { points: footholds(overlay, foot) }]);
@@ -98,7 +138,7 @@ function swings(overlay, foot) {
   for (let i = 0; i + 1 < overlay.times.length; i += 1) {
     if (overlay.contact[i][foot] && overlay.contact[i + 1][foot]) continue;
     for (const [x, y, z] of [overlay.feet[i][foot], overlay.feet[i + 1][foot]]) {
-      parts.push(x, y, z - SOLE_DEPTH + 2 * GAP);
+      parts.push(x, y, z + floorOf(overlay) + 2 * GAP);
     }
   }
   return parts.length ? Float32Array.from(parts) : new Float32Array(6);
@@ -112,7 +152,7 @@ function footholds(overlay, foot) {
     const [x, y] = overlay.feet[i][foot];
     const ring = Array.from({ length: RING_PIECES }, (_, piece) => {
       const angle = (2 * Math.PI * piece) / RING_PIECES;
-      return floorPoint([x + RING_RADIUS * Math.cos(angle), y + RING_RADIUS * Math.sin(angle)], 2);
+      return floorPoint(overlay, [x + RING_RADIUS * Math.cos(angle), y + RING_RADIUS * Math.sin(angle)], 2);
     });
     rings.push(...pieces(ring, true));
   }

@@ -4,39 +4,50 @@
  * All poses of a plan come once, as one binary; a moved playhead costs no message to the server.
  *
  *   const frame = document.querySelector("iframe");
- *   frame.src = Preview.url();                     // "/viser/?websocket=ws://HOST/viser/ws"
- *   const preview = new Preview(frame);
+ *   const preview = new Preview(frame);            // opens "/viser/?websocket=ws://HOST/viser/ws?robot=…" in it
  *   await preview.ready();
  *   await preview.loadPoses(`/api/gaits/${id}/poses?plan=${hash}`);   // or an ArrayBuffer
  *   playback.addEventListener("time", (event) => preview.setTime(event.detail.time));
  *
- * Static:
- *   Preview.url()                 address for the iframe
  * Methods:
  *   ready(timeoutMs = 20000)      Promise: the scene of the robot is in the client; rejects with a sentence
- *   loadPoses(source)             Promise<{ robot, duration, frames, nodes }>: URL string or ArrayBuffer; the
+ *   loadPoses(source, trouble)    Poses of another robot open that robot's scene. Promise<{ robot, duration, frames, nodes }>: URL string or ArrayBuffer; the
  *                                 playhead's time stays. A newer call wins over one still under way (whose
  *                                 promise then resolves to null). May be called before the scene is ready.
- *   setTime(seconds)              shows the pose at that time, interpolated; cheap, call it every frame
+ *                                 trouble: what the plan lacks, marked at its time: [{ first, last, feet, family,
+ *                                 rings }] with outlines of reach [knot][corner][2] m where they are known
+ *   setTime(seconds, inFrame)     shows the pose at that time, interpolated; cheap, call it every frame. inFrame: called while
+ *                                 the page makes a frame, so that it is drawn in this one where there is no GPU
  *   setOverlay(overlay | null)    what lies on the floor; loadPoses sets it by itself where the poses carry one:
- *                                 { times: [n] s, com: [n][3] m, feet: [n][legs][3] m, contact: [n][legs] bool,
+ *                                 { floor: m, times: [n] s, com: [n][3] m, cop: [n][2] m or null, feet: [n][legs][3] m, contact: [n][legs] bool,
  *                                   margins: [n] m }   null takes it away
- *   show(part, visible)           part: "polygon", "com", "traces", "footholds", "robot"
+ *   setGhost(kind, buffer | null) another version of the gait as a quiet second robot: "before", "saved" or "measured"
+ *   setReach(reach | null)        where the feet can be, of the poses that are shown (`GET …/reach`)
+ *   show(part, visible)           part: "polygon", "com", "cop", "traces", "footholds", "trouble", "robot", "reach"
  *   setCaution(metres)            margin below which the polygon is amber (0.003 by default; below 0 it is red)
  *   setDark(dark)                 backdrop and floor for the dark theme
- *   setView(name)                 "perspective", "top", "front", "side"
+ *   setView(name)                 "perspective", "top", "front", "side", so that the whole way is in view
+ *   ground()                      how the floor is seen now: { toScreen([x, y]), toGround([px, py]) } between m on the
+ *                                 floor and pixels of the frame; null where the client's camera is unknown
+ *   setBusy(busy)                 whether more is about to change: coarse pixels meanwhile where there is no GPU
+ *   drawn()                       Promise: what was shown before has been handed to a frame of the client
  *   dispose()
- * Properties: time, info (of the loaded plan or null), route ("direct", "server" or "none"), posesShown (count).
- * Events: "ready" (also when the client's scene was made anew: a reconnection or another robot),
- *   "route" (detail: the new route; "server" means the slower way, through the server).
+ * Properties: time, knowsPressure, info (of the loaded plan or null), route ("direct", "server" or "none"), posesShown (count).
+ * Events: "opening" (detail: the robot whose scene is being loaded), "ready" (its scene is there; also when it was
+ *   made anew after a reconnection),
+ *   "poses" (of a plan are shown from now on), "route" (detail: the new route; "server" means the slower way, through the server).
  */
 
-import { planUpdates, polygonUpdates, sampleAt } from "./overlay.js";
+import { Ghosts } from "./ghosts.js";
+import { fineLooks } from "./looks.js";
+import { Marks } from "./marks.js";
+import { floorOf } from "./overlay.js";
 import { PoseTable, VALUES_A_NODE } from "./poses.js";
 import { ServerRoute } from "./server_route.js";
 import { Sharpness } from "./sharpness.js";
 import { ViserClient, cameraMessages, poseMessages, visibleMessage } from "./viser_client.js";
 
+const FIRST_ROBOT = "deltawalker";
 const BODY = "/robot/body";
 const COM = "/overlay/com";
 const WATCH_MS = 250;
@@ -58,11 +69,10 @@ export class Preview extends EventTarget {
   #table = null;
   #pose = null;
   #shown = null;
-  #overlay = null;
-  #sample = -1;
-  #caution = 0.003;
+  #robot;
+  #marks;
+  #ghosts;
   #dark = false;
-  #visible = { polygon: true, com: true, traces: true, footholds: true, robot: true };
   #time = 0;
   #load = 0;
   #pending = 0;
@@ -75,17 +85,30 @@ export class Preview extends EventTarget {
   posesShown = 0;
   route = "none";
 
-  /** @param {HTMLIFrameElement} frame whose src is Preview.url() */
-  constructor(frame) {
+  /**
+   * @param {HTMLIFrameElement} frame for the client
+   * @param {string} [robot] whose scene is opened first
+   */
+  constructor(frame, robot = FIRST_ROBOT) {
     super();
     this.#client = new ViserClient(frame);
+    this.#marks = new Marks(this.#client);
+    this.#ghosts = new Ghosts(this.#client);
     this.#sharpness = new Sharpness(this.#client);
     this.#watch = setInterval(() => this.#look(), WATCH_MS);
+    this.#open(robot);
   }
 
-  static url() {
+  #open(robot) {
+    this.#robot = robot;
+    this.#bodyNode = null;
+    this.#started = performance.now();
+    this.route = "none";
+    this.#serverRoute?.close();
     const scheme = location.protocol === "https:" ? "wss" : "ws";
-    return `/viser/?websocket=${encodeURIComponent(`${scheme}://${location.host}/viser/ws`)}`;
+    const socket = `${scheme}://${location.host}/viser/ws?robot=${encodeURIComponent(robot)}`;
+    this.#client.open(`/viser/?websocket=${encodeURIComponent(socket)}`);
+    this.dispatchEvent(new CustomEvent("opening", { detail: robot }));
   }
 
   get time() { return this.#time; }
@@ -95,6 +118,9 @@ export class Preview extends EventTarget {
     const { robot, duration, frames, nodes } = this.#table;
     return { robot, duration, frames, nodes: [...nodes] };
   }
+
+  /** Whether the shown motion says where the centre of pressure is. */
+  get knowsPressure() { return Boolean(this.#marks.overlay?.cop); }
 
   /** The client underneath, for tests. */
   get client() { return this.#client; }
@@ -109,54 +135,79 @@ export class Preview extends EventTarget {
     });
   }
 
-  async loadPoses(source) {
+  async loadPoses(source, trouble = []) {
     this.#load += 1;
     const turn = this.#load;
     const buffer = typeof source === "string" ? await download(source) : source;
     if (turn !== this.#load) return null;
     this.#table = new PoseTable(buffer);
+    if (this.#table.robot !== this.#robot) this.#open(this.#table.robot);
     this.#pose = new Float32Array(this.#table.nodes.length * VALUES_A_NODE);
     this.#shown = null;
-    this.setOverlay(this.#table.overlay);
+    this.#marks.setOverlay(this.#table.overlay, trouble);
     this.setTime(this.#time);
+    this.dispatchEvent(new CustomEvent("poses"));
     return this.info;
   }
 
-  setTime(seconds) {
+  setGhost(kind, buffer) {
+    this.#ghosts.set(kind, buffer);
+    this.#request();
+  }
+
+  setReach(reach) {
+    this.#marks.setShells(reach);
+    this.#request();
+  }
+
+  setTime(seconds, inFrame = false) {
     this.#time = seconds;
-    if (this.#table) this.#request();
+    if (this.#table) this.#request(inFrame);
   }
 
   setOverlay(overlay) {
-    this.#overlay = overlay;
-    this.#sample = -1;
-    this.#pushPlan();
+    this.#marks.setOverlay(overlay);
     this.#request();
   }
 
   show(part, visible) {
-    this.#visible[part] = visible;
-    this.#pushVisible();
+    this.#marks.show(part, visible);
+    if (this.#bodyNode) this.#client.push(this.#marks.visibleMessages());
   }
 
   setCaution(metres) {
-    this.#caution = metres;
-    this.#sample = -1;
+    this.#marks.setCaution(metres);
     this.#request();
   }
 
   setDark(dark) {
     this.#dark = dark;
+    this.#marks.setDark(dark);
+    this.#ghosts.setDark(dark);
     this.#pushTheme();
-    this.#pushPlan();
+    this.#request();
   }
 
   setView(name) {
     const direction = VIEWS[name] ?? VIEWS.perspective;
-    const body = this.#client.position(BODY) ?? [0, 0, 0];
-    const target = [body[0], body[1], TARGET[2]];
-    const distance = this.#reach() * VIEW_DISTANCE;
+    const { middle, radius } = this.#way();
+    const target = [...middle, TARGET[2]];
+    const distance = (this.#reach() + radius) * VIEW_DISTANCE;
     this.#client.push(cameraMessages(target.map((value, axis) => value + distance * direction[axis]), target));
+  }
+
+  setBusy(busy) {
+    this.#sharpness.hold(busy);
+  }
+
+  ground() {
+    return this.#bodyNode ? this.#client.ground(floorOf(this.#marks.overlay)) : null;
+  }
+
+  async drawn() {
+    const frame = () => new Promise((resume) => requestAnimationFrame(resume));
+    do await frame(); while (this.#pending || this.#client.busy);
+    await frame();
   }
 
   dispose() {
@@ -176,13 +227,14 @@ export class Preview extends EventTarget {
       this.#looks = 0;
       this.#setRoute("direct");
       this.#sharpness.attach();
+      this.#client.push(fineLooks(this.#client));
       this.#pushAll();
       this.dispatchEvent(new CustomEvent("ready"));
     }
     this.#settle();
     const late = performance.now() - this.#started > DIRECT_PATIENCE_MS;
     if (this.route === "none" && late && !this.#client.available) {
-      this.#serverRoute = new ServerRoute();
+      this.#serverRoute = new ServerRoute(this.#robot);
       this.#setRoute("server");
       this.dispatchEvent(new CustomEvent("ready"));
     }
@@ -211,30 +263,41 @@ export class Preview extends EventTarget {
     this.dispatchEvent(new CustomEvent("route", { detail: route }));
   }
 
-  #request() {
+  #request(inFrame = false) {
     if (this.#pending) return;
-    if (!document.hidden && !this.#client.busy) this.#showPose();
-    else this.#pending = requestAnimationFrame(() => { this.#pending = 0; this.#request(); });
+    if (!document.hidden && !this.#client.busy) this.#showPose(inFrame);
+    else this.#pending = requestAnimationFrame(() => { this.#pending = 0; this.#request(true); });
   }
 
-  #showPose() {
-    if (!this.#table) return;
+  #showPose(inFrame) {
+    if (!this.#table) {
+      if (this.#bodyNode) this.#client.push(this.#extras());
+      return;
+    }
     this.#table.sample(this.#time, this.#pose);
     if (this.route === "server") {
       if (this.#serverRoute.send(this.#table.nodes, this.#pose)) this.posesShown += 1;
       return;
     }
     if (!this.#bodyNode) return;
-    const messages = [...this.#polygonMessages()];
+    const isNew = this.#marks.isNew;
+    const before = this.#ghosts.moves;
+    const messages = this.#extras();
     this.#table.nodes.forEach((name, index) => {
       const at = index * VALUES_A_NODE;
       if (this.#moved(at) && this.#client.node(name)) messages.push(...poseMessages(name, this.#pose, at));
     });
     this.#shown = Float32Array.from(this.#pose);
-    if (messages.length === 0) return;
-    this.#client.push(messages);
+    if (messages.length === 0 && this.#ghosts.moves === before) return;
     this.#sharpness.moved();
+    this.#client.push(messages, isNew);
+    if (inFrame) this.#client.drawNow();
     this.posesShown += 1;
+  }
+
+  /** Marks and ghosts at the present time. */
+  #extras() {
+    return [...this.#marks.messages(this.#time), ...this.#ghosts.messages(this.#time)];
   }
 
   #moved(at) {
@@ -245,41 +308,12 @@ export class Preview extends EventTarget {
     return false;
   }
 
-  #polygonMessages() {
-    if (!this.#overlay) return [];
-    const sample = sampleAt(this.#overlay.times, this.#time);
-    if (sample === this.#sample) return [];
-    this.#sample = sample;
-    return this.#updates(polygonUpdates(this.#overlay, sample, this.#caution));
-  }
-
   #pushAll() {
     this.#shown = null;
-    this.#sample = -1;
+    this.#marks.forget();
+    this.#ghosts.forget();
     this.#pushTheme();
-    this.#pushPlan();
     this.#request();
-  }
-
-  #pushPlan() {
-    if (!this.#bodyNode) return;
-    if (this.#overlay) {
-      this.#client.push(this.#updates(planUpdates(this.#overlay, this.#dark ? "dark" : "light")));
-    }
-    this.#pushVisible();
-  }
-
-  #pushVisible() {
-    if (!this.#bodyNode) return;
-    const { polygon, com, traces, footholds, robot } = this.#visible;
-    const wanted = { "/overlay/polygon": polygon, "/overlay/polygon_edge": polygon, "/overlay/com_trace": com };
-    wanted[COM] = com;
-    for (let foot = 1; this.#client.node(`/overlay/swing${foot}`); foot += 1) {
-      wanted[`/overlay/swing${foot}`] = traces;
-      wanted[`/overlay/foothold${foot}`] = footholds;
-    }
-    const messages = Object.entries(wanted).map(([name, on]) => visibleMessage(name, on && this.#overlay !== null));
-    this.#client.push([...messages, visibleMessage("/robot", robot)]);
   }
 
   #pushTheme() {
@@ -288,9 +322,12 @@ export class Preview extends EventTarget {
     this.#client.push([visibleMessage("/floor/light", !this.#dark), visibleMessage("/floor/dark", this.#dark)]);
   }
 
-  #updates(updates) {
-    const known = updates.filter(([name]) => this.#client.node(name));
-    return known.map(([name, values]) => this.#client.updateMessage(name, values));
+  /** Middle of the body's way over the plan, and how far it goes from there, m. */
+  #way() {
+    const body = this.#client.position(BODY) ?? [0, 0, 0];
+    const places = [...(this.#marks.overlay?.com ?? []), body];
+    const ends = [0, 1].map((axis) => [Math.min(...places.map((at) => at[axis])), Math.max(...places.map((at) => at[axis]))]);
+    return { middle: ends.map(([low, high]) => (low + high) / 2), radius: Math.hypot(...ends.map(([low, high]) => (high - low) / 2)) };
   }
 
   #reach() {

@@ -9,8 +9,10 @@ export class ServerRoute {
   #nodes = null;
   #address;
 
-  constructor(address = `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/viser/poses`) {
-    this.#address = address;
+  /** @param {string} robot whose scene it is */
+  constructor(robot) {
+    const scheme = location.protocol === "https:" ? "wss" : "ws";
+    this.#address = `${scheme}://${location.host}/viser/poses?robot=${encodeURIComponent(robot)}`;
     this.#open();
   }
 

@@ -7,8 +7,16 @@
  * browser tests fail then.
  */
 
+import { groundView } from "./ground.js";
+
+const SETTLE_MS = 250;
+
 export class ViserClient {
   #frame;
+  #left = null;
+  #leanRequest = null;
+  #lateFrame = 0;
+  #drawnFrame = null;
 
   /** @param {HTMLIFrameElement} frame of the same origin */
   constructor(frame) {
@@ -22,7 +30,13 @@ export class ViserClient {
       Array.isArray(inside.messageQueue) &&
       typeof inside.requestRender === "function" &&
       typeof inside.nodeRefFromName === "object";
-    return complete ? inside : null;
+    return complete && inside !== this.#left ? inside : null;
+  }
+
+  /** Opens another address in the frame; what is inside now is no longer spoken to. */
+  open(address) {
+    this.#left = this.#frame.contentWindow?.__viserMutable ?? null;
+    this.#frame.src = address;
   }
 
   /** Whether messages can be pushed. */
@@ -34,19 +48,61 @@ export class ViserClient {
   /** The drawn object of a scene node, or undefined; a reconnection makes new ones. */
   node(name) { return this.#inside?.nodeRefFromName[name] ?? undefined; }
 
+  /** Names of the nodes under a path that are drawn as meshes themselves. */
+  meshes(path) {
+    const isMesh = (node) => node?.isMesh || node?.children?.some((part) => part.isMesh && !part.name);
+    return Object.entries(this.#inside?.nodeRefFromName ?? {}).filter(([name, node]) => name.startsWith(path) && isMesh(node)).map(([name]) => name);
+  }
+
   /** Position [x, y, z] of a drawn node, or null. */
   position(name) {
     const node = this.node(name);
     return node ? [node.position.x, node.position.y, node.position.z] : null;
   }
 
-  /** Puts messages into the queue and asks for a frame. */
-  push(messages) {
+  /**
+   * Puts messages into the queue and asks for a frame.
+   * @param {object[]} messages
+   * @param {boolean} [atOnce] handles the queue now, so that lines and poses are drawn in one frame and not in two
+   */
+  push(messages, atOnce = false) {
     const inside = this.#inside;
     if (!inside) return false;
     for (const message of messages) inside.messageQueue.push(message);
-    inside.requestRender();
+    if (atOnce && !document.hidden) inside.drainMessageQueue?.();
+    this.#requestFrame(inside);
     return true;
+  }
+
+  /**
+   * Draws what has been pushed for the page's present frame, where there is no GPU: each frame of the page is dear there,
+   * and the client, when asked for a frame at a time, draws in every second one.
+   * @returns {boolean} false where it was left to the frame that is asked for: once a frame is enough
+   */
+  drawNow() {
+    const state = this.drawsInSoftware && !document.hidden ? this.#inside?.scene?.__r3f?.root?.getState?.() : undefined;
+    const frame = document.timeline.currentTime;
+    if (!state?.advance || frame === this.#drawnFrame) return false;
+    this.#drawnFrame = frame;
+    state.advance(performance.now());
+    return true;
+  }
+
+  /**
+   * Asks for a frame. The client's own way draws for 250 ms on end, since some changes need a frame more; without a GPU
+   * that holds up the whole page, so there it becomes one frame now and one after that time.
+   */
+  #requestFrame(inside) {
+    const invalidate = this.drawsInSoftware ? inside.scene?.__r3f?.root?.getState?.().invalidate : undefined;
+    if (invalidate && inside.requestRender !== this.#leanRequest) {
+      this.#leanRequest = () => {
+        invalidate();
+        clearTimeout(this.#lateFrame);
+        this.#lateFrame = setTimeout(invalidate, SETTLE_MS);
+      };
+      inside.requestRender = this.#leanRequest;
+    }
+    inside.requestRender();
   }
 
   /** A message that sets properties of a node; arrays become arrays of the client's own window. */
@@ -57,13 +113,30 @@ export class ViserClient {
     return { type: "SceneNodeUpdateMessage", name, owner: "", updates: values };
   }
 
+  /**
+   * Moves the ends of a node's line pieces: in the buffer that is drawn from, since a message makes a new one each time.
+   * @param {Float32Array} points n × 2 × 3 values
+   * @returns {object[]} the message to be pushed where the buffer is not known, or has another size
+   */
+  moveSegments(name, points) {
+    let ends = null;
+    this.node(name)?.traverse((part) => { ends ??= part.geometry?.attributes?.instanceStart?.data ?? null; });
+    if (ends?.array?.length !== points.length) return [this.updateMessage(name, { points: points.slice() })];
+    ends.array.set(points);
+    ends.needsUpdate = true;
+    this.node(name).traverse((part) => {
+      if (part.geometry) part.geometry.boundingSphere = part.geometry.boundingBox = null;
+    });
+    return [];
+  }
+
   /** Whether the client draws without a GPU (viser_frame.js finds out). */
   get drawsInSoftware() { return this.#frame.contentWindow?.footfallSoftwareDrawing === true; }
 
   /** Draws this many pixels for a pixel of the page each way. */
   setPixelRatio(ratio) {
     this.#frame.contentWindow?.__viserTestpoints?.devSettings?.set?.({ fixedDpr: ratio });
-    this.#inside?.requestRender();
+    if (this.#inside) this.#requestFrame(this.#inside);
   }
 
   /** Calls back when a hand is on the view: a drag or the wheel. */
@@ -73,6 +146,20 @@ export class ViserClient {
         if (type !== "pointermove" || event.buttons) callback();
       }, { capture: true, passive: true });
     }
+  }
+
+  /**
+   * How a level plane of the scene is seen by the camera now.
+   * @param {number} height of the plane, m
+   * @returns {{toScreen: Function, toGround: Function}|null} between [x, y] in m and pixels of the frame
+   */
+  ground(height) {
+    const inside = this.#inside;
+    const root = this.node("/floor/light")?.parent;
+    if (!inside?.camera || !inside.canvas || !root) return null;
+    const { left, top, width, height: tall } = inside.canvas.getBoundingClientRect();
+    const { projectionMatrix, matrixWorldInverse } = inside.camera;
+    return groundView([projectionMatrix, matrixWorldInverse, root.matrixWorld].map(({ elements }) => elements), height, { left, top, width, height: tall });
   }
 
   /** Root element of the client's page. */

@@ -2,13 +2,15 @@
  * Runs first inside the embedded Viser client (the server puts it into that page's head).
  *
  * - The client retries a lost connection only while its document has focus; a frame seldom has it.
+ * - The backdrop has its colours before the page around the frame can say so.
  * - Keys pressed in the frame belong to the page around it: Escape and Space must work wherever the focus is.
- * - Without a GPU, antialiasing costs more than it shows.
+ * - Without a GPU, antialiasing costs more than it shows, and so does keeping each drawing for those who read it later.
  * - The client's sorter of Gaussian splats, which nothing here uses, wants to evaluate text; our policy refuses
  *   that, and the refusal need not be reported.
  */
 (() => {
   document.hasFocus = () => true;
+  document.documentElement.dataset.theme = matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
 
   const handOver = (event) => {
     event.stopImmediatePropagation();
@@ -34,7 +36,7 @@
   if (window.footfallSoftwareDrawing) {
     const getContext = HTMLCanvasElement.prototype.getContext;
     HTMLCanvasElement.prototype.getContext = function lean(kind, options) {
-      return getContext.call(this, kind, kind.startsWith("webgl") ? { ...options, antialias: false } : options);
+      return getContext.call(this, kind, kind.startsWith("webgl") ? { ...options, antialias: false, preserveDrawingBuffer: false } : options);
     };
   }
 })();

@@ -1,0 +1,46 @@
+"""Benchmarks behind the figures in the documentation; they measure and never judge."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from app.bench.bridge import bench_bridge
+from app.bench.edits import bench_edits
+from app.bench.exact import bench_exact, bench_growth
+from app.bench.frontier import bench_frontier
+from app.bench.gait_list import bench_gait_list
+from app.bench.kinematics import bench_kinematics
+from app.bench.live import bench_live
+from app.bench.measure import Row, conditions
+from app.bench.page import bench_page
+from app.bench.patterns import bench_patterns
+from app.bench.scene import bench_scene
+from app.bench.timing import bench_timing
+from app.bench.trajectories import bench_trajectories
+from app.bench.transitions import bench_transitions
+
+__all__ = ["BENCHMARKS", "BY_NAME_ONLY", "Benchmark", "Row", "conditions"]
+
+Benchmark = Callable[[], list[Row]]
+"""Measures, and gives back the rows of its tables."""
+
+BENCHMARKS: dict[str, Benchmark] = {
+    "kinematics": bench_kinematics,
+    "live": bench_live,
+    "exact": bench_exact,
+    "growth": bench_growth,
+    "trajectories": bench_trajectories,
+    "frontier": bench_frontier,
+    "timing": bench_timing,
+    "transitions": bench_transitions,
+    "edits": bench_edits,
+    "patterns": bench_patterns,
+    "bridge": bench_bridge,
+    "page": bench_page,
+    "gaits": bench_gait_list,
+    "scene": bench_scene,
+}
+"""Every benchmark by its name."""
+
+BY_NAME_ONLY = frozenset({"page", "gaits", "scene"})
+"""Those that need what is not installed with the program."""

@@ -1,0 +1,71 @@
+"""`bench`."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from functools import partial
+from typing import Any
+
+from app.bench import BENCHMARKS, BY_NAME_ONLY, Benchmark, Row, conditions
+from app.bench.edits import bench_edits
+from app.cli.report import end_on_sigterm, note, show
+from core.errors import InputError
+
+
+def run_bench(options: Namespace) -> int:
+    """Runs benchmarks and prints their conditions."""
+    end_on_sigterm()
+    unknown = [name for name in options.names if name not in BENCHMARKS]
+    if unknown:
+        raise InputError(f"There is no benchmark “{unknown[0]}”; choose of {', '.join(BENCHMARKS)}.", "NAME")
+    benchmarks: dict[str, Benchmark] = {
+        **BENCHMARKS,
+        "edits": partial(bench_edits, options.count, options.seed),
+    }
+    where = conditions()
+    results: dict[str, list[Row]] = {}
+    for name in options.names or [name for name in BENCHMARKS if name not in BY_NAME_ONLY]:
+        note(f"Measuring {name} …")
+        results[name] = benchmarks[name]()
+    lines = [", ".join(f"{key}: {value}" for key, value in where.items())]
+    for name, rows in results.items():
+        for part in _tables(rows):
+            lines += (
+                ["", f"## {name}", "", *_markdown(part)] if options.markdown else ["", name, *_text(part)]
+            )
+    show(options, {"conditions": where, "results": results}, lines)
+    return 0
+
+
+def _tables(rows: list[Row]) -> list[list[Row]]:
+    """Rows that have the same columns, together."""
+    tables: list[list[Row]] = []
+    for row in rows:
+        if not tables or list(tables[-1][0]) != list(row):
+            tables.append([])
+        tables[-1].append(row)
+    return tables
+
+
+def _cells(rows: list[Row]) -> list[list[str]]:
+    return [list(rows[0]), *([_cell(value) for value in row.values()] for row in rows)]
+
+
+def _cell(value: Any) -> str:
+    return "–" if value is None else str(value)
+
+
+def _text(rows: list[Row]) -> list[str]:
+    """For people: a header and aligned columns."""
+    cells = _cells(rows)
+    widths = [max(len(line[column]) for line in cells) for column in range(len(cells[0]))]
+    return [
+        "  " + "  ".join(text.rjust(width) for text, width in zip(line, widths, strict=True))
+        for line in cells
+    ]
+
+
+def _markdown(rows: list[Row]) -> list[str]:
+    header, *body = _cells(rows)
+    lines = [header, ["---"] * len(header), *body]
+    return ["| " + " | ".join(text.replace("|", "\\|") for text in line) + " |" for line in lines]

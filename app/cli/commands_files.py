@@ -1,0 +1,151 @@
+"""`export` and `import`."""
+
+from __future__ import annotations
+
+import json
+import sys
+from argparse import Namespace
+from functools import partial
+from pathlib import Path
+
+from app.cli.commands_gait import optimise
+from app.cli.methods import Method
+from app.cli.report import end_on_sigterm, note, show
+from app.documents import gait_content, parse_gait
+from app.export.formats import NEED_NO_MOTION, ExportedFile, ExportFormat, export
+from app.export.reading import gait_of_recording, read_gait
+from app.export.source import Exportable, exportable_file, exportable_plan, recording_of_npz
+from app.plans import Plan, make_plan
+from app.sequence_plans import sequence_plan
+from app.store.files import GaitFiles, default_data_folder, write_atomically
+from app.trajectory_content import trajectory_content
+from app.trajectory_files import companion_path, read_text, read_whole_text
+from core.errors import InputError
+from core.gait import Gait
+from core.library import library
+from core.recorded_gait import DescribedGait
+from solver_jobs import SolveStatus, solve_live
+
+_RECORDED = (".csv", ".npz")
+"""Endings of files that hold a motion."""
+_TEXT = frozenset(ExportFormat) - {ExportFormat.NPZ, ExportFormat.PNG}
+"""Forms that may be printed."""
+
+
+def run_export(options: Namespace) -> int:
+    """Writes a gait or a recorded motion in another form."""
+    end_on_sigterm()
+    form: ExportFormat = options.format
+    source = _source(options)
+    file = export(source, form)
+    output: Path | None = options.output
+    if output is None and (options.json or form not in _TEXT):
+        raise InputError(f"{form} goes into a file; name it with -o, such as -o {file.name}.", "-o")
+    if output is None:
+        sys.stdout.write(file.content.decode())
+        return 0
+    written = [output]
+    if form is ExportFormat.CSV and source.need_motion().is_stated:
+        # First the companion: a trajectory never stands beside one that belongs to another version.
+        written.insert(0, companion_path(output))
+        write_atomically(written[0], export(source, ExportFormat.COMPANION).content)
+    write_atomically(output, file.content)
+    _tell(options, file, written)
+    return 0
+
+
+def _tell(options: Namespace, file: ExportedFile, written: list[Path]) -> None:
+    content = {
+        "format": options.format.value,
+        "media_type": file.media_type,
+        "bytes": len(file.content),
+        "files": [str(path) for path in written],
+    }
+    show(options, content, [f"Wrote {path}." for path in written])
+
+
+def _source(options: Namespace) -> Exportable:
+    """A recorded motion, a gait file, a built-in gait, or a saved one."""
+    path = Path(options.source)
+    if path.suffix in _RECORDED:
+        recorded, assumptions = exportable_file(path)
+        for assumption in assumptions:
+            note(assumption)
+        return recorded
+    stem, gait = _gait(options, path)
+    if options.format in NEED_NO_MOTION:
+        return Exportable(stem, gait, InputError("This form needs no motion.", "plan"))
+    return _planned(stem, gait, options.method)
+
+
+def _gait(options: Namespace, path: Path) -> tuple[str, Gait]:
+    if path.suffix == ".json":
+        return path.name.split(".")[0] or path.stem, parse_gait(read_text(path), path.name)
+    data: Path = options.data or default_data_folder()
+    if data.exists() and GaitFiles.is_id(options.source):
+        files = GaitFiles(data)
+        if files.saved_at(options.source) is not None:
+            return options.source, files.read(options.source)
+    entry = library().get(options.source)
+    if entry is None:
+        raise InputError(
+            f"There is no gait “{options.source}”: give a name that `footfall gaits` lists, a gait file "
+            "(.json) or a trajectory (.csv).",
+            "SOURCE",
+        )
+    return entry.id, entry.gait
+
+
+def _planned(stem: str, gait: Gait, method: Method) -> Exportable:
+    """The gait with its plan, made now; only what the checker confirms is a motion."""
+    plan_single = partial(_plan, method=method)
+    plan = sequence_plan(gait, plan_single, solve_live) if gait.sequence else plan_single(gait)
+    note(plan.note)
+    return exportable_plan(stem, gait, plan)
+
+
+def _plan(gait: Gait, method: Method) -> Plan:
+    result = None
+    if gait.segment_table is None and gait.recorded is None and method is Method.NLP:
+        judged = optimise(gait)
+        if judged.status is SolveStatus.SOLVED:
+            result = {**judged.content, "trajectory": trajectory_content(judged.trajectory)}
+        else:
+            note(" ".join(judged.explanation) or "The exact tier found no motion.")
+    return make_plan(gait, result, solve_live)
+
+
+def run_import(options: Namespace) -> int:
+    """Makes a gait document from a trajectory, waypoints, a phase list or another gait document."""
+    described = _described(options)
+    content = gait_content(described.gait)
+    for remark in described.remarks:
+        note(remark)
+    if options.output is None and not options.json:
+        sys.stdout.write(json.dumps(content, indent=2, ensure_ascii=False) + "\n")
+        return 0
+    if options.output is not None:
+        write_atomically(options.output, json.dumps(content, indent=2, ensure_ascii=False) + "\n")
+    file = None if options.output is None else str(options.output)
+    show(
+        options,
+        {"gait": content, "remarks": list(described.remarks), "file": file},
+        [f"Wrote {options.output}."],
+    )
+    return 0
+
+
+def _described(options: Namespace) -> DescribedGait:
+    path: Path = options.file
+    name = options.name or path.name.split(".")[0] or path.stem
+    if path.suffix == ".npz" and options.sample_time is None:
+        return gait_of_recording(recording_of_npz(path), name, options.robot)
+    companion = companion_path(path)
+    return read_gait(
+        read_whole_text(path),
+        path.name,
+        name=options.name if path.suffix == ".json" else name,
+        companion=read_whole_text(companion) if path.suffix == ".csv" and companion.exists() else None,
+        sample_time=options.sample_time,
+        robot=options.robot,
+    )

@@ -1,0 +1,120 @@
+"""`frontier`."""
+
+from __future__ import annotations
+
+import time
+from argparse import Namespace
+from typing import Any
+
+import numpy as np
+
+from app.cli.gait_options import asked_gait, returns_anew
+from app.cli.methods import Method
+from app.cli.report import end_on_sigterm, show
+from app.trajectory_files import write_trajectory
+from core.errors import InputError
+from core.gait import Gait, drawn_timeline
+from core.robot import load_robot
+from solver_jobs import Frontier, FrontierSearch
+
+INFEASIBLE = 3
+
+
+def run_frontier(options: Namespace) -> int:
+    """Finds how far a gait gets in an iteration, and what limits it."""
+    end_on_sigterm()
+    gait = asked_gait(options)
+    begin = time.perf_counter()
+    frontier = _search(gait, options).run()
+    seconds = time.perf_counter() - begin
+    output = options.output if frontier.motion is not None else None
+    if output is not None and frontier.motion is not None:
+        write_trajectory(output, frontier.motion)
+    content = {
+        **_content(options, frontier),
+        "seconds": seconds,
+        "trajectory": None if output is None else str(output),
+    }
+    show(options, content, [*_lines(content), *([] if output is None else [f"Wrote {output}."])])
+    return 0 if frontier.reach > 0 else INFEASIBLE
+
+
+def _search(gait: Gait, options: Namespace) -> FrontierSearch:
+    """The search, with the heights free unless one is given.
+
+    Raises:
+        InputError: phases are to be free that somebody has drawn by hand.
+    """
+    if options.free_phases and gait.timeline != drawn_timeline(gait):
+        raise InputError(
+            "The gait's timeline was edited by hand, so its phases cannot be lengthened. Leave out "
+            "--free-phases, or give --order to draw the timeline anew.",
+            "--free-phases",
+        )
+    given = options.plane_height is not None or options.end_plane_height is not None
+    return FrontierSearch(
+        gait,
+        load_robot(gait.robot),
+        **({"heights": ()} if given else {}),
+        free_phases=options.free_phases,
+        free_return=returns_anew(gait, options),
+        exact=options.method is Method.NLP,
+    )
+
+
+def _content(options: Namespace, frontier: Frontier) -> dict[str, Any]:
+    gait = frontier.gait
+    step, yaw = ("max_step", "live_step"), ("max_yaw", "live_yaw")
+    found, absent = (yaw, step) if frontier.turns else (step, yaw)
+    return {
+        "gait": options.gait,
+        **dict(zip(found, (frontier.reach, frontier.live_reach), strict=True)),
+        **dict.fromkeys(absent),
+        "limited_by": list(frontier.limited_by),
+        "confirmed": frontier.confirmed,
+        "plane_height": gait.options.plane_height,
+        "phase_knots": gait.options.phase_knots,
+        "closing_knots": gait.options.closing_knots,
+        "knots": gait.timeline.sample_count,
+        "workspace": gait.options.workspace.value,
+        "margin": gait.options.margin,
+        "explanation": list(frontier.explanation),
+    }
+
+
+def _lines(content: dict[str, Any]) -> list[str]:
+    turns = content["max_yaw"] is not None
+    reach, live = (
+        (_degrees(content["max_yaw"]), _degrees(content["live_yaw"]))
+        if turns
+        else (_mm(content["max_step"]), _mm(content["live_step"]))
+    )
+    name = "turn" if turns else "step"
+    if not content["max_yaw" if turns else "max_step"]:
+        return [f"{content['gait']}: no {name} is possible.", *content["explanation"]]
+    said = (
+        f"confirmed by the exact tier; {live} by the live tier"
+        if content["confirmed"]
+        else "by the live tier"
+    )
+    return [
+        f"{content['gait']}: the largest {name} is {reach} an iteration ({said}).",
+        f"Actuator plane at {_mm(content['plane_height'])} at start and goal, phases of "
+        f"{content['phase_knots']} knots, workspace {content['workspace']}, margin {_mm(content['margin'])}.",
+        *_limits(content),
+    ]
+
+
+def _limits(content: dict[str, Any]) -> list[str]:
+    if not content["limited_by"]:
+        return ["The live tier does not say what limits it."]
+    families = ", ".join(content["limited_by"]).replace("_", " ")
+    return [f"A little further it is limited by {families}:", *(f"  {s}" for s in content["explanation"])]
+
+
+def _mm(value: float) -> str:
+    return f"{value * 1000:.1f} mm"
+
+
+def _degrees(value: float) -> str:
+    return f"{np.degrees(value):.1f}°"

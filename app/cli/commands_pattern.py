@@ -1,0 +1,162 @@
+"""`pattern`."""
+
+from __future__ import annotations
+
+import threading
+from argparse import Namespace
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from typing import Any
+
+from app.cli.drawing import CHANGE, STANCE, SWING, drawn_pattern
+from app.cli.pattern_options import asked_pattern
+from app.cli.report import Interrupted, end_on_sigterm, ignore_interrupts, show
+from core.patterns.check import broken_rules, check_pattern, weighted_sum
+from core.patterns.numerals import counted
+from core.patterns.problem import (
+    Pattern,
+    PatternKind,
+    PatternProblem,
+    PatternResult,
+    PatternStatus,
+    Relaxation,
+)
+from solver_jobs import shortest_problem, solve_pattern
+
+INFEASIBLE, FAILED = 3, 4
+TICK_SECONDS = 0.1
+"""Between looks for Ctrl-C."""
+NOTHING: dict[str, Any] = {"objective": None, "limb_changes": None, "score": None, "pattern": []}
+
+
+def run_pattern(options: Namespace) -> int:
+    """Finds the best footfall pattern, draws it, or says why there is none."""
+    end_on_sigterm()
+    problem = asked_pattern(options)
+    if options.shortest:
+        problem = shortest_problem(problem)
+    result = _solved(problem, options)
+    failure = _failure(problem, result, options.seconds)
+    content = _content(problem, result, failure)
+    show(options, content, _lines(problem, result, failure, content))
+    if failure is not None:
+        return FAILED
+    return INFEASIBLE if result.status is PatternStatus.INFEASIBLE else 0
+
+
+def _solved(problem: PatternProblem, options: Namespace) -> PatternResult:
+    """The result, found in a thread of its own, so that Ctrl-C and SIGTERM are heard and end the search."""
+    left = threading.Event()
+    with ThreadPoolExecutor(1, "pattern") as pool:
+        try:
+            search = pool.submit(
+                solve_pattern,
+                problem,
+                count=options.best,
+                seconds=options.seconds,
+                progress=lambda known: not left.is_set(),
+            )
+            while True:
+                with suppress(TimeoutError):
+                    return search.result(TICK_SECONDS)
+        except (KeyboardInterrupt, Interrupted):
+            # A process that leaves the solver's thread behind is aborted.
+            ignore_interrupts()
+            raise
+        finally:
+            left.set()
+
+
+def _failure(problem: PatternProblem, result: PatternResult, seconds: float) -> str | None:
+    """Why there is no checked answer; None where there is one."""
+    broken = {
+        rule
+        for pattern in result.patterns
+        for rule in broken_rules(check_pattern(problem, pattern.stance, pattern.body_xy))
+    }
+    if broken:
+        names = ", ".join(sorted(broken))
+        return f"The solver's pattern breaks {names}, so it is not shown. Please report this as a defect."
+    if result.status is PatternStatus.INFEASIBLE or result.patterns:
+        return None
+    return (
+        f"In {seconds:g} s no pattern was found, and none was proven impossible. Give more --seconds, or "
+        "fewer samples."
+    )
+
+
+def _content(problem: PatternProblem, result: PatternResult, failure: str | None) -> dict[str, Any]:
+    patterns = () if failure is not None else result.patterns
+    answers = [_answer(problem, pattern) for pattern in patterns]
+    best = answers[0] if answers else NOTHING
+    return {
+        "status": "failed" if failure is not None else result.status.value,
+        **best,
+        "bound": result.bound,
+        "solve_seconds": result.solve_seconds,
+        "explanation": [failure] if failure is not None else list(result.explanation),
+        "kind": problem.kind.value,
+        "legs": problem.leg_count,
+        "samples": problem.sample_count,
+        "alternatives": answers[1:],
+        "relaxations": [_relaxation(one) for one in result.relaxations],
+    }
+
+
+def _answer(problem: PatternProblem, pattern: Pattern) -> dict[str, Any]:
+    return {
+        "objective": pattern.sample_changes,
+        "limb_changes": pattern.limb_changes,
+        "score": weighted_sum(problem, pattern),
+        "pattern": ["".join("1" if cell else "0" for cell in row) for row in pattern.stance],
+    }
+
+
+def _relaxation(one: Relaxation) -> dict[str, Any]:
+    cells = [{"limb": limb + 1, "sample": sample + 1} for limb, sample in one.cells]
+    return {
+        "words": one.words,
+        "rule": one.rule.value,
+        "value": one.value,
+        "samples": one.samples,
+        "cells": cells,
+        "also": [_relaxation(further) for further in one.also],
+    }
+
+
+def _lines(
+    problem: PatternProblem, result: PatternResult, failure: str | None, content: dict[str, Any]
+) -> list[str]:
+    name = "transition" if problem.kind is PatternKind.TRANSITION else "periodic gait"
+    asked = f"{name} of {problem.sample_count} samples for {problem.leg_count} limbs"
+    if failure is not None:
+        return [failure]
+    if result.status is PatternStatus.INFEASIBLE:
+        took = f"proven for the stated model in {result.solve_seconds:.2f} s"
+        return [f"No {asked} keeps the rules ({took}).", *result.explanation]
+    proven = "proven optimal" if result.status is PatternStatus.OPTIMAL else _gap(content)
+    lines = [f"{asked.capitalize()}, {proven} in {result.solve_seconds:.2f} s."]
+    for number, pattern in enumerate(result.patterns, start=1):
+        which = f"{number}. " if len(result.patterns) > 1 else ""
+        lines += ["", f"{which}{_scores(pattern)}", *_drawing(problem, pattern)]
+    return [
+        *lines,
+        "",
+        f"{STANCE} stance, {SWING} swing, {CHANGE} a limb has changed since the sample before.",
+    ]
+
+
+def _gap(content: dict[str, Any]) -> str:
+    return f"the best found (weighted sum {content['score']}, none is below {content['bound']:g})"
+
+
+def _scores(pattern: Pattern) -> str:
+    return (
+        f"Objective {pattern.sample_changes}: limbs change at {counted(pattern.sample_changes, 'sample')}, "
+        f"{counted(pattern.limb_changes, 'change')} of single limbs."
+    )
+
+
+def _drawing(problem: PatternProblem, pattern: Pattern) -> list[str]:
+    marks = ["" if walks else "locked" for walks in problem.walking]
+    return drawn_pattern(pattern.stance, marks, cyclic=problem.kind is PatternKind.PERIODIC)

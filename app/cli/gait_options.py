@@ -1,0 +1,116 @@
+"""From the words of the command line to the gait that is asked."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from app.documents import parse_gait
+from app.trajectory_files import read_text
+from core.errors import InputError
+from core.gait import Gait, GaitOptions, drawn_timeline, heading_step, with_iterations, with_return
+from core.library import library, optimised_entry
+from core.motion_problem import Boundary
+from core.new_gait import with_robot
+from core.robot import load_robot
+from core.turning import Turning
+
+_OPTIONS = (
+    "clearance",
+    "margin",
+    "body_speed",
+    "plane_height",
+    "end_plane_height",
+    "workspace",
+    "cost",
+    "phase_knots",
+    "closing_knots",
+    "friction",
+    "motor_speed",
+    "motor_acceleration",
+    "boundary",
+)
+"""Options of the command line that are options of the gait."""
+
+_REDRAW = ("order", "phase_knots", "closing_knots")
+"""Options of the command line that draw the timeline anew."""
+
+
+def asked_gait(options: Namespace) -> Gait:
+    """The gait that a command line names, with everything that it changes.
+
+    Raises:
+        InputError: there is no such gait, it is made by hand, or what is asked does not fit together.
+    """
+    gait = _named_gait(options.gait)
+    if options.robot is not None:
+        gait = with_robot(gait, load_robot(options.robot), options.order)
+    return _with_options(gait, options)
+
+
+def _named_gait(name: str) -> Gait:
+    """A built-in gait with the command's own defaults, or one from a file with its options."""
+    path = Path(name)
+    if name in library() or (path.suffix != ".json" and not path.exists()):
+        gait = optimised_entry(name).gait
+        return replace(gait, options=replace(gait.options, margin=GaitOptions.margin))
+    gait = parse_gait(read_text(path), path.name)
+    if gait.segment_table is not None:
+        raise InputError(
+            f"{path.name} is made by hand from a segment table; there is nothing to optimise.", name
+        )
+    return gait
+
+
+def _with_options(gait: Gait, options: Namespace) -> Gait:
+    """The gait with its options changed; its timeline is drawn anew where it must be."""
+    given = {name: getattr(options, name) for name in _OPTIONS if getattr(options, name) is not None}
+    direction = options.direction or gait.direction
+    timeline = replace(gait.timeline, sample_time=options.knot_time or gait.timeline.sample_time)
+    changed = replace(
+        gait,
+        direction=direction,
+        order=options.order or gait.order,
+        step=_step(gait, options),
+        timeline=timeline.turned(direction - gait.direction),
+        held=gait.held.turned((direction - gait.direction) * timeline.leg_count // 4, timeline.leg_count),
+        options=replace(gait.options, **given),
+    )
+    _require_straight(changed)
+    if returns_anew(gait, options):
+        changed = with_return(changed, load_robot(gait.robot))
+    if any(getattr(options, name) is not None for name in _REDRAW):
+        changed = replace(changed, iterations=options.iterations or gait.iterations)
+        return replace(changed, timeline=drawn_timeline(changed))
+    return changed if options.iterations is None else with_iterations(changed, options.iterations)
+
+
+def _require_straight(gait: Gait) -> None:
+    """A cycle goes on as it began, so it cannot turn."""
+    if gait.options.boundary is Boundary.PERIODIC and gait.step[2] != 0.0:
+        degrees = float(np.degrees(gait.step[2]))
+        raise InputError(
+            f"The gait turns by {degrees:.1f}° an iteration, and a periodic motion must end with the heading "
+            "that it began with. Leave out --yaw, or use --boundary rest.",
+            "--boundary",
+        )
+
+
+def _step(gait: Gait, options: Namespace) -> tuple[float, float, float]:
+    dx, dy, yaw = gait.step
+    if options.step is not None:
+        dx, dy, _ = heading_step(gait.orientation, options.step)
+    if options.goal is not None:
+        iterations = options.iterations or gait.iterations
+        dx, dy = (part / iterations for part in options.goal)
+    return dx, dy, yaw if options.yaw is None else options.yaw
+
+
+def returns_anew(gait: Gait, options: Namespace) -> bool:
+    """Whether the closing stance is as long as the turn back takes: nobody has set it, on file or here."""
+    if gait.options.turning is not Turning.RETURN or options.closing_knots is not None:
+        return False
+    return gait.timeline == with_return(gait, load_robot(gait.robot)).timeline

@@ -1,0 +1,189 @@
+"""The gait document's form: pydantic models, from which the published JSON Schema is made. All numbers SI."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from core.gait import GaitOptions, Orientation
+from core.motion_problem import Boundary, Cost, Workspace
+from core.recording import RecordingForm
+from core.turning import Turning
+
+SCHEMA_DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+
+def _field(description: str, **words: Any) -> Any:
+    return Field(description=description, **words)
+
+
+def _title(name: str, info: object) -> str:
+    del info
+    return name.replace("_", " ").capitalize()
+
+
+class _Model(BaseModel):
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False, field_title_generator=_title)
+
+
+class TimelineModel(_Model):
+    """Contact of each foot: a string of 1 (stance) and 0 (swing), foot 1 first; `locked` likewise."""
+
+    sample_time: float = _field("time between samples, s")
+    feet: list[str] = _field("a string a foot, a character a sample: 1 stance, 0 swing", min_length=1)
+    locked: list[str] | None = _field("likewise: 1 where the cell is locked; null: none is", default=None)
+
+
+class SegmentModel(_Model):
+    """A segment between two named positions such as `Home-Base`."""
+
+    start: str = _field("position at its first sample, xy name and z name joined by a hyphen")
+    end: str = _field("position at its last sample")
+    swing: bool = _field("whether the foot is in the air")
+
+
+class VocabularyModel(_Model):
+    """What the names of a segment table mean."""
+
+    xy: dict[str, float] = _field("multiple of the step's displacement, by name")
+    z: dict[str, float] = _field("motor stroke of a centred foot, m, by name")
+    segments: dict[str, SegmentModel] = _field("segments by name")
+
+
+class SegmentTableModel(_Model):
+    """A row of segment names a foot, one iteration at direction 1."""
+
+    samples_per_segment: int = _field("samples of a segment, both its ends included")
+    repeat_from: int = _field("segment, counted from 1, with which the repeating part begins", default=1)
+    repeat_to: int | None = _field("its last segment; null: the last of the table", default=None)
+    link: list[list[str]] = _field("segments between two iterations, a row a foot", default_factory=list)
+    feet: list[list[str]] = _field("segment names, a row a foot", min_length=1)
+    definitions: VocabularyModel = _field("what the names mean")
+
+
+class HeldModel(_Model):
+    """Feet that are in the air on purpose at the ends of a gait, counted from 1."""
+
+    start: list[int] = _field("feet held up at the first sample", default_factory=list)
+    end: list[int] = _field("feet held up at the last sample", default_factory=list)
+
+
+class OptionsModel(_Model):
+    """What the optimiser is asked, and how its answer is sent."""
+
+    clearance: float = _field("how high each swing rises at least, m", default=GaitOptions.clearance)
+    margin: float = _field(
+        "how far the centre of pressure stays inside the support polygon, m", default=GaitOptions.margin
+    )
+    body_speed: float = _field("limit of the body's speed, m/s", default=GaitOptions.body_speed)
+    plane_height: float = _field("actuator plane at the start, m", default=GaitOptions.plane_height)
+    workspace: Workspace = _field("which form of reach holds", default=GaitOptions.workspace)
+    cost: Cost = _field("what is minimised", default=GaitOptions.cost)
+    phase_knots: int = _field(
+        "samples of each stance phase and of each swing of a drawn timeline", default=GaitOptions.phase_knots
+    )
+    closing_knots: int = _field(
+        "samples after the last swing of a drawn timeline", default=GaitOptions.closing_knots
+    )
+    end_plane_height: float | None = _field(
+        "actuator plane at the goal, m; null: as at the start", default=None
+    )
+    friction: float | None = _field("coefficient of the friction cones, no unit; null: none", default=None)
+    motor_speed: float | None = _field("limit of each motor's speed, m/s; null: none", default=None)
+    motor_acceleration: float | None = _field(
+        "limit of each motor's acceleration, m/s²; null: none", default=None
+    )
+    boundary: Boundary = _field("from rest to rest, or a cycle", default=GaitOptions.boundary)
+    turning: Turning = _field("when a gait with yaw turns the body", default=GaitOptions.turning)
+    merge: float = _field(
+        "waypoints are left out within this distance of the motors' path, m; 0: one waypoint a knot is sent",
+        default=GaitOptions.merge,
+    )
+    stop_bound: float | None = _field(
+        "how long the robot may be deaf for Stop, s; moves are cut for it; null: as long as a move takes",
+        default=GaitOptions.stop_bound,
+    )
+
+
+class RecordingModel(_Model):
+    """The motion of a file, which is then the gait's motion."""
+
+    file: str = _field("name of the file")
+    form: RecordingForm = _field("a trajectory CSV, or a waypoint CSV")
+    text: str = _field("the file's text, to the last character")
+    companion: str | None = _field("text of a trajectory's companion; null: it had none", default=None)
+    sha256: str = _field("SHA-256 of `text` in UTF-8, hexadecimal")
+    assumed: list[str] = _field("what reading the file assumed, a sentence each", default_factory=list)
+
+
+class ProvenanceModel(_Model):
+    """Where the last computed result came from; it is of this document while `motion` matches it."""
+
+    motion: str = _field("SHA-256 of everything in the document that the result was asked for by")
+    trajectory: str = _field("SHA-256 of the result")
+    method: str = _field("how it was computed, such as nlp")
+    solver: str = _field("the solver's name and version")
+    status: str = _field("what the independent checker made of it")
+    seconds: float = _field("time in the solver, s")
+    made: str = _field("when, ISO 8601 with its offset from UTC")
+    program: str = _field("version of the program")
+
+
+Metres = Annotated[float, Field(description="m")]
+Radians = Annotated[float, Field(description="rad")]
+
+
+class SingleGaitModel(_Model):
+    """A gait of its own, as it stands in a file or in a part of a sequence."""
+
+    format: Literal["footfall-gait"] = _field("what kind of document this is")
+    version: Literal[1] = _field("version of this form")
+    name: str = _field("what a person calls it")
+    robot: str = _field("name of the robot's parameters file", default="deltawalker")
+    orientation: Orientation = _field("FB moves along the diagonals, FBS along the axes (thesis 3.2)")
+    direction: int = _field("1 to 4 (thesis Table 3.1)", default=1)
+    order: list[int] = _field("feet in the order of their steps at direction 1, counted from 1")
+    step: tuple[Metres, Metres, Radians] = _field(
+        "dx, dy in m and yaw in rad of the body an iteration, at direction 1"
+    )
+    iterations: int = _field("how often every foot steps", default=1)
+    timeline: TimelineModel = _field(
+        "contact of the robot's own feet, every iteration and the closing stance"
+    )
+    segment_table: SegmentTableModel | None = _field(
+        "of a gait made by hand, in which case it says the motion; else null", default=None
+    )
+    options: OptionsModel = _field("what the optimiser is asked", default_factory=OptionsModel)
+    notes: str = _field("a person's words", default="")
+    recorded: RecordingModel | None = _field(
+        "the motion of a file, in which case it is the gait's motion; else null", default=None
+    )
+    provenance: ProvenanceModel | None = _field(
+        "of the last computed result, for whichever version of the gait; null: there is none", default=None
+    )
+    held: HeldModel = _field(
+        "feet that rest in the air at an end, under their module, as high as swings rise and at least 3 mm; "
+        "every other foot stands there. Left out where none is",
+        default_factory=HeldModel,
+    )
+
+
+class SequencePartModel(_Model):
+    """A gait within a sequence."""
+
+    gait: SingleGaitModel = _field("the gait, whole")
+    times: int = _field("how often it runs, 1 to 20", default=1)
+    source: str | None = _field("id of the gait that it was copied from; null: not known", default=None)
+
+
+class GaitDocument(SingleGaitModel):
+    """A gait as it stands in a file."""
+
+    model_config = ConfigDict(json_schema_extra={"$schema": SCHEMA_DIALECT})
+
+    sequence: list[SequencePartModel] = _field(
+        "gaits that follow each other; then robot, direction, order, step, iterations and timeline follow "
+        "from them. Left out for a gait of its own",
+        default_factory=list,
+    )

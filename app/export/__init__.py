@@ -1,0 +1,1 @@
+"""A gait and its plan in other people's forms: files to keep, print, share and read elsewhere."""

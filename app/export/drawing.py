@@ -1,0 +1,102 @@
+"""A flat drawing as a list of shapes, for whoever paints it: SVG and PNG show the same."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+class Anchor(StrEnum):
+    """Which end of a text stands at its place."""
+
+    START = "start"
+    MIDDLE = "middle"
+    END = "end"
+
+
+@dataclass(frozen=True)
+class Box:
+    """A filled rectangle with rounded corners, px."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+    fill: str
+    radius: float = 0.0
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A straight line, px."""
+
+    x1: float
+    y1: float
+    x2: float
+    y2: float
+    colour: str
+    width: float = 1.0
+
+
+@dataclass(frozen=True)
+class Dot:
+    """A filled circle, px."""
+
+    x: float
+    y: float
+    radius: float
+    fill: str
+
+
+@dataclass(frozen=True)
+class Words:
+    """A line of text; y is its baseline, px."""
+
+    x: float
+    y: float
+    text: str
+    size: float
+    colour: str
+    anchor: Anchor = Anchor.START
+    bold: bool = False
+
+
+Shape = Box | Rule | Dot | Words
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """Shapes in the order of painting.
+
+    Args:
+        width: px.
+        height: px.
+        title: what it is.
+        description: what it shows, in words.
+        background: colour of the sheet.
+        shapes: the first is painted first.
+    """
+
+    width: float
+    height: float
+    title: str
+    description: str
+    background: str
+    shapes: tuple[Shape, ...]
+
+
+def hatching(box: Box, colour: str, spacing: float = 6.0, width: float = 1.6) -> Iterator[Rule]:
+    """Lines at 45° that fill a rectangle, cut off at its edges."""
+    start = -box.height + spacing / 2
+    while start < box.width:
+        x1, x2 = max(start, 0.0), min(start + box.height, box.width)
+        yield Rule(
+            box.x + x1,
+            box.y + box.height - (x1 - start),
+            box.x + x2,
+            box.y + box.height - (x2 - start),
+            colour,
+            width,
+        )
+        start += spacing

@@ -1,0 +1,104 @@
+"""One HTML page with 3D playback and the gait diagram; it opens by double click, without any server."""
+
+from __future__ import annotations
+
+import json
+from html import escape
+from importlib import resources
+from typing import Any
+
+import numpy as np
+
+from app.export.gait_diagram import facts, gait_diagram, plot_area
+from app.export.source import Motion
+from app.export.svg import svg
+from app.finite import finite
+from core.gait import Gait
+from core.leg import vertex_directions
+from core.real_motion import real_feet
+from core.robot import RobotModel
+from core.support import stability_margins
+
+_SCRIPTS = ("view.js", "robot.js", "scene.js", "player.js")
+_UNSAFE = {ord("<"): "\\u003c", ord(">"): "\\u003e", ord("&"): "\\u0026"}
+"""Characters that could end a script within a page, as JSON writes them within texts."""
+
+
+def playback_page(gait: Gait, motion: Motion) -> str:
+    """The page.
+
+    Args:
+        gait: for the diagram.
+        motion: what is played.
+    """
+    diagram = gait_diagram(gait, motion.model, is_headed=False)
+    script = "\n".join(_part(name) for name in _SCRIPTS)
+    parts = {
+        "NAME": escape(gait.name),
+        "FACTS": escape(facts(gait)),
+        "NOTE": escape(motion.note),
+        "STYLE": _part("page.css"),
+        "DIAGRAM": svg(diagram),
+        "DATA": json.dumps(finite(_content(gait, motion)), allow_nan=False).translate(_UNSAFE),
+        "SCRIPT": f'(() => {{\n"use strict";\n{script}}})();',
+    }
+    pieces = _part("page.html").split("{{")
+    filled = [pieces[0]]
+    for piece in pieces[1:]:
+        key, rest = piece.split("}}", 1)
+        filled += [parts[key], rest]
+    return "".join(filled)
+
+
+def _part(name: str) -> str:
+    return resources.files("app.export").joinpath("page", name).read_text("utf-8")
+
+
+def _content(gait: Gait, motion: Motion) -> dict[str, Any]:
+    """What the page plays: SI, a row a knot."""
+    t, area = motion.trajectory, plot_area(gait, is_headed=False)
+    return {
+        "times": t.times.tolist(),
+        "body": t.pose(motion.model).position_world.tolist(),
+        "heading": t.heading.tolist(),
+        "feet": real_feet(motion.model, t.feet_world, t.pose(motion.model)).tolist(),
+        "contact": t.contact.tolist(),
+        "strokes": motion.strokes.tolist(),
+        "margins": stability_margins(t.body_world[:, :2], t.feet_world, t.contact).tolist(),
+        "roles": list(gait.roles),
+        "colours": list(motion.model.colours),
+        "robot": _shape(motion.model),
+        "diagram": {
+            "left": area.left,
+            "width": area.width,
+            "top": area.top,
+            "bottom": area.bottom,
+            "samples": gait.timeline.sample_count,
+            "seconds": area.seconds,
+        },
+    }
+
+
+def _shape(model: RobotModel) -> dict[str, Any]:
+    """Sizes and places of the robot's parts in its own frame, m."""
+    shape, R = model.shape, model.R_robot_from_module[:, :2, :2]
+    directions = np.einsum("lij,kj->lki", R, vertex_directions())
+    return {
+        "centres": model.module_centres_robot[:, :2].tolist(),
+        "directions": directions.tolist(),
+        "base_radius": model.leg.base_radius,
+        "platform_radius": model.leg.platform_radius,
+        "com_height": model.com_height,
+        "sole_depth": model.sole_depth,
+        "plate_across": max(shape.plate_across, 2 * (model.radius + model.leg.base_radius)),
+        "plate_heights": [shape.lower_plate_height, shape.upper_plate_height],
+        "plate_thickness": shape.plate_thickness,
+        "board_height": shape.board_height,
+        "board": list(shape.board),
+        "motor_width": shape.motor_width,
+        "motor_length": shape.motor_length,
+        "rod_diameter": shape.rod_diameter,
+        "rod_spacing": shape.rod_spacing,
+        "foot_diameter": shape.foot_diameter,
+        "sole_diameter": shape.sole_diameter,
+    }

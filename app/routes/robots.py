@@ -1,0 +1,79 @@
+"""The robots that a gait may be for, and new gaits for them."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Depends
+from pydantic import BaseModel, ConfigDict, Field
+
+from app.routes.edge import changed, studio_of
+from app.studio import Studio
+from core.gait import MOST_NAME, Gait, GaitOptions, Orientation
+from core.new_gait import DEFAULT_STEP, default_phase_knots, drawn_gait, named_orders
+from core.robot import ROBOT_NAMES, RobotModel, load_robot
+
+router = APIRouter(prefix="/api", tags=["robots"])
+TheStudio = Annotated[Studio, Depends(studio_of)]
+
+
+class NewGait(BaseModel):
+    """What a new gait is drawn from; m, feet count from 1. Without an order the robot's first one holds."""
+
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+    name: str = Field(max_length=MOST_NAME)
+    robot: str = "deltawalker"
+    orientation: Orientation = Orientation.FB
+    order: list[int] | None = Field(default=None, max_length=64)
+    step: float = DEFAULT_STEP
+    phase_knots: int | None = Field(default=None, ge=2, le=50)
+    closing_knots: int = Field(default=GaitOptions.closing_knots, ge=0, le=100)
+    iterations: int = Field(default=1, ge=1, le=20)
+
+
+@router.get("/robots")
+async def list_robots() -> dict[str, Any]:
+    """Every robot with its title, its legs and motors, and foot orders that work for it."""
+    return {"robots": [robot_content(load_robot(name)) for name in ROBOT_NAMES]}
+
+
+def robot_content(model: RobotModel) -> dict[str, Any]:
+    """A robot as JSON content; feet count from 1, m."""
+    return {
+        "name": model.name,
+        "title": model.title,
+        "legs": model.leg_count,
+        "strokes": model.motor_count,
+        "motors": model.actuator_count,
+        "coupled": model.is_coupled,
+        "wired": model.wired,
+        "phase_knots": default_phase_knots(model),
+        "step": DEFAULT_STEP,
+        "orders": {
+            orientation.value: [
+                {"name": order.name, "feet": list(order.feet)} for order in named_orders(model, orientation)
+            ]
+            for orientation in Orientation
+        },
+    }
+
+
+@router.post("/gaits/drawn", status_code=201, tags=["gaits"])
+async def create_drawn_gait(asked: NewGait, studio: TheStudio) -> dict[str, Any]:
+    """Saves a new gait whose feet step one after the other."""
+    gait = _drawn(asked)
+    return await changed(studio, lambda: studio.gaits.create(gait))
+
+
+def _drawn(asked: NewGait) -> Gait:
+    model = load_robot(asked.robot)
+    return drawn_gait(
+        model,
+        asked.name,
+        asked.orientation,
+        named_orders(model, asked.orientation)[0].feet if asked.order is None else asked.order,
+        asked.step,
+        phase_knots=asked.phase_knots or default_phase_knots(model),
+        closing_knots=asked.closing_knots,
+        iterations=asked.iterations,
+    )

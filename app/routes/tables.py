@@ -1,0 +1,79 @@
+"""Segment tables: made of a drawn timeline, and mended where an edited segment does not fit."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+from fastapi import APIRouter
+from pydantic import BaseModel, ConfigDict, Field
+
+from app.document_models import SegmentTableModel
+from app.documents import gait_content, gait_from_content
+from core.errors import InputError
+from core.library import default_vocabulary
+from core.segments import Segment, SegmentVocabulary
+from core.table_making import table_from_timeline
+from core.table_repair import DraftTable, Repair, repairs
+
+router = APIRouter(tags=["segment tables"])
+
+
+class Make(BaseModel):
+    """A gait document whose timeline is to be said in segments."""
+
+    model_config = ConfigDict(extra="forbid")
+    document: dict[str, Any]
+
+
+class Mend(BaseModel):
+    """A table as it was typed, and its cells that must stay: foot and segment, counted from 0."""
+
+    model_config = ConfigDict(extra="forbid")
+    table: SegmentTableModel
+    kept: list[tuple[int, int]] = Field(default_factory=list, max_length=4000)
+
+
+@router.post("/api/tables/made")
+def made_table(make: Make) -> dict[str, Any]:
+    """The segment table that would imply a gait's timeline, or the sentence why there is none."""
+    gait = gait_from_content(make.document, "document")
+    if gait.segment_table is not None:
+        return {"table": gait_content(gait)["segment_table"], "sentence": None}
+    try:
+        table = table_from_timeline(gait.timeline, gait.iterations, gait.quarter_turns, default_vocabulary())
+    except InputError as error:
+        return {"table": None, "sentence": error.sentence}
+    return {"table": gait_content(replace(gait, segment_table=table))["segment_table"], "sentence": None}
+
+
+@router.post("/api/tables/repairs")
+def mended_tables(mend: Mend) -> dict[str, Any]:
+    """Ways to mend a table in which a segment does not start where the one before ends."""
+    draft = _draft(mend.table)
+    found = repairs(draft, {(foot, segment) for foot, segment in mend.kept})
+    return {"repairs": [_repair_content(repair, mend.table) for repair in found]}
+
+
+def _draft(model: SegmentTableModel) -> DraftTable:
+    segments = {name: Segment(**s.model_dump()) for name, s in model.definitions.segments.items()}
+    vocabulary = SegmentVocabulary(model.definitions.xy, model.definitions.z, segments)
+    rows, link = (tuple(tuple(row) for row in rows) for rows in (model.feet, model.link))
+    return DraftTable(rows, model.samples_per_segment, model.repeat_from, model.repeat_to, link, vocabulary)
+
+
+def _repair_content(repair: Repair, before: SegmentTableModel) -> dict[str, Any]:
+    table = repair.table
+    return {
+        "foot": repair.foot,
+        "first": repair.first,
+        "names": list(repair.names),
+        "inserted": repair.inserted,
+        "table": before.model_dump()
+        | {
+            "feet": [list(row) for row in table.rows],
+            "link": [list(row) for row in table.link],
+            "repeat_from": table.repeat_from,
+            "repeat_to": table.repeat_to,
+        },
+    }

@@ -1,0 +1,51 @@
+"""What a run was to do, as JSON content that stays readable when its gait has changed or gone."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from app.plans import Plan
+from app.trajectory_content import trajectory_content, trajectory_from_content
+from core.errors import StateError
+from core.findings import Approval
+from core.path_merging import WaypointPlan
+from core.robot import load_robot
+from core.run_pose import RanPlan
+from core.waypoints import Waypoints
+
+
+def run_plan_content(plan: Plan, way: WaypointPlan, approval: Approval) -> dict[str, Any]:
+    """What is kept of a plan with a run of it.
+
+    Args:
+        plan: with a trajectory.
+        way: exactly what is sent.
+        approval: by whom and of what.
+
+    Raises:
+        StateError: the plan has no motion.
+    """
+    if plan.trajectory is None:
+        raise StateError("A plan without a motion cannot be sent.", "plan")
+    return {
+        "robot": plan.model.name,
+        "durations": way.waypoints.durations.tolist(),
+        "strokes_mm": way.waypoints.strokes_mm.tolist(),
+        "times": way.times.tolist(),
+        "merge": way.merge,
+        "stop_bound": way.stop_bound,
+        "approval": asdict(approval),
+        "trajectory": trajectory_content(plan.trajectory),
+    }
+
+
+def ran_plan(content: dict[str, Any]) -> RanPlan:
+    """Inverse of `run_plan_content`, for comparing a run with its plan."""
+    model = load_robot(content["robot"])
+    rows_mm = np.array(content["strokes_mm"])
+    waypoints = Waypoints(rows_mm.reshape(len(rows_mm), model.leg_count, 3) / 1000.0, content["durations"])
+    trajectory = trajectory_from_content(content["trajectory"])
+    return RanPlan(model, waypoints, np.array(content["times"]), trajectory)

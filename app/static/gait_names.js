@@ -1,0 +1,9 @@
+/** Names that no other gait has. */
+
+/** The name, with a number where another gait has it already. */
+export function freeName({ gaits }, base) {
+  const names = new Set(gaits.map(({ name }) => name));
+  let name = base;
+  for (let count = 2; names.has(name); count += 1) name = `${base} ${count}`;
+  return name;
+}

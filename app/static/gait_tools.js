@@ -1,0 +1,72 @@
+/** What can be done to the list of gaits and to the gait that is shown: new, import; copy, export, delete with a way back. */
+
+import { actMenu } from "./act_menu.js";
+import { api } from "./api.js";
+import { bringBack, noneDeleted } from "./deleted_gaits.js";
+import { byId, h } from "./dom.js";
+import { freeName } from "./gait_names.js";
+import { importFiles } from "./imports.js";
+import { askNewGait } from "./new_gait.js";
+import { attempt, toast } from "./toasts.js";
+
+const FORMS = [
+  ["json", "Gait (JSON)"], ["csv", "Trajectory (CSV)"], ["companion", "Its companion (JSON)"], ["waypoints", "Waypoints (CSV)"],
+  ["npz", "Arrays (NPZ)"], ["phases", "Phase list (JSON)"], ["svg", "Gait diagram (SVG)"], ["png", "Gait diagram (PNG)"],
+  ["html", "3D playback (HTML)"],
+];
+
+async function exportFile(store, form) {
+  const { name, blob } = await api.exportFile(store.state.selected, form);
+  const address = URL.createObjectURL(blob);
+  h("a", { href: address, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(address), 1000);
+}
+
+async function remove(store, show) {
+  const { selected, gaits } = store.state;
+  const name = gaits.find(({ id }) => id === selected).name;
+  await api.remove(selected);
+  const restore = attempt(async () => {
+    await api.restore(selected);
+    await show(selected);
+  });
+  toast(`${name} is deleted.`, { action: { label: "Bring it back", act: restore } });
+  const next = store.state.gaits.find(({ id }) => id !== selected) ?? null;
+  await show(store.state.gaits.some(({ id }) => id === selected) ? selected : next?.id);
+}
+
+async function duplicate(store, show) {
+  const { selected, gaits } = store.state;
+  const { name } = gaits.find(({ id }) => id === selected);
+  const view = await api.copy(selected, freeName(store.state, `${name} copy`));
+  await show(view.id);
+}
+
+/** Asks for a new gait and shows it. */
+export async function makeGait(store, show, preset = {}) {
+  const id = await askNewGait({ ...preset, name: freeName(store.state, preset.name ?? "New gait") });
+  if (id) await show(id);
+}
+
+/**
+ * Builds the buttons.
+ * @param {object} store
+ * @param {(id: string) => Promise<void>} show shows a gait
+ * @returns {{addNew: (entry: {text: string, help: string, act: () => void}) => void}} another entry of the menu New
+ */
+export function mountGaitTools(store, show) {
+  const link = (text, title, act) => h("button", { class: "link", text, title, on: { click: attempt(() => act(store, show)) } });
+  const deletion = link("Delete", "Delete this saved gait; it can be brought back", remove);
+  const news = actMenu({ name: "New", help: "A new gait, or one from a file", entries: [
+    { text: "New gait…", help: "Robot, foot order, step and phase lengths", act: attempt(() => makeGait(store, show)) },
+    { text: "Import…", help: "Read gaits, trajectories with their companions, waypoints or phase lists", act: () => importFiles(show) },
+    { text: "Deleted gaits…", help: "Bring back a gait that was deleted", act: attempt(() => bringBack(show)), refusal: noneDeleted },
+  ] });
+  const exports = actMenu({ name: "Export", help: "Write this gait as a file", entries: FORMS.map(([form, text]) => ({ text, help: `Write this gait as ${text}`, act: attempt(() => exportFile(store, form)) })) });
+  byId("gait-new").append(news.element);
+  byId("gait-tools").append(link("Duplicate", "A copy of this gait under another name", duplicate), exports.element, deletion);
+  store.watch(({ gaits, selected }) => [gaits, selected], ({ gaits, selected }) => {
+    deletion.hidden = gaits.find(({ id }) => id === selected)?.kind !== "saved";
+  });
+  return { addNew: (entry) => news.add(entry, 1) };
+}

@@ -1,0 +1,64 @@
+/** The ghosts of the 3D preview: the gait before the last edit, as it was saved, and as a run measured it, as quiet second robots. */
+
+import { api } from "./api.js";
+import { checkMenu, recalled, remember } from "./check_menu.js";
+import { byId } from "./dom.js";
+import { lane } from "./lane.js";
+
+const KINDS = {
+  before: { text: "Before the last edit", help: "The gait as it was before the last edit, at the same time; while you drag, as it is without the drag" },
+  saved: { text: "As saved", help: "The gait as it was saved, at the same time" },
+  measured: { text: "As measured", shown: true, help: "The robot of the run that is open, by its measured strokes, with the plan's standing feet on the ground" },
+};
+
+const keyOf = (view, of) => `${view.id} ${of} ${view.revision} ${view.saved_at}`;
+
+/** Which version is fetched for a ghost, and why there is none. */
+function versionOf(kind, { view, live, run }) {
+  if (!view) return { reason: "No gait is selected." };
+  if (kind === "measured") return run?.gait === view.id ? { of: run.id } : { reason: "No run of this gait is open. Open one under Runs." };
+  if (kind === "saved") return view.edited || live ? { of: "saved" } : { reason: "The gait is as it was saved." };
+  if (live) return { of: "present" };
+  return view.changed ? { of: "before" } : { reason: "This gait was not changed yet." };
+}
+
+/** Keeps one ghost current: fetched once a version, shown while it is wanted. */
+function follow(store, preview, kind, menu, isOn) {
+  let shown = null;
+  const offer = lane(async ({ id, of, key }) => {
+    let poses = null;
+    try {
+      poses = await (kind === "measured" ? api.runGhost(of) : api.ghost(id, of));
+    } catch {
+      // That version makes no motion: there is nothing to be drawn.
+    }
+    if (shown === key) preview.setGhost(kind, poses);
+  });
+  return () => {
+    const { of, reason } = versionOf(kind, store.state);
+    menu.allow(kind, reason ?? null);
+    const key = of && isOn() ? keyOf(store.state.view, of) : null;
+    if (key === shown) return;
+    shown = key;
+    if (key) offer({ id: store.state.view.id, of, key });
+    else preview.setGhost(kind, null);
+  };
+}
+
+/** Builds the menu; what is chosen is remembered. */
+export function mountGhosts(store, preview) {
+  const choice = recalled("ghosts", Object.fromEntries(Object.entries(KINDS).map(([kind, { shown = false }]) => [kind, shown])));
+  const followers = {};
+  const menu = checkMenu({
+    id: "ghosts-menu", name: "Ghosts", help: "Other versions of this gait as quiet second robots",
+    entries: Object.entries(KINDS).map(([key, { text, help }]) => ({ key, text, help, checked: choice[key], swatch: true })),
+    onChange(kind, checked) {
+      choice[kind] = checked;
+      remember("ghosts", choice);
+      followers[kind]();
+    },
+  });
+  for (const kind of Object.keys(KINDS)) followers[kind] = follow(store, preview, kind, menu, () => choice[kind]);
+  byId("stage-tools").append(menu.element);
+  store.watch(({ view, live, run }) => [view?.id, view?.revision, view?.saved_at, view?.edited, Boolean(live), run?.id], () => Object.values(followers).forEach((update) => update()));
+}

@@ -1,0 +1,54 @@
+/** What a run measured over what was planned, on the plan's time axis: strokes, and heights of the feet. */
+
+import { acrossOf, pathOf } from "./curves.js";
+
+/** What of a run stands over which strip: its rows, and how many values of a row belong to a foot. */
+const OVER = { strokes: { of: "measured_mm", aFoot: 3 }, heights: { of: "foot_heights_mm", aFoot: 1 } };
+
+/** A run's telemetry an iteration of the plan: the plan's times, which grow, with what was measured then. */
+function iterations({ plan_times: times, laps }, values) {
+  const byLap = new Map();
+  times.forEach((time, index) => {
+    if (time === null || !values[index]) return;
+    if (!byLap.has(laps[index])) byLap.set(laps[index], { times: [], rows: [] });
+    const lap = byLap.get(laps[index]);
+    lap.times.push(time);
+    lap.rows.push(values[index]);
+  });
+  return [...byLap.values()];
+}
+
+const known = new WeakMap();
+
+/** What of a run stands over a strip, or null. */
+export function measuredOf(run, strip) {
+  const values = run?.[OVER[strip]?.of];
+  if (!values) return null;
+  if (!known.has(values)) known.set(values, { laps: iterations(run, values), aFoot: OVER[strip].aFoot });
+  return known.get(values);
+}
+
+/** What was measured of the shown gait, by the run that is on or else by the one that is open; or null. */
+export function runOver({ run, trace, selected, iterate }) {
+  if (iterate) return null;
+  if (trace?.gait === selected) return trace;
+  return run?.strokes && run.gait === selected ? run.strokes : null;
+}
+
+/** Least and greatest measured value, mm. */
+export function measuredRange({ laps }) {
+  const values = laps.flatMap(({ rows }) => rows.flat()).filter((value) => value !== null);
+  return values.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [Infinity, -Infinity]);
+}
+
+/** A curve a foot, as `stripCanvas` takes them. */
+export function measuredCurves({ laps, aFoot }, axis, scale) {
+  const feet = Math.ceil((laps[0]?.rows[0].length ?? 0) / aFoot);
+  return Array.from({ length: feet }, (_, foot) => ({
+    tone: foot + 1, width: 1.5, alpha: 1,
+    d: laps.flatMap(({ times, rows }) => {
+      const across = acrossOf(axis, times);
+      return Array.from({ length: aFoot }, (__, one) => pathOf(across, (index) => rows[index][foot * aFoot + one], scale));
+    }).join(""),
+  }));
+}

@@ -1,0 +1,28 @@
+/** The panels that a person turns to later, and the 3D preview, whose client takes the browser's time for itself. */
+
+import { mountCheck } from "./check.js";
+import { mountRobot } from "./robot.js";
+import { mountRuns } from "./runs.js";
+import { mountSegments } from "./segments.js";
+import { mountSequence } from "./sequence.js";
+import { mountSequenceBand } from "./sequence_band.js";
+import { mountStage } from "./stage.js";
+import { mountVersions } from "./versions.js";
+
+/**
+ * Builds them.
+ * @param {{store: object, edits: object, playback: Playback, goTo: Function, gaitTools: object}} page
+ * @returns {{segments: () => boolean, sequence: () => boolean, countdown: () => boolean, runs: () => boolean}} what each does on Escape; true
+ *   where it did something
+ */
+export function mountPanels({ store, edits, playback, goTo, gaitTools }) {
+  const sequence = mountSequence(store, edits, playback, gaitTools);
+  mountSequenceBand(store, playback);
+  const segments = mountSegments(store, edits);
+  mountCheck(store, edits, goTo);
+  const countdown = mountRobot(store, playback);
+  mountVersions(store, edits);
+  const runs = mountRuns(store);
+  mountStage(store, edits, playback);
+  return { segments: segments.escape, sequence: sequence.cancel, countdown, runs };
+}

@@ -1,0 +1,158 @@
+/**
+ * The marks round the robot as messages to the client: support polygon, centres of mass and pressure with their
+ * traces, swings, footholds, what is lacking, and the reach of the legs. Only what is new is said.
+ */
+
+import { planUpdates, polygonUpdates, pressureAt, sampleAt, troubleUpdates } from "./overlay.js";
+import { shellUpdate } from "./shells.js";
+import { visibleMessage } from "./viser_client.js";
+
+const COM = "/overlay/com";
+const COP = "/overlay/cop";
+const SHELLS = "/robot/body/reach";
+const STILL = 1e-7;
+
+/** Marks of a fixed name by the part that shows or hides them; swings and footholds have a mark a foot. */
+const PARTS = {
+  polygon: ["/overlay/polygon", "/overlay/polygon_edge"], com: [COM, "/overlay/com_trace"], cop: [COP, "/overlay/cop_trace"],
+  trouble: ["/overlay/trouble"], reach: [SHELLS],
+};
+
+export class Marks {
+  #client;
+  #overlay = null;
+  #trouble = [];
+  #shells = null;
+  #caution = 0.003;
+  #theme = "light";
+  #visible = { polygon: true, com: true, cop: true, traces: true, footholds: true, trouble: true, robot: true, reach: false };
+  #planSaid = false;
+  #visibleSaid = null;
+  #sample = -1;
+  #shellSaid = null;
+  #pressure = null;
+  #points = new Map();
+
+  /** @param {import("./viser_client.js").ViserClient} client */
+  constructor(client) {
+    this.#client = client;
+  }
+
+  get overlay() { return this.#overlay; }
+
+  /** Whether nothing of the plan has been said yet. */
+  get isNew() { return !this.#planSaid; }
+
+  setOverlay(overlay, trouble = this.#trouble) {
+    this.#overlay = overlay;
+    this.#trouble = trouble;
+    this.#shells = null;
+    this.#again();
+  }
+
+  setShells(shells) {
+    this.#shells = shells;
+    this.#shellSaid = null;
+    this.#sample = -1;
+    this.#planSaid = false;
+  }
+
+  setCaution(metres) {
+    this.#caution = metres;
+    this.#sample = -1;
+  }
+
+  setDark(dark) {
+    this.#theme = dark ? "dark" : "light";
+    this.#planSaid = false;
+  }
+
+  show(part, visible) {
+    this.#visible[part] = visible;
+  }
+
+  /** The client's scene is a new one: everything has to be said again. */
+  forget() {
+    this.#visibleSaid = null;
+    this.#points.clear();
+    this.#again();
+  }
+
+  #again() {
+    this.#planSaid = false;
+    this.#sample = -1;
+    this.#shellSaid = null;
+    this.#pressure = null;
+  }
+
+  /** Messages that bring the marks up to a time. */
+  messages(time) {
+    return [...this.#planMessages(), ...this.#sampleMessages(time), ...this.#pressureMessages(time)];
+  }
+
+  /** What stays the same all through the plan. */
+  #planMessages() {
+    if (this.#planSaid) return [];
+    this.#planSaid = true;
+    const lines = this.#overlay ? this.#updates(planUpdates(this.#overlay, this.#theme)) : [];
+    return [...lines, ...this.visibleMessages()];
+  }
+
+  #sampleMessages(time) {
+    if (!this.#overlay) return [];
+    const sample = sampleAt(this.#overlay.times, time);
+    if (sample === this.#sample) return [];
+    this.#sample = sample;
+    return this.#updates([
+      ...polygonUpdates(this.#overlay, sample, this.#caution, this.#trouble), troubleUpdates(this.#overlay, sample, this.#trouble), ...this.#shellUpdates(sample),
+    ]);
+  }
+
+  /** The reach changes with the body's height only, which seldom changes. */
+  #shellUpdates(sample) {
+    const height = this.#shells?.planes[sample];
+    if (!this.#visible.reach || height === undefined || height === this.#shellSaid) return [];
+    this.#shellSaid = height;
+    return [[SHELLS, shellUpdate(this.#shells, sample)]];
+  }
+
+  #pressureMessages(time) {
+    const at = this.#overlay ? pressureAt(this.#overlay, time) : null;
+    if (!at || !this.#client.node(COP) || (this.#pressure && Math.hypot(at[0] - this.#pressure[0], at[1] - this.#pressure[1]) < STILL)) return [];
+    this.#pressure = at;
+    return [{ type: "SetPositionMessage", name: COP, owner: "", position: at }];
+  }
+
+  /** What is to be seen and what is hidden, where that is news. */
+  visibleMessages() {
+    const known = (name) => this.#client.node(name);
+    const wanted = Object.entries(PARTS).flatMap(([part, names]) => names.map((name) => [name, this.#visible[part] && this.#has(part)]));
+    for (let foot = 1; known(`/overlay/swing${foot}`); foot += 1) {
+      wanted.push([`/overlay/swing${foot}`, this.#visible.traces && this.#has("traces")], [`/overlay/foothold${foot}`, this.#visible.footholds && this.#has("footholds")]);
+    }
+    const messages = wanted.filter(([name]) => known(name)).map(([name, on]) => visibleMessage(name, on));
+    messages.push(visibleMessage("/robot", this.#visible.robot));
+    // Each of these costs the client a walk over its tree and a frame: only what is new is said.
+    const key = JSON.stringify(messages);
+    if (key === this.#visibleSaid) return [];
+    this.#visibleSaid = key;
+    return messages;
+  }
+
+  #has(part) {
+    if (part === "reach") return this.#shells !== null;
+    return this.#overlay !== null && (part !== "cop" || Boolean(this.#overlay.cop));
+  }
+
+  #updates(updates) {
+    return updates.filter(([name, values]) => this.#client.node(name) && this.#isNews(name, values)).map(([name, values]) => this.#client.updateMessage(name, values));
+  }
+
+  /** Whether lines differ from those said last: new ones cost the client a new geometry, and most feet keep theirs in an edit. */
+  #isNews(name, { points, colors }) {
+    if (!points) return true;
+    const [before, now] = [this.#points.get(name), [...points, ...(colors ?? [])]];
+    this.#points.set(name, now);
+    return !before || before.length !== now.length || now.some((value, index) => value !== before[index]);
+  }
+}

@@ -1,0 +1,43 @@
+/** Changes of a sequence: each a function from document to document, and what its undo entry is called. */
+
+const withParts = (change) => (document) => ({ ...document, sequence: change(document.sequence ?? []) });
+
+/** How often a part may run. */
+export const MOST_TIMES = 20;
+
+/** Why nothing is drawn on a sequence's timeline. */
+export const FOLLOWS = "The timeline of a sequence follows from its parts. Change the gait that a part comes from, and take it over.";
+
+/** Whether a document chains gaits. */
+export const isSequence = (document) => Boolean(document?.sequence?.length);
+
+/**
+ * Adds a gait at the end; one that is itself a sequence stands for its parts.
+ * @param {object} gait its document
+ * @param {string} source its id
+ */
+export function added(gait, source) {
+  const parts = isSequence(gait) ? gait.sequence : [{ gait, times: 1, source }];
+  return { apply: withParts((before) => [...before, ...parts]), label: `Add ${gait.name}` };
+}
+
+/** Takes a part out. */
+export function removed(document, index) {
+  return { apply: withParts((parts) => parts.filter((_, at) => at !== index)), label: `Take out ${document.sequence[index].gait.name}` };
+}
+
+/** Moves a part to another place, counted from 0. */
+export function moved(document, from, to) {
+  const apply = withParts((parts) => {
+    if (!parts[from]) return parts;
+    const rest = parts.filter((_, at) => at !== from);
+    return [...rest.slice(0, to), parts[from], ...rest.slice(to)];
+  });
+  return { apply, label: `Move ${document.sequence[from].gait.name} to place ${to + 1}` };
+}
+
+/** Lets a part run so often. */
+export function repeated(document, index, times) {
+  const apply = withParts((parts) => parts.map((part, at) => (at === index ? { ...part, times } : part)));
+  return { apply, label: `${document.sequence[index].gait.name}: ${times}×` };
+}

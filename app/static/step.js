@@ -1,0 +1,34 @@
+/** The step of a gait: the body's travel an iteration, in the world's axes and along its own way. */
+
+const HALF_TURN = 180;
+
+/** [x, y] turned by quarter turns. */
+function turned([x, y], quarters) {
+  return [[x, y], [-y, x], [-x, -y], [y, -x]][((quarters % 4) + 4) % 4];
+}
+
+/** Body travel an iteration, m. */
+export const stepLength = ({ step }) => Math.hypot(step[0], step[1]);
+
+/** Body travel an iteration in the world's axes, [x, y] in m. */
+export const worldStep = ({ step, direction }) => turned([step[0], step[1]], direction - 1);
+
+/** The document with that travel. */
+export function withWorldStep(document, xy) {
+  const [dx, dy] = turned(xy, 1 - document.direction);
+  return { ...document, step: [dx, dy, document.step[2]] };
+}
+
+/** The document with a longer or shorter step the same way; one of no length gets the gait's own heading. */
+export function withStepLength(document, metres) {
+  const length = stepLength(document);
+  const own = document.orientation === "FB" ? [Math.SQRT1_2, Math.SQRT1_2] : [1, 0];
+  const [x, y] = length > 1e-9 ? [document.step[0] / length, document.step[1] / length] : own;
+  return { ...document, step: [x * metres, y * metres, document.step[2]] };
+}
+
+/** Turn of the body an iteration, degrees. */
+export const stepTurn = ({ step }) => (step[2] * HALF_TURN) / Math.PI;
+
+/** The document with that turn. */
+export const withTurn = (document, degrees) => ({ ...document, step: [document.step[0], document.step[1], (degrees * Math.PI) / HALF_TURN] });

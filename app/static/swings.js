@@ -1,0 +1,61 @@
+/** Moving a swing of the timeline, or one end of it: what a drag leads to, held where it may not go on. */
+
+/** The swing of a row around a sample, or null in stance. */
+export function swingAt(row, sample) {
+  if (row[sample] !== "0") return null;
+  const next = row.indexOf("1", sample);
+  return { first: row.lastIndexOf("1", sample) + 1, last: (next < 0 ? row.length : next) - 1 };
+}
+
+/** Which part of its swing a sample is: "first", "last", "only" (both at once), "middle", or null in stance. */
+export function partOf(row, sample) {
+  if (row[sample] !== "0") return null;
+  const [first, last] = [row[sample - 1] !== "0", row[sample + 1] !== "0"];
+  return first && last ? "only" : first ? "first" : last ? "last" : "middle";
+}
+
+const shifted = ({ first, last }, part, by) => ({
+  first: part === "last" ? first : first + by,
+  last: part === "first" ? last : last + by,
+});
+
+/** Samples whose value differs between two swings: `toSwing` and `toStance`. */
+export function differing(from, to) {
+  const span = ({ first, last }) => Array.from({ length: last - first + 1 }, (_, index) => first + index);
+  const inside = ({ first, last }) => (sample) => sample >= first && sample <= last;
+  return { toSwing: span(to).filter((sample) => !inside(from)(sample)), toStance: span(from).filter((sample) => !inside(to)(sample)) };
+}
+
+/** Why a swing may not come to lie there; "" where only the border of the timeline is in the way, null where it may. */
+function obstacle({ row, locked, foot }, from, to) {
+  if (to.first < 0 || to.last >= row.length) return "";
+  if (to.first > to.last) return `The swing of foot ${foot + 1} keeps at least one sample. Click it for stance.`;
+  const { toSwing, toStance } = differing(from, to);
+  const fixed = [...toSwing, ...toStance].find((sample) => locked?.[sample] === "1");
+  if (fixed !== undefined) return `Foot ${foot + 1}, sample ${fixed + 1} is locked.`;
+  const next = [to.first - 1, ...toSwing, to.last + 1].find((sample) => row[sample] === "0" && (sample < from.first || sample > from.last));
+  return next === undefined ? null : `Foot ${foot + 1} has another swing at sample ${next + 1}; one sample of stance stays between them.`;
+}
+
+/**
+ * Moves a swing or one end of it as far as it may go.
+ * @param {{row: string, locked: string|undefined, foot: number}} line
+ * @param {{first: number, last: number}} from
+ * @param {"first"|"last"|"middle"} part
+ * @param {number} by samples
+ * @returns {{to: {first: number, last: number}, by: number, reason: string|null}} `reason` says what held it
+ */
+export function moved(line, from, part, by) {
+  let reached = 0;
+  for (const sign = Math.sign(by); reached !== by; reached += sign) {
+    const reason = obstacle(line, from, shifted(from, part, reached + sign));
+    if (reason !== null) return { to: shifted(from, part, reached), by: reached, reason: reason || null };
+  }
+  return { to: shifted(from, part, by), by, reason: null };
+}
+
+/** Name of the undo entry. */
+export function movedLabel(foot, part, to, by) {
+  if (part === "middle") return `Foot ${foot + 1}: swing moved by ${by > 0 ? "+" : "−"}${Math.abs(by)}`;
+  return `Foot ${foot + 1}: swing to sample${to.first === to.last ? ` ${to.first + 1}` : `s ${to.first + 1}–${to.last + 1}`}`;
+}

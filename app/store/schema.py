@@ -1,0 +1,106 @@
+"""The database's tables, and how an older database becomes one of today.
+
+`PRAGMA user_version` holds the number of the last migration that was done.
+"""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from collections.abc import Callable
+
+from core.errors import InputError
+
+_BASE = """
+CREATE TABLE IF NOT EXISTS history(
+    gait TEXT, position INTEGER, label TEXT, document TEXT, PRIMARY KEY(gait, position));
+CREATE TABLE IF NOT EXISTS open_gait(
+    gait TEXT PRIMARY KEY, revision INTEGER, cursor INTEGER, notice TEXT, approval TEXT);
+CREATE TABLE IF NOT EXISTS result(motion TEXT PRIMARY KEY, content TEXT);
+CREATE TABLE IF NOT EXISTS job(id TEXT PRIMARY KEY, created REAL, content TEXT);
+CREATE TABLE IF NOT EXISTS approval(
+    number INTEGER PRIMARY KEY AUTOINCREMENT, gait TEXT, content TEXT);
+CREATE TABLE IF NOT EXISTS run(id TEXT PRIMARY KEY, started REAL, content TEXT);
+CREATE TABLE IF NOT EXISTS run_bytes(
+    number INTEGER PRIMARY KEY AUTOINCREMENT, run TEXT, time REAL, direction TEXT, data BLOB);
+"""
+"""The tables of the first release."""
+
+
+def bring_up_to_date(connection: sqlite3.Connection) -> None:
+    """Makes the tables, or changes those of an older database, in one transaction.
+
+    Raises:
+        InputError: a newer program wrote the database.
+    """
+    found = int(connection.execute("PRAGMA user_version").fetchone()[0])
+    if found > len(_MIGRATIONS):
+        raise InputError(
+            f"The database has version {found}; this program reads up to version {len(_MIGRATIONS)}. "
+            "Start the newer program, or give another data folder with --data.",
+            "--data",
+        )
+    if found == len(_MIGRATIONS):
+        return
+    connection.execute("BEGIN IMMEDIATE")
+    with connection:
+        for statement in _BASE.split(";"):
+            connection.execute(statement)
+        for migrate in _MIGRATIONS[found:]:
+            migrate(connection)
+        connection.execute(f"PRAGMA user_version = {len(_MIGRATIONS)}")
+
+
+def _add_authors_and_versions(connection: sqlite3.Connection) -> None:
+    """A log that only grows, by whom, and versions.
+
+    Before, undo moved a cursor back in the history. Where it stands back, the document that it points at is
+    added as the newest.
+    """
+    for statement in (
+        "ALTER TABLE history ADD COLUMN page TEXT NOT NULL DEFAULT 'api'",
+        "ALTER TABLE history ADD COLUMN name TEXT NOT NULL DEFAULT ''",
+        "ALTER TABLE open_gait RENAME COLUMN cursor TO last",
+        "ALTER TABLE open_gait ADD COLUMN done TEXT NOT NULL DEFAULT '[]'",
+        "ALTER TABLE open_gait ADD COLUMN undone TEXT NOT NULL DEFAULT '[]'",
+        "CREATE TABLE version(gait TEXT, number INTEGER, made REAL, kind TEXT, name TEXT, by TEXT, "
+        "position INTEGER, motion TEXT, document TEXT, PRIMARY KEY(gait, number))",
+    ):
+        connection.execute(statement)
+    for gait, cursor in connection.execute("SELECT gait, last FROM open_gait").fetchall():
+        _from_cursor(connection, gait, cursor)
+
+
+def _from_cursor(connection: sqlite3.Connection, gait: str, cursor: int) -> None:
+    last = connection.execute("SELECT MAX(position) FROM history WHERE gait=?", (gait,)).fetchone()[0]
+    done = [(position, position, "api") for position in range(1, cursor + 1)]
+    undone = [(position, last + 1, "api") for position in range(last, cursor, -1)]
+    if undone:
+        last += 1
+        connection.execute(
+            "INSERT INTO history(gait, position, label, document) "
+            "SELECT gait, ?, 'Undo', document FROM history WHERE gait=? AND position=?",
+            (last, gait, cursor),
+        )
+    connection.execute(
+        "UPDATE open_gait SET last=?, done=?, undone=? WHERE gait=?",
+        (last, json.dumps(done), json.dumps(undone), gait),
+    )
+
+
+def _add_to_runs(connection: sqlite3.Connection) -> None:
+    """Of a run its plan, states with causes, figures, a person's note, and when it was deleted."""
+    for statement in (
+        "ALTER TABLE run ADD COLUMN note TEXT NOT NULL DEFAULT ''",
+        "ALTER TABLE run ADD COLUMN deleted REAL",
+        "CREATE TABLE run_plan(run TEXT PRIMARY KEY, content TEXT)",
+        "CREATE TABLE run_state(number INTEGER PRIMARY KEY AUTOINCREMENT, run TEXT, time REAL, link TEXT, "
+        "robot TEXT, cause TEXT)",
+        "CREATE TABLE run_figures(run TEXT PRIMARY KEY, content TEXT)",
+        "CREATE INDEX run_bytes_of_run ON run_bytes(run)",
+        "CREATE INDEX run_state_of_run ON run_state(run)",
+    ):
+        connection.execute(statement)
+
+
+_MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (_add_authors_and_versions, _add_to_runs)

@@ -1,0 +1,152 @@
+"""What is missing where no motion exists: the least total miss, and a proof that it cannot be 0."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from core.arrays import Floats
+from solver_jobs.constraint import Family
+from solver_jobs.live.programme import MOST_ELASTIC_ITERATIONS, Answer, Programme, Solver, stacked
+from solver_jobs.live.rows import Rows
+
+COST_WEIGHT = 1e-7
+"""Weight of the motion's cost beside the sum of all misses; it only makes the answer unique."""
+
+FARTHEST = 300.0
+"""No position is further from that of the nearest motion than this, mm; and no speed, mm/s, where limits
+allow no more than half of it."""
+
+PROOF_MM = 1e-3
+"""A total miss that is proven to be at least this large counts as a proof."""
+
+
+@dataclass(frozen=True, eq=False)
+class Nearest:
+    """The motion that misses its limits by the least total.
+
+    Args:
+        x: its unknowns.
+        misses: for each family of rows, the miss of each of its groups, in its unit.
+        total: sum of all misses, mm.
+        proven: lower bound of that sum for any motion, mm; above 0 no motion keeps every row.
+        answer: the solver's.
+    """
+
+    x: Floats
+    misses: tuple[Floats, ...]
+    total: float
+    proven: float
+    answer: Answer
+
+
+def nearest(
+    solver: Solver,
+    cost: tuple[Floats, Floats],
+    rows: Sequence[Rows],
+    interval: float,
+    farthest: float = FARTHEST,
+) -> Nearest | None:
+    """Finds the least total miss; None where the solver gives no answer.
+
+    Every group of rows may miss its bounds by one amount s ≥ 0: lower − s ≤ A x ≤ upper + s, minimise Σ w s,
+    where w is 1 for mm and the knots' interval for mm/s.
+
+    Args:
+        solver: to be used.
+        cost: curvature and gradient of the motion's cost.
+        rows: every family; equations of motion stay exact.
+        interval: time between knots, s.
+        farthest: how far any number of a motion may be from that of the nearest one, mm or mm/s.
+    """
+    size = len(cost[0])
+    programme, offsets = _elastic(cost, rows, interval)
+    answer = solver.solve(programme, MOST_ELASTIC_ITERATIONS)
+    if not answer.solved:
+        return None
+    misses = np.maximum(answer.x[size:], 0.0)
+    split = tuple(misses[first - size : last - size] for first, last in pairwise(offsets))
+    total = float(programme.gradient[size:] @ misses)
+    return Nearest(answer.x[:size], split, total, _bound(programme, answer, size, farthest), answer)
+
+
+def _elastic(
+    cost: tuple[Floats, Floats], rows: Sequence[Rows], interval: float
+) -> tuple[Programme, list[int]]:
+    """The programme with misses behind the unknowns, and where each family's misses begin and end."""
+    size = len(cost[0])
+    offsets = [size]
+    halves, soft_column, weights = [], [], []
+    for one in rows:
+        misses = _group_count(one)
+        for half in _halves(one):
+            halves.append(half)
+            soft_column.append(offsets[-1] + half.group if misses else np.full(half.count, -1))
+        weights.append(np.full(misses, interval if one.unit == "mm/s" else 1.0))
+        offsets.append(offsets[-1] + misses)
+    row, column, value, lower, upper = stacked(halves)
+    columns = np.concatenate(soft_column)
+    soft = np.nonzero(columns >= 0)[0]
+    weight = np.concatenate(weights)
+    programme = Programme(
+        np.concatenate([COST_WEIGHT * cost[0], np.full(len(weight), COST_WEIGHT)]),
+        np.concatenate([COST_WEIGHT * cost[1], weight]),
+        np.concatenate([row, soft]),
+        np.concatenate([column, columns[soft]]),
+        np.concatenate([value, np.full(len(soft), -1.0)]),
+        lower,
+        upper,
+        np.concatenate([np.full(size, -np.inf), np.zeros(len(weight))]),
+    )
+    return programme, offsets
+
+
+def _halves(one: Rows) -> list[Rows]:
+    """The same rows with an upper bound only; equations of motion stay as they are."""
+    if one.family is Family.DYNAMICS:
+        return [one]
+    return [half for half in (_half(one, 1.0), _half(one, -1.0)) if half.count]
+
+
+def _half(one: Rows, sign: float) -> Rows:
+    bound = one.upper if sign > 0 else -one.lower
+    kept = np.isfinite(bound)
+    number = np.cumsum(kept) - 1
+    entries = kept[one.row]
+    return Rows(
+        one.family,
+        one.unit,
+        number[one.row[entries]],
+        one.column[entries],
+        sign * one.value[entries],
+        np.full(int(kept.sum()), -np.inf),
+        bound[kept],
+        one.knot[kept],
+        one.feet[kept],
+        one.group[kept],
+    )
+
+
+def _group_count(one: Rows) -> int:
+    """Misses of a family; equations of motion have none."""
+    return int(one.group.max()) + 1 if one.count and one.family is not Family.DYNAMICS else 0
+
+
+def _bound(programme: Programme, answer: Answer, size: int, farthest: float) -> float:
+    """A lower bound of the total miss by weak duality, whatever the solver's accuracy.
+
+    With multipliers y ≥ 0 of the upper bounds, scaled so that no group's sum exceeds its weight, and z of the
+    equations, every motion has Σ w s ≥ −(bᵀy + fᵀz) + rᵀx, where r = Aᵀy + Eᵀz is nearly 0.
+    """
+    equation = programme.lower == programme.upper
+    y = np.where(equation, answer.multipliers, np.maximum(answer.multipliers, 0.0))
+    sums = np.zeros(len(programme.gradient))
+    np.add.at(sums, programme.column, programme.value * y[programme.row])
+    pressure = -sums[size:]
+    excess = float((pressure / programme.gradient[size:]).max(initial=1.0))
+    remainder = np.abs(sums[:size]) @ (np.abs(answer.x[:size]) + farthest)
+    bounds = np.where(y != 0, programme.upper, 0.0)
+    return float((-(bounds @ y) - remainder) / max(excess, 1.0))

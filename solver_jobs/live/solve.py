@@ -1,0 +1,269 @@
+"""The live tier's answer to a problem: a motion, or why there is none."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from core.arrays import Floats
+from core.draft import initial_motion
+from core.motion_check import check_motion
+from core.motion_problem import MotionProblem
+from core.trajectory import Trajectory, turn_trajectory
+from solver_jobs.assembly import box_of
+from solver_jobs.constraint import situation_of
+from solver_jobs.live.elastic import FARTHEST, PROOF_MM, Nearest, nearest
+from solver_jobs.live.explain import lacks_of, low_lacks, sentences
+from solver_jobs.live.motion import motion_cost, trajectory_of
+from solver_jobs.live.motors import motor_rows
+from solver_jobs.live.outline import MM, Outline, outline_of
+from solver_jobs.live.programme import Answer, Programme, Solver, stacked
+from solver_jobs.live.reach import height_reach, reach_of, standing_reach, swinging_reach
+from solver_jobs.live.rows import DiscPolygon, Rows, balance, body_speed, foot_speed, friction, integration
+from solver_jobs.obstacles import obstacles
+from solver_jobs.results import Evidence, MotionResult, SolveStatus
+
+COARSE, FINE, AROUND = 16, 64, 32
+"""Edges of the polygons that stand for discs: while dragging, before saying no, and in a proof."""
+
+NEARLY_MM = 30.0
+"""A total miss below this may be due to the coarse polygons."""
+
+LEVELS = (0.0550, 0.0575, 0.0530, 0.0605)
+"""Heights of the actuator plane that are tried between start and goal where nothing else works, m."""
+
+ROUNDS = 5
+"""How often motor limits are made linear anew."""
+
+SETTLED_MM = 1e-9
+"""What is known may miss its bounds by this much."""
+
+AT_THE_EDGE = (
+    "This lies at the edge of what the model allows: no motion was found, though less than 0.005 mm is "
+    "missing. Shorten the step a little. This is diagnosed, not proven."
+)
+"""What is said where nothing notable is missing."""
+
+_solver = Solver()
+
+
+@dataclass(eq=False)
+class _Search:
+    """One problem of direction 1 and the time spent on it."""
+
+    problem: MotionProblem
+    seconds: float = 0.0
+
+    def solve(self, programme: Programme) -> Answer:
+        answer = _solver.solve(programme)
+        self.seconds += answer.seconds
+        return answer
+
+
+def solve_live(problem: MotionProblem) -> MotionResult:
+    """Solves the convex problem; not for several threads at once.
+
+    Args:
+        problem: what is asked. It is solved in direction 1 and turned back, so that directions agree.
+
+    Returns:
+        Solved with a motion; or infeasible with the nearest one, proven for the model of given footholds and
+        heights where weak duality says so, else diagnosed; failed where the solver has no answer.
+    """
+    begin = time.perf_counter()
+    situation = situation_of(problem)
+    blocking = obstacles(situation, box_of(situation))
+    search = _Search(problem.turned(-problem.quarter_turns))
+    result = _blocked(search, problem, blocking) if blocking else _turned(_solve(search), problem)
+    return replace(result, build_seconds=max(time.perf_counter() - begin - result.solve_seconds, 0.0))
+
+
+def _blocked(search: _Search, problem: MotionProblem, sentences: tuple[str, ...]) -> MotionResult:
+    """What bounds alone rule out; where it happens is looked for in the nearest motion."""
+    told = (*sentences, "This is proven: no motion of the model can do it.")
+    if not problem.timeline.contact[:-1].any(axis=1).all():
+        return _result(SolveStatus.INFEASIBLE, initial_motion(problem), 0.0, told, Evidence.PROVEN)
+    found = _turned(_unsolved(search, natural_outline(search.problem)), problem)
+    lacks = (*low_lacks(problem), *found.lacks)
+    return replace(
+        found, status=SolveStatus.INFEASIBLE, explanation=told, evidence=Evidence.PROVEN, lacks=lacks
+    )
+
+
+def quick_motion(problem: MotionProblem, sides: int = COARSE) -> Trajectory | None:
+    """A motion with the body at its natural height and polygons of so many edges; None if there is none."""
+    situation = situation_of(problem)
+    if obstacles(situation, box_of(situation)):
+        return None
+    turns = problem.quarter_turns
+    search = _Search(problem.turned(-turns))
+    motion = _attempt(search, natural_outline(search.problem), sides)
+    return None if motion is None else turn_trajectory(motion, turns)
+
+
+def _solve(search: _Search) -> MotionResult:
+    natural = natural_outline(search.problem)
+    if (motion := _attempt(search, natural, COARSE)) is not None:
+        return _solved(search, motion)
+    close = _nearest(search, natural, inner_rows(natural, COARSE))
+    nearly = close is not None and close.total < NEARLY_MM
+    if nearly and (motion := _attempt(search, natural, FINE)) is not None:
+        return _solved(search, motion)
+    lowest, highest = search.problem.limits.plane_height
+    for level in LEVELS:
+        if not lowest <= level <= highest:
+            continue
+        if (motion := _attempt(search, outline_of(search.problem, level), COARSE)) is not None:
+            return _solved(search, motion)
+    return _unsolved(search, natural)
+
+
+def natural_outline(problem: MotionProblem) -> Outline:
+    """The body straight from start to goal, or higher between them where feet need room to rise.
+
+    A leg fully drawn in holds its foot at most `link_length + lower stroke` under the plane, and the cylinder
+    ends there too; a foot that rises by the clearance, or is held up, needs that much more.
+    """
+    model = problem.model
+    held = max(float(pose.feet_world[:, 2].max()) for pose in (problem.start, problem.goal))
+    room = model.leg.link_length + model.stroke.lower + max(problem.limits.clearance, held)
+    ends = [pose.body_world[2] - model.com_height for pose in (problem.start, problem.goal)]
+    level = room if min(ends) < room - SETTLED_MM / MM and problem.timeline.swings() else None
+    return outline_of(problem, None if level is None else min(level, problem.limits.plane_height[1]))
+
+
+def inner_rows(outline: Outline, sides: int) -> list[Rows]:
+    """Every demand with polygons inside the discs: what keeps them is a motion."""
+    return _rows(outline, DiscPolygon(sides, inner=True))
+
+
+def outer_rows(outline: Outline, sides: int) -> list[Rows]:
+    """Every demand with polygons around the discs: where these cannot be kept, no motion exists."""
+    return _rows(outline, DiscPolygon(sides, inner=False))
+
+
+def _rows(outline: Outline, disc: DiscPolygon) -> list[Rows]:
+    reach = reach_of(outline, disc)
+    return [
+        integration(outline),
+        balance(outline),
+        body_speed(outline, disc),
+        foot_speed(outline, disc),
+        standing_reach(outline, reach),
+        swinging_reach(outline, reach),
+        *height_reach(outline, reach),
+        *friction(outline, disc),
+    ]
+
+
+def goal_cost(outline: Outline) -> tuple[Floats, Floats]:
+    """Curvature and gradient of (3.4), ½ Σ ‖x − x_g‖², in the unknowns."""
+    problem = outline.problem
+    goal = np.concatenate([problem.goal.body_world[None], problem.goal.feet_world])[:, :2] * MM
+    curvature, gradient = np.zeros(outline.size), np.zeros(outline.size)
+    for index, wanted in zip(outline.index, (goal, np.zeros_like(goal)), strict=True):
+        free = index >= 0
+        np.add.at(curvature, index[free], 1.0)
+        np.add.at(gradient, index[free], -np.broadcast_to(wanted, index.shape)[free])
+    return curvature, gradient
+
+
+def _attempt(search: _Search, outline: Outline, sides: int) -> Trajectory | None:
+    """A motion within the polygons; None where the solver finds none."""
+    rows = inner_rows(outline, sides)
+    motion = _motion(search, outline, rows)
+    limits = search.problem.limits
+    if motion is None or (limits.motor_speed is None and limits.motor_acceleration is None):
+        return motion
+    for _ in range(ROUNDS):
+        motion = _motion(search, outline, rows + motor_rows(outline, motion))
+        if motion is None or check_motion(search.problem, motion).confirmed:
+            return motion
+    return None
+
+
+def _motion(search: _Search, outline: Outline, rows: list[Rows]) -> Trajectory | None:
+    split = [one.split() for one in rows]
+    if max(miss for _, miss in split) > SETTLED_MM:
+        return None
+    curvature, gradient = goal_cost(outline)
+    row, column, value, lower, upper = stacked([kept for kept, _ in split])
+    least = np.full(outline.size, -np.inf)
+    answer = search.solve(Programme(curvature, gradient, row, column, value, lower, upper, least))
+    return trajectory_of(outline, answer.x) if answer.solved else None
+
+
+def _nearest(search: _Search, outline: Outline, rows: list[Rows]) -> Nearest | None:
+    interval = float(outline.intervals.mean())
+    limits = outline.problem.limits
+    farthest = max(FARTHEST, 2 * MM * max(limits.body_speed, limits.foot_speed))
+    found = nearest(_solver, goal_cost(outline), rows, interval, farthest)
+    if found is not None:
+        search.seconds += found.answer.seconds
+    return found
+
+
+def _unsolved(search: _Search, natural: Outline) -> MotionResult:
+    """Why there is none: from the polygons around the discs where that is proof, else from those inside."""
+    rows = outer_rows(natural, AROUND)
+    found, evidence = _nearest(search, natural, rows), Evidence.PROVEN
+    if found is None or found.proven < PROOF_MM:
+        rows, evidence = inner_rows(natural, FINE), Evidence.DIAGNOSED
+        found = _nearest(search, natural, rows)
+    if found is None:
+        words = ("The convex solver found neither a motion nor what is missing.",)
+        motion = initial_motion(search.problem)
+        return _result(SolveStatus.FAILED, motion, search.seconds, words, Evidence.DIAGNOSED)
+    motion = trajectory_of(natural, found.x)
+    lacks = lacks_of(natural, rows, found.misses, found.x)
+    if not lacks:
+        motors = motor_rows(natural, motion)
+        lacks = lacks_of(natural, motors, [np.maximum(one.excess(found.x), 0.0) for one in motors], found.x)
+    result = _result(SolveStatus.INFEASIBLE, motion, search.seconds, (AT_THE_EDGE,), evidence)
+    return replace(result, lacks=lacks)
+
+
+def _turned(result: MotionResult, problem: MotionProblem) -> MotionResult:
+    """The result in the problem's own direction, its sentences with the feet's own names."""
+    turns, legs = problem.quarter_turns, problem.model.leg_count
+    motion = turn_trajectory(result.trajectory, turns)
+    lacks = tuple(
+        replace(lack, feet=tuple((foot + turns * legs // 4) % legs for foot in lack.feet))
+        for lack in result.lacks
+    )
+    explanation, evidence = result.explanation, result.evidence
+    if not lacks and result.status is SolveStatus.INFEASIBLE:
+        evidence = Evidence.DIAGNOSED
+    if lacks:
+        explanation, lacks = sentences(problem, lacks, result.evidence, result.trajectory.body_world[:, 2])
+    return replace(
+        result, trajectory=motion, initial=motion, lacks=lacks, explanation=explanation, evidence=evidence
+    )
+
+
+def _solved(search: _Search, motion: Trajectory) -> MotionResult:
+    result = _result(SolveStatus.SOLVED, motion, search.seconds, (), None)
+    return replace(result, objective=motion_cost(search.problem, motion))
+
+
+def _result(
+    status: SolveStatus,
+    motion: Trajectory,
+    seconds: float,
+    explanation: tuple[str, ...],
+    evidence: Evidence | None,
+) -> MotionResult:
+    return MotionResult(
+        status=status,
+        solver_word="",
+        explanation=explanation,
+        evidence=evidence,
+        iterations=(),
+        objective=None,
+        solve_seconds=seconds,
+        build_seconds=0.0,
+        trajectory=motion,
+        initial=motion,
+    )

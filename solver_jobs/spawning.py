@@ -1,0 +1,40 @@
+"""Starting a process of our own with a pipe to it."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+from collections.abc import Callable
+from multiprocessing.connection import Connection
+from multiprocessing.context import SpawnProcess
+from typing import Any
+
+NICENESS = 5
+"""How far a solver stands back where cores are scarce, so that a stop of the robot never waits for one."""
+
+
+def start_process(
+    body: Callable[[Connection, Any], None], warm_up: Any, name: str
+) -> tuple[SpawnProcess, Connection]:
+    """Starts a fresh interpreter that runs `body`; it ends at the latest with this one.
+
+    Args:
+        body: gets the worker's end of the pipe and the problem to warm up with.
+        warm_up: a problem, or None.
+        name: of the process.
+
+    Returns:
+        The process and our end of the pipe.
+    """
+    context = multiprocessing.get_context("spawn")
+    ours, theirs = context.Pipe()
+    process = context.Process(target=_stand_back, args=(body, theirs, warm_up), name=name, daemon=True)
+    process.start()
+    theirs.close()
+    return process, ours
+
+
+def _stand_back(body: Callable[[Connection, Any], None], pipe: Connection, warm_up: Any) -> None:
+    if hasattr(os, "nice"):
+        os.nice(NICENESS)
+    body(pipe, warm_up)

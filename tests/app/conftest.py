@@ -1,0 +1,35 @@
+"""What tests of the desks share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from app.bridge.emulated import EmulatedRobot, start_emulator
+from app.store.database import Database
+from tests.studio_process import StudioProcess, running_studio
+
+
+@pytest.fixture
+def database(tmp_path: Path) -> Iterator[Database]:
+    """An empty database."""
+    opened = Database(tmp_path / "studio.sqlite3")
+    yield opened
+    opened.close()
+
+
+@pytest.fixture(scope="module")
+def robot(request: pytest.FixtureRequest) -> Iterator[EmulatedRobot]:
+    """An emulated robot, as fast as the file's `SPEED` says: its seconds in one of ours."""
+    emulated = start_emulator("nominal", request.module.SPEED)
+    yield emulated
+    emulated.close()
+
+
+@pytest.fixture(scope="module")
+def studio(tmp_path_factory: pytest.TempPathFactory, robot: EmulatedRobot) -> Iterator[StudioProcess]:
+    """A running studio with an empty data folder, told of the robot."""
+    with running_studio(tmp_path_factory.mktemp("data"), "--robot", robot.device) as running:
+        yield running

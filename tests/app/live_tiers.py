@@ -1,0 +1,59 @@
+"""Stand-ins of the live tier: one that has no answer, and one that finds everything infeasible."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from core.draft import initial_motion
+from core.gait import Gait
+from core.motion_problem import MotionProblem
+from solver_jobs import Evidence, Lack, MotionResult, Remedy, RemedySearch, SolveStatus
+
+LACK = Lack("workspace", 1.2, "mm", 5, 9, (2,), "Reach lacks 1.2 mm: foot 3 is outside its workspace.")
+
+
+def result_of(problem: MotionProblem, status: SolveStatus) -> MotionResult:
+    """A result with the drawn motion."""
+    drawn = initial_motion(problem)
+    infeasible = status is SolveStatus.INFEASIBLE
+    return MotionResult(
+        status=status,
+        solver_word="",
+        explanation=() if status is SolveStatus.SOLVED else ("There is none.",),
+        evidence=Evidence.PROVEN if infeasible else None,
+        iterations=(),
+        objective=None,
+        solve_seconds=0.01,
+        build_seconds=0.0,
+        trajectory=drawn,
+        initial=drawn,
+        lacks=(LACK,) if infeasible else (),
+    )
+
+
+class FixedTier:
+    """Answers every problem with the drawn motion and one status.
+
+    Args:
+        status: what it says.
+    """
+
+    def __init__(self, status: SolveStatus) -> None:
+        self.status = status
+        self.asked = 0
+        self.waits: list[float] = []
+        self.process_id: int | None = 1
+        self.complete = True
+
+    def solve(self, problem: MotionProblem, timeout: float) -> MotionResult:
+        """The drawn motion."""
+        assert timeout > 0
+        self.asked += 1
+        self.waits.append(timeout)
+        return result_of(problem, self.status)
+
+    def remedies(self, gait: Gait) -> RemedySearch:
+        """Half the step."""
+        dx, dy, yaw = gait.step
+        half = replace(gait, step=(dx / 2, dy / 2, yaw))
+        return RemedySearch((Remedy("Half the step", "A step half as long.", half),), self.complete)

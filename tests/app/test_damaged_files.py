@@ -1,0 +1,72 @@
+"""What a start finds: a file that somebody broke by hand spoils nothing but its own gait."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from app.documents import gait_content, motion_hash
+from app.gait_desk import GaitDesk
+from app.store.database import Database
+from app.store.files import GaitFiles
+from app.studio import Studio
+from app.trajectory_content import trajectory_content
+from core.gait import motion_problem
+from core.library import library
+from core.robot import load_robot
+from core.sequence import sequence_gait
+from core.sequence_part import SequencePart
+from solver_jobs import solve_live
+
+
+def put(folder: Path, gait_id: str, text: str) -> None:
+    (folder / "gaits").mkdir(exist_ok=True)
+    (folder / "gaits" / f"{gait_id}.json").write_text(text)
+
+
+def test_a_job_of_a_gait_whose_file_is_damaged_is_shown_as_out_of_date(tmp_path: Path) -> None:
+    put(tmp_path, "mine", "{ damaged")
+    database = Database(tmp_path / "studio.sqlite3")
+    database.put_job({"id": "one", "created": 1.0, "gait": "mine", "motion": "0" * 64, "state": "done"})
+    database.close()
+    studio = Studio(tmp_path, "emulator")
+    try:
+        greeting = studio.call(studio.hello).result(20)
+    finally:
+        studio.close()
+    assert [(job["id"], job["fresh"]) for job in greeting["jobs"]] == [("one", False)]
+    assert "mine" not in [line["id"] for line in greeting["gaits"]]
+
+
+def test_a_greeting_opens_no_gait_for_its_jobs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    database = Database(tmp_path / "studio.sqlite3")
+    walk = motion_hash(library()["walk"].gait)
+    database.put_job({"id": "one", "created": 1.0, "gait": "walk", "motion": walk, "state": "done"})
+    database.close()
+    studio = Studio(tmp_path, "emulator")
+    monkeypatch.delattr(GaitDesk, "open_gait")
+    try:
+        greeting = studio.call(studio.hello).result(20)
+    finally:
+        studio.close()
+    assert [job["fresh"] for job in greeting["jobs"]] == [True]
+
+
+def test_a_sequence_that_runs_too_often_keeps_no_result_from_another_gait(tmp_path: Path) -> None:
+    walk = library()["walk"].gait
+    content = gait_content(sequence_gait("Long", [SequencePart(walk, 2, "walk")]))
+    content["sequence"][0]["gait"]["iterations"] = 20
+    put(tmp_path, "long", json.dumps(content))
+    database = Database(tmp_path / "studio.sqlite3")
+    try:
+        desk = GaitDesk(GaitFiles(tmp_path), database, lambda gait: solve_live)
+        assert "at most 20 follow each other" in str(desk.plan("long").refusal)
+        desk.open_gait("walk")
+        solved = solve_live(motion_problem(walk, load_robot(walk.robot)))
+        result = {"solve_seconds": 0.5, "trajectory": trajectory_content(solved.trajectory)}
+        touched = desk.take_result(motion_hash(walk), result)
+    finally:
+        database.close()
+    assert [one.id for one in touched] == ["walk"]

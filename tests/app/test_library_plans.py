@@ -1,0 +1,49 @@
+"""Every gait of the library opens: a plan, what the page is shown of it, and a verdict or its reason."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from app.open_gait import fresh_gait
+from app.plans import PlanSource, verdict_of
+from app.sequence_plans import plan_of
+from app.views import gait_view, verdict_view
+from core.errors import CheckError
+from core.library import Group, library
+from solver_jobs import solve_live
+
+SOURCES = {
+    Group.OPTIMISED: PlanSource.LIVE,
+    Group.APPENDIX: PlanSource.LIVE,
+    Group.BY_HAND: PlanSource.MANUAL,
+    Group.TEXTBOOK: PlanSource.DRAFT,
+    Group.PATTERNS: PlanSource.LIVE,
+    Group.SEQUENCES: PlanSource.SEQUENCE,
+}
+
+OTHERS = {"textbook-crawl": PlanSource.LIVE, "hexapod-front-up": PlanSource.DRAFT}
+"""Gaits that differ from their group: a crawl balances, four neighbouring feet of a ring of six do not."""
+
+
+@pytest.mark.parametrize("gait_id", list(library()))
+def test_every_gait_of_the_library_opens_and_is_judged(gait_id: str) -> None:
+    entry = library()[gait_id]
+    plan = plan_of(entry.gait, lambda motion: None, lambda gait: solve_live)
+    assert plan.source is OTHERS.get(gait_id, SOURCES[entry.group])
+    shown = json.dumps(gait_view(fresh_gait(gait_id, entry.gait, True, None), plan), allow_nan=False)
+    assert json.loads(shown)["plan"]["note"]
+    if plan.refusal is not None:
+        assert entry.group is Group.TEXTBOOK or gait_id == "hexapod-front-up"
+        reason = "in the air together" if entry.group is Group.TEXTBOOK else "Balance lacks"
+        with pytest.raises(CheckError, match=reason):
+            verdict_of(plan, entry.gait)
+        return
+    verdict = verdict_of(plan, entry.gait)
+    assert json.dumps(verdict_view(verdict), allow_nan=False)
+    assert verdict.passed or verdict.findings
+    if plan.source in (PlanSource.LIVE, PlanSource.SEQUENCE):
+        assert verdict.passed
+    if plan.source is PlanSource.DRAFT:
+        assert not verdict.passed

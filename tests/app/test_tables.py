@@ -1,0 +1,95 @@
+"""Segment tables over HTTP: made of a drawing, mended, and refused with a sentence."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from fastapi import FastAPI
+from starlette.testclient import TestClient
+
+from app.documents import gait_content
+from app.routes.edge import install_error_handlers
+from app.routes.tables import router
+from core.gait import drawn_timeline
+from core.library import library
+
+MADE, REPAIRS = "/api/tables/made", "/api/tables/repairs"
+
+
+@pytest.fixture(scope="module")
+def client() -> TestClient:
+    app = FastAPI()
+    install_error_handlers(app)
+    app.include_router(router)
+    return TestClient(app)
+
+
+def content(gait_id: str) -> dict[str, Any]:
+    return gait_content(library()[gait_id].gait)
+
+
+def test_a_table_is_made_of_a_drawing_with_room(client: TestClient) -> None:
+    walk = library()["walk"].gait.with_options(phase_knots=6, closing_knots=6)
+    feet = gait_content(walk)["timeline"] | {
+        "feet": ["".join("01"[int(s)] for s in row) for row in drawn_timeline(walk).stance],
+        "locked": None,
+    }
+    answer = client.post(MADE, json={"document": gait_content(walk) | {"timeline": feet}}).json()
+    assert answer["sentence"] is None
+    assert answer["table"]["samples_per_segment"] == 3
+
+
+def test_a_drawing_without_room_says_why(client: TestClient) -> None:
+    answer = client.post(MADE, json={"document": content("walk")}).json()
+    assert answer["table"] is None
+    assert "segments change at samples" in answer["sentence"]
+
+
+def test_a_gait_that_has_a_table_keeps_it(client: TestClient) -> None:
+    manual = content("walk-manual-0")
+    assert client.post(MADE, json={"document": manual}).json()["table"] == manual["segment_table"]
+
+
+def test_a_table_that_does_not_fit_is_mended_around_what_must_stay(client: TestClient) -> None:
+    table = content("walk-manual-0")["segment_table"]
+    table["feet"][0][3] = "Lift A"
+    found = client.post(REPAIRS, json={"table": table, "kept": [[0, 3]]}).json()["repairs"]
+    assert [(one["foot"], one["first"], one["inserted"]) for one in found] == [(0, 4, False), (0, 4, True)]
+    assert all(one["table"]["feet"][0][3] == "Lift A" for one in found)
+    assert found[1]["names"] == ["Push A"]
+
+
+@pytest.mark.parametrize(
+    ("path", "body", "words"),
+    [
+        (MADE, {}, "document"),
+        (MADE, {"document": {"format": "nothing"}}, "not a gait document"),
+        (REPAIRS, {"table": {}}, "samples_per_segment"),
+        (REPAIRS, {"kept": []}, "table"),
+    ],
+)
+def test_what_cannot_be_read_is_refused(
+    client: TestClient, path: str, body: dict[str, Any], words: str
+) -> None:
+    answer = client.post(path, json=body)
+    assert answer.status_code == 422
+    assert words in answer.json()["error"]
+
+
+def test_uneven_rows_are_refused(client: TestClient) -> None:
+    table = content("walk-manual-0")["segment_table"]
+    table["feet"][0].append("Wait A")
+    answer = client.post(REPAIRS, json={"table": table})
+    assert answer.status_code == 422
+    assert "as many segments as foot 1" in answer.json()["error"]
+
+
+def test_a_document_with_a_height_out_of_the_motors_travel_is_refused(client: TestClient) -> None:
+    document = content("walk-manual-0")
+    document["segment_table"]["definitions"]["z"]["Base"] = 0.099
+    answer = client.post(MADE, json={"document": document})
+    assert answer.status_code == 422
+    assert "The height “Base” is 99 mm" in answer.json()["error"]
+    document["segment_table"]["definitions"]["z"]["Base"] = 0.02
+    assert client.post(MADE, json={"document": document}).status_code == 200

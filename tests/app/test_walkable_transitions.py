@@ -1,0 +1,37 @@
+"""A transition that is asked for so that the robot's feet can take its steps."""
+
+from __future__ import annotations
+
+from app.routes.pattern_models import TransitionQuestion
+from app.routes.pattern_problems import Posed, posed
+from core.library import library
+from core.patterns.problem import FREE, PatternRules
+
+
+def asked(walkable: bool, samples: int | None = 12) -> Posed:
+    question = TransitionQuestion(
+        kind="transition", gait="walk", sample=5, to="amble", to_sample=9, samples=samples, walkable=walkable
+    )
+    return posed(question, lambda gait_id: library()[gait_id].gait)
+
+
+def test_swings_are_long_enough_and_those_that_a_cursor_cuts_are_finished() -> None:
+    problem = asked(walkable=True).problem()
+    assert (problem.rules.shortest_swing, problem.rules.least_swing) == (3, 3)
+    # Foot 3 has swung for one sample at the first cursor.
+    assert problem.fixed[2, :4].tolist() == [0, 0, 0, FREE]
+
+
+def test_without_it_f_s_rules_hold_as_they_are() -> None:
+    problem = asked(walkable=False).problem()
+    assert problem.rules == PatternRules()
+    assert (problem.fixed[:, 1:-1] == FREE).all()
+
+
+def test_every_length_that_is_tried_is_walkable() -> None:
+    question = asked(walkable=True, samples=None)
+    assert question.lengths is not None
+    for length in question.lengths:
+        problem = question.problem(length)
+        assert problem.sample_count == length
+        assert problem.fixed[2, 1] == 0

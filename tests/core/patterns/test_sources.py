@@ -1,0 +1,198 @@
+"""What a search starts from: two gaits and their cursors, limbs to walk on, a drawing."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from core.errors import InputError
+from core.gait import Gait, Orientation
+from core.leg import strokes_from_foot
+from core.library import library
+from core.new_gait import with_robot
+from core.patterns.problem import FREE, PatternKind, PatternProblem, PatternRules
+from core.patterns.sides import locked_limbs
+from core.patterns.sources import (
+    LimbState,
+    completion_problem,
+    foot_sides,
+    hint_of_groups,
+    periodic_problem,
+    transition_problem,
+)
+from core.patterns.walking import body_reach, walking_rules
+from core.robot import ROBOT_NAMES, load_robot
+from core.timeline import timeline_from_rows
+
+WALK, AMBLE = library()["walk"].gait, library()["amble"].gait
+HEXAPOD = load_robot("hexapod")
+
+
+def six(*rows: str) -> Gait:
+    """A gait of six limbs with these rows."""
+    return replace(with_robot(WALK, HEXAPOD), timeline=timeline_from_rows(rows, 0.4))
+
+
+FRONT_UP = six("000000", "000000", "111001", "111111", "100111", "111111")
+ONE_UP = six("000000", "110011", "111001", "111111", "100111", "111001")
+
+
+def test_a_transition_begins_and_ends_as_the_gaits_are_at_their_cursors() -> None:
+    problem = transition_problem(WALK, 6, AMBLE, 17, 12)
+    assert problem.kind is PatternKind.TRANSITION
+    assert problem.fixed.shape == (4, 12)
+    assert (problem.fixed[:, 0] == WALK.timeline.stance[:, 6]).all()
+    assert (problem.fixed[:, -1] == AMBLE.timeline.stance[:, 17]).all()
+    assert (problem.fixed[:, 1:-1] == FREE).all()
+    assert problem.walking.all()
+    assert problem.sample_time == WALK.timeline.sample_time
+
+
+def test_a_limb_is_locked_where_it_does_not_walk_in_either_gait() -> None:
+    assert locked_limbs(FRONT_UP, ONE_UP).tolist() == [True, False, False, True, False, False]
+    problem = transition_problem(FRONT_UP, 2, ONE_UP, 3, 10)
+    assert problem.walking.tolist() == [False, True, True, False, True, True]
+    assert (problem.fixed[0] == 0).all()
+    assert (problem.fixed[3] == 1).all()
+
+
+def test_a_limb_that_is_up_in_one_gait_and_stands_in_the_other_is_not_locked() -> None:
+    standing = six(*["111111"] * 6)
+    assert not locked_limbs(standing, FRONT_UP)[:2].any()
+
+
+@pytest.mark.parametrize("robot", ROBOT_NAMES)
+@pytest.mark.parametrize("orientation", Orientation)
+@pytest.mark.parametrize("direction", [1, 2, 3, 4])
+def test_sides_are_those_that_roles_name(robot: str, orientation: Orientation, direction: int) -> None:
+    model = load_robot(robot)
+    gait = replace(with_robot(WALK, model), orientation=orientation, direction=direction)
+    left, right = foot_sides(model, orientation, direction)
+    for role, on_left, on_right in zip(gait.roles, left, right, strict=True):
+        assert (on_left, on_right) == ("R" not in role, "L" not in role)
+
+
+@pytest.mark.parametrize(
+    ("other", "at", "to", "words"),
+    [
+        ({}, 45, 0, "cursor is at sample 46"),
+        ({}, 0, -1, "cursor is at sample 0"),
+        ({"robot": "deltawalker9"}, 0, 0, "different robots, .* Choose two gaits of one robot"),
+        ({"orientation": Orientation.FBS}, 0, 0, "differ in orientation, FB and FBS"),
+        ({"direction": 3}, 0, 0, "directions 1 and 3"),
+        ({"timeline": replace(AMBLE.timeline, sample_time=0.5)}, 0, 0, "every 0.4 s and every 0.5 s"),
+    ],
+)
+def test_gaits_that_do_not_fit_are_refused(other: dict[str, Any], at: int, to: int, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        transition_problem(WALK, at, replace(AMBLE, **other), to, 12)
+
+
+def test_a_sequence_is_no_side_of_a_transition() -> None:
+    with pytest.raises(InputError, match="is a sequence; choose the gait of one of its parts"):
+        transition_problem(library()["walk-turn-s-gait"].gait, 0, WALK, 0, 12)
+
+
+def test_locked_cells_are_kept_and_contradictions_are_named() -> None:
+    cells = np.full((4, 12), FREE, dtype=np.int8)
+    cells[2, 5] = 0
+    assert transition_problem(WALK, 0, AMBLE, 0, 12, cells=cells).fixed[2, 5] == 0
+    cells[2, 0] = 0
+    with pytest.raises(InputError, match="Limb 3 is locked in swing at sample 1, but the gaits fix it in st"):
+        transition_problem(WALK, 0, AMBLE, 0, 12, cells=cells)
+    with pytest.raises(InputError, match="locked cells are 4 × 11"):
+        transition_problem(WALK, 0, AMBLE, 0, 12, cells=cells[:, :11])
+
+
+def test_a_gait_of_some_limbs_holds_the_others() -> None:
+    limbs = [LimbState.HELD, LimbState.STANDS, *[LimbState.WALKS] * 4]
+    problem = periodic_problem(HEXAPOD, limbs, 20, orientation=Orientation.FB)
+    assert problem.kind is PatternKind.PERIODIC
+    assert problem.walking.tolist() == [False, False, True, True, True, True]
+    assert (problem.fixed[0] == 0).all()
+    assert (problem.fixed[1] == 1).all()
+    assert (problem.fixed[2:] == FREE).all()
+
+
+@pytest.mark.parametrize(
+    ("limbs", "words"),
+    [([LimbState.WALKS] * 5, "5 states of limbs; .* has 6"), ([LimbState.HELD] * 6, "No limb walks")],
+)
+def test_limbs_that_make_no_gait_are_refused(limbs: list[LimbState], words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        periodic_problem(HEXAPOD, limbs, 20, orientation=Orientation.FB)
+
+
+@pytest.mark.parametrize("samples", [-5, 0, 1, 241, 10**10, 10**30])
+def test_a_length_that_no_pattern_has_is_refused_before_room_is_made_for_it(samples: int) -> None:
+    with pytest.raises(InputError, match="2 to 240 samples"):
+        transition_problem(WALK, 0, WALK, 0, samples)
+    with pytest.raises(InputError, match="2 to 240 samples"):
+        periodic_problem(HEXAPOD, [LimbState.WALKS] * 6, samples, orientation=Orientation.FBS)
+
+
+def test_a_drawing_is_completed_round_what_is_locked_or_painted() -> None:
+    locked = np.zeros((4, 45), dtype=np.bool_)
+    locked[1, 10:20] = True
+    painted = np.zeros_like(locked)
+    painted[3] = True
+    gait = replace(WALK, timeline=replace(WALK.timeline, locked=locked))
+    problem = completion_problem(gait, painted)
+    stays = problem.fixed != FREE
+    assert (stays == (locked | painted | np.isin(np.arange(45), [0, 44]))).all()
+    assert (problem.fixed[stays] == gait.timeline.stance[stays]).all()
+    assert problem.drawing is not None
+    assert (problem.drawing == gait.timeline.stance).all()
+    assert problem.walking.all()
+
+
+@pytest.mark.parametrize("gait_id", ["walk-manual-0", "walk-turn-s-gait"])
+def test_a_timeline_that_follows_from_something_else_is_not_completed(gait_id: str) -> None:
+    with pytest.raises(InputError, match="cannot be drawn anew"):
+        completion_problem(library()[gait_id].gait)
+
+
+def test_a_painting_of_another_size_is_refused() -> None:
+    with pytest.raises(InputError, match="painted cells"):
+        completion_problem(WALK, np.zeros((4, 12), dtype=np.bool_))
+
+
+@pytest.mark.parametrize("height", [0.0535, 0.058])
+def test_the_body_reaches_as_far_as_every_foot_does_in_every_direction(height: float) -> None:
+    reach = body_reach(HEXAPOD, height)
+    angles = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+
+    def within(radius: float) -> bool:
+        feet = np.stack([radius * np.cos(angles), radius * np.sin(angles), np.full(24, -height)], axis=-1)
+        strokes = strokes_from_foot(HEXAPOD.leg, feet)
+        return bool(((strokes >= HEXAPOD.stroke.lower) & (strokes <= HEXAPOD.stroke.upper)).all())
+
+    assert within(reach)
+    assert not within(reach + 0.0005)
+
+
+def test_balance_is_judged_about_the_mean_of_the_feet_and_leaves_room_for_half_a_step() -> None:
+    problem: PatternProblem = transition_problem(WALK, 0, AMBLE, 0, 12, rules=PatternRules(balance=0.003))
+    model = problem.balance_model
+    assert model is not None
+    assert np.abs(model.feet_xy.mean(axis=0)).max() < 1e-12
+    assert model.reach == pytest.approx(body_reach(load_robot("deltawalker"), 0.0535) - 0.005)
+    assert model.speed == WALK.options.body_speed
+
+
+def test_groups_swing_in_turn_for_equal_times() -> None:
+    hint = hint_of_groups(HEXAPOD, [[1, 4], [3, 6], [2, 5]], 24)
+    assert (~hint).sum(axis=1).tolist() == [8] * 6
+    assert (~hint[0]).nonzero()[0].tolist() == list(range(8))
+    assert (hint[0] == hint[3]).all()
+
+
+@pytest.mark.parametrize(("step", "swing"), [(0.0, 3), (0.010, 3), (0.020, 5), (0.030, 7)])
+def test_swings_are_long_enough_for_the_step(step: float, swing: int) -> None:
+    rules = walking_rules(WALK, replace(AMBLE, step=(step, 0.0, 0.0)))
+    assert (rules.shortest_swing, rules.least_swing) == (swing, swing)
+    assert rules.balance == 0.003
+    assert replace(rules, shortest_swing=2, least_swing=2, balance=None) == PatternRules()

@@ -1,0 +1,59 @@
+"""The gait document: iterations of drawn and of hand-drawn timelines."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core.errors import InputError
+from core.gait import drawn_timeline, motion_problem, with_iterations
+from core.library import library
+from core.robot import load_robot
+from core.timeline import ContactTimeline, rows_from_bits
+
+
+def test_a_drawn_gait_is_drawn_anew_for_its_iterations() -> None:
+    walk = library()["walk"].gait
+    thrice = with_iterations(walk, 3)
+    assert thrice.timeline == drawn_timeline(replace(walk, iterations=3))
+    assert thrice.timeline.sample_count == 125
+    assert with_iterations(thrice, 1).timeline == walk.timeline
+
+
+def test_a_trot_stays_a_trot() -> None:
+    trot = library()["textbook-trot"].gait
+    rest = trot.options.closing_knots
+    thrice = with_iterations(trot, 3)
+    rows, once = rows_from_bits(thrice.timeline.stance), rows_from_bits(trot.timeline.stance)
+    assert [row[:-rest] for row in rows] == [row[:-rest] * 3 for row in once]
+    assert with_iterations(thrice, 1).timeline == trot.timeline
+
+
+def test_locked_cells_are_repeated_with_their_samples() -> None:
+    trot = library()["textbook-trot"].gait
+    locked = np.array(trot.timeline.locked)
+    locked[0, 3] = True
+    marked = replace(trot, timeline=replace(trot.timeline, locked=locked))
+    assert with_iterations(marked, 2).timeline.locked.sum() == 2
+
+
+def test_iterations_of_unequal_length_cannot_be_repeated() -> None:
+    walk = replace(library()["walk"].gait, iterations=2)
+    stance = np.array(walk.timeline.stance)[:, 1:]
+    uneven = replace(walk, timeline=ContactTimeline(stance, np.zeros_like(stance), 0.4))
+    with pytest.raises(InputError, match="not equally long"):
+        with_iterations(uneven, 3)
+
+
+def test_a_swing_of_the_first_sample_alone_is_refused_and_a_longer_one_is_not() -> None:
+    walk = library()["walk"].gait
+    stance = np.array(walk.timeline.stance)
+    stance[0, 0] = False
+    alone = replace(walk, timeline=replace(walk.timeline, stance=stance))
+    with pytest.raises(InputError, match="Foot 1 is in the air at the first sample alone"):
+        motion_problem(alone, load_robot("deltawalker"))
+    stance[0, 1] = False
+    longer = replace(walk, timeline=replace(walk.timeline, stance=stance))
+    assert not motion_problem(longer, load_robot("deltawalker")).timeline.stance[0, 1]

@@ -1,0 +1,27 @@
+"""A page of the studio that must not throw."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from playwright.sync_api import Browser, Page
+
+
+@contextmanager
+def opened_page(
+    browser: Browser, url: str, width: int, height: int, *, has_scene: bool = True
+) -> Iterator[Page]:
+    """Opens an address in a window of a size, and ends with an error where the page threw one.
+
+    Without its 3D scene, which is seconds of drawing in software, where a test has nothing to do with it.
+    """
+    page = browser.new_page(viewport={"width": width, "height": height})
+    if not has_scene:
+        page.route("**/viser/**", lambda route: route.fulfill(body="<html></html>", content_type="text/html"))
+    problems: list[str] = []
+    page.on("pageerror", lambda error: problems.append(str(error)))
+    page.goto(url)
+    yield page
+    page.close()
+    assert problems == []

@@ -1,0 +1,54 @@
+"""A gait that was just made is seen in a long list; the dialog for it judges while one types."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from tests.page.opened import opened_page
+from tests.studio_process import StudioProcess
+
+LONG_MS = 60_000
+
+
+@pytest.fixture
+def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
+    with opened_page(browser, studio.url, 1024, 768) as opened:
+        expect(opened.get_by_label("Gait name")).not_to_have_value("", timeout=LONG_MS)
+        yield opened
+
+
+def test_a_copy_at_the_end_of_a_long_list_is_scrolled_into_view(page: Page, studio: StudioProcess) -> None:
+    walk = studio.ask("GET", "/api/gaits/walk").content
+    for number in range(24):
+        assert studio.ask("POST", "/api/gaits", walk | {"name": f"Saved {number:02}"}).status == 201
+    page.get_by_role("list", name="Gaits").get_by_role("button", name="Saved 00").click()
+    expect(page.get_by_label("Gait name")).to_have_value("Saved 00", timeout=LONG_MS)
+    page.get_by_label("Gait name").fill("Zebra")
+    page.get_by_label("Gait name").press("Enter")
+    page.get_by_role("button", name="Duplicate").click()
+    expect(page.get_by_label("Gait name")).to_have_value("Zebra copy", timeout=LONG_MS)
+    copy = page.get_by_role("list", name="Gaits").get_by_role("button", name="Zebra copy")
+    expect(copy).to_have_attribute("aria-current", "true")
+    expect(copy).to_be_in_viewport(ratio=0.95)
+
+
+def test_a_foot_order_is_judged_while_it_is_typed(page: Page) -> None:
+    page.get_by_role("button", name="New", exact=True).click()
+    page.get_by_role("menuitem", name="New gait…").click()
+    order = page.get_by_label("Order of the feet")
+    order.fill("3 2 4")
+    refusal = (
+        page.get_by_role("dialog").get_by_role("alert").filter(has_text="Name each of the feet 1 to 4 once")
+    )
+    expect(refusal).to_be_visible()
+    expect(order).to_have_attribute("aria-invalid", "true")
+    order.fill("3 2 4 1")
+    expect(refusal).to_be_hidden()
+    page.get_by_label("Phases").fill("2.5")
+    expect(
+        page.get_by_role("dialog").get_by_role("alert").filter(has_text="whole number of knots")
+    ).to_be_visible()
+    page.keyboard.press("Escape")

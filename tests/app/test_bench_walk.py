@@ -8,6 +8,7 @@ import pytest
 
 from app.bench.bridge_walk import PUBLISHED, bench_walk
 from app.bench.measure import Row
+from core.wire_timing import OVERRUN
 
 
 @cache
@@ -30,7 +31,7 @@ def test_merging_halves_the_published_walk_and_stays_on_its_path() -> None:
     assert merged["worst_motor_mm"] <= 1.0
     bounded = row("published", 1.0, 1.0)
     assert merged["robot_s"] < bounded["robot_s"] < every["robot_s"]
-    assert bounded["stop_s"] <= 1.0
+    assert 1.0 < bounded["stop_s"] <= 1.0 + OVERRUN
 
 
 def test_a_walk_made_for_the_firmware_takes_a_third_of_the_published_time() -> None:

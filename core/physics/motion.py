@@ -1,0 +1,66 @@
+"""What a simulated robot did, sample by sample, in the same world frame as the plan."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.arrays import Floats, frozen_floats
+
+
+@dataclass(frozen=True, eq=False)
+class SimulatedMotion:
+    """The states of one simulated run.
+
+    The frame is the plan's: z = 0 is the platform height of a standing foot, the body's position is the
+    centre-of-mass point `com_height` above its actuator plane, and at the start both lie where the plan's do.
+
+    Args:
+        times: (n,) simulated time, s; 0 where the first waypoint has been reached and the robot stands still.
+        body_world: (n, 3) m.
+        attitude: (n, 4) unit quaternion w, x, y, z of the body in the world.
+        feet_world: (n, legs, 3) platform centres, m.
+        strokes: (n, legs, 3) motors' real strokes, m.
+        targets: (n, legs, 3) where the firmware's ramp wants them, m.
+        motor_forces: (n, legs, 3) force along the stroke, positive pushes the foot down, N.
+        ground_forces: (n, legs, 3) force of the ground on each foot, world axes, N.
+        centre_world: (n, 3) the whole robot's centre of mass, m.
+        arrivals: (count,) sample at which each waypoint's move had ended.
+        loop_error: largest violation of a rod's length at any time step, m.
+        seconds: computing time, s.
+        ended_early: why it ended before the last waypoint, or "".
+    """
+
+    times: Floats
+    body_world: Floats
+    attitude: Floats
+    feet_world: Floats
+    strokes: Floats
+    targets: Floats
+    motor_forces: Floats
+    ground_forces: Floats
+    centre_world: Floats
+    arrivals: NDArray[np.int64]
+    loop_error: float
+    seconds: float
+    ended_early: str = ""
+
+    def __post_init__(self) -> None:
+        n, legs = self.times.shape[0], self.feet_world.shape[1]
+        shapes: dict[str, tuple[int | None, ...]] = {
+            "times": (n,),
+            "body_world": (n, 3),
+            "attitude": (n, 4),
+            "centre_world": (n, 3),
+        }
+        for name in ("feet_world", "strokes", "targets", "motor_forces", "ground_forces"):
+            shapes[name] = (n, legs, 3)
+        for name, shape in shapes.items():
+            object.__setattr__(self, name, frozen_floats(getattr(self, name), shape, name))
+
+    @property
+    def realtime_factor(self) -> float:
+        """Simulated seconds a second of computing."""
+        return float(self.times[-1] - self.times[0]) / self.seconds

@@ -34,6 +34,8 @@ class Finding:
         sample: index of the knot, 0-based, where there is one.
         foot: index of the foot, 0-based, where there is one.
         actuator: index of the motor within the foot, 0-based, where there is one.
+        time: of the plan (of the simulated robot where the rule is about a simulation), s, where there is one.
+        remedy: the way out alone, with which the sentence ends; nothing where it names none.
     """
 
     rule: str
@@ -44,6 +46,8 @@ class Finding:
     sample: int | None = None
     foot: int | None = None
     actuator: int | None = None
+    time: float | None = None
+    remedy: str = ""
 
 
 @dataclass(frozen=True)

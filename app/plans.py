@@ -14,7 +14,9 @@ from app.judgement import Judgement, judge
 from app.planned_part import PlannedPart
 from app.trajectory_content import content_sha256, trajectory_from_content
 from core.arrays import Floats
-from core.checks import CheckedPlan, balance_margins, check_plan
+from core.balance_check import balance_margins
+from core.checked_plan import CheckedPlan
+from core.checks import check_plan
 from core.coupling_check import coupling_note
 from core.draft import initial_motion
 from core.errors import CheckError, FootfallError, InputError

@@ -7,6 +7,7 @@ import json
 from dataclasses import asdict, dataclass
 from datetime import datetime
 from enum import StrEnum
+from typing import Any
 
 from core.errors import StateError
 
@@ -34,7 +35,7 @@ class Finding:
         sample: index of the knot, 0-based, where there is one.
         foot: index of the foot, 0-based, where there is one.
         actuator: index of the motor within the foot, 0-based, where there is one.
-        time: of the plan (of the simulated robot where the rule is about a simulation), s, where there is one.
+        time: of the plan, or of the simulated robot where the rule is about a simulation, s.
         remedy: the way out alone, with which the sentence ends; nothing where it names none.
     """
 
@@ -48,6 +49,29 @@ class Finding:
     actuator: int | None = None
     time: float | None = None
     remedy: str = ""
+
+
+def found(
+    rule: str,
+    severity: Severity,
+    words: str,
+    remedy: str,
+    value: float | None,
+    limit: float,
+    **place: Any,
+) -> Finding:
+    """A finding whose sentence is what happened and then the way out.
+
+    Args:
+        rule: short name of the rule.
+        severity: error or warning.
+        words: what happened, as one or more sentences.
+        remedy: the way out, as one or more sentences.
+        value: what was found, SI; None where it has no number.
+        limit: the bound that it broke, SI.
+        place: `sample`, `foot`, `actuator` and `time` of the finding, those that there are.
+    """
+    return Finding(rule, severity, f"{words} {remedy}", value, limit, remedy=remedy, **place)
 
 
 @dataclass(frozen=True)

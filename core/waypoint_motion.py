@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Bools, Floats
-from core.checks import SLIP_LIMIT, STANDING_DEPTH
+from core.balance_check import STANDING_DEPTH
 from core.errors import InputError
+from core.ground_check import SLIP_LIMIT
 from core.leg import foot_from_strokes
 from core.manual import body_advances, stance_slip
 from core.robot import RobotModel

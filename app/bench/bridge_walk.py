@@ -14,7 +14,8 @@ from app.bridge.firmware import Firmware
 from app.bridge.profiles import PROFILES, ProfileName
 from app.trajectory_files import read_trajectory
 from core.arrays import Floats
-from core.checks import CheckedPlan, check_plan
+from core.checked_plan import CheckedPlan
+from core.checks import check_plan
 from core.errors import CheckError
 from core.gait import Gait, motion_problem, travel_world
 from core.kinematics import free_strokes

@@ -13,7 +13,8 @@ from app.documents import parse_gait
 from app.sequence_plans import steps_between
 from app.trajectory_files import read_text, read_trajectory, write_waypoints
 from app.views import verdict_view
-from core.checks import CheckedPlan, check_plan
+from core.checked_plan import CheckedPlan
+from core.checks import check_plan
 from core.errors import CheckError, FootfallError, InfeasibleError
 from core.findings import Verdict
 from core.gait import Gait, travel_world

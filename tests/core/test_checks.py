@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from core.arrays import Floats
-from core.checks import CheckedPlan, check_plan, check_waypoints
+from core.checked_plan import CheckedPlan
+from core.checks import check_plan, check_waypoints
 from core.errors import StateError
 from core.findings import Severity, Verdict, approve
 from core.library import manual_entry

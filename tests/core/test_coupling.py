@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from core.arrays import Floats
-from core.checks import CheckedPlan, check_plan
+from core.checked_plan import CheckedPlan
+from core.checks import check_plan
 from core.coupling import actuator_positions, coupling_matrix, motor_strokes
 from core.coupling_check import RULE, check_coupling, coupling_residual, real_swings
 from core.errors import InputError

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from core.arrays import Floats
-from core.checks import CheckedPlan, check_plan
+from core.checked_plan import CheckedPlan
+from core.checks import check_plan
 from core.errors import InputError
 from core.gait import Gait
 from core.library import Group, default_vocabulary, group_ids, library, manual_entry

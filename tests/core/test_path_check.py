@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from core.arrays import Floats
-from core.checks import CheckedPlan, check_plan
+from core.checked_plan import CheckedPlan
+from core.checks import check_plan
 from core.findings import Severity, Verdict
 from core.library import library
 from core.manual import manual_motion

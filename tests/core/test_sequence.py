@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from core.balance_check import balance_margins
 from core.body_move import BodyPlace, MoveLimits, body_move
 from core.chain import Chain, Piece, chain
-from core.checks import balance_margins
 from core.crossing import crossing
 from core.errors import InfeasibleError, InputError
 from core.gait import Gait, GaitOptions, motion_problem

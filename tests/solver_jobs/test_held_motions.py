@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.checks import CheckedPlan, check_plan
+from core.checked_plan import CheckedPlan
+from core.checks import check_plan
 from core.gait import Gait, motion_problem, travel_world
 from core.held_feet import HeldFeet
 from core.lifting import held_knots

@@ -1,0 +1,120 @@
+"""Whether the robot tips: the point that balance is judged by, and the feet that stand."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from core.arrays import Bools, Floats, stretches
+from core.checked_plan import CheckedPlan
+from core.findings import TOLERANCE, Finding, Outcome, RuleMargin, Severity
+from core.leg import foot_from_strokes
+from core.robot import RobotModel
+from core.support import stability_margins, trajectory_pressure
+from core.trajectory import Trajectory
+from core.waypoints import Waypoints
+
+BALANCE_RESERVE = 0.001
+"""Below this distance to the polygon's edge the check warns, m."""
+STANDING_DEPTH = 0.0005
+"""Feet within this of the deepest one are taken to stand where only waypoints are known, m."""
+STROKE_BALANCE_SLACK = 0.0005
+"""From strokes alone balance is known to this much, since which feet stand is itself a guess, m."""
+
+
+def check_balance(plan: CheckedPlan) -> Outcome:
+    """Ground point inside the support polygon.
+
+    Of a motion whose velocities fit its positions it is the centre of pressure (DOMAIN.md 12); of every
+    other the centre of mass (static stability margin).
+    """
+    t = plan.trajectory
+    margins, what = balance_margins(plan.model, t)
+    return _balance_outcome(margins, t.times, t.contact, what, TOLERANCE)
+
+
+def balance_margins(model: RobotModel, t: Trajectory) -> tuple[Floats, str]:
+    """(n,) distance of the point that balance is judged by to the support polygon's edge, m; and its name."""
+    pressure = pressure_points(model, t)
+    if pressure is None:
+        return stability_margins(t.body_world[:, :2], t.feet_world, t.contact), "centre of mass"
+    return stability_margins(pressure, t.feet_world, t.contact), "centre of pressure"
+
+
+def pressure_points(model: RobotModel, t: Trajectory) -> Floats | None:
+    """(n, 2) centre of pressure from each knot on, m; None for a motion whose accelerations are unknown.
+
+    At the last knot, where the robot stands, it is under the centre of mass.
+    """
+    if not _moves_as_planned(t):
+        return None
+    return np.concatenate([trajectory_pressure(model, t), t.body_world[-1:, :2]])
+
+
+def _moves_as_planned(t: Trajectory) -> bool:
+    """Whether velocities are those of constant accelerations between knots."""
+    if t.body_velocity is None or t.feet_velocity is None:
+        return False
+    half = np.diff(t.times)[:, None] / 2
+    body_gap = np.diff(t.body_world, axis=0) - half * (t.body_velocity[1:] + t.body_velocity[:-1])
+    feet_gap = np.diff(t.feet_world, axis=0) - half[..., None] * (t.feet_velocity[1:] + t.feet_velocity[:-1])
+    return max(float(np.abs(body_gap).max()), float(np.abs(feet_gap).max())) <= TOLERANCE
+
+
+def _balance_outcome(margins: Floats, times: Floats, contact: Bools, what: str, slack: float) -> Outcome:
+    findings = []
+    for first, last in _unbalanced_stretches(np.asarray(margins < BALANCE_RESERVE), contact):
+        worst = first + int(margins[first : last + 1].argmin())
+        span = f"({times[first]:.1f} to {times[last]:.1f} s)"
+        if not np.isfinite(margins[worst]):
+            sentence = (
+                f"At {times[worst]:.1f} s no foot stands {span}: the robot falls. Keep three feet down."
+            )
+            findings.append(Finding("balance", Severity.ERROR, sentence, None, 0.0, worst))
+            continue
+        value = float(margins[worst])
+        tips = value < -slack
+        outcome = "the robot tips" if tips else "there is hardly any reserve"
+        where = _support_words(value, [str(foot + 1) for foot in np.nonzero(contact[worst])[0]])
+        sentence = f"At {times[worst]:.1f} s the {what} is {where[0]} {span}: {outcome}. {where[1]}"
+        severity, limit = (Severity.ERROR, 0.0) if tips else (Severity.WARNING, BALANCE_RESERVE)
+        findings.append(Finding("balance", severity, sentence, value, limit, worst))
+    smallest = float(margins.min())
+    known = smallest if np.isfinite(smallest) else None
+    return Outcome(RuleMargin("balance", known, "m"), tuple(findings))
+
+
+def _unbalanced_stretches(low: Bools, contact: Bools) -> list[tuple[int, int]]:
+    """Runs of too small a margin; while fewer than three feet stand, one for each set of standing feet."""
+    few = contact.sum(axis=1) < 3
+    others = (contact[1:] != contact[:-1]).any(axis=1)
+    cuts = np.nonzero(others & (few[1:] | few[:-1]))[0] + 1
+    starts = [0, *cuts.tolist()]
+    pieces = zip(starts, np.split(low, cuts), strict=True)
+    return [(start + first, start + last) for start, piece in pieces for first, last in stretches(piece)]
+
+
+def _support_words(value: float, standing: Sequence[str]) -> tuple[str, str]:
+    """Where a point is by the feet that stand, and what to do."""
+    distance = f"{abs(value) * 1000:.2f} mm"
+    if len(standing) == 1:
+        return f"{distance} from foot {standing[0]}, which stands alone", "Keep three feet down."
+    if len(standing) == 2:
+        words = f"{distance} from the line between feet {' and '.join(standing)}, which stand alone"
+        return words, "Keep three feet down."
+    side = "outside" if value < -TOLERANCE else "inside"
+    words = f"{distance} {side} the edge of the support polygon of feet {', '.join(standing)}"
+    return words, "Shift the body before the step, or ask the optimiser for a stability margin."
+
+
+def check_standing_balance(model: RobotModel, waypoints: Waypoints) -> Outcome:
+    """The centre of mass over the deepest feet, of strokes alone by forward kinematics."""
+    feet_module = foot_from_strokes(model.leg, waypoints.strokes)
+    turned = np.einsum("lij,nlj->nli", model.R_robot_from_module, feet_module)
+    feet_robot = turned + model.module_centres_robot
+    height = feet_robot[..., 2] - feet_robot[..., 2].min(axis=1, keepdims=True)
+    standing = np.asarray(height <= STANDING_DEPTH)
+    margins = stability_margins(np.zeros((waypoints.count, 2)), feet_robot, standing)
+    times = np.cumsum(waypoints.durations) - waypoints.durations[0]
+    return _balance_outcome(margins, times, standing, "centre of mass", STROKE_BALANCE_SLACK)

@@ -21,6 +21,7 @@ from app.cli import (
     commands_pattern,
     commands_plan,
     commands_robot,
+    commands_trial,
 )
 from app.cli.methods import Method
 from app.export.formats import ExportFormat
@@ -112,6 +113,15 @@ def pair(text: str) -> tuple[float, float]:
     return convert(parts[0]), convert(parts[1])
 
 
+def pixel(text: str) -> tuple[float, float]:
+    """An argument type: a place in a picture, `X,Y`."""
+    parts = text.split(",")
+    if len(parts) != 2:
+        raise argparse.ArgumentTypeError(f"“{text}” must be two numbers X,Y")
+    convert = number(-100_000.0, 100_000.0, "px")
+    return convert(parts[0]), convert(parts[1])
+
+
 def foot_order(text: str) -> tuple[int, ...]:
     """An argument type: feet in order, `3,2,4,1`."""
     try:
@@ -167,6 +177,8 @@ def make_parser() -> argparse.ArgumentParser:
     _import_words(command("import", commands_files.run_import, "Make a gait of another program's file."))
     _send_words(command("send", commands_robot.run_send, "Check, approve and stream a waypoint file."))
     _emulate_words(command("emulate", commands_robot.run_emulate, "Run an emulated robot on a line."))
+    text = "How far recorded foot tracks went, in cm and degrees, beside what was wanted."
+    _trial_words(command("trial", commands_trial.run_trial, text))
     bench = command("bench", commands_bench.run_bench, "Measure what users feel.")
     bench.add_argument("names", nargs="*", metavar="NAME", help="none: all but those in a browser")
     bench.add_argument("--count", type=whole(1, 100_000), default=EDITS, help="edits to try (edits)")
@@ -343,6 +355,22 @@ def _send_words(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", type=Path, help="waypoint CSV")
     parser.add_argument("--robot", required=True, help="emulator, a serial device, or socket://HOST:PORT")
     parser.add_argument("--yes", action="store_true", help="approve in your name without being asked")
+
+
+def _trial_words(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "files", type=Path, nargs="+", metavar="TRACK.csv", help="X_D1, Y_D1, …, a row a frame"
+    )
+    length = number(0.01, 1000.0, "cm")
+    parser.add_argument("--expect", type=length, required=True, metavar="CM", help="the whole wanted way")
+    text = "find the ends of so many iterations, and print each"
+    parser.add_argument("--iterations", type=whole(1, 50), default=None, metavar="N", help=text)
+    rate = number(0.1, 1000.0, "Hz")
+    parser.add_argument("--frame-rate", type=rate, default=None, metavar="HZ", help="frames a second (13)")
+    text = "the files are in pixels, y downwards, 0,0 a gap: how many are a centimetre"
+    parser.add_argument("--pixels-per-cm", type=number(0.1, 10_000.0, "px"), default=None, help=text)
+    text = "pixel of the platform's centre"
+    parser.add_argument("--origin", type=pixel, default=None, metavar="X,Y", help=text)
 
 
 def _emulate_words(parser: argparse.ArgumentParser) -> None:

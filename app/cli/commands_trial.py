@@ -1,0 +1,146 @@
+"""`trial`."""
+
+from __future__ import annotations
+
+import math
+from argparse import Namespace
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from app.cli.report import end_on_sigterm, note, show
+from app.trajectory_files import read_text
+from core.errors import InputError
+from core.trials.iterations import (
+    FoundIterations,
+    IterationMovement,
+    find_iterations,
+    iteration_movements,
+    standing_slip,
+)
+from core.trials.movement import Movement, foot_movements, mean_movement, spread
+from core.trials.track import FootTrack
+from core.trials.track_csv import FRAME_RATE, PixelScale, parse_track_csv
+
+_COLUMNS = ("+x", "−x", "dx", "+y", "−y", "dy", "dist", "angle", "% err", "net", "net angle")
+
+
+@dataclass(frozen=True)
+class _Trial:
+    """One file and what came of it."""
+
+    path: Path
+    track: FootTrack
+    feet: tuple[Movement, ...]
+    mean: Movement
+    found: FoundIterations | None
+    iterations: tuple[IterationMovement, ...]
+
+
+def run_trial(options: Namespace) -> int:
+    """Movement tables of recorded foot tracks."""
+    end_on_sigterm()
+    trials = [_read(options, path) for path in options.files]
+    for trial in trials:
+        if trial.track.gaps:
+            note(f"{trial.path}: {_gap_words(trial.track)}")
+        if trial.found is not None and not trial.found.is_clear:
+            note(f"{trial.path}: the feet's steps overlap between iterations, so their ends are unsure.")
+    if options.frame_rate is None and options.iterations is not None:
+        note(
+            f"The files tell no times; they are taken to hold {FRAME_RATE:g} frames a second (--frame-rate)."
+        )
+    overall = [trial.mean for trial in trials]
+    content = {
+        "files": [_content(trial) for trial in trials],
+        "mean": _figures(mean_movement(overall)),
+        "spread": _figures(spread(overall)) if len(overall) > 1 else None,
+    }
+    lines = [line for trial in trials for line in _lines(trial)]
+    if len(trials) > 1:
+        lines += [f"mean of {len(trials)} files", *_table([("all", mean_movement(overall))])]
+    show(options, content, lines)
+    return 0
+
+
+def _read(options: Namespace, path: Path) -> _Trial:
+    rate = FRAME_RATE if options.frame_rate is None else options.frame_rate
+    track = parse_track_csv(read_text(path), str(path), frame_rate=rate, pixels=_pixels(options))
+    expected = options.expect / 100.0
+    feet = foot_movements(track, expected)
+    if options.iterations is None:
+        return _Trial(path, track, feet, mean_movement(feet), None, ())
+    found = find_iterations(track, options.iterations)
+    parts = iteration_movements(track, found.ends, expected / options.iterations)
+    return _Trial(path, track, feet, mean_movement(feet), found, parts)
+
+
+def _pixels(options: Namespace) -> PixelScale | None:
+    if options.pixels_per_cm is None and options.origin is None:
+        return None
+    if options.pixels_per_cm is None or options.origin is None:
+        raise InputError("Pixels need both --pixels-per-cm and --origin.", "--pixels-per-cm")
+    return PixelScale(0.01 / options.pixels_per_cm, options.origin)
+
+
+def _gap_words(track: FootTrack) -> str:
+    frames = int(track.filled.sum())
+    longest = max(last - first + 1 for _, first, last in track.gaps)
+    return (
+        f"{frames} foot positions were not seen and are filled by straight lines "
+        f"({len(track.gaps)} gaps, the longest {longest} frames)."
+    )
+
+
+def _content(trial: _Trial) -> dict[str, Any]:
+    content: dict[str, Any] = {"file": str(trial.path), **_figures(trial.mean)}
+    content["feet"] = [_figures(foot) for foot in trial.feet]
+    content["frames"] = trial.track.times.size
+    content["filled"] = int(trial.track.filled.sum())
+    if trial.found is not None:
+        content["iterations"] = [
+            {**_figures(part.mean), "seconds": part.seconds, "speed_mm_s": part.speed * 1000.0, "end": end}
+            for part, end in zip(trial.iterations, trial.found.ends, strict=True)
+        ]
+        content["slip"] = (standing_slip(trial.track, trial.found.steps) * 100.0).tolist()
+    return content
+
+
+def _figures(movement: Movement) -> dict[str, float]:
+    """A movement in centimetres and degrees."""
+    return {
+        "plus_x": movement.plus_x * 100.0,
+        "minus_x": movement.minus_x * 100.0,
+        "dx": movement.dx * 100.0,
+        "plus_y": movement.plus_y * 100.0,
+        "minus_y": movement.minus_y * 100.0,
+        "dy": movement.dy * 100.0,
+        "distance": movement.distance * 100.0,
+        "angle_deg": math.degrees(movement.angle),
+        "error_percent": movement.error * 100.0,
+        "net_distance": movement.net_distance * 100.0,
+        "net_angle_deg": math.degrees(movement.net_angle),
+        "net_error_percent": movement.net_error * 100.0,
+    }
+
+
+def _lines(trial: _Trial) -> list[str]:
+    named = [(f"foot {number}", foot) for number, foot in enumerate(trial.feet, 1)]
+    lines = [f"{trial.path} (cm, degrees)", *_table([*named, ("mean", trial.mean)])]
+    for number, part in enumerate(trial.iterations, 1):
+        lines.append(
+            f"  iteration {number}: {part.mean.net_distance * 100:.2f} cm at "
+            f"{math.degrees(part.mean.net_angle):.1f}° in {part.seconds:.1f} s, {part.speed * 1000:.2f} mm/s"
+        )
+    if trial.found is not None:
+        slip = standing_slip(trial.track, trial.found.steps).max(axis=1) * 100.0
+        lines.append("  slip of standing feet, largest: " + ", ".join(f"{value:.2f} cm" for value in slip))
+    return lines
+
+
+def _table(rows: list[tuple[str, Movement]]) -> list[str]:
+    lines = ["  " + " ".join([" " * 7, *(f"{column:>9}" for column in _COLUMNS)])]
+    for name, movement in rows:
+        figures = [value for key, value in _figures(movement).items() if key != "net_error_percent"]
+        lines.append("  " + " ".join([f"{name:<7}", *(f"{value:9.2f}" for value in figures)]))
+    return lines

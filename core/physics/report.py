@@ -17,11 +17,13 @@ class SimulationReport:
         feet_error: (legs,) the same of each foot, m.
         distance: horizontal way of the body from first to last arrival, m.
         planned_distance: the plan's, m.
+        goal_gap: horizontal distance between where the body ends and where the plan does, both taken from
+            the first arrival, m.
         heading: turn of the body about the vertical from first to last arrival, rad.
         planned_heading: the plan's, rad.
         max_tilt: largest angle between the body's axis and the vertical, rad.
         max_tilt_time: when, simulated s.
-        fell: whether it tipped over.
+        fell: whether it tipped over, or its body sank to the floor.
         fell_time: when, simulated s; None where it did not.
         slip: (legs,) way that each foot slid while it should have stood, m.
         slip_samples: (count, legs) the same by move, m.
@@ -29,7 +31,12 @@ class SimulationReport:
             carry load, m; None where fewer than three ever do.
         min_margin_time: when, simulated s.
         motor_error: (legs, 3) largest distance of a motor from its ramp, m.
+        motor_error_times: (legs, 3) when, simulated s.
         saturation: (legs, 3) share of the time at which a motor's force is at its limit.
+        peak_forces: (legs, 3) largest force of a motor, either way, N.
+        peak_force_times: (legs, 3) when, simulated s.
+        arrival_times: (reached,) when each waypoint's move had ended, simulated s; fewer than there are
+            waypoints where the run ended early.
         loop_error: largest violation of a rod's length, m.
         realtime_factor: simulated seconds a second of computing.
         ended_early: why it ended before the last waypoint, or "".
@@ -39,6 +46,7 @@ class SimulationReport:
     feet_error: Floats
     distance: float
     planned_distance: float
+    goal_gap: float
     heading: float
     planned_heading: float
     max_tilt: float
@@ -50,7 +58,11 @@ class SimulationReport:
     min_margin: float | None
     min_margin_time: float | None
     motor_error: Floats
+    motor_error_times: Floats
     saturation: Floats
+    peak_forces: Floats
+    peak_force_times: Floats
+    arrival_times: Floats
     loop_error: float
     realtime_factor: float
     ended_early: str

@@ -1,0 +1,212 @@
+"""The rules of a verdict that only a simulation can judge; limits and remedies stand with each of them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from core.arrays import Floats, stretches
+from core.findings import TOLERANCE, Outcome, RuleMargin, Severity, found
+from core.physics.problem import SimulationProblem
+from core.physics.report import SimulationReport
+from core.wire_timing import ARRIVAL_THRESHOLD
+
+TILT_LIMIT = float(np.radians(2.0))
+"""A body that leans further rocks onto a foot that should be in the air, rad."""
+SLIP_LIMIT = 0.001
+"""A sole that slides further during one stance gets a warning, m."""
+BALANCE_LIMIT = 0.0
+"""A centre of mass beyond the feet that carry load is held up by the width of the soles alone, m."""
+TRAVEL_LIMIT = 0.002
+"""A robot that ends further from where it was to go gets a warning, m …"""
+TRAVEL_SHARE = 0.1
+"""… or further than this part of the planned way, where that is more."""
+HEADING_LIMIT = float(np.radians(2.0))
+"""A robot that ends with another heading gets a warning, rad."""
+TRACK_LIMIT = ARRIVAL_THRESHOLD
+"""A motor further from its ramp than the firmware's threshold gets a warning, m."""
+SATURATION_LIMIT = 0.01
+"""A motor whose force is at its limit for a larger part of the time gets a warning."""
+
+
+def physics_outcomes(report: SimulationReport, problem: SimulationProblem) -> tuple[Outcome, ...]:
+    """What the rules say of a simulated run.
+
+    Falling, tilting and ending early are errors; slip, lost balance, a missed goal, motors that fall behind
+    and motors at their force's limit are warnings. Samples are the plan's knots, times the simulated robot's.
+
+    Args:
+        report: of the run.
+        problem: what was asked.
+    """
+    rules = (_fall, _end, _tilt, _slip, _balance, _travel, _heading, _tracking, _saturation)
+    return tuple(rule(report, problem) for rule in rules)
+
+
+def _fall(report: SimulationReport, problem: SimulationProblem) -> Outcome:
+    margin = RuleMargin("simulated_fall", None, "rad")
+    if report.fell_time is None:
+        return Outcome(margin)
+    words = (
+        f"In the simulation the robot falls over at {report.fell_time:.1f} s; it leans by "
+        f"{np.degrees(report.max_tilt):.0f}° at most."
+    )
+    remedy = "Shift the body over the standing feet before each step, or ask for a larger stability margin."
+    place = _place(report, problem, report.fell_time)
+    finding = found(margin.rule, Severity.ERROR, words, remedy, report.max_tilt, TILT_LIMIT, **place)
+    return Outcome(margin, (finding,))
+
+
+def _end(report: SimulationReport, problem: SimulationProblem) -> Outcome:
+    margin = RuleMargin("simulated_end", None, "")
+    missing = problem.waypoints.count - len(report.arrival_times)
+    if not report.ended_early and not missing:
+        return Outcome(margin)
+    words = (
+        f"The simulation ended {missing} of {problem.waypoints.count} waypoints early: "
+        f"{report.ended_early or 'no reason is known'}."
+    )
+    place = _place(report, problem, float(report.arrival_times[-1]))
+    remedy = "Mend what stands before, then simulate again."
+    return Outcome(margin, (found(margin.rule, Severity.ERROR, words, remedy, float(missing), 0.0, **place),))
+
+
+def _tilt(report: SimulationReport, problem: SimulationProblem) -> Outcome:
+    margin = RuleMargin("simulated_tilt", TILT_LIMIT - report.max_tilt, "rad")
+    if report.max_tilt <= TILT_LIMIT or report.fell:
+        return Outcome(margin)
+    words = (
+        f"In the simulation the body leans by {np.degrees(report.max_tilt):.1f}° at "
+        f"{report.max_tilt_time:.1f} s; more than {np.degrees(TILT_LIMIT):.0f}° means that it rocks onto a "
+        "foot that should be in the air."
+    )
+    remedy = "Shift the body over the standing feet before that step, or ask for a larger stability margin."
+    place = _place(report, problem, report.max_tilt_time)
+    finding = found(margin.rule, Severity.ERROR, words, remedy, report.max_tilt, TILT_LIMIT, **place)
+    return Outcome(margin, (finding,))
+
+
+def longest_slides(report: SimulationReport, problem: SimulationProblem) -> tuple[Floats, list[int]]:
+    """(legs,) the longest way that each sole slid in one stance, m, and the move in which it slid most."""
+    legs = problem.model.leg_count
+    longest, worst = np.zeros(legs), [0] * legs
+    for foot in range(legs):
+        for first, last in stretches(problem.standing[:, foot]):
+            slid = report.slip_samples[first : last + 1, foot]
+            if slid.sum() > longest[foot]:
+                longest[foot], worst[foot] = slid.sum(), first + int(slid.argmax())
+    return longest, worst
+
+
+def _slip(report: SimulationReport, problem: SimulationProblem) -> Outcome:
+    slides, moves = longest_slides(report, problem)
+    findings = []
+    for foot in np.nonzero(slides > SLIP_LIMIT + TOLERANCE)[0]:
+        time = float(report.arrival_times[moves[foot]])
+        words = (
+            f"In the simulation foot {foot + 1} slides {slides[foot] * 1000:.1f} mm during one stance, "
+            f"most about {time:.1f} s; more than {SLIP_LIMIT * 1000:.0f} mm."
+        )
+        remedy = "Keep standing feet still in the plan, or expect the robot to go less far."
+        place = _place(report, problem, time, int(foot))
+        value = float(slides[foot])
+        findings.append(found("simulated_slip", Severity.WARNING, words, remedy, value, SLIP_LIMIT, **place))
+    return Outcome(RuleMargin("simulated_slip", SLIP_LIMIT - float(slides.max()), "m"), tuple(findings))
+
+
+def _balance(report: SimulationReport, problem: SimulationProblem) -> Outcome:
+    margin = RuleMargin("simulated_balance", report.min_margin, "m")
+    value, time = report.min_margin, report.min_margin_time
+    if value is None or time is None or value >= BALANCE_LIMIT - TOLERANCE:
+        return Outcome(margin)
+    words = (
+        f"In the simulation the centre of mass is {-value * 1000:.1f} mm outside the middles of the feet "
+        f"that carry load at {time:.1f} s; only the width of the soles holds the robot there."
+    )
+    remedy = "Ask for a larger stability margin, or shift the body further before that step."
+    place = _place(report, problem, time)
+    return Outcome(
+        margin, (found(margin.rule, Severity.WARNING, words, remedy, value, BALANCE_LIMIT, **place),)
+    )
+
+
+def _travel(report: SimulationReport, problem: SimulationProblem) -> Outcome:
+    limit = max(TRAVEL_LIMIT, TRAVEL_SHARE * report.planned_distance)
+    margin = RuleMargin("simulated_travel", limit - report.goal_gap, "m")
+    if report.goal_gap <= limit + TOLERANCE:
+        return Outcome(margin)
+    words = (
+        f"In the simulation the body ends {report.goal_gap * 1000:.1f} mm from where the plan ends, more "
+        f"than {limit * 1000:.1f} mm; it goes {report.distance * 1000:.1f} of "
+        f"{report.planned_distance * 1000:.1f} mm."
+    )
+    remedy = "See where feet slide or the body leans, and mend that first."
+    return Outcome(margin, (found(margin.rule, Severity.WARNING, words, remedy, report.goal_gap, limit),))
+
+
+def _heading(report: SimulationReport, problem: SimulationProblem) -> Outcome:
+    gap = abs(report.heading - report.planned_heading)
+    margin = RuleMargin("simulated_heading", HEADING_LIMIT - gap, "rad")
+    if gap <= HEADING_LIMIT:
+        return Outcome(margin)
+    words = (
+        f"In the simulation the body turns by {np.degrees(report.heading):.1f}°; the plan says "
+        f"{np.degrees(report.planned_heading):.1f}°, which is more than {np.degrees(HEADING_LIMIT):.0f}° off."
+    )
+    remedy = "See where feet slide, and mend that first."
+    return Outcome(margin, (found(margin.rule, Severity.WARNING, words, remedy, gap, HEADING_LIMIT),))
+
+
+def _tracking(report: SimulationReport, problem: SimulationProblem) -> Outcome:
+    foot, motor, value = _worst_motor(report.motor_error)
+    margin = RuleMargin("simulated_motors", TRACK_LIMIT - value, "m")
+    if value <= TRACK_LIMIT + TOLERANCE:
+        return Outcome(margin)
+    time = float(report.motor_error_times[foot, motor])
+    words = (
+        f"In the simulation motor {motor + 1} of foot {foot + 1} is {value * 1000:.2f} mm behind its ramp at "
+        f"{time:.1f} s; more than {TRACK_LIMIT * 1000:.1f} mm, within which the firmware calls it arrived."
+    )
+    remedy = "Lighten the load on that foot, or make the step shorter."
+    place = _place(report, problem, time, foot, motor)
+    return Outcome(
+        margin, (found(margin.rule, Severity.WARNING, words, remedy, value, TRACK_LIMIT, **place),)
+    )
+
+
+def _saturation(report: SimulationReport, problem: SimulationProblem) -> Outcome:
+    foot, motor, share = _worst_motor(report.saturation)
+    margin = RuleMargin("simulated_force", SATURATION_LIMIT - share, "")
+    if share <= SATURATION_LIMIT:
+        return Outcome(margin)
+    time = float(report.peak_force_times[foot, motor])
+    words = (
+        f"In the simulation motor {motor + 1} of foot {foot + 1} is at its limit of "
+        f"{report.peak_forces[foot, motor]:.1f} N for {share * 100:.0f} % of the time, as at {time:.1f} s; "
+        f"more than {SATURATION_LIMIT * 100:.0f} %."
+    )
+    remedy = "Keep the feet nearer to their modules' middles, or lighten the load on that foot."
+    place = _place(report, problem, time, foot, motor)
+    finding = found(margin.rule, Severity.WARNING, words, remedy, share, SATURATION_LIMIT, **place)
+    return Outcome(margin, (finding,))
+
+
+def _worst_motor(values: Floats) -> tuple[int, int, float]:
+    """Foot, motor and value of the largest of (legs, 3)."""
+    foot, motor = (int(i) for i in np.unravel_index(int(values.argmax()), values.shape))
+    return foot, motor, float(values[foot, motor])
+
+
+def _place(
+    report: SimulationReport,
+    problem: SimulationProblem,
+    time: float,
+    foot: int | None = None,
+    actuator: int | None = None,
+) -> dict[str, Any]:
+    """Where a finding is: the plan's knot with which the move ends that was under way at a simulated time."""
+    move = min(int(np.searchsorted(report.arrival_times, time)), problem.waypoints.count - 1)
+    knots = problem.plan.times
+    knot = min(int(np.searchsorted(knots, problem.times[move] - 1e-9)), len(knots) - 1)
+    return {"sample": knot, "foot": foot, "actuator": actuator, "time": time}

@@ -75,9 +75,15 @@ class Board:
             self.readings_mm[index] = self.motors.reading_mm(index, self.now_us)
 
     def drive(self, index: int, command: int) -> None:
-        """Gives a motor a command; the speed changes with the first of three writes."""
-        self.motors.command(index, command, self.now_us + self.profile.pwm_us)
+        """Gives a motor a command: the speed changes with the first of three writes, the way with the last.
+
+        Between them a motor that shall turn round goes on the old way at the new speed; one that was
+        released has no way until then.
+        """
+        before = self.motors.way(index)
+        self.motors.command(index, before * abs(command), self.now_us + self.profile.pwm_us)
         self.now_us += self.profile.drive_us
+        self.motors.command(index, command, self.now_us)
 
     def release_all(self) -> None:
         """Releases every motor."""

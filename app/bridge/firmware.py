@@ -12,6 +12,7 @@ from itertools import repeat
 
 from app.bridge.board import Board
 from app.bridge.c_text import Fields, c_string, padded_text, to_float, to_int
+from app.bridge.memory import ARM, Layout, Memory
 from app.bridge.profiles import Profile
 from app.bridge.ramp import Controller, longest_ramp, motor_speeds, ramp_durations, ramp_reference, single
 from core.wire import MOTORS, RESET_MM, THRESHOLD_MM
@@ -21,9 +22,6 @@ BUFFER_BYTES = 20000
 
 LONGEST_PARTIAL = 65536
 """Bytes of an open message that the emulator keeps; a board would have died long before."""
-
-SURVIVED_POINTS = 6
-"""Waypoints of one message that the board survives, though it goes astray; its memory has room for one."""
 
 POWER_UP_US = 5_000_000
 BEGIN_US, BEGIN_WRITES = 45_600, 48
@@ -66,6 +64,7 @@ class Firmware:
     Args:
         profile: time that input and output take.
         strokes_mm: stroke of each motor at power-on; by default all drawn in.
+        layout: of the variables that a message of several waypoints overwrites.
 
     Attributes:
         board: clock, line and motors.
@@ -75,12 +74,15 @@ class Firmware:
         spoilt: what has overwritten its memory, or None; it may live on and go astray (hazard 7).
     """
 
-    def __init__(self, profile: Profile, strokes_mm: Sequence[float] = (RESET_MM,) * MOTORS) -> None:
+    def __init__(
+        self, profile: Profile, strokes_mm: Sequence[float] = (RESET_MM,) * MOTORS, layout: Layout = ARM
+    ) -> None:
         self.board = Board(profile, strokes_mm)
         self.messages: list[Message] = []
         self.completions: list[Completion] = []
         self.fault: str | None = None
         self.spoilt: str | None = None
+        self._layout = layout
         self._reset_asked = False
         self._clear_memory()
 
@@ -122,8 +124,7 @@ class Firmware:
         self._partial: bytearray | None = None
         self._corruption: str | None = None
         self._stopped = False
-        self._target_mm = [0.0] * MOTORS
-        self._errors_mm = [0.0] * MOTORS
+        self._memory = Memory(self._layout)
         self._count, self._index, self._active = 0, 0, False
         self._controller = Controller()
         self._last_millis = 0
@@ -149,9 +150,9 @@ class Firmware:
             yield
         board.now_us += BEGIN_US + BEGIN_WRITES * board.profile.pwm_us
         board.release_all()
-        board.read_strokes()
+        self._read()
         self._publish()
-        self._go_to([RESET_MM] * MOTORS)
+        self._reset_motors()
         board.write_line(b"SETUP MOVING")
         yield from self._ramp(SETUP_ACCELERATION_MM)
         board.write_line(b"SETUP FINISHED")
@@ -186,7 +187,7 @@ class Firmware:
         if text.startswith(b"s"):
             self._stop(self._buffer[2] != ord("0"))
         elif text.startswith(b"r"):
-            self._go_to([RESET_MM] * MOTORS)
+            self._reset_motors()
         elif text.startswith(b"p"):
             strokes = self._read_trajectory()
         self.messages.append(Message(self.now, text.decode("latin-1"), strokes))
@@ -206,9 +207,12 @@ class Firmware:
             self.stall(self._corruption)
         return self._corruption is not None
 
-    def _go_to(self, target_mm: list[float]) -> None:
-        self._target_mm = target_mm
-        self._count, self._index, self._active = 1, 0, True
+    def _reset_motors(self) -> None:
+        self._memory.store(0, 0.0, [RESET_MM] * MOTORS)
+        self._begin(1)
+
+    def _begin(self, count: int) -> None:
+        self._count, self._index, self._active = count, 0, True
 
     def _read_trajectory(self) -> tuple[float, ...] | None:
         board = self.board
@@ -217,25 +221,23 @@ class Firmware:
         fields = Fields(self._buffer)
         fields.take()
         count = to_int(fields.take())
-        points, durations = [], []
+        strokes = None
         for index in range(count):
-            durations.append(to_float(fields.take()))
-            points.append(self._read_point(index, durations[-1], fields))
-        self._go_to(points[0] if points else self._target_mm)
-        self._count = count
+            strokes = self._read_point(index, fields)
+        self._begin(count)
         if count > 1:
             self.spoilt = f"A message of {count} waypoints overran the memory for one."
-            # The durations of the others lie where the first one's strokes are.
-            self._target_mm[: count - 1] = durations[1 : MOTORS + 1]
         board.write_line(b"Number of trajectory points \t", *_integer(count))
-        return tuple(points[0]) if count == 1 else None
+        return strokes if count == 1 else None
 
-    def _read_point(self, index: int, duration: float, fields: Fields) -> list[float]:
+    def _read_point(self, index: int, fields: Fields) -> tuple[float, ...]:
         board = self.board
+        duration = to_float(fields.take())
         board.write(b"durations i")
         board.write_number(duration, 2)
         board.write_line()
-        strokes = [single(to_float(fields.take())) for _ in range(MOTORS)]
+        strokes = tuple(single(to_float(fields.take())) for _ in range(MOTORS))
+        self._memory.store(index, single(duration), strokes)
         text = b"p " + padded_text(duration, 2) + b" "
         text += b"".join(padded_text(stroke, 4) + b" " for stroke in strokes)
         board.now_us += (MOTORS + 1) * board.profile.text_us
@@ -264,12 +266,12 @@ class Firmware:
         board.write(b"E, ")
         reached = True
         for index in range(MOTORS):
-            board.read_strokes()
-            error = single(board.readings_mm[index]) - single(self._wanted_mm[index])
-            self._errors_mm[index] = single(error)
-            board.write_number(single(error), 4)
+            self._read()
+            error = single(single(board.readings_mm[index]) - single(self._wanted_mm[index]))
+            self._memory.note_error(index, error)
+            board.write_number(error, 4)
             board.write(b",")
-            if abs(single(error)) > THRESHOLD_MM:
+            if abs(error) > THRESHOLD_MM:
                 reached = False
             elif not self._crashed():
                 board.drive(index, 0)
@@ -281,7 +283,7 @@ class Firmware:
         board = self.board
         board.release_all()
         strokes = tuple(board.motors.stroke_mm(i, board.now_us) for i in range(MOTORS))
-        self.completions.append(Completion(self.now, tuple(self._target_mm), strokes))
+        self.completions.append(Completion(self.now, tuple(self._memory.wanted_mm(0)), strokes))
         board.write_line(b"end of all available trajectories")
         self._active = False
 
@@ -317,13 +319,12 @@ class Firmware:
 
     def _overrun(self, time: float) -> bool:
         """Whether the program dies of a spoilt memory, with motor 1 driven."""
-        return self._count > SURVIVED_POINTS and time > 0.0
+        return self._count > self._layout.survived and time > 0.0
 
     @property
     def _wanted_mm(self) -> list[float]:
         """Strokes of the present point; where one beyond the first lies, there are other variables."""
-        memory = (self._target_mm, self._errors_mm, self.board.readings_mm)
-        return memory[self._index] if self._index < len(memory) else [0.0] * MOTORS
+        return self._memory.wanted_mm(self._index)
 
     def _distances(self) -> list[float]:
         return [t - r for t, r in zip(self._wanted_mm, self.board.readings_mm, strict=True)]
@@ -331,10 +332,14 @@ class Firmware:
     def _update_state(self) -> float:
         elapsed = (self.board.millis - self._last_millis) / 1000.0
         self._last_millis = self.board.millis
+        self._read()
+        return elapsed
+
+    def _read(self) -> None:
         self.board.read_strokes()
         if self._corruption is not None:
             self.board.readings_mm = [0.0] * MOTORS
-        return elapsed
+        self._memory.note_readings(self.board.readings_mm)
 
     def _publish(self) -> None:
         board = self.board

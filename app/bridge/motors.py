@@ -32,11 +32,13 @@ class Motors:
     def command(self, index: int, command: int, now_us: int) -> None:
         """Drives one motor with −255 to 255; 0 releases it."""
         self._command[index] = command
-        speed = self._strength[index] * command / FULL_COMMAND * FULL_SPEED_MM
-        if speed != self._speed_mm[index]:
-            self._start_mm[index] = self.stroke_mm(index, now_us)
-            self._since_us[index] = now_us
-            self._speed_mm[index] = speed
+        self._start_mm[index] = self.stroke_mm(index, now_us)
+        self._since_us[index] = now_us
+        self._speed_mm[index] = self._strength[index] * command / FULL_COMMAND * FULL_SPEED_MM
+
+    def way(self, index: int) -> int:
+        """The way on which a motor is driven: 1 out, −1 in, 0 if it is released."""
+        return (self._command[index] > 0) - (self._command[index] < 0)
 
     def weaken(self, index: int, share: float, now_us: int) -> None:
         """Gives one motor a share of its speed from now on."""

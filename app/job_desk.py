@@ -5,18 +5,17 @@ Only the session's thread calls this.
 
 from __future__ import annotations
 
-import time
 from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from app.documents import asked_hash
+from app.job_book import ENDED, JobBook
 from app.judgement import Judgement, judge
 from app.open_gait import OpenGait
 from app.plans import Plan, iterate_plan
 from app.provenance import result_provenance
-from app.store.database import Database
 from app.timings import timed_gait, timing_content, timing_problem
 from app.trajectory_content import trajectory_content
 from core.errors import InputError, StateError
@@ -27,19 +26,12 @@ from core.robot import load_robot
 from core.trajectory import Trajectory
 from solver_jobs import Job, JobKind, JobRunner, JobState, MotionResult, SolveStatus, TimingResult
 
-ENDED = frozenset({"done", "infeasible", "failed", "cancelled", "interrupted"})
-MOST_SHOWN = 20
-"""Jobs in the page's list."""
 MOST_COURSES = 4
 """Jobs whose every iteration can still be looked at."""
 
 
 KIND_WORDS = {JobKind.MOTION: "optimise", JobKind.TIMING: "timing"}
 """Kinds of jobs as the page and scripts name them."""
-
-
-class UnknownJobError(InputError):
-    """There is no job of that id."""
 
 
 @dataclass(frozen=True)
@@ -53,32 +45,25 @@ class JobOrigin:
 
 
 class JobDesk:
-    """The list of jobs.
+    """The optimisations in the list of jobs.
 
     Args:
-        database: where jobs and results are kept.
+        book: the list of jobs.
         runner: the worker processes.
         take_result: told of a checked result: motion hash and content to keep.
     """
 
     def __init__(
         self,
-        database: Database,
+        book: JobBook,
         runner: JobRunner,
         take_result: Callable[[str, dict[str, Any]], None],
     ) -> None:
-        self._database = database
+        self._book = book
         self._runner = runner
         self._take_result = take_result
         self._origins: dict[str, JobOrigin] = {}
         self._courses: OrderedDict[str, tuple[Trajectory, ...]] = OrderedDict()
-        self._contents = {content["id"]: content for content in reversed(database.jobs(MOST_SHOWN))}
-        for content in self._contents.values():
-            content["course"] = 0
-            if content["state"] not in ENDED:
-                content |= {"state": "interrupted", "ended": time.time()}
-                content["sentence"] = "The studio ended while this job was on. Optimise again."
-                database.put_job(content)
 
     def submit(self, open_gait: OpenGait, kind: JobKind = JobKind.MOTION) -> dict[str, Any]:
         """Starts the optimisation of a gait as it is now, or the search for its fastest timing.
@@ -101,53 +86,21 @@ class JobDesk:
         origin = JobOrigin(open_gait.id, gait, asked_hash(gait), problem)
         job_id = self._runner.submit(problem, gait.name, kind)
         self._origins[job_id] = origin
-        content = {
-            "id": job_id,
-            "kind": KIND_WORDS[kind],
-            "gait": origin.gait_id,
-            "gait_name": gait.name,
-            "motion": origin.motion,
-            "state": "queued",
-            "sentence": "Waits for a worker.",
-            "created": time.time(),
-            "started": None,
-            "ended": None,
-            "progress": [],
-            "course": 0,
-            "result": None,
-        }
-        self._contents[job_id] = content
-        self._database.put_job(content)
-        return content
+        return self._book.begin(job_id, KIND_WORDS[kind], origin.gait_id, gait.name, origin.motion)
 
     def cancel(self, job_id: str) -> dict[str, Any]:
         """Asks a job to end; one that ended already stays as it is."""
-        content: dict[str, Any] = self.content(job_id)
+        content = self._book.content(job_id)
         if content["state"] not in ENDED:
             self._runner.cancel(job_id)
         return content
 
-    def content(self, job_id: str) -> dict[str, Any]:
-        """A job as JSON content.
-
-        Raises:
-            UnknownJobError: there is none of that id.
-        """
-        if job_id not in self._contents:
-            raise UnknownJobError(f"There is no job “{job_id}”.", job_id)
-        found: dict[str, Any] = self._contents[job_id]
-        return found
-
-    def contents(self) -> list[dict[str, Any]]:
-        """The newest jobs, newest first."""
-        return list(reversed(self._contents.values()))[:MOST_SHOWN]
-
     def changed(self, job: Job) -> dict[str, Any] | None:
         """Takes news from the runner and gives back the job as it is now."""
-        content: dict[str, Any] | None = self._contents.get(job.id)
         origin = self._origins.get(job.id)
-        if content is None or origin is None:
+        if origin is None:
             return None
+        content = self._book.content(job.id)
         content |= {
             "state": job.state.value,
             "sentence": job.sentence,
@@ -163,8 +116,7 @@ class JobDesk:
         elif job.result is not None:
             self._keep_course(content, job.result.course)
             self._judge(content, origin, job.result)
-        if content["state"] in ENDED:
-            self._database.put_job(content)
+        self._book.keep(content)
         return content
 
     def _keep_course(self, content: dict[str, Any], course: tuple[Trajectory, ...]) -> None:
@@ -173,7 +125,7 @@ class JobDesk:
         content["course"] = len(course)
         while len(self._courses) > MOST_COURSES:
             oldest, _ = self._courses.popitem(last=False)
-            self._contents[oldest]["course"] = 0
+            self._book.content(oldest)["course"] = 0
 
     def iterate(self, job_id: str, number: int) -> Plan:
         """The motion at an iteration, to be looked at.
@@ -183,7 +135,7 @@ class JobDesk:
             StateError: its iterations are no longer kept.
             InputError: it has no iteration of that number.
         """
-        content = self.content(job_id)
+        content = self._book.content(job_id)
         course = self._courses.get(job_id, ())
         if not course:
             raise StateError(

@@ -15,7 +15,9 @@ from app.events import EventHub
 from app.gait_desk import GaitDesk
 from app.gait_list import GaitList
 from app.history import Author
+from app.job_book import JobBook
 from app.job_desk import JobDesk
+from app.kept_simulations import KeptSimulations
 from app.live_desk import LiveDesk
 from app.open_gait import OpenGait
 from app.pattern_desk import PatternDesk
@@ -29,6 +31,7 @@ from app.sequence_plans import run_motions, runs_without_result
 from app.session import Result, Session, log_failure
 from app.store.database import Database
 from app.store.files import GaitFiles
+from app.store.simulation_log import SimulationLog
 from app.version import VERSION
 from app.views import gait_view, steps_view
 from core.errors import FootfallError, StateError
@@ -67,7 +70,9 @@ class Studio:
         self._list = GaitList(self.gaits)
         self.session.tell(self.summaries)
         self._runner = JobRunner(self._job_changed, warm_up=_likely_problem())
-        self.jobs = JobDesk(self._database, self._runner, self._take_result)
+        self.book = JobBook(self._database)
+        self.jobs = JobDesk(self.book, self._runner, self._take_result)
+        self.simulations = KeptSimulations(SimulationLog(self._database))
         self.robot = RobotDesk(
             self._database, device, self._robot_changed, RobotPorts(data / "robot.json"), self._tell_page
         )
@@ -134,7 +139,7 @@ class Studio:
             "type": "hello",
             "version": VERSION,
             "gaits": self.summaries(),
-            "jobs": [self.job_view(content) for content in self.jobs.contents()],
+            "jobs": [self.job_view(content) for content in self.book.contents()],
             "robot": self.robot.view(),
         }
 
@@ -175,7 +180,7 @@ class Studio:
         self.hub.publish({"type": "gait", "view": view})
         if not self._list.has(open_gait.id):
             self.publish_list()
-        for content in self.jobs.contents():
+        for content in self.book.contents():
             if content["gait"] == open_gait.id:
                 self.hub.publish({"type": "job", "job": self.job_view(content)})
         for sequence in self.gaits.sequences_with(open_gait.id):

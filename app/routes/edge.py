@@ -14,7 +14,8 @@ from fastapi.responses import JSONResponse
 
 from app.gait_desk import UnknownGaitError
 from app.history import Author
-from app.job_desk import UnknownJobError
+from app.job_book import UnknownJobError
+from app.kept_simulations import UnknownSimulationError
 from app.open_gait import OpenGait
 from app.pattern_desk import UnknownSearchError
 from app.runs.record import UnknownRunError
@@ -38,6 +39,7 @@ _STATUS: tuple[tuple[type[FootfallError], int], ...] = (
     (UnknownVersionError, 404),
     (UnknownSearchError, 404),
     (UnknownRunError, 404),
+    (UnknownSimulationError, 404),
     (StateError, 409),
     (CheckError, 409),
     (RobotError, 503),

@@ -36,13 +36,13 @@ async def submit(job: JobRequest, studio: TheStudio, author: TheAuthor) -> dict[
 @router.get("")
 async def list_jobs(studio: TheStudio) -> dict[str, Any]:
     """The newest jobs, newest first."""
-    return {"jobs": await on_session(studio, lambda: [studio.job_view(c) for c in studio.jobs.contents()])}
+    return {"jobs": await on_session(studio, lambda: [studio.job_view(c) for c in studio.book.contents()])}
 
 
 @router.get("/{job_id}")
 async def read_job(job_id: str, studio: TheStudio) -> dict[str, Any]:
     """A job with its course so far."""
-    return await on_session(studio, lambda: studio.job_view(studio.jobs.content(job_id)))
+    return await on_session(studio, lambda: studio.job_view(studio.book.content(job_id)))
 
 
 @router.delete("/{job_id}")

@@ -103,4 +103,16 @@ def _add_to_runs(connection: sqlite3.Connection) -> None:
         connection.execute(statement)
 
 
-_MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (_add_authors_and_versions, _add_to_runs)
+def _add_simulations(connection: sqlite3.Connection) -> None:
+    """Simulations of gaits, by what was simulated."""
+    connection.execute(
+        "CREATE TABLE simulation(gait TEXT, key TEXT, waypoints TEXT, physics TEXT, made REAL, content TEXT, "
+        "PRIMARY KEY(gait, key))"
+    )
+
+
+_MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
+    _add_authors_and_versions,
+    _add_to_runs,
+    _add_simulations,
+)

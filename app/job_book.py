@@ -1,0 +1,95 @@
+"""The list of jobs as pages and scripts see it, whoever does them; kept so that it survives a restart.
+
+Only the session's thread calls this.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+from app.store.database import Database
+from core.errors import InputError
+
+ENDED = frozenset({"done", "infeasible", "failed", "cancelled", "interrupted"})
+MOST_SHOWN = 20
+"""Jobs in the page's list."""
+
+AGAIN = {"simulate": "Simulate again."}
+"""What to do about a job that was interrupted, by kind."""
+
+
+class UnknownJobError(InputError):
+    """There is no job of that id."""
+
+
+class JobBook:
+    """The jobs.
+
+    Args:
+        database: where they are kept.
+    """
+
+    def __init__(self, database: Database) -> None:
+        self._database = database
+        self._contents = {content["id"]: content for content in reversed(database.jobs(MOST_SHOWN))}
+        for content in self._contents.values():
+            content["course"] = 0
+            if content["state"] not in ENDED:
+                content |= {"state": "interrupted", "ended": time.time()}
+                again = AGAIN.get(content["kind"], "Optimise again.")
+                content["sentence"] = f"The studio ended while this job was on. {again}"
+                database.put_job(content)
+
+    def begin(
+        self, job_id: str, kind: str, gait_id: str, gait_name: str, motion: str, **more: Any
+    ) -> dict[str, Any]:
+        """Adds a job that waits for a worker.
+
+        Args:
+            job_id: its id.
+            kind: what it does, as pages and scripts name it.
+            gait_id: which gait it is of.
+            gait_name: what that is called.
+            motion: hash of what it works on, by which its answer is told to be of the gait as it is.
+            **more: what else the job says of itself.
+        """
+        content = {
+            "id": job_id,
+            "kind": kind,
+            "gait": gait_id,
+            "gait_name": gait_name,
+            "motion": motion,
+            "state": "queued",
+            "sentence": "Waits for a worker.",
+            "created": time.time(),
+            "started": None,
+            "ended": None,
+            "progress": [],
+            "course": 0,
+            "result": None,
+            **more,
+        }
+        self._contents[job_id] = content
+        self._database.put_job(content)
+        return content
+
+    def keep(self, content: dict[str, Any]) -> None:
+        """Stores a job that has ended; until then it is worth nothing after a restart."""
+        if content["state"] in ENDED:
+            self._database.put_job(content)
+
+    def content(self, job_id: str) -> dict[str, Any]:
+        """A job as JSON content.
+
+        Raises:
+            UnknownJobError: there is none of that id.
+        """
+        if job_id not in self._contents:
+            raise UnknownJobError(f"There is no job “{job_id}”.", job_id)
+        found: dict[str, Any] = self._contents[job_id]
+        return found
+
+    def contents(self) -> list[dict[str, Any]]:
+        """The newest jobs, newest first."""
+        return list(reversed(self._contents.values()))[:MOST_SHOWN]

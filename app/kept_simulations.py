@@ -1,0 +1,88 @@
+"""The simulations that are kept: which one is of a plan as it is now, and its report; any thread may ask."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from app.plans import Plan
+from app.simulations import physics_content, report_from_content, simulation_key
+from app.store.simulation_log import SimulationLog, SimulationRow
+from app.version import VERSION
+from core.errors import InputError
+from core.physics.parameters import physics_set, physics_sets
+from core.physics.report import SimulationReport
+
+
+class UnknownSimulationError(InputError):
+    """There is no such simulation."""
+
+
+class KeptSimulations:
+    """The simulations.
+
+    Args:
+        log: where they are kept.
+    """
+
+    def __init__(self, log: SimulationLog) -> None:
+        self._log = log
+
+    def put(self, row: SimulationRow, content: dict[str, Any]) -> None:
+        """Keeps a simulation; variations that are known of the same stay where it has none of its own."""
+        before = self._log.content(row.key)
+        if content["variations"] is None and before is not None:
+            content = {**content, "variations": before["variations"]}
+        self._log.put(row, content)
+
+    def content(self, key: str) -> dict[str, Any]:
+        """A simulation for pages and scripts.
+
+        Raises:
+            UnknownSimulationError: there is none, or it was long ago.
+        """
+        content = self._log.content(key)
+        if content is None:
+            raise UnknownSimulationError(
+                "There is no such simulation, or it is not kept any more. Simulate again.", key
+            )
+        return content
+
+    def standing(self, gait_id: str, plan: Plan) -> dict[str, Any] | None:
+        """The newest simulation of a gait, rather one of its plan as it is; None where there is none."""
+        rows = self._log.of_gait(gait_id)
+        if not rows:
+            return None
+        now = keys_of(plan)
+        fresh = next((row for row in rows if row.key in now), None)
+        row = fresh or rows[0]
+        return {"key": row.key, "physics": row.physics, "made": row.made, "fresh": fresh is not None}
+
+    def is_fresh(self, gait_id: str, key: str, plan: Plan) -> bool:
+        """Whether a simulation is kept and is of the gait's plan as it is now."""
+        return key in keys_of(plan) and any(row.key == key for row in self._log.of_gait(gait_id))
+
+    def report_for(self, waypoints_hash: str) -> SimulationReport | None:
+        """The newest report for exactly these waypoints; None where there is none.
+
+        Only what this version of the program computed, with physics parameters as they are now, counts.
+
+        Args:
+            waypoints_hash: their content hash.
+        """
+        for row in self._log.of_waypoints(waypoints_hash):
+            content = self._log.content(row.key)
+            if content is not None and _is_of_today(content, row.physics):
+                return report_from_content(content["report"])
+        return None
+
+
+def keys_of(plan: Plan) -> frozenset[str]:
+    """What simulations of a plan are kept under, with each physics set."""
+    return frozenset(simulation_key(plan, physics) for physics in physics_sets().values())
+
+
+def _is_of_today(content: dict[str, Any], name: str) -> bool:
+    if content["program"] != VERSION or name not in physics_sets():
+        return False
+    is_same: bool = content["physics"] == physics_content(physics_set(name))
+    return is_same

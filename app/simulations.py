@@ -1,0 +1,76 @@
+"""From a plan to what the physics is asked, what that depends on, and its report as content."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import asdict, fields
+from typing import Any
+
+import numpy as np
+
+from app.finite import finite
+from app.plans import Plan
+from app.version import VERSION
+from core.errors import CheckError
+from core.path_merging import WaypointPlan
+from core.physics.parameters import PhysicsSet
+from core.physics.problem import Rig, SimulationProblem
+from core.physics.report import SimulationReport
+from core.robot import RobotModel
+from core.trajectory import Trajectory
+
+
+def simulation_problem(plan: Plan, physics: PhysicsSet) -> SimulationProblem:
+    """What the physics is asked of a plan: exactly the waypoints that would be sent.
+
+    Raises:
+        CheckError: the plan has no waypoints.
+    """
+    if plan.trajectory is None or plan.way is None:
+        sentence = "There is no plan to simulate." if plan.refusal is None else plan.refusal.sentence
+        raise CheckError(sentence, "plan")
+    return way_problem(plan.model, plan.trajectory, plan.way, physics)
+
+
+def way_problem(
+    model: RobotModel,
+    trajectory: Trajectory,
+    way: WaypointPlan,
+    physics: PhysicsSet,
+    rig: Rig = Rig.WALKING,
+) -> SimulationProblem:
+    """The same of a motion and what is sent of it."""
+    return SimulationProblem(
+        model, way.waypoints, trajectory, way.times, way.contact, way.standing, physics, rig
+    )
+
+
+def simulation_key(plan: Plan, physics: PhysicsSet) -> str:
+    """Hash of everything that a simulation of a plan depends on, this program's version included."""
+    waypoints = "" if plan.waypoints is None else plan.waypoints.content_hash
+    parts = [VERSION, plan.hash, waypoints, json.dumps(physics_content(physics), sort_keys=True)]
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+
+
+def physics_content(physics: PhysicsSet) -> dict[str, Any]:
+    """A set of physics parameters as JSON content, SI."""
+    content: dict[str, Any] = finite(asdict(physics))
+    return content
+
+
+def report_content(report: SimulationReport) -> dict[str, Any]:
+    """A report as JSON content, SI."""
+    values = {field.name: getattr(report, field.name) for field in fields(report)}
+    content: dict[str, Any] = finite(
+        {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in values.items()}
+    )
+    return content
+
+
+def report_from_content(content: dict[str, Any]) -> SimulationReport:
+    """Inverse of `report_content`."""
+    values: dict[str, Any] = {
+        name: np.array(value) if isinstance(value, list) else value for name, value in content.items()
+    }
+    return SimulationReport(**values)

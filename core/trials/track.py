@@ -67,7 +67,7 @@ def filled_track(times: Floats, feet: Floats, name: str = "track") -> FootTrack:
     Raises:
         InputError: a foot was never seen.
     """
-    missing = np.isnan(feet).any(axis=2)
+    missing = np.asarray(np.isnan(feet).any(axis=2))
     whole = np.array(feet, dtype=np.float64)
     for foot in range(feet.shape[1]):
         seen = ~missing[:, foot]

@@ -1,0 +1,68 @@
+"""Tracks over plans: the first frame tells the placement; trials over each other keep their ends."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from core.errors import InputError
+from core.robot import load_robot
+from core.trials.alignment import align, placed_motion
+from core.trials.band import trial_band
+from core.trials.track import FootTrack
+from core.trials.track_csv import parse_track_csv
+from tests.core.trials.tracks import STANCE, stepping_track
+from tests.reference import reference_path
+
+
+@given(st.floats(-3.1, 3.1), st.floats(-0.1, 0.1), st.floats(-0.1, 0.1))
+def test_a_turned_and_moved_robot_is_found_again(turn: float, x: float, y: float) -> None:
+    track = stepping_track((0.01, 0.0), 1)
+    back = np.array([[math.cos(turn), math.sin(turn)], [-math.sin(turn), math.cos(turn)]])
+    motion = (track.feet[0] - [x, y]) @ back.T
+    found = align(track, motion)
+    assert found.turn == pytest.approx(turn, abs=1e-9)
+    assert found.gaps.max() == pytest.approx(0.0, abs=1e-9)
+    np.testing.assert_allclose(found.placed(motion), track.feet[0], atol=1e-9)
+
+
+@pytest.mark.parametrize(("letter", "turn"), [("A", -45.0), ("B", -45.0), ("C", 0.0), ("D", 0.0)])
+def test_the_published_robots_stood_as_they_are_said_to(letter: str, turn: float) -> None:
+    track = parse_track_csv(reference_path(f"robot_trials/tracks_cm/traj{letter}a_t1_o1_3x.csv").read_text())
+    found = align(track, load_robot("deltawalker").module_centres_robot[:, :2])
+    assert math.degrees(found.turn) == pytest.approx(turn, abs=3.0)
+    assert found.gaps.max() < 0.006
+
+
+def test_a_placed_motion_moves_along_the_tracks_direction() -> None:
+    track = stepping_track((0.01, 0.0), 1)
+    feet = np.zeros((2, 4, 3))
+    feet[:, :, :2] = STANCE
+    feet[1, :, 0] += 0.01
+    turned = FootTrack(track.times, track.feet @ np.array([[0.0, 1.0], [-1.0, 0.0]]), track.filled)
+    placed = placed_motion(np.array([0.0, 1.0]), feet, align(turned, feet[0, :, :2]))
+    np.testing.assert_allclose(placed.feet[1] - placed.feet[0], [[0.0, 0.01]] * 4, atol=1e-9)
+
+
+def test_a_band_holds_every_trial_and_ends_at_their_iterations() -> None:
+    tracks = [stepping_track((step, 0.0), 2) for step in (0.010, 0.014)]
+    band = trial_band(tracks, [(415, 831), (415, 831)])
+    np.testing.assert_allclose(band.mean[-1, :, 0], 0.024, atol=1e-9)
+    np.testing.assert_allclose(band.high[-1, :, 0] - band.low[-1, :, 0], 0.008, atol=1e-9)
+    assert (band.low <= band.mean + 1e-12).all()
+    assert (band.mean <= band.high + 1e-12).all()
+
+
+def test_trials_of_other_iterations_are_not_laid_over_each_other() -> None:
+    track = stepping_track((0.01, 0.0), 2)
+    with pytest.raises(InputError, match="as many feet and iterations"):
+        trial_band([track, track], [(415, 831), (831,)])
+
+
+def test_feet_in_one_point_have_no_direction() -> None:
+    with pytest.raises(InputError, match="no direction"):
+        align(stepping_track((0.01, 0.0), 1), np.zeros((4, 2)))

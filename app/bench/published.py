@@ -1,0 +1,183 @@
+"""What was published of simulated gaits: tables of thesis and paper, and the files behind them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from core.arrays import Floats
+from core.errors import InputError
+from core.physics.reporting import tilts
+from core.robot import RobotModel
+
+TABLE_4_1 = {
+    ("walk", 0): 0.0028,
+    ("walk", 1): 0.0033,
+    ("walk", 2): 0.0028,
+    ("amble", 0): 0.0026,
+    ("amble", 1): 0.0023,
+    ("amble", 2): 0.0022,
+    ("s-gait", 0): 0.0043,
+    ("s-gait", 1): 0.0026,
+    ("s-gait", 2): 0.0034,
+}
+"""Thesis Table 4.1: errors of the gaits made by hand, by family and version, m."""
+
+TABLE_4_2 = {
+    ("walk", 0.010): 0.0017,
+    ("walk", 0.015): 0.0016,
+    ("walk", 0.020): 0.0020,
+    ("walk", 0.025): 0.0064,
+    ("amble", 0.010): 0.0021,
+    ("amble", 0.015): 0.0038,
+    ("amble", 0.020): 0.0059,
+    ("amble", 0.025): 0.0050,
+    ("s-gait", 0.010): 0.0017,
+    ("s-gait", 0.015): 0.0034,
+    ("s-gait", 0.020): 0.0028,
+    ("s-gait", 0.025): 0.0060,
+    ("c-gait", 0.010): 0.0018,
+    ("c-gait", 0.015): 0.0028,
+    ("c-gait", 0.020): 0.0046,
+    ("c-gait", 0.025): 0.0079,
+}
+"""Thesis Table 4.2: errors of the optimised gaits, by gait and step (m), m."""
+
+PAPER_TABLE_I: dict[str, tuple[float | None, ...]] = {
+    "A": (0.0080, 0.0077, 0.0077, 0.0070, 0.0070),
+    "B": (0.0018, 0.0016, 0.0019, None, 0.0016),
+    "C": (0.0030, 0.0038, 0.0046, 0.0030, 0.0031),
+}
+"""Paper Table I: errors of the body and of feet 1 to 4, m; one of B is not legible in the source."""
+
+MANUAL_HEIGHT = 0.053
+"""Height at which Table 4.1 takes the body to stay, actuator plane over the standing feet, m."""
+MANUAL_FEET = 3
+"""Table 4.1 is the mean over so many feet, the first ones."""
+
+_OPTIMISED = {"walk": ("A", "walk"), "amble": ("B", "ambl"), "s-gait": ("C", "mtri"), "c-gait": ("D", "adjs")}
+"""Letter of a gait's simulated files, and the beginning of its trajectories' names."""
+_BY_HAND = {"walk": "A", "amble": "B", "s-gait": "C"}
+_STEPS = {0.010: "a", 0.015: "b", 0.020: "c", 0.025: "d"}
+
+
+@dataclass(frozen=True, eq=False)
+class PublishedRun:
+    """Positions of a simulated run, and where they were wanted, at each waypoint; m.
+
+    Args:
+        body: (n, 3) the body's point, simulated.
+        feet: (n, legs, 3) simulated.
+        wanted_body: (n, 3).
+        wanted_feet: (n, legs, 3).
+        printed: what the published file of errors says, as it stands there.
+    """
+
+    body: Floats
+    feet: Floats
+    wanted_body: Floats
+    wanted_feet: Floats
+    printed: tuple[float, ...]
+
+    @property
+    def body_error(self) -> float:
+        """Mean distance of the body, m."""
+        return float(np.linalg.norm(self.body - self.wanted_body, axis=-1).mean())
+
+    @property
+    def feet_error(self) -> Floats:
+        """(legs,) mean distance of each foot, m."""
+        return np.asarray(np.linalg.norm(self.feet - self.wanted_feet, axis=-1).mean(axis=0))
+
+    @property
+    def tilts(self) -> Floats:
+        """(n,) lean of the body, rad: of the turn that lays the wanted feet over the simulated ones best.
+
+        No attitude was published; as long as the motors follow, the feet turn with the body. Kabsch 1976.
+        """
+        wanted, found = (feet - feet.mean(axis=1, keepdims=True) for feet in (self.wanted_feet, self.feet))
+        left, _, right = np.linalg.svd(np.einsum("nli,nlj->nij", wanted, found))
+        proper = np.tile(np.eye(3), (len(left), 1, 1))
+        proper[:, 2, 2] = np.sign(np.linalg.det(left @ right))
+        rotation = np.einsum("nij,njk,nkl->nli", left, proper, right)
+        return tilts(rotation)
+
+
+@dataclass(frozen=True)
+class Reference:
+    """The folder with the published data, which does not come with the program.
+
+    Args:
+        folder: holds `simulation_manual`, `simulation_optimised` and `trajectories`.
+    """
+
+    folder: Path
+
+    def trajectory_path(self, gait: str, step: float) -> Path:
+        """File of an optimised trajectory, direction 1."""
+        return self.folder / "trajectories" / "direction1" / f"{_OPTIMISED[gait][1]}_{_STEPS[step]}.csv"
+
+    def optimised_run(self, gait: str, step: float, model: RobotModel) -> PublishedRun:
+        """Simulated run of an optimised gait; its body is the actuator plane, the plan's the mass centre.
+
+        Args:
+            gait: name of a gait of the library.
+            step: m.
+            model: for the height of the centre of mass.
+
+        Raises:
+            InputError: a file is missing or is no such table.
+        """
+        name = f"traj{_OPTIMISED[gait][0]}{_STEPS[step]}_o1"
+        body, feet = _positions(_table(self.folder / "simulation_optimised" / "simulated" / f"{name}.csv"), 1)
+        wanted = _positions(_table(self.trajectory_path(gait, step), header=1), 0)
+        printed = _table(self.folder / "simulation_optimised" / "errors" / f"{name}_mse.csv")[0]
+        return PublishedRun(body + [0.0, 0.0, model.com_height], feet, *wanted, tuple(printed / 100))
+
+    def manual_run(self, family: str, version: int, model: RobotModel) -> PublishedRun | None:
+        """Simulated run of a gait made by hand, or None where it was not published.
+
+        Table 4.1 wants each foot at its place in the robot's frame as though the robot stood still at the
+        origin, 53 mm high: the way that the robot goes counts as error.
+
+        Args:
+            family: name of the gait.
+            version: 0, 1 or 2.
+            model: for the modules' centres.
+
+        Raises:
+            InputError: a file is no such table.
+        """
+        name, root = f"traj{_BY_HAND[family]}{version}_o1", self.folder / "simulation_manual"
+        if not (root / "simulated" / f"{name}.csv").exists():
+            return None
+        body, feet = _positions(_table(root / "simulated" / f"{name}.csv"), 1)
+        _, planned = _positions(_table(root / "planned" / f"{name}.csv"), 1)
+        still = np.array([0.0, 0.0, MANUAL_HEIGHT])
+        printed = _table(root / "errors" / f"{name}_mse.csv")[0]
+        wanted_feet = planned + model.module_centres_robot + still
+        return PublishedRun(body, feet, np.tile(still, (len(body), 1)), wanted_feet, tuple(printed / 1000))
+
+
+def _positions(table: Floats, first: int) -> tuple[Floats, Floats]:
+    """Body (n, 3) and feet (n, 4, 3) of a table whose rows are body and feet xyz from a row on."""
+    rows = table[first : first + 15].T
+    return rows[:, :3], rows[:, 3:].reshape(len(rows), 4, 3)
+
+
+def _table(path: Path, header: int = 0) -> Floats:
+    """Numbers of a CSV; lines that begin with # are left out."""
+    try:
+        lines = path.read_text("utf-8").splitlines()[header:]
+        return np.array(list(_rows(lines)))
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path} is no table of published positions: {error}.", "--reference") from error
+
+
+def _rows(lines: list[str]) -> Iterator[list[float]]:
+    for line in lines:
+        if line.strip() and not line.startswith("#"):
+            yield [float(field) for field in line.rstrip(",").split(",")]

@@ -12,13 +12,20 @@ import time
 from collections import OrderedDict
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 from app.pattern_views import progress_content, result_content
 from core.errors import FootfallError, InputError
-from core.patterns.problem import PatternProblem, PatternProgress, PatternResult, PatternStatus
-from core.patterns.words import failing_samples
+from core.patterns.problem import (
+    PatternProblem,
+    PatternProgress,
+    PatternResult,
+    PatternStatus,
+    Relaxation,
+    Rule,
+)
+from core.patterns.words import explanation, failing_samples, length_words
 
 _log = logging.getLogger(__name__)
 
@@ -74,12 +81,15 @@ class PatternQuestion:
         lengths: of which the first that works is sought; None for the problem's own.
         count: how many of the best patterns are wanted.
         seconds: longest search.
+        too_few: samples that were asked for, where they are too few for what the cursors cut: the answer says
+            so and offers the first of the lengths that works. None where any length is an answer.
     """
 
     problem_of: Callable[[int | None], PatternProblem]
     lengths: range | None
     count: int
     seconds: float
+    too_few: int | None = None
 
 
 class Search:
@@ -203,6 +213,8 @@ class PatternDesk:
             self._loads[which] += 1
         try:
             problem, result = self._searched(self._tiers[which], search, question, problem)
+            if question.too_few is not None:
+                result = too_short(problem, result, question.too_few)
             content = {"id": search.id, "state": "done", "result": result_content(problem, result)}
         except FootfallError as error:
             content = {"id": search.id, "state": "failed", "sentence": error.sentence}
@@ -283,3 +295,28 @@ def next_length(problem: PatternProblem, result: PatternResult, lengths: range |
     offered = [one.samples for one in result.relaxations if one.samples is not None]
     longer = min(offered, default=problem.sample_count + 1)
     return longer if longer in lengths else None
+
+
+def too_short(problem: PatternProblem, result: PatternResult, samples: int) -> PatternResult:
+    """The answer where a transition is too short to finish what its cursors cut: that, and what would help.
+
+    Args:
+        problem: of the last length that was tried.
+        result: its answer.
+        samples: that were asked for.
+    """
+    if result.status is PatternStatus.CANCELLED:
+        return result
+    sentence = f"{samples} samples are too few to finish the swings and stances that the cursors cut."
+    if not result.patterns:
+        return replace(result, explanation=(sentence, *result.explanation))
+    works = problem.sample_count
+    longer = Relaxation(Rule.FIXED, None, (), length_words(works, samples), works)
+    return PatternResult(
+        status=PatternStatus.INFEASIBLE,
+        patterns=(),
+        bound=None,
+        solve_seconds=result.solve_seconds,
+        explanation=explanation(problem, sentence, [longer]),
+        relaxations=(longer,),
+    )

@@ -52,6 +52,7 @@ def line_view(gait_id: str, gait: Gait, builtin: bool, edited: bool) -> dict[str
         "order": list(gait.order),
         "step": list(gait.step),
         "edited": edited,
+        "walks": library()[gait_id].walks if builtin and not edited else None,
     }
 
 

@@ -66,6 +66,8 @@ class LibraryEntry:
     gait: Gait
     manual: ManualTag | None
     group: Group
+    walks: bool = True
+    """Whether a motion of it keeps every limit of its robot."""
 
 
 def _read(name: str) -> dict[str, Any]:
@@ -92,7 +94,7 @@ def library() -> Mapping[str, LibraryEntry]:
     ]
     singles = {item["id"]: _entry(group, item) for group, item in items}
     for pattern in library_patterns().values():
-        singles[pattern.id] = LibraryEntry(pattern.id, pattern.gait, None, Group.PATTERNS)
+        singles[pattern.id] = LibraryEntry(pattern.id, pattern.gait, None, Group.PATTERNS, pattern.walks)
     sequences = (_sequence_entry(item, singles) for item in _read("sequences.toml")["sequence"])
     return MappingProxyType(singles | {entry.id: entry for entry in sequences})
 
@@ -154,7 +156,7 @@ def _entry(group: Group, item: dict[str, Any]) -> LibraryEntry:
         options=_options(item),
         notes=item.get("note", ""),
     )
-    return LibraryEntry(item["id"], with_return(gait, load_robot(ROBOT)), tag, group)
+    return LibraryEntry(item["id"], with_return(gait, load_robot(ROBOT)), tag, group, item.get("walks", True))
 
 
 def _timeline(item: dict[str, Any]) -> ContactTimeline:

@@ -14,7 +14,16 @@ from core.errors import InputError
 from core.gait import Gait
 from core.patterns.finishing import finishing_length
 from core.patterns.making import CycleUse, completed_gait, periodic_gait, transition_gait
-from core.patterns.problem import FREE, Cells, PatternProblem, PatternRules, PatternWeights, Relaxation, Rule
+from core.patterns.problem import (
+    FREE,
+    LEAST_SAMPLES,
+    Cells,
+    PatternProblem,
+    PatternRules,
+    PatternWeights,
+    Relaxation,
+    Rule,
+)
 from core.patterns.relaxing import relaxed
 from core.patterns.sides import PatternSide
 from core.patterns.sources import (
@@ -58,13 +67,21 @@ class Posed:
 
     @property
     def lengths(self) -> range | None:
-        """Lengths to be tried one after the other; None where the question gives one."""
+        """Lengths to be tried one after the other; None where the question gives one that is long enough."""
         asked = self.question
-        if not isinstance(asked, TransitionQuestion) or asked.samples is not None:
+        if not isinstance(asked, TransitionQuestion) or (asked.samples is not None and self.too_few is None):
             return None
         beyond_cells = max((sample + 2 for _, sample, _ in asked.cells), default=LEAST_TRANSITION)
         first = max(LEAST_TRANSITION, beyond_cells, self._finishing_length(asked))
         return range(first, max(MOST_TRANSITION, first) + 1)
+
+    @property
+    def too_few(self) -> int | None:
+        """The length that is asked for, where what the cursors cut cannot be finished in it."""
+        asked = self.question
+        if not isinstance(asked, TransitionQuestion) or asked.samples is None:
+            return None
+        return asked.samples if LEAST_SAMPLES <= asked.samples < self._finishing_length(asked) else None
 
     def _finishing_length(self, asked: TransitionQuestion) -> int:
         """Samples below which what the cursors cut could not be finished."""

@@ -47,7 +47,7 @@ async def search(question: Annotated[Question, Body()], studio: TheStudio, autho
     events of type `pattern`, a script asks for it.
     """
     asked = await _posed(studio, question)
-    what = PatternQuestion(asked.problem, asked.lengths, question.count, question.seconds)
+    what = PatternQuestion(asked.problem, asked.lengths, question.count, question.seconds, asked.too_few)
     begun = await run_in_threadpool(studio.patterns.ask, _page(author), what)
     is_answered = await _answered(studio, begun)
     return JSONResponse(begun.content(), status_code=200 if is_answered else 202)

@@ -38,6 +38,16 @@ export async function selectGait(store, id) {
   }
 }
 
+/** Shows a gait with its name under the keyboard; letters are the field's from the double click on. */
+async function rename(store, id) {
+  const field = byId("gait-name");
+  field.focus();
+  if (store.state.view?.id !== id) await selectGait(store, id);
+  if (store.state.view?.id !== id) return;
+  field.value = store.state.view.name;
+  field.select();
+}
+
 /** After a greeting: the gait that runs, else the one shown, else the one used last, else the first. */
 export function selectAfterHello(store) {
   const { gaits, selected, robot } = store.state;
@@ -60,10 +70,12 @@ function item(gait) {
 
 function show(part, gait, selected) {
   setText(part.name, gait.name);
-  setText(part.tag, gait.source === "sequence" ? "seq." : gait.orientation);
+  const walks = gait.walks !== false;
+  setText(part.tag, walks ? (gait.source === "sequence" ? "seq." : gait.orientation) : "infeasible");
+  setAttribute(part.button, "data-stuck", !walks);
   part.dot.hidden = !gait.edited;
   setAttribute(part.button, "aria-current", gait.id === selected ? "true" : null);
-  setAttribute(part.button, "title", `${gait.name}: ${gait.robot}, ${gait.source}, ${gait.kind}${gait.source === "sequence" ? "" : `, foot order ${gait.order.join(" ")}`}${gait.edited ? ", unsaved changes" : ""}`);
+  setAttribute(part.button, "title", `${gait.name}: ${gait.robot}, ${gait.source}, ${gait.kind}${gait.source === "sequence" ? "" : `, foot order ${gait.order.join(" ")}`}${gait.edited ? ", unsaved changes" : ""}${walks ? "" : ". No motion of it keeps every limit"}. Double click: its name`);
 }
 
 const FIRST = "Saved";
@@ -99,6 +111,10 @@ export function mountGaits(store) {
   list.addEventListener("click", ({ target }) => {
     const id = target.closest("[data-gait]")?.dataset.gait;
     if (id) selectGait(store, id);
+  });
+  list.addEventListener("dblclick", ({ target }) => {
+    const id = target.closest("[data-gait]")?.dataset.gait;
+    if (id) rename(store, id);
   });
 
   function draw({ gaits, selected }) {

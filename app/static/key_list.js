@@ -35,6 +35,9 @@ const GROUPS = {
     ["Double click", "With Select: the whole swing; its drag moves it, with Alt a copy"],
     ["Ctrl + wheel", "Closer and further; two fingers as well. The wheel alone scrolls"],
   ],
+  "List of gaits": [
+    ["Double click", "The gait's name, to write another one"],
+  ],
   "Segment table": [
     ["Letters, Enter", "Choose a segment"],
     ["Delete", "Wait"],

@@ -29,6 +29,9 @@ function usable({ answer, running, chosen, asking }) {
   return [pattern, pattern ? null : "There is no pattern yet."];
 }
 
+/** Why a pattern is not drawn into the open gait; null where it would change it. */
+const nothingToDraw = (pattern, document) => (pattern?.feet.join() === document?.timeline.feet.join() ? "Nothing to complete: this pattern is what is drawn already. Take another of the best patterns, or free cells." : null);
+
 /**
  * Builds the buttons.
  * @param {object} store
@@ -85,10 +88,11 @@ export function patternActs(store, question, { edits, playback, show }) {
   return {
     element, leave,
     show() {
-      const [, why] = usable(question.state);
+      const [pattern, why] = usable(question.state);
       const isDrawing = question.state.mode === "drawing";
+      const whyNot = why ?? (isDrawing ? nothingToDraw(pattern, shownDocument(store.state)) : null);
       setText(make, isDrawing ? LABEL : "Make gait");
-      setAllowed(make, why, isDrawing ? "Draws the pattern into the open gait, as one edit that Undo takes back" : "A new gait in the list, which is opened; Delete takes it away again");
+      setAllowed(make, whyNot, isDrawing ? "Draws the pattern into the open gait, as one edit that Undo takes back" : "A new gait in the list, which is opened; Delete takes it away again");
       const walking = Boolean(store.state.iterate?.pattern);
       setText(walk, walking ? "Stop walking" : "Walk it");
       setAllowed(walk, walking ? null : why, walking ? "Back to the open gait's plan" : "The live optimiser moves the robot through it in 3D; nothing is saved");

@@ -1,7 +1,8 @@
 /** How the search stands: its progress with bound and gap, the best patterns, or why there is none and what would help. */
 
-import { h, onPress, setAllowed, setAttribute, setText } from "./dom.js";
+import { h, onPress, setAllowed, setAttribute, setText, svg } from "./dom.js";
 import { fixed, seconds } from "./format.js";
+import { picture } from "./pattern_gait.js";
 import { relaxed, ruleOf, RULES } from "./pattern_question.js";
 import { announce, toast } from "./toasts.js";
 
@@ -69,6 +70,9 @@ function clashBox(question) {
   };
 }
 
+/** A pattern as small as its line: what tells patterns apart that cost the same. */
+const thumbnail = (feet) => svg("svg", { class: "pattern-thumbnail", viewBox: `0 0 ${feet[0].length} ${feet.length}`, preserveAspectRatio: "none", "aria-hidden": "true" }, ...picture({ timeline: { feet } }, null));
+
 /** The best patterns: pointing at one, or going through them by keys, shows it; a click chooses it. */
 function alternatives(question, look) {
   const list = h("ul", { class: "pattern-choices", role: "listbox", tabindex: "0", "aria-label": "Best patterns", data: { arrows: "" } });
@@ -87,7 +91,7 @@ function alternatives(question, look) {
   });
   list.addEventListener("pointerleave", () => look(null));
   const item = (pattern, index, kept) => h("li", { role: "option", id: `pattern-${index}`, on: { click: () => choose(index), pointerenter: () => look(index) } },
-    h("span", { class: "number", text: String(index + 1) }), h("span", { text: scoreWords(pattern, kept) }), h("span", { class: "number quiet", text: fixed(pattern.score, 0), title: "The weighted sum; smaller is better" }));
+    h("span", { class: "number", text: String(index + 1) }), thumbnail(pattern.feet), h("span", { text: scoreWords(pattern, kept) }), h("span", { class: "number quiet", text: fixed(pattern.score, 0), title: "The weighted sum; smaller is better" }));
   return {
     element,
     show({ answer, chosen, keep, mode }) {

@@ -8,7 +8,8 @@ function stretchesOf(row, value) {
   return [...row.matchAll(new RegExp(`${value}+`, "g"))].map((match) => [match.index, match[0].length]);
 }
 
-function picture({ timeline, held }, hatch) {
+/** A timeline's swings in their feet's colours, and what is locked or held with the hatch of that id. */
+export function picture({ timeline, held }, hatch) {
   const { feet, locked } = timeline;
   const isHeld = (foot) => held?.start?.includes(foot + 1) && held.end?.includes(foot + 1);
   const rows = feet.flatMap((row, foot) => stretchesOf(row, 0).map(([first, count]) =>

@@ -13,6 +13,9 @@ const REST_MS = 250;
 /** So long without news of a search, and the page asks for it: an event may be lost while the line opens anew. */
 const SILENCE_MS = 3000;
 
+/** What of a gait's document the search for a gait of some limbs depends on: the gait that it makes is alike in all of it. */
+const aboutLimbs = ({ robot, orientation, direction, step, options, timeline }) => ({ robot, orientation, direction, travel: step.slice(0, 2), options, time: timeline.sample_time });
+
 /** Rows of the pattern that is looked at, or null. */
 export function shownRows({ answer, running, chosen }) {
   return running?.pattern?.feet ?? answer?.patterns[chosen]?.feet ?? null;
@@ -51,13 +54,16 @@ export function mountSearch(store, question, isOpen) {
   }
 
   const documents = () => (question.state.mode === "transition" ? [question.state.from.gait, question.state.to.gait] : [store.state.selected])
-    .map((gait) => timelineOf(store, question, gait) && JSON.stringify(timelineOf(store, question, gait)));
+    .map((gait) => timelineOf(store, question, gait)).map((document) => document && JSON.stringify(question.state.mode === "limbs" ? aboutLimbs(document) : document));
+
+  /** The question without the gait's name where only what the gait is like matters. */
+  const posedBody = (now) => JSON.stringify(question.state.mode === "limbs" ? { ...now, gait: null } : now);
 
   /** Whether the question that stands is not the one that was asked last; a document that was not at hand is the same. */
   function isNew() {
     const { answer, asking, error } = question.state;
     if (!posed || error || (!asking && (!answer || answer.status === "cancelled"))) return true;
-    return posed.body !== JSON.stringify(body()) || documents().some((one, index) => one && posed.documents[index] && one !== posed.documents[index]);
+    return posed.body !== posedBody(body()) || documents().some((one, index) => one && posed.documents[index] && one !== posed.documents[index]);
   }
 
   function take({ id, state, progress, result, sentence }) {
@@ -105,7 +111,7 @@ export function mountSearch(store, question, isOpen) {
     clearTimeout(timer);
     question.set({ asking: true });
     const now = body();
-    posed = { body: JSON.stringify(now), documents: documents() };
+    posed = { body: posedBody(now), documents: documents() };
     offer({ body: { ...now, count: 1 }, since: performance.now(), number: latest });
   }
 

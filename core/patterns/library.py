@@ -25,6 +25,7 @@ class LibraryPattern:
         problem: what was asked; its drawing is the order that limbs were to swing in.
         stance: (legs, samples) what the solver found, one cycle.
         use: how it is walked.
+        walks: whether a motion of it keeps every limit of its robot.
     """
 
     id: str
@@ -32,6 +33,7 @@ class LibraryPattern:
     problem: PatternProblem
     stance: Bools
     use: CycleUse
+    walks: bool = True
 
     @property
     def gait(self) -> Gait:
@@ -49,7 +51,8 @@ def library_pattern(item: dict[str, Any]) -> LibraryPattern:
 
     Args:
         item: id, name, note, robot, orientation, feet that are up, samples, groups of feet that swing
-            together in the order that is asked for, rules and weights that differ from F's, step in m, rows.
+            together in the order that is asked for, rules and weights that differ from F's, step in m, rows,
+            and `walks` where it is false.
 
     Raises:
         InputError: a part does not fit.
@@ -80,4 +83,6 @@ def library_pattern(item: dict[str, Any]) -> LibraryPattern:
         options=GaitOptions(margin=item["margin"]),
         notes=item["note"],
     )
-    return LibraryPattern(item["id"], model, problem, bits_from_rows(item["rows"], "rows"), use)
+    return LibraryPattern(
+        item["id"], model, problem, bits_from_rows(item["rows"], "rows"), use, item.get("walks", True)
+    )

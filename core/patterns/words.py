@@ -63,13 +63,18 @@ def relaxation_words(problem: PatternProblem, relaxation: Relaxation) -> str:
 
 def _change_words(problem: PatternProblem, relaxation: Relaxation) -> str:
     if relaxation.samples is not None:
-        return f"{counted(relaxation.samples, 'sample')} instead of {problem.sample_count}"
+        return length_words(relaxation.samples, problem.sample_count)
     if relaxation.rule is Rule.FIXED:
         return _capital(_freed_words(problem, relaxation.cells))
     old = getattr(problem.rules, relaxation.rule.value)
     if relaxation.rule is Rule.BALANCE:
         return _balance_words(relaxation.value, old)
     return _number_words(problem, relaxation.rule, int(relaxation.value or 0), old)
+
+
+def length_words(samples: int, asked: int) -> str:
+    """Another length for a button: "22 samples instead of 6"."""
+    return f"{counted(samples, 'sample')} instead of {asked}"
 
 
 def _number_words(problem: PatternProblem, rule: Rule, value: int, old: int) -> str:

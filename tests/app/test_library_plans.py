@@ -32,6 +32,7 @@ def test_every_gait_of_the_library_opens_and_is_judged(gait_id: str) -> None:
     entry = library()[gait_id]
     plan = plan_of(entry.gait, lambda motion: None, lambda gait: solve_live)
     assert plan.source is OTHERS.get(gait_id, SOURCES[entry.group])
+    assert entry.walks is (plan.source is not PlanSource.DRAFT)
     shown = json.dumps(gait_view(fresh_gait(gait_id, entry.gait, True, None), plan), allow_nan=False)
     assert json.loads(shown)["plan"]["note"]
     if plan.refusal is not None:

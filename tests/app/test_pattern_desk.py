@@ -240,6 +240,27 @@ def test_what_no_length_helps_is_not_tried_longer() -> None:
     assert next_length(short, none(short), None) is None
 
 
+def test_a_length_that_is_too_short_is_said_with_the_first_one_that_works(
+    told: list[tuple[str, dict[str, Any]]],
+) -> None:
+    tier = Tier(lambda problem: none(problem, 9) if problem.sample_count < 9 else found(problem))
+    asked = PatternQuestion(transition, range(7, 61), 1, 5.0, too_few=4)
+    result = desk_of(told, tier).ask("page", asked).future.result(5)["result"]
+    assert (result["status"], result["patterns"]) == ("infeasible", [])
+    assert result["explanation"][0].startswith("4 samples are too few to finish the swings and stances")
+    assert [(one["samples"], one["words"]) for one in result["relaxations"]] == [
+        (9, "9 samples instead of 4")
+    ]
+
+
+def test_where_no_length_works_the_last_ones_reason_stands_too(
+    told: list[tuple[str, dict[str, Any]]],
+) -> None:
+    asked = PatternQuestion(transition, range(7, 8), 1, 5.0, too_few=4)
+    result = desk_of(told, Tier(none)).ask("page", asked).future.result(5)["result"]
+    assert result["explanation"][1:] == ["It is too short."]
+
+
 def test_a_solver_that_breaks_off_is_said(told: list[tuple[str, dict[str, Any]]]) -> None:
     tier = Tier()
     desk = desk_of(told, tier)

@@ -8,9 +8,15 @@ from core.library import library
 from core.patterns.problem import FREE, PatternRules
 
 
-def asked(walkable: bool, samples: int | None = 12) -> Posed:
+def asked(walkable: bool, samples: int | None = 12, to_sample: int = 9) -> Posed:
     question = TransitionQuestion(
-        kind="transition", gait="walk", sample=5, to="amble", to_sample=9, samples=samples, walkable=walkable
+        kind="transition",
+        gait="walk",
+        sample=5,
+        to="amble",
+        to_sample=to_sample,
+        samples=samples,
+        walkable=walkable,
     )
     return posed(question, lambda gait_id: library()[gait_id].gait)
 
@@ -35,3 +41,12 @@ def test_every_length_that_is_tried_is_walkable() -> None:
         problem = question.problem(length)
         assert problem.sample_count == length
         assert problem.fixed[2, 1] == 0
+
+
+def test_a_length_in_which_a_cut_swing_cannot_be_finished_leads_to_longer_ones() -> None:
+    short = asked(walkable=True, samples=3, to_sample=10)
+    assert (short.too_few, short.lengths) == (3, range(4, 61))
+    whole = asked(walkable=True, samples=4, to_sample=10)
+    assert (whole.too_few, whole.lengths) == (None, None)
+    assert asked(walkable=False, samples=3, to_sample=10).too_few is None
+    assert asked(walkable=True, samples=1, to_sample=10).lengths is None

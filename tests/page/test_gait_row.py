@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 import pytest
@@ -33,6 +34,26 @@ def test_a_copy_at_the_end_of_a_long_list_is_scrolled_into_view(page: Page, stud
     copy = page.get_by_role("list", name="Gaits").get_by_role("button", name="Zebra copy")
     expect(copy).to_have_attribute("aria-current", "true")
     expect(copy).to_be_in_viewport(ratio=0.95)
+
+
+def test_a_double_click_leads_to_the_name_and_letters_are_its(page: Page, studio: StudioProcess) -> None:
+    page.get_by_role("list", name="Gaits").get_by_role("button", name="C-Gait 10 mm").first.dblclick()
+    name = page.get_by_label("Gait name")
+    expect(name).to_be_focused()
+    expect(name).to_have_value("C-Gait 10 mm", timeout=LONG_MS)
+    page.wait_for_function("() => getSelection().toString() === 'C-Gait 10 mm'")
+    page.keyboard.type("Kink")
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("list", name="Gaits").get_by_role("button", name="Kink")).to_be_visible()
+    assert "1" not in "".join(studio.ask("GET", "/api/gaits/c-gait").content["timeline"]["locked"])
+
+
+def test_a_gait_that_cannot_walk_says_so_in_the_list(page: Page) -> None:
+    stuck = page.get_by_role("list", name="Gaits").get_by_role("button", name="Hexapod, front pair up")
+    expect(stuck).to_contain_text("infeasible")
+    expect(stuck).to_have_attribute("title", re.compile("No motion of it keeps every limit"))
+    walks = page.get_by_role("list", name="Gaits").get_by_role("button", name="Hexapod tripod")
+    expect(walks).not_to_contain_text("infeasible")
 
 
 def test_a_foot_order_is_judged_while_it_is_typed(page: Page) -> None:

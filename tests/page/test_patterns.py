@@ -145,10 +145,24 @@ def test_a_clash_is_explained_and_a_button_relaxes_it(search: Page) -> None:
     expect(search.get_by_label("Feet down, at least, feet")).to_have_value("3")
 
 
+def test_a_length_too_short_for_what_a_cursor_cuts_is_mended_by_a_button(search: Page) -> None:
+    solved(search)
+    cursor(search, "A").focus()
+    press(search, *["ArrowRight"] * 5)
+    search.get_by_label("Length", exact=True).fill("3")
+    solved(search, "Infeasible")
+    why = search.get_by_role("alert").filter(has_text="3 samples are too few to finish the swings")
+    why.get_by_role("button", name=re.compile("samples instead of 3")).click()
+    solved(search)
+    expect(why).to_be_hidden()
+
+
 def test_the_best_patterns_are_looked_through_by_keys(search: Page) -> None:
     solved(search)
     best = search.get_by_role("listbox", name="Best patterns")
     expect(best.get_by_role("option")).to_have_count(5, timeout=LONG_MS)
+    pictures = best.locator("svg").evaluate_all("(pictures) => pictures.map(({ innerHTML }) => innerHTML)")
+    assert len(set(pictures)) == 5
     first = rows(search)
     best.focus()
     press(search, "ArrowDown")
@@ -195,8 +209,13 @@ def test_a_gait_for_some_limbs_walks_and_is_made(search: Page, studio: StudioPro
     expect(search.get_by_role("button", name="Pause")).to_be_visible()
     expect(search.get_by_role("status", name="Plan")).to_contain_text("Feasible", timeout=LONG_MS)
     search.get_by_role("button", name="Stop walking").click()
+    second = search.get_by_role("listbox", name="Best patterns").get_by_role("option").nth(1)
+    second.click(timeout=LONG_MS)
+    chosen = rows(search)
     search.get_by_role("button", name="Make gait").click()
     expect(search.get_by_label("Gait name")).to_have_value("4 limbs of 6", timeout=LONG_MS)
+    expect(second).to_have_attribute("aria-selected", "true")
+    assert rows(search) == chosen
     made = studio.ask("GET", "/api/gaits/4-limbs-of-6").content
     assert made["held"] == {"start": [3, 6], "end": [3, 6]}
     expect(search.get_by_role("status", name="Plan")).to_contain_text("Feasible", timeout=LONG_MS)
@@ -218,6 +237,9 @@ def test_a_drawing_is_completed_by_one_edit(search: Page, studio: StudioProcess)
     undo = search.get_by_role("button", name=re.compile("^Undo"))
     expect(undo).to_have_attribute("title", re.compile("Undo: Complete the drawing"), timeout=LONG_MS)
     assert studio.ask("GET", "/api/gaits/half-drawn").content["timeline"]["feet"] == done
+    nothing = re.compile("^Nothing to complete")
+    complete = search.get_by_role("button", name="Complete the drawing")
+    expect(complete).to_have_attribute("title", nothing, timeout=LONG_MS)
     undo.click()
     wait_for(lambda: studio.ask("GET", "/api/gaits/half-drawn").content["timeline"]["feet"] == feet, "undone")
 

@@ -11,18 +11,17 @@ from typing import Any
 from app.bridge.course import WHOLE, Course
 from app.bridge.emulated import EmulatedRobot, start_emulator
 from app.bridge.faults import Fault
-from app.bridge.robot import RobotBridge
 from app.bridge.states import LinkState, RobotSnapshot, RunPlan
 from app.open_gait import OpenGait
 from app.plans import Plan
 from app.robot_lease import LeaseDesk, TellPage
 from app.robot_ports import RobotPorts
-from app.robot_view import EMULATOR, RUNNING, RunOrigin, allowed, robot_view, run_end
-from app.run_recorder import RunRecorder
+from app.robot_view import EMULATOR, RunOrigin, allowed, robot_view
 from app.run_summary import run_summary, unwired
+from app.runs.kept import KeptRun, KeptRuns
 from app.runs.plan_content import run_plan_content
 from app.store.database import Database
-from core.errors import FootfallError, StateError
+from core.errors import StateError
 
 MOST_SHOWN = 200
 """Changes of state that a page shows."""
@@ -51,37 +50,21 @@ class RobotDesk:
         ports: RobotPorts,
         tell_page: TellPage = lambda page, event: None,
     ) -> None:
-        self._database = database
         self._device = device
         self._emulator: EmulatedRobot | None = None
         self._connecting = threading.Lock()
-        self._sending = threading.Lock()
-        self._recording = threading.Lock()
-        self._origin: RunOrigin | None = None
-        self._record: dict[str, Any] | None = None
-        self._previous: dict[str, Any] | None = None
-        self._recorder = RunRecorder(database)
-        self._interrupt_old_runs()
-        self.bridge = RobotBridge(self._recorder.log)
+        self._runs = KeptRuns(database, self._show)
+        self.bridge = self._runs.bridge
         self._changed = changed
         self.ports = ports
         self.lease = LeaseDesk(self.bridge, self._show, tell_page)
-        self.bridge.subscribe(self._heard)
-
-    def _interrupt_old_runs(self) -> None:
-        for content in reversed(self._database.runs()):
-            if content["state"] == "running":
-                sentence = "The studio ended while this run was on; nothing resumes by itself."
-                content |= {"state": "interrupted", "sentence": sentence}
-                self._database.put_run(content)
-            self._previous = content
+        self.bridge.subscribe(lambda snapshot: self._changed(self.view(snapshot)))
 
     def close(self) -> None:
         """Stops a run, closes the line and ends the emulated robot."""
         self.lease.close()
-        self.bridge.close()
+        self._runs.close()
         self._close_emulator()
-        self._recorder.close()
 
     def connect(self, device: str | None) -> None:
         """Opens the line to the studio's robot, or to another device."""
@@ -166,60 +149,7 @@ class RobotDesk:
         run_plan = RunPlan(waypoints, approval, way.hold_ok, course)
         content = run_plan_content(plan, way, approval)
         origin = RunOrigin(secrets.token_hex(6), open_gait.id, open_gait.gait.name, waypoints, way.times)
-        with self._sending:
-            snapshot = self.bridge.snapshot
-            self._end_record(snapshot)
-            if self._record is not None and snapshot.robot in RUNNING:
-                raise StateError("A run is on. Let it end, or stop it, then send again.", "send")
-            self._begin(run_plan, origin, content, by)
-
-    def _begin(self, run_plan: RunPlan, origin: RunOrigin, content: dict[str, Any], by: str) -> None:
-        """Sends a run whose record begins before the first byte goes out."""
-        course, before = run_plan.course, self._origin
-        record = {
-            "id": origin.run_id,
-            "gait": origin.gait,
-            "gait_name": origin.gait_name,
-            "waypoints_hash": origin.waypoints.content_hash,
-            "by": by,
-            "from": course.first,
-            "iterations": course.iterations,
-            "started": time.time(),
-            "started_monotonic": time.monotonic(),
-            "ended": None,
-            "state": "running",
-            "sentence": "",
-        }
-        self._recorder.begin(record, content)
-        self._record, self._origin = record, origin
-        try:
-            self.bridge.send(run_plan, by, origin.run_id)
-        except FootfallError as refusal:
-            self._record, self._origin = None, before
-            self._recorder.end(
-                {**record, "ended": time.time(), "state": "refused", "sentence": refusal.sentence}
-            )
-            raise
-
-    def _heard(self, snapshot: RobotSnapshot) -> None:
-        self._changed(self.view(snapshot))
-        if self._record is not None:
-            self._recorder.note(self.bridge.transitions)
-        self._end_record(snapshot)
-
-    def _end_record(self, snapshot: RobotSnapshot) -> None:
-        """Completes the record of the run if it has ended."""
-        run = snapshot.run
-        if run is None or (snapshot.robot in RUNNING and snapshot.link is not LinkState.LOST):
-            return
-        with self._recording:
-            record = self._record
-            if record is None or run.run_id != record["id"]:
-                return
-            self._record = None
-            reached = {"reached": run.reached, "count": run.count, "seconds": run.elapsed}
-            state = {"state": run_end(snapshot, run), "sentence": snapshot.sentence}
-            self._recorder.end({**record, **reached, **state, "ended": time.time()})
+        self._runs.send(run_plan, KeptRun(origin, content), by)
 
     def run_summary(self, open_gait: OpenGait, plan: Plan, course: Course = WHOLE) -> dict[str, Any]:
         """What a person should know before they press Send; see `app.run_summary`."""
@@ -235,8 +165,9 @@ class RobotDesk:
     def view(self, snapshot: RobotSnapshot | None = None) -> dict[str, Any]:
         """The robot as JSON content."""
         return {
-            **robot_view(snapshot or self.bridge.snapshot, self._device, self._origin),
-            "previous_run": self._previous,
+            **robot_view(snapshot or self.bridge.snapshot, self._device, self._runs.origin),
+            "previous_run": self._runs.previous,
+            "record_trouble": self._runs.trouble,
             "lease": self.lease.view(),
         }
 

@@ -33,6 +33,7 @@ class Ledger:
         self.last_error: str | None = None
         self.transitions: deque[Transition] = deque(maxlen=KEPT_TRANSITIONS)
         self.revision = 0
+        self._changes = 0
 
     def become(
         self,
@@ -48,7 +49,8 @@ class Ledger:
         self.robot = robot or self.robot
         self.sentence = sentence
         self.revision += 1
-        self.transitions.append(Transition(now, self.link, self.robot, cause))
+        self._changes += 1
+        self.transitions.append(Transition(now, self.link, self.robot, cause, self._changes))
         logger.info("link %s, robot %s: %s", self.link, self.robot, cause)
 
     def require_link(self, what: str) -> None:

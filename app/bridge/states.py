@@ -36,7 +36,7 @@ class RobotState(StrEnum):
 
 
 IN_RUN = frozenset({RobotState.MOVING, RobotState.PAUSING, RobotState.PAUSED})
-"""States in which a run or a reset is under way."""
+"""States in which a run, a reset or a jog is under way."""
 
 
 class RunPhase(StrEnum):
@@ -110,6 +110,25 @@ class RunProgress:
 
 
 @dataclass(frozen=True)
+class JogProgress:
+    """How far a jog has come.
+
+    Args:
+        text: what is moved, for a person.
+        by: who moves it.
+        reached: number of its moves that were confirmed as reached.
+        count: number of its moves.
+        largest_move: largest distance of a motor in one of them, m.
+    """
+
+    text: str
+    by: str
+    reached: int
+    count: int
+    largest_move: float
+
+
+@dataclass(frozen=True)
 class RobotSnapshot:
     """Everything there is to show about the robot at one moment.
 
@@ -125,6 +144,7 @@ class RobotSnapshot:
         last_error: sentence of the last fault or loss.
         measured_scan: longest error scan seen since connecting, s (see `core.wire_timing.stop_time`).
         number: counts the snapshots of a bridge, so that who gets two knows the later one.
+        jog: the steps by hand that are under way.
     """
 
     link: LinkState
@@ -138,13 +158,23 @@ class RobotSnapshot:
     last_error: str | None
     measured_scan: float | None
     number: int
+    jog: JogProgress | None = None
 
 
 @dataclass(frozen=True)
 class Transition:
-    """A change of state with its cause, and the time of the bridge's clock in s."""
+    """A change of state with its cause.
+
+    Args:
+        time: of the bridge's clock, s.
+        link: state of the cable from then on.
+        robot: state of the robot from then on.
+        cause: sentence.
+        number: counts the changes of a bridge, from 1.
+    """
 
     time: float
     link: LinkState
     robot: RobotState
     cause: str
+    number: int

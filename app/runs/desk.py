@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from app.finite import finite
+from app.runs.owners import end_abandoned
 from app.runs.record import RunRecord, known_row, read_record
 from app.store.database import Database
 from app.store.run_log import RunFilter, RunLog, RunRow
@@ -28,10 +29,12 @@ class RunDesk:
     """
 
     def __init__(self, database: Database) -> None:
+        self._database = database
         self._log = RunLog(database)
 
     def found(self, wanted: RunFilter, offset: int, most: int) -> dict[str, Any]:
         """Some of the runs that a filter leaves, the newest first, and what can be filtered by."""
+        end_abandoned(self._database)
         rows = self._log.found(wanted, offset, most)
         return {
             "runs": [self._line(row) for row in rows],
@@ -107,6 +110,7 @@ class RunDesk:
             "seconds": content.get("seconds"),
             "reached": content.get("reached"),
             "count": content.get("count"),
+            "left_out": content.get("left_out", 0),
             "note": row.note,
             "deleted": row.deleted is not None,
             "errors": self._errors(row),

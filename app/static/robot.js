@@ -12,7 +12,7 @@ import { robotLog } from "./robot_log.js";
 import { courseOf, coursePart, isOfCourse } from "./run_course.js";
 import { commandedStrokes } from "./samples.js";
 import { sendControl } from "./send.js";
-import { acceptRobot, runIsOn } from "./store.js";
+import { acceptRobot, runIsOn, stopLimit } from "./store.js";
 import { strokeBars } from "./strokes.js";
 import { attempt, report, toast } from "./toasts.js";
 import { robotTone } from "./topbar.js";
@@ -78,6 +78,7 @@ function build(store) {
     connectNote: h("p", { class: "why" }), armNote: h("p", { class: "why" }), sendNote: h("p", { class: "why" }),
     summary: h("dl", { class: "summary" }),
     bar: h("i"), later: h("p", { class: "why", role: "status", "aria-label": "Later edit", data: { toneText: "caution" } }), progress: h("p", { class: "why number" }),
+    record: h("p", { class: "why", role: "status", "aria-label": "Record", data: { toneText: "caution" } }),
     bars: strokeBars(),
     stopText: h("p", { class: "stop-text" }),
   };
@@ -87,7 +88,7 @@ function assemble({ store, playback }, parts, send) {
   const connect = way(1, parts.ports.offer, h("div", { class: "device" }, parts.ports.element, parts.connect.button, parts.disconnect.button), parts.connectNote);
   const arm = way(2, h("div", { class: "buttons" }, parts.arm.button, parts.clear.button, parts.armNote));
   const start = way(3, coursePart(store, playback), parts.summary, send.element, parts.sendNote);
-  const run = way(4, h("div", { class: "progress" }, parts.bar), parts.progress, parts.later,
+  const run = way(4, h("div", { class: "progress" }, parts.bar), parts.progress, parts.later, parts.record,
     h("div", { class: "buttons" }, parts.pause.button, parts.resume.button, parts.reset.button));
   byId("robot").append(h("div", { class: "robot-state" }, parts.dot, parts.word, parts.sentence), leasePart(store),
     h("ol", { class: "steps", role: "list", "aria-label": "The robot's way" }, connect, arm, start, run),
@@ -127,6 +128,7 @@ function showRobot(parts, ways, robot) {
   const progress = progressOf(robot?.run);
   parts.bar.style.transform = `scaleX(${progress?.fraction ?? 0})`;
   setText(parts.progress, progress?.text ?? (before ? `Last run: ${before.gait_name}, ${before.state}.` : "No run yet."));
+  setText(parts.record, robot?.record_trouble ?? "");
   showWay(ways, robot);
 }
 
@@ -183,7 +185,7 @@ export function mountRobot(store, playback) {
     send.allow(reason);
     setText(parts.sendNote, reason ?? "Hold for a second, or click for a countdown.");
     parts.summary.replaceChildren(...summaryRows(state));
-    setText(parts.stopText, stopSentence(state.robot?.stop_seconds ?? state.runSummary?.stop_seconds));
+    setText(parts.stopText, stopSentence(stopLimit(state)));
     ways.start.hidden = runIsOn(state.robot);
     parts.summary.hidden = parts.summary.childElementCount === 0;
   });

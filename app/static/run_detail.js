@@ -79,7 +79,9 @@ export async function runDetail(id, { leave, open, standing }) {
   const element = h("div", { class: "run-detail" },
     h("button", { class: "link", text: "All runs", on: { click: leave } }),
     h("div", { class: "run-line run-title" }, h("span", { class: "dot", data: { tone: runTone(run) } }), h("b", { text: run.gait_name }), word),
-    h("p", { class: "quiet", text: endOf(run) }), facts(run), noteField(run), over,
+    h("p", { class: "quiet", text: endOf(run) }),
+    run.left_out ? h("p", { class: "why", data: { toneText: "caution" }, text: `The record has a hole: ${run.left_out} bytes were not kept, as the disk was full.` }) : null,
+    facts(run), noteField(run), over,
     run.errors ? comparing(run, others, tables) : null, tables, stateLog(run),
     h("div", { class: "run-files" }, file(run, "csv", "CSV", "Time, state, commanded and measured strokes in mm"), file(run, "mcap", "MCAP", "For Foxglove and other viewers: strokes, commands, states and every byte"), deleteButton(run, leave, open)));
   return { element, follow: () => setText(over, standing(run)) };

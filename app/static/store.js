@@ -143,3 +143,8 @@ export function runIsOn(robot) {
   if (!robot) return false;
   return ["moving", "pausing", "paused", "stopping"].includes(robot.robot) || Boolean(robot.run && robot.run.phase !== "ended");
 }
+
+/** The longest time of a stop: of the run that is on, else of the one that would be sent, else of the last one, s. */
+export function stopLimit({ robot, runSummary }) {
+  return runIsOn(robot) ? robot.stop_seconds : (runSummary?.stop_seconds ?? robot?.stop_seconds);
+}

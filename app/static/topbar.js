@@ -10,7 +10,7 @@ import { holderSentence } from "./lease.js";
 import { changeOperator } from "./operator.js";
 import { refusalOf } from "./refusal.js";
 import { draftOf } from "./sheet_draft.js";
-import { acceptRobot, runIsOn } from "./store.js";
+import { acceptRobot, runIsOn, stopLimit } from "./store.js";
 import { toast } from "./toasts.js";
 
 const LINK_TONES = { ready: "good", connecting: "caution", lost: "bad" };
@@ -141,8 +141,9 @@ export function mountTopbar(store, edits) {
   byId("operator").addEventListener("click", () => changeOperator(store));
   byId("help").addEventListener("click", showKeys);
   byId("stop").addEventListener("click", () => stopRobot(store));
-  store.watch(({ robot }) => [robot?.stop_seconds], ({ robot }) => {
-    const within = robot?.stop_seconds ? `Takes effect within ${seconds(robot.stop_seconds)} s, after the move that is running.` : "Takes effect after the move that is running.";
+  store.watch((state) => [stopLimit(state)], (state) => {
+    const limit = stopLimit(state);
+    const within = limit ? `Takes effect within ${seconds(limit)} s, after the move that is running.` : "Takes effect after the move that is running.";
     byId("stop").title = `Stop the robot (Esc while a run is on). ${within}`;
   });
 }

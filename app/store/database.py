@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from app.store import run_rows
 from app.store.schema import bring_up_to_date
 from core.errors import InputError
 
@@ -22,9 +23,13 @@ class Database:
 
     Args:
         path: the file; made where it does not exist.
+
+    Attributes:
+        path: the file.
     """
 
     def __init__(self, path: Path) -> None:
+        self.path = path
         self._lock = threading.Lock()
         try:
             self._connection = sqlite3.connect(path, check_same_thread=False)
@@ -83,13 +88,9 @@ class Database:
     def put_run(self, content: dict[str, Any]) -> None:
         """Stores a run as it is now."""
         with self.writing() as connection:
-            connection.execute(
-                "INSERT INTO run(id, started, content) VALUES(?,?,?) "
-                "ON CONFLICT(id) DO UPDATE SET started=excluded.started, content=excluded.content",
-                (content["id"], content["started"], json.dumps(content, allow_nan=False)),
-            )
+            run_rows.put_run(connection, content)
 
-    def add_bytes(self, rows: list[tuple[str, float, str, bytes]]) -> None:
-        """Adds to the record of bytes: (run, monotonic time in s, direction, data) each."""
+    def add_bytes(self, rows: list[run_rows.ByteRow]) -> None:
+        """Adds to the record of bytes."""
         with self.writing() as connection:
-            connection.executemany("INSERT INTO run_bytes(run, time, direction, data) VALUES(?,?,?,?)", rows)
+            run_rows.add_bytes(connection, rows)

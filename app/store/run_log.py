@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import sqlite3
 from dataclasses import dataclass
 from typing import Any
 
 from app.store.database import Database
+from app.store.run_rows import StateRow, add_states, put_run
 
 
 @dataclass(frozen=True)
@@ -75,6 +77,13 @@ class RunLog:
         where, values = wanted.condition()
         return int(self._database.rows(f"SELECT COUNT(*) FROM run WHERE {where}", *values)[0][0])
 
+    def running(self) -> tuple[dict[str, Any], ...]:
+        """Runs that have not ended as far as is known, also deleted ones."""
+        rows = self._database.rows(
+            "SELECT content FROM run WHERE json_extract(content, '$.state') = 'running'"
+        )
+        return tuple(json.loads(content) for (content,) in rows)
+
     def choices(self) -> dict[str, list[Any]]:
         """What can be filtered by: gaits with their names, states and operators that there are."""
         rows = self._database.rows(
@@ -109,7 +118,15 @@ class RunLog:
 
     def put_plan(self, run: str, content: dict[str, Any]) -> None:
         """Stores what a run is to do."""
-        self._put_content("run_plan", run, content)
+        with self._database.writing() as connection:
+            _put_content(connection, "run_plan", run, content)
+
+    def begin(self, content: dict[str, Any], plan: dict[str, Any] | None) -> None:
+        """Stores a run that begins, and what it is to do, together."""
+        with self._database.writing() as connection:
+            put_run(connection, content)
+            if plan is not None:
+                _put_content(connection, "run_plan", content["id"], plan)
 
     def figures(self, run: str) -> dict[str, Any] | None:
         """What was computed from a run that has ended."""
@@ -117,7 +134,8 @@ class RunLog:
 
     def put_figures(self, run: str, content: dict[str, Any]) -> None:
         """Stores what was computed from a run."""
-        self._put_content("run_figures", run, content)
+        with self._database.writing() as connection:
+            _put_content(connection, "run_figures", run, content)
 
     def bytes_of(self, run: str) -> list[tuple[float, str, bytes]]:
         """Monotonic time in s, direction and data of everything that passed, in order."""
@@ -128,12 +146,10 @@ class RunLog:
             )
         ]
 
-    def add_states(self, rows: list[tuple[str, float, str, str, str]]) -> None:
-        """Adds changes of state: (run, monotonic time in s, link, robot, cause) each."""
+    def add_states(self, rows: list[StateRow]) -> None:
+        """Adds changes of state."""
         with self._database.writing() as connection:
-            connection.executemany(
-                "INSERT INTO run_state(run, time, link, robot, cause) VALUES(?,?,?,?,?)", rows
-            )
+            add_states(connection, rows)
 
     def states_of(self, run: str) -> list[tuple[float, str, str, str]]:
         """Monotonic time in s, link, robot and cause of each change of state."""
@@ -148,8 +164,7 @@ class RunLog:
         rows = self._database.rows(f"SELECT content FROM {table} WHERE run=?", run)
         return json.loads(rows[0][0]) if rows else None
 
-    def _put_content(self, table: str, run: str, content: dict[str, Any]) -> None:
-        with self._database.writing() as connection:
-            connection.execute(
-                f"INSERT OR REPLACE INTO {table} VALUES(?,?)", (run, json.dumps(content, allow_nan=False))
-            )
+
+def _put_content(connection: sqlite3.Connection, table: str, run: str, content: dict[str, Any]) -> None:
+    text = json.dumps(content, allow_nan=False)
+    connection.execute(f"INSERT OR REPLACE INTO {table} VALUES(?,?)", (run, text))

@@ -162,16 +162,18 @@ def test_the_recorder_keeps_each_change_of_state_once(database: Database) -> Non
     recorder = RunRecorder(database)
     record = {"id": "r", "started": 1.0, "started_monotonic": 10.0}
     changes = [
-        Transition(time, LinkState.READY, RobotState.MOVING, f"at {time}") for time in (9.0, 11.0, 12.0)
+        Transition(time, LinkState.READY, RobotState.MOVING, f"change {number}", number)
+        for number, time in ((1, 9.0), (2, 11.0), (3, 12.0), (4, 12.0))
     ]
-    recorder.begin(record, {"robot": "deltawalker"})
+    recorder.begin(record, {"robot": "deltawalker"}, after=1)
     recorder.log(Direction.TO_ROBOT, b"<r>", 11.0)
     recorder.note(changes[:2])
     recorder.note(changes)
     recorder.end(record)
     recorder.note(changes)
     recorder.close()
-    assert [state[0] for state in RunLog(database).states_of("r")] == [11.0, 12.0]
+    causes = [state[3] for state in RunLog(database).states_of("r")]
+    assert causes == ["change 2", "change 3", "change 4"]
     assert RunLog(database).bytes_of("r") == [(11.0, "to robot", b"<r>")]
 
 

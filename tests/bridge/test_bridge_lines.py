@@ -188,7 +188,8 @@ def test_a_stop_does_not_wait_for_a_subscriber_that_dawdles(bridge: RobotBridge,
     unsubscribe = bridge.subscribe(dawdle)
     assert held.wait(PATIENCE)
     bridge.stop("Grace")
-    assert lockstep.traffic[-1][:2] == (Direction.TO_ROBOT, b"<s,1>")
+    sent = [data for way, data, _ in lockstep.traffic if way is Direction.TO_ROBOT]
+    assert sent[-1] == b"<s,1>"
     assert bridge.snapshot.robot is RobotState.STOPPING
     unsubscribe()
     hold.set()

@@ -1,0 +1,33 @@
+"""How runs stand in the database, for everybody who writes them."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from collections.abc import Iterable
+from typing import Any
+
+ByteRow = tuple[str, float, str, bytes]
+"""Run, monotonic time in s, direction, data."""
+
+StateRow = tuple[str, float, str, str, str]
+"""Run, monotonic time in s, link, robot, cause."""
+
+
+def put_run(connection: sqlite3.Connection, content: dict[str, Any]) -> None:
+    """Stores a run as it is now; its note, and whether it was deleted, stay."""
+    connection.execute(
+        "INSERT INTO run(id, started, content) VALUES(?,?,?) "
+        "ON CONFLICT(id) DO UPDATE SET started=excluded.started, content=excluded.content",
+        (content["id"], content["started"], json.dumps(content, allow_nan=False)),
+    )
+
+
+def add_bytes(connection: sqlite3.Connection, rows: Iterable[ByteRow]) -> None:
+    """Adds to the record of bytes."""
+    connection.executemany("INSERT INTO run_bytes(run, time, direction, data) VALUES(?,?,?,?)", rows)
+
+
+def add_states(connection: sqlite3.Connection, rows: Iterable[StateRow]) -> None:
+    """Adds changes of state."""
+    connection.executemany("INSERT INTO run_state(run, time, link, robot, cause) VALUES(?,?,?,?,?)", rows)

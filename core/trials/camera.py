@@ -1,0 +1,143 @@
+"""What a camera under the platform needs to be told: lens, platform in the picture, colours of the feet."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Floats, frozen_floats
+from core.errors import InputError
+
+
+@dataclass(frozen=True)
+class ColourRange:
+    """A range of hue, saturation and value, all 0 to 1; hues whose `low` is above `high` go over red.
+
+    Args:
+        hue: (low, high), shares of the colour circle.
+        saturation: least.
+        value: least.
+    """
+
+    hue: tuple[float, float]
+    saturation: float = 0.4
+    value: float = 0.25
+
+    def __post_init__(self) -> None:
+        numbers = (*self.hue, self.saturation, self.value)
+        if not all(math.isfinite(number) and 0.0 <= number <= 1.0 for number in numbers):
+            raise InputError("Hue, saturation and value must lie between 0 and 1.", "colours")
+
+
+FOOT_COLOURS = (
+    ColourRange((0.28, 0.45)),
+    ColourRange((0.95, 0.03)),
+    ColourRange((0.045, 0.12)),
+    ColourRange((0.54, 0.70)),
+)
+"""Feet 1 to 4: green, red, orange, blue (thesis 5.1); to be tuned on the lab's own light."""
+
+
+@dataclass(frozen=True)
+class SpotLimits:
+    """Which spots of a foot's colour may be the foot.
+
+    Args:
+        least_area: of the contour, px².
+        most_area: px².
+        least_fill: contour's area as a share of its smallest enclosing circle's; a round sole has nearly 1.
+    """
+
+    least_area: float = 60.0
+    most_area: float = 20_000.0
+    least_fill: float = 0.5
+
+
+@dataclass(frozen=True, eq=False)
+class Lens:
+    """A camera's matrix and its five distortion coefficients k1, k2, p1, p2, k3.
+
+    Args:
+        matrix: (3, 3) px.
+        distortion: (5,).
+    """
+
+    matrix: Floats
+    distortion: Floats
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "matrix", frozen_floats(self.matrix, (3, 3), "camera matrix"))
+        object.__setattr__(self, "distortion", frozen_floats(self.distortion, (5,), "distortion"))
+        if self.matrix[0, 0] <= 0 or self.matrix[1, 1] <= 0:
+            raise InputError("The camera matrix needs focal lengths of more than 0 px.", "lens")
+
+
+@dataclass(frozen=True, eq=False)
+class PlatformView:
+    """Where the platform is in the undistorted picture.
+
+    Args:
+        H_platform_pixel: (3, 3) homography from pixels to metres on the platform, x and y as the lab's.
+    """
+
+    H_platform_pixel: Floats
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "H_platform_pixel", frozen_floats(self.H_platform_pixel, (3, 3), "view"))
+
+    def places(self, pixels: Floats) -> Floats:
+        """Places on the platform.
+
+        Args:
+            pixels: (..., 2) undistorted, px; nan stays nan.
+
+        Returns:
+            (..., 2) m.
+        """
+        ones = np.ones((*pixels.shape[:-1], 1))
+        turned = np.concatenate([pixels, ones], axis=-1) @ self.H_platform_pixel.T
+        return np.asarray(turned[..., :2] / turned[..., 2:])
+
+
+def view_of_points(pixels: Floats, places: Floats) -> PlatformView:
+    """The platform's view from points whose places are known, such as corners of its etched grid.
+
+    The homography is the direct linear transform over points that are first moved and scaled to unit size.
+
+    Args:
+        pixels: (k, 2) clicked, undistorted, px; at least four, no three of the first four on a line.
+        places: (k, 2) on the platform, m.
+
+    Raises:
+        InputError: there are fewer than four points, or they tell no plane.
+    """
+    count = len(pixels)
+    if count < 4:
+        raise InputError(f"{count} points are clicked; the platform needs at least four.", "points")
+    seen, real = frozen_floats(pixels, (count, 2), "pixels"), frozen_floats(places, (count, 2), "places")
+    T_unit_pixel, T_unit_place = _unit_scale(seen), _unit_scale(real)
+    rows = []
+    for (u, v), (x, y) in zip(_scaled(T_unit_pixel, seen), _scaled(T_unit_place, real), strict=True):
+        rows += [[u, v, 1, 0, 0, 0, -x * u, -x * v, -x], [0, 0, 0, u, v, 1, -y * u, -y * v, -y]]
+    _, sizes, turned = np.linalg.svd(np.array(rows))
+    if sizes[7] < 1e-6 * sizes[0]:
+        raise InputError(
+            "The points lie on a line or upon each other; click the corners of a square.", "points"
+        )
+    homography = np.linalg.inv(T_unit_place) @ turned[-1].reshape(3, 3) @ T_unit_pixel
+    return PlatformView(homography / homography[2, 2])
+
+
+def _unit_scale(points: Floats) -> Floats:
+    middle = points.mean(axis=0)
+    size = float(np.hypot(*(points - middle).T).mean())
+    if size < 1e-12:
+        raise InputError("The points lie upon each other; click the corners of a square.", "points")
+    scale = 1.0 / size
+    return np.array([[scale, 0.0, -scale * middle[0]], [0.0, scale, -scale * middle[1]], [0.0, 0.0, 1.0]])
+
+
+def _scaled(transform: Floats, points: Floats) -> Floats:
+    return np.asarray(points @ transform[:2, :2].T + transform[:2, 2])

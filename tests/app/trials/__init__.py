@@ -1,0 +1,1 @@
+"""Trials: tracks out of videos, kept beside runs."""

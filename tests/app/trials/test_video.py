@@ -1,0 +1,81 @@
+"""Feet in a rendered video are found where they were drawn; what cannot be used is said."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.trials.video import TrackingSetup, VideoTrack, track_video
+from core.errors import InputError
+from core.trials.camera import FOOT_COLOURS
+from tests.app.trials.rendered import LENS, VIEW, Hidden, write_video
+from tests.core.trials.tracks import RATE, stepping_track
+
+SETUP = TrackingSetup(VIEW, LENS)
+HIDDEN = Hidden(2, 60, 73)
+FALSE_FRAME = 150
+TRACK = stepping_track((0.012, 0.003), 1)
+
+
+@pytest.fixture(scope="module")
+def video(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("video") / "walk.avi"
+    write_video(path, TRACK.feet, RATE, (HIDDEN,), false_spot=FALSE_FRAME)
+    return path
+
+
+@pytest.fixture(scope="module")
+def found(video: Path) -> VideoTrack:
+    result = track_video(video, SETUP)
+    assert result is not None
+    return result
+
+
+def test_feet_are_found_within_half_a_millimetre(found: VideoTrack) -> None:
+    assert found.frame_rate == pytest.approx(RATE)
+    away = np.linalg.norm(found.track.feet - TRACK.feet, axis=2)
+    assert np.median(away, axis=0).max() <= 0.0005
+    assert np.quantile(away[~found.track.filled], 0.99) <= 0.001
+
+
+def test_a_hidden_foot_is_a_marked_gap(found: VideoTrack) -> None:
+    assert (HIDDEN.foot, HIDDEN.first, HIDDEN.last - 1) in found.track.gaps
+    assert not found.false[HIDDEN.first : HIDDEN.last].any()
+
+
+def test_a_spot_where_the_foot_cannot_be_is_marked_as_false(found: VideoTrack) -> None:
+    assert [tuple(place) for place in np.argwhere(found.false)] == [(FALSE_FRAME, 0)]
+    assert found.track.filled[FALSE_FRAME, 0]
+    assert np.linalg.norm(found.track.feet[FALSE_FRAME, 0] - TRACK.feet[FALSE_FRAME, 0]) < 0.001
+
+
+def test_without_the_lens_places_are_wrong(video: Path) -> None:
+    bent = track_video(video, replace(SETUP, lens=None))
+    assert bent is not None
+    assert np.median(np.linalg.norm(bent.track.feet - TRACK.feet, axis=2)) > 0.0005
+
+
+def test_tracking_ends_when_it_is_told_to(video: Path) -> None:
+    shares: list[float] = []
+
+    def enough(share: float) -> bool:
+        shares.append(share)
+        return len(shares) < 2
+
+    assert track_video(video, SETUP, enough) is None
+    assert 0.0 < shares[0] < shares[1] < 1.0
+
+
+def test_a_colour_that_no_foot_has_is_named_by_its_foot(video: Path) -> None:
+    colours = (*FOOT_COLOURS[:3], replace(FOOT_COLOURS[3], hue=(0.8, 0.85)))
+    with pytest.raises(InputError, match="foot 4 is seen in no frame"):
+        track_video(video, replace(SETUP, colours=colours))
+
+
+def test_a_file_that_is_no_video_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "notes.avi").write_text("no video")
+    with pytest.raises(InputError, match="cannot be read as a video"):
+        track_video(tmp_path / "notes.avi", SETUP)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Floats
-from core.balance_check import BALANCE_RESERVE, KEEP_THREE, STANDING_DEPTH, STROKE_BALANCE_SLACK
+from core.balance_check import BALANCE_RESERVE, STANDING_DEPTH, STROKE_BALANCE_SLACK
 from core.findings import Finding, Severity, found
 from core.ground_check import CLEARANCE_LIMIT
 from core.jog import Axis, JogStep, jog_range, jog_strokes, jog_way, within_range
@@ -187,7 +187,7 @@ def _balance(model: RobotModel, way: Sequence[Floats], margins: Floats) -> list[
     side = "outside" if value < 0 else "inside"
     place = f"{abs(value) * 1000:.1f} mm {side} the edge of the support"
     outcome = "the robot would tip" if blocks else "it does not balance" if tips else "it hardly balances"
-    remedy = "Move the body over the feet that stay down first." if len(feet) > 2 else KEEP_THREE
+    remedy = "Move the body over the feet that stay down first." if len(feet) > 2 else "Keep three feet down."
     words = f"With {down} down the centre of mass is {place}: {outcome}."
     severity, limit = (
         (Severity.ERROR, -STROKE_BALANCE_SLACK) if blocks else (Severity.WARNING, BALANCE_RESERVE)

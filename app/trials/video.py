@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -25,6 +25,9 @@ Mask = NDArray[np.uint8]
 
 SPOTS = SpotLimits()
 """Limits where nothing else is said."""
+
+LEAST_BOARDS = 3
+"""Pictures of the checkerboard that a lens needs."""
 
 HUES = 180
 """Hues of 8-bit pictures go up to here."""
@@ -174,3 +177,64 @@ def _opened(path: Path) -> cv2.VideoCapture:
         capture.release()
         raise InputError(f"{path.name} cannot be read as a video.", path.name)
     return capture
+
+
+def lens_of_checkerboards(
+    pictures: Sequence[Picture], corners: tuple[int, int]
+) -> tuple[Lens, float, tuple[bool, ...]]:
+    """A camera's lens from pictures of a checkerboard.
+
+    Args:
+        pictures: of the board in different places and slopes, all of one size.
+        corners: inner corners along the board's two sides.
+
+    Returns:
+        The lens; the root mean square of what it leaves unexplained, px; which pictures show the board.
+
+    Raises:
+        InputError: fewer than three pictures show the board, or they are of different sizes.
+    """
+    sizes = {picture.shape[:2] for picture in pictures}
+    if len(sizes) > 1:
+        raise InputError("The pictures have different sizes; take all with one camera.", "pictures")
+    found = [_board_corners(picture, corners) for picture in pictures]
+    seen = [points for points in found if points is not None]
+    if len(seen) < LEAST_BOARDS:
+        raise InputError(
+            f"The board with {corners[0]} × {corners[1]} inner corners is found in {len(seen)} of "
+            f"{len(pictures)} pictures; at least {LEAST_BOARDS} are needed, flat, whole and sharp.",
+            "pictures",
+        )
+    board = np.zeros((corners[0] * corners[1], 3), dtype=np.float32)
+    board[:, :2] = np.mgrid[: corners[0], : corners[1]].T.reshape(-1, 2)
+    ((height, width),) = sizes
+    unexplained, matrix, distortion, _, _ = cv2.calibrateCamera(
+        [board] * len(seen), seen, (width, height), np.eye(3), np.zeros(5)
+    )
+    lens = Lens(np.asarray(matrix, dtype=np.float64), np.asarray(distortion, dtype=np.float64).ravel()[:5])
+    return lens, float(unexplained), tuple(points is not None for points in found)
+
+
+def _board_corners(picture: Picture, corners: tuple[int, int]) -> NDArray[np.float32] | None:
+    grey = cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY)
+    there, points = cv2.findChessboardCornersSB(grey, corners)
+    return np.asarray(points, dtype=np.float32) if there else None
+
+
+def read_picture(content: bytes, name: str) -> Picture:
+    """A picture file's content.
+
+    Raises:
+        InputError: it is no picture.
+    """
+    data = np.frombuffer(content, dtype=np.uint8)
+    picture = cv2.imdecode(data, cv2.IMREAD_COLOR) if data.size else None
+    if picture is None:
+        raise InputError(f"{name} is no picture that can be read; use PNG or JPEG.", name)
+    return np.asarray(picture, dtype=np.uint8)
+
+
+def jpeg(picture: Picture) -> bytes:
+    """A picture as a JPEG file."""
+    _, content = cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, 85])
+    return content.tobytes()

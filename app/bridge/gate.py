@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from enum import Enum
 from typing import Protocol
 
 from app.bridge.states import Direction
+from core.errors import InputError
 from core.wire import encode_flush, encode_stop
 
 Log = Callable[[Direction, bytes, float], None]
@@ -17,6 +19,25 @@ The time of a message is that before its first byte goes out, so that no answer 
 
 Clock = Callable[[], float]
 """Seconds that only grow."""
+
+
+class Kind(Enum):
+    """What a message is for, and how it begins; beside these only stops and flushes go out."""
+
+    WAYPOINT = ("an approved waypoint, or on the slow way to one", (b"<p,1,",))
+    JOG = ("a step by hand", (b"<p,1,",))
+    RESET = ("a reset", (b"<r>",))
+    CLEAR = ("the clearing of a stop", (b"<p,1,", b"<s,0>"))
+
+    def require(self, message: bytes) -> None:
+        """Refuses a message that is not of this kind.
+
+        Raises:
+            InputError: it begins otherwise.
+        """
+        title, beginnings = self.value
+        if not message.startswith(beginnings):
+            raise InputError(f"A message that begins with {message[:5]!r} is not {title}.", "message")
 
 
 class Outlet(Protocol):
@@ -73,7 +94,7 @@ class Gate:
         """Returns a permit that lasts until the next stop."""
         return self._stops
 
-    def write(self, message: bytes, permit: int) -> bool:
+    def write(self, message: bytes, permit: int, kind: Kind = Kind.WAYPOINT) -> bool:
         """Sends a message unless a stop came after its permit, or the line is unsure.
 
         Returns:
@@ -81,7 +102,9 @@ class Gate:
 
         Raises:
             RobotError: the line did not take it.
+            InputError: it is not of its kind.
         """
+        kind.require(message)
         with self._lock:
             now = self._clock()
             sent = permit == self._stops and not self._unsure and self._put(message)

@@ -14,6 +14,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from app.bridge.gate import Clock, Gate, Log
+from app.bridge.jog import JogPlan
 from app.bridge.robot_session import RobotSession
 from app.bridge.states import IN_RUN, Direction, LinkState, RobotSnapshot, RunPlan, Transition
 from app.bridge.stopping import STOP_LIMIT
@@ -231,6 +232,15 @@ class RobotBridge:
             StateError: the robot is not armed.
         """
         self._do(lambda now: self._session.reset(by, now))
+
+    def jog(self, plan: JogPlan, by: str) -> None:
+        """Moves motors by steps that a person chose.
+
+        Raises:
+            StateError: the robot is not armed, does not stand still, or stands elsewhere than thought.
+            InputError: a stroke cannot be sent.
+        """
+        self._do(lambda now: self._session.jog(plan, by, now))
 
     # Inside
 

@@ -20,7 +20,8 @@ from app.bridge.delivery import (
     Stage,
     arrival_deadline,
 )
-from app.bridge.gate import Gate
+from app.bridge.gate import Gate, Kind
+from app.bridge.jog import Jog, JogPlan
 from app.bridge.robot_link import RobotLink
 from app.bridge.run import Move, Run
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPhase, RunPlan
@@ -48,6 +49,7 @@ class RobotSession(RobotLink):
     def __init__(self, gate: Gate) -> None:
         super().__init__(gate)
         self._run: Run | None = None
+        self._jog: Jog | None = None
         self._delivery: Delivery | None = None
         self._permit = -1
         self._numbers = itertools.count(1)
@@ -67,6 +69,7 @@ class RobotSession(RobotLink):
             last_error=self.last_error,
             measured_scan=self.watch.longest_scan,
             number=next(self._numbers),
+            jog=None if self._jog is None else self._jog.progress(),
         )
 
     def tick(self, now: float) -> None:
@@ -84,6 +87,13 @@ class RobotSession(RobotLink):
         self.require_robot(RobotState.DISARMED, RobotState.DONE, remedy="Only a disarmed robot can be armed.")
         self._permit = self._gate.permit()
         self.become(now, f"Armed by {by}.", SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
+
+    def disarm(self, by: str, now: float) -> None:
+        """Takes back the permission to move an armed robot; does nothing in any other state."""
+        if self.robot is RobotState.ARMED:
+            self._permit = -1
+            sentence = SENTENCES[RobotState.DISARMED]
+            self.become(now, f"Disarmed by {by}.", sentence, robot=RobotState.DISARMED)
 
     def send(self, plan: RunPlan, by: str, now: float, run_id: str | None = None) -> str:
         """Begins a run and returns its name, which is made up unless given."""
@@ -103,13 +113,25 @@ class RobotSession(RobotLink):
         self._run = None
         sentence = f"Every motor goes to {RESET_MM} mm."
         self.become(now, f"Reset by {by}.", sentence, robot=RobotState.MOVING)
-        self._deliver(encode_reset(), (RESET_MM,) * MOTORS, RESTART, now)
+        self._deliver(encode_reset(), (RESET_MM,) * MOTORS, RESTART, now, kind=Kind.RESET)
+
+    def jog(self, plan: JogPlan, by: str, now: float) -> None:
+        """Moves motors by steps that a person chose, from where an armed robot stands still."""
+        self.require_link("jogged")
+        self.require_robot(RobotState.ARMED, remedy="Arm the robot, then jog it.")
+        if not self.watch.stands_still(now):
+            raise StateError("The robot does not stand still yet. Wait until it does, then jog it.")
+        self._jog = Jog(plan, self._measured(), by)
+        self._run = None
+        self.become(now, f"Jog by {by}: {plan.text}.", f"Jog: {plan.text}.", robot=RobotState.MOVING)
+        self._send_jog(now)
 
     def pause(self, by: str, now: float) -> None:
         """Ends the movement at the next pose with all feet down."""
         self.require_robot(RobotState.MOVING, remedy="Only a run that moves can be paused.")
         if self._run is None:
-            raise StateError("A reset cannot be paused. Stop it instead.")
+            what = "reset" if self._jog is None else "jog"
+            raise StateError(f"A {what} cannot be paused. Stop it instead.")
         self.become(now, f"Pause by {by}.", SENTENCES[RobotState.PAUSING], robot=RobotState.PAUSING)
 
     def resume(self, by: str, now: float) -> None:
@@ -148,7 +170,8 @@ class RobotSession(RobotLink):
         self._clearing = True
         sentence = clearing_sentence(measured, target, confirmed=not self._stop.pending)
         self.become(now, f"Clear by {by}.", sentence)
-        self._deliver(encode_waypoint([s / 1000.0 for s in target], 1.0), target, STORE, now)
+        message = encode_waypoint([s / 1000.0 for s in target], 1.0)
+        self._deliver(message, target, STORE, now, kind=Kind.CLEAR)
 
     # Messages on their way
 
@@ -165,6 +188,12 @@ class RobotSession(RobotLink):
         patience = START_PATIENCE if move.phase is RunPhase.START_POSE else PATIENCE
         self._deliver(move.message, move.target_mm, MOVE, now, patience=patience)
 
+    def _send_jog(self, now: float) -> None:
+        if self._jog is None:
+            return
+        move = self._jog.next_move()
+        self._deliver(move.message, move.target_mm, MOVE, now, patience=START_PATIENCE, kind=Kind.JOG)
+
     def _deliver(
         self,
         message: bytes,
@@ -174,13 +203,14 @@ class RobotSession(RobotLink):
         *,
         patience: float = PATIENCE,
         early_end: bool = False,
+        kind: Kind = Kind.WAYPOINT,
     ) -> None:
         distance = max(abs(t - m) for t, m in zip(target_mm, self._measured(), strict=True))
         deadline = arrival_deadline(distance, patience)
         self._delivery = Delivery(message, target_mm, stages, now, deadline, early_end=early_end)
         self.revision += 1
         try:
-            self._gate.write(message, self._permit)
+            self._gate.write(message, self._permit, kind)
         except RobotError as error:
             self.hung_up(error.sentence, now)
 
@@ -194,6 +224,8 @@ class RobotSession(RobotLink):
             self._delivery = None
             if self._clearing:
                 self._go_on_clearing(delivery, now)
+            elif self._jog is not None:
+                self._go_on_jogging(self._jog, now)
             else:
                 self._go_on_running(now)
 
@@ -219,9 +251,18 @@ class RobotSession(RobotLink):
         else:
             self._send_next(now)
 
+    def _go_on_jogging(self, jog: Jog, now: float) -> None:
+        jog.arrive()
+        self.revision += 1
+        if jog.finished:
+            self._jog = None
+            self.become(now, "Jog done.", SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
+        else:
+            self._send_jog(now)
+
     def _go_on_clearing(self, delivery: Delivery, now: float) -> None:
         if delivery.payload.startswith("p"):
-            self._deliver(encode_release(), delivery.target_mm, RESTART, now, early_end=True)
+            self._deliver(encode_release(), delivery.target_mm, RESTART, now, early_end=True, kind=Kind.CLEAR)
             return
         self._clearing = False
         self._stop.lift()
@@ -232,10 +273,12 @@ class RobotSession(RobotLink):
 
     @property
     def _place(self) -> str:
-        return self._run.place if self._run is not None and self.in_run else ""
+        work = self._jog or self._run
+        return work.place if work is not None and self.in_run else ""
 
     def _drop_run(self, now: float) -> None:
         self._delivery = None
+        self._jog = None
         self._clearing = False
         self._permit = -1
         if self._run is not None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunProgress
 from core.arrays import Floats
 from core.waypoints import Waypoints
 from core.wire import RESET_MM
-from core.wire_timing import LONGEST_SCAN, OVERRUN, ramp_time, stop_time
+from core.wire_timing import ARRIVAL_THRESHOLD, LONGEST_SCAN, OVERRUN, ramp_time, stop_time
 
 EMULATOR = "emulator"
 """Name of the studio's own emulated robot among devices."""
@@ -59,6 +59,7 @@ def robot_view(shown: RobotSnapshot, device: str, origin: RunOrigin | None) -> d
         "unknown_lines": shown.unknown_lines,
         "last_error": shown.last_error,
         "run": None if run is None else _run_view(shown, run, known),
+        "jog": None if shown.jog is None else asdict(shown.jog),
         "commanded_mm": None if run is None or known is None else _commanded_mm(run, known),
         "stop_seconds": _stop_seconds(shown, origin),
         "allowed": allowed(shown),
@@ -70,8 +71,21 @@ def stop_seconds(waypoints: Waypoints, snapshot: RobotSnapshot, approved: Waypoi
     return stop_time(waypoints, snapshot.measured_scan or LONGEST_SCAN, approved)
 
 
+def jog_stop_seconds(largest_move: float, snapshot: RobotSnapshot) -> float:
+    """The same of a jog.
+
+    Args:
+        largest_move: largest distance of a motor in one of its moves, m.
+        snapshot: of the robot.
+    """
+    scan = snapshot.measured_scan or LONGEST_SCAN
+    return scan + ramp_time(largest_move + ARRIVAL_THRESHOLD) + OVERRUN
+
+
 def _stop_seconds(shown: RobotSnapshot, origin: RunOrigin | None) -> float | None:
     """The same of what is on or was the last; a reset is one move, which nothing cuts."""
+    if shown.jog is not None:
+        return jog_stop_seconds(shown.jog.largest_move, shown)
     if shown.run is None and shown.robot in RUNNING:
         return (shown.measured_scan or LONGEST_SCAN) + ramp_time(RESET_DISTANCE) + OVERRUN
     return None if origin is None else stop_seconds(origin.waypoints, shown)
@@ -137,6 +151,7 @@ def allowed(snapshot: RobotSnapshot) -> dict[str, str | None]:
         "resume": only({RobotState.PAUSED}, "No run is paused."),
         "clear": only({RobotState.STOPPED, RobotState.FAULT, RobotState.STOPPING}, "Nothing is stopped."),
         "reset": only({RobotState.ARMED}, "Arm the robot first."),
+        "jog": only({RobotState.ARMED}, "It moves." if robot in RUNNING else "Arm the robot first."),
     }
 
 

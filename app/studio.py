@@ -17,6 +17,7 @@ from app.gait_list import GaitList
 from app.history import Author
 from app.job_book import JobBook
 from app.job_desk import JobDesk
+from app.jog_desk import JogDesk
 from app.kept_simulations import KeptSimulations
 from app.live_desk import LiveDesk
 from app.open_gait import OpenGait
@@ -76,6 +77,7 @@ class Studio:
         self.robot = RobotDesk(
             self._database, device, self._robot_changed, RobotPorts(data / "robot.json"), self._tell_page
         )
+        self.jog = JogDesk(self.robot.bridge)
         self.runs = RunDesk(self._database)
         self._told_sources: dict[str, tuple[int, list[str]]] = {}
         self.stop_lane = ThreadPoolExecutor(max_workers=2, thread_name_prefix="stop")

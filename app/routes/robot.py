@@ -53,7 +53,7 @@ async def _moved(
     studio: Studio, author: Author, deed: Deed | None, action: Callable[[str], object]
 ) -> dict[str, Any]:
     """Does what needs the lease, in the name of who does it."""
-    doer = _named(author, deed)
+    doer = named(author, deed)
 
     def done() -> None:
         with studio.robot.lease.held_by(doer):
@@ -63,7 +63,7 @@ async def _moved(
     return studio.robot.view()
 
 
-def _named(author: Author, deed: Deed | None) -> Author:
+def named(author: Author, deed: Deed | None) -> Author:
     """Who does it: the name in the body goes before that of the page."""
     named = deed is not None and "by" in deed.model_fields_set and deed.by.strip()
     return replace(author, name=deed.by) if deed is not None and named else author
@@ -115,7 +115,7 @@ async def stop(studio: TheStudio, by: Annotated[str, Query(max_length=80)] = SOM
 @router.post("/send")
 async def send(studio: TheStudio, author: TheAuthor, wish: Send) -> dict[str, Any]:
     """Sends a gait's approved waypoints, after the slow way to the start pose."""
-    doer, course = _named(author, wish), Course(wish.first, wish.iterations)
+    doer, course = named(author, wish), Course(wish.first, wish.iterations)
 
     def sent() -> None:
         with studio.robot.lease.held_by(doer):
@@ -176,7 +176,7 @@ async def hand_over(
     studio: TheStudio, author: TheAuthor, act: HandOver, deed: TheDeed = None
 ) -> dict[str, Any]:
     """Asks for the robot, gives it, keeps it, takes it over or lets it go."""
-    lease, doer = studio.robot.lease, _named(author, deed)
+    lease, doer = studio.robot.lease, named(author, deed)
     verbs: dict[HandOver, Callable[[Author], None]] = {
         HandOver.ASK: lease.ask,
         HandOver.GIVE: lease.give,

@@ -99,7 +99,6 @@ class RobotDesk:
         with self._connecting:
             self.bridge.disconnect()
             self._close_emulator()
-        self.lease.drop()
 
     def strike(self, fault: Fault | None) -> None:
         """Has something go wrong with the emulated robot, or ends all that lasts.

@@ -59,15 +59,19 @@ class LeaseDesk:
         self._thread.join(timeout=5)
 
     @contextmanager
-    def held_by(self, author: Author) -> Iterator[None]:
+    def held_by(self, author: Author, *, ends: bool = False) -> Iterator[None]:
         """What is done inside needs the lease; who gets it by this loses it again where the deed is refused.
+
+        Args:
+            author: who does it.
+            ends: nobody holds the robot after it, unless somebody did more with it meanwhile.
 
         Raises:
             StateError: somebody else holds the robot.
         """
         who = person(author)
         with self._lock:
-            taken = self._lease.admit(who, is_idle=self._is_idle)
+            taken = self._lease.admit(who, is_idle=self._is_idle, is_away=self._is_away)
             deed = self._last_deed = object()
         try:
             yield
@@ -75,7 +79,10 @@ class LeaseDesk:
             if taken:
                 self._let_go(who, deed)
             raise
-        self._changed()
+        if ends:
+            self._let_go(who, deed, to_asker=False)
+        else:
+            self._changed()
 
     def heard(self, page: str) -> None:
         """A page gave a sign of life."""
@@ -90,7 +97,7 @@ class LeaseDesk:
 
     def give(self, author: Author) -> None:
         """Gives the robot to whoever asked; see `Lease.give`."""
-        self._do(lambda: self._lease.give(person(author)))
+        self._hand_over(author, self._lease.give)
 
     def keep(self, author: Author) -> None:
         """Says no to whoever asked; see `Lease.keep`."""
@@ -98,7 +105,7 @@ class LeaseDesk:
 
     def take(self, author: Author) -> None:
         """Takes the robot over; see `Lease.take`."""
-        self._do(lambda: self._lease.take(person(author)))
+        self._hand_over(author, self._lease.take)
 
     def release(self, author: Author) -> None:
         """Lets the robot go; see `Lease.release`.
@@ -106,23 +113,19 @@ class LeaseDesk:
         Raises:
             StateError: they do not hold it, or a run is on and nobody asks for it.
         """
-        with self._lock:
+
+        def let_go(who: Person) -> None:
             if self._lease.now.asker is None and self._bridge.snapshot.robot in IN_RUN:
                 raise StateError("A run is on. Stop it, or let it end, before you let the robot go.", "lease")
-            self._lease.release(person(author))
-        self._changed()
+            self._lease.release(who)
 
-    def drop(self) -> None:
-        """Nobody holds the robot any more; it was disconnected."""
-        with self._lock:
-            self._lease.drop()
-        self._changed()
+        self._hand_over(author, let_go)
 
     def view(self) -> dict[str, Any]:
         """The lease as JSON content."""
         with self._lock:
             now = self._lease.now
-        if now.holder is not None and now.holder.is_script and self._is_idle:
+        if now.is_free(is_idle=self._is_idle, is_away=self._is_away):
             now = Holding()
         holder, asker = now.holder, now.asker
         return {
@@ -142,17 +145,32 @@ class LeaseDesk:
         busy = {*IN_RUN, RobotState.ARMED, RobotState.STOPPING}
         return now.link is not LinkState.READY or now.robot not in busy
 
+    @property
+    def _is_away(self) -> bool:
+        return self._bridge.snapshot.link in (LinkState.LOST, LinkState.DISCONNECTED)
+
+    def _hand_over(self, author: Author, act: Callable[[Person], None]) -> None:
+        """Changes the holder; who holds the robot then arms it themselves."""
+        who = person(author)
+        with self._lock:
+            before = self._lease.now.holder
+            act(who)
+            after = self._lease.now.holder
+            if before is not None and (after is None or after.page != before.page):
+                self._bridge.disarm(f"{who.title}, for the robot changed hands")
+        self._changed()
+
     def _do(self, wish: Callable[[], None]) -> None:
         with self._lock:
             wish()
         self._changed()
 
-    def _let_go(self, who: Person, deed: object) -> None:
-        """Undoes who got the robot by a deed that was refused, unless they did more with it since."""
+    def _let_go(self, who: Person, deed: object, *, to_asker: bool = True) -> None:
+        """Takes the robot from who did a deed, unless somebody did more with it since."""
         with self._lock:
             holder = self._lease.now.holder
             if holder is not None and holder.page == who.page and deed is self._last_deed:
-                self._lease.release(who)
+                (self._lease.release if to_asker else self._lease.drop)(who)
         self._changed()
 
     def _beat_on(self) -> None:

@@ -58,6 +58,12 @@ class Holding:
         """Whether the holder is gone."""
         return self.holder is not None and self.away > GONE_SECONDS
 
+    def is_free(self, *, is_idle: bool, is_away: bool) -> bool:
+        """Whether whoever does something with the robot becomes its holder (see `Lease.admit`)."""
+        if self.holder is None:
+            return True
+        return (self.holder.is_script and is_idle) or (self.is_gone and is_away)
+
     @property
     def can_be_taken(self) -> bool:
         """Whether another may take the robot without being given it."""
@@ -88,12 +94,13 @@ class Lease:
         asker = self._asker if time - self._asked <= ASK_SECONDS else None
         return Holding(self._holder, 0.0 if self._holder.is_script else time - self._seen, asker)
 
-    def admit(self, who: Person, *, is_idle: bool) -> bool:
+    def admit(self, who: Person, *, is_idle: bool, is_away: bool = False) -> bool:
         """Lets the holder do something; whoever comes when nobody holds the robot becomes its holder.
 
         Args:
             who: asks to do it.
             is_idle: the robot is not armed and does not move; a script holds nothing then.
+            is_away: no robot is connected, or its line was lost; who is gone holds nothing then.
 
         Returns:
             Whether this made them the holder.
@@ -102,7 +109,8 @@ class Lease:
             StateError: somebody else holds the robot; the sentence says what to do.
         """
         holder = self._holder
-        if holder is not None and holder.page != who.page and not (holder.is_script and is_idle):
+        is_free = self.now.is_free(is_idle=is_idle, is_away=is_away)
+        if holder is not None and holder.page != who.page and not is_free:
             raise StateError(refusal(self.now), "lease")
         taken = holder is None or holder.page != who.page
         self._become(who)
@@ -174,8 +182,13 @@ class Lease:
         if asker is not None:
             self._become(asker)
 
-    def drop(self) -> None:
-        """Nobody holds the robot any more."""
+    def drop(self, who: Person) -> None:
+        """The holder lets the robot go for everybody, as after disconnecting it.
+
+        Raises:
+            StateError: they do not hold it.
+        """
+        self._require_holder(who)
         self._holder = self._asker = None
 
     def heard(self, page: str) -> bool:

@@ -166,6 +166,10 @@ class RobotBridge:
         """
         self._do(lambda now: self._session.arm(by, now))
 
+    def disarm(self, by: str) -> None:
+        """Takes back the permission to move an armed robot; does nothing in any other state."""
+        self._do(lambda now: self._session.disarm(by, now))
+
     def send(self, plan: RunPlan, by: str, run_id: str | None = None) -> str:
         """Moves to the start pose slowly, then through the approved waypoints.
 
@@ -250,7 +254,9 @@ class RobotBridge:
         self._inbox.put(None)
 
     def _hear(self, data: bytes) -> None:
-        self._inbox.put(_Bytes(data, self._clock()))
+        now = self._clock()
+        self._log(Direction.FROM_ROBOT, data, now)
+        self._inbox.put(_Bytes(data, now))
 
     def _require_free(self) -> None:
         with self._lock:
@@ -304,9 +310,6 @@ class RobotBridge:
     def _work(self) -> None:
         while not self._closing:
             items = self._take()
-            for item in items:
-                if isinstance(item, _Bytes):
-                    self._log(Direction.FROM_ROBOT, item.data, item.time)
             with self._lock:
                 for item in items:
                     self._feed(item)

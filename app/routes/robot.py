@@ -50,13 +50,18 @@ class Send(Deed):
 
 
 async def _moved(
-    studio: Studio, author: Author, deed: Deed | None, action: Callable[[str], object]
+    studio: Studio,
+    author: Author,
+    deed: Deed | None,
+    action: Callable[[str], object],
+    *,
+    ends: bool = False,
 ) -> dict[str, Any]:
-    """Does what needs the lease, in the name of who does it."""
+    """Does what needs the lease, in the name of who does it; where it `ends`, nobody holds the robot then."""
     doer = named(author, deed)
 
     def done() -> None:
-        with studio.robot.lease.held_by(doer):
+        with studio.robot.lease.held_by(doer, ends=ends):
             action(doer.name or SOMEBODY)
 
     await run_in_threadpool(done)
@@ -98,7 +103,7 @@ async def connect(
 @router.post("/disconnect")
 async def disconnect(studio: TheStudio, author: TheAuthor, deed: TheDeed = None) -> dict[str, Any]:
     """Stops a run and closes the line; nobody holds the robot then."""
-    return await _moved(studio, author, deed, lambda _: studio.robot.disconnect())
+    return await _moved(studio, author, deed, lambda _: studio.robot.disconnect(), ends=True)
 
 
 @router.post("/stop")

@@ -95,6 +95,20 @@ def test_who_disconnects_lets_the_robot_go(studio: StudioProcess, ask: Ask) -> N
     assert ask("connect", GRACE).content["lease"]["name"] == "Grace"
 
 
+def test_an_armed_robot_that_changes_hands_is_disarmed(studio: StudioProcess, ask: Ask) -> None:
+    connected(studio, ask, ADA)
+    assert ask("arm", ADA).content["robot"] == "armed"
+    released = ask("lease/release", ADA).content
+    assert (released["robot"], released["lease"]["page"]) == ("disarmed", None)
+    assert ask("send", GRACE, gait="walk").status == 409
+    assert ask("arm", GRACE).content["robot"] == "armed"
+    assert ask("lease/ask", ADA).status == 200
+    given = ask("lease/give", GRACE).content
+    assert (given["robot"], given["lease"]["name"]) == ("disarmed", "Ada")
+    causes = [one["cause"] for one in studio.ask("GET", "/api/robot/transitions").content["transitions"]]
+    assert "Disarmed by Ada, for the robot changed hands." in causes
+
+
 def test_an_unknown_hand_over_is_refused(ask: Ask) -> None:
     assert ask("lease/steal", ADA).status == 422
     assert ask("arm", {"X-Footfall-Page": "no page!"}).status == 422
@@ -154,6 +168,43 @@ def test_a_deed_that_is_refused_takes_the_robot_from_nobody_who_goes_on_with_it(
         with pytest.raises(StateError), desk.held_by(ada), refused_after(desk.held_by(ada)):
             assert desk.view()["page"] == "page-a"
         assert shown == [None, "page-a", "page-a"]
+    finally:
+        desk.close()
+        bridge.close()
+
+
+def test_the_end_of_a_deed_takes_the_robot_from_nobody_who_came_meanwhile() -> None:
+    bridge = RobotBridge()
+    desk = LeaseDesk(bridge, lambda: None, lambda page, event: None)
+    ada, grace = Author("page-a", "Ada"), Author("page-g", "Grace")
+    try:
+        with desk.held_by(Author(), ends=True), desk.held_by(grace):
+            pass
+        assert desk.view()["page"] == "page-g"
+        with desk.held_by(grace, ends=True), desk.held_by(grace):
+            pass
+        assert desk.view()["page"] == "page-g"
+        with desk.held_by(grace, ends=True):
+            desk.ask(ada)
+        assert desk.view()["page"] is None
+    finally:
+        desk.close()
+        bridge.close()
+
+
+def test_a_robot_whose_line_was_lost_is_the_next_persons_once_its_holder_is_gone() -> None:
+    time, bridge = [0.0], RobotBridge()
+    desk = LeaseDesk(bridge, lambda: None, lambda page, event: None, lambda: time[0])
+    ada, grace = Author("page-a", "Ada"), Author("page-g", "Grace")
+    try:
+        with desk.held_by(ada):
+            pass
+        with pytest.raises(StateError, match="Ada holds"), desk.held_by(grace):
+            pass
+        time[0] += GONE_SECONDS + 1.0
+        assert desk.view()["page"] is None
+        with desk.held_by(grace):
+            assert desk.view()["page"] == "page-g"
     finally:
         desk.close()
         bridge.close()

@@ -183,6 +183,17 @@ def test_a_robot_that_is_not_connected_refuses_with_a_sentence(robot: VirtualRob
         getattr(robot.session, verb)("Ada", robot.now)
 
 
+def test_a_robot_that_was_disarmed_needs_arming_again(robot: VirtualRobot) -> None:
+    robot.arm()
+    robot.session.disarm("Ada", robot.now)
+    with pytest.raises(StateError, match="The robot is disarmed"):
+        robot.session.send(random_plan(1, 2), "Ada", robot.now)
+    robot.session.arm("Ada", robot.now)
+    robot.session.send(random_plan(1, 2), "Ada", robot.now)
+    robot.session.disarm("Ada", robot.now)
+    assert robot.until_robot(RobotState.DONE).run is not None
+
+
 def test_a_finished_run_needs_arming_again(robot: VirtualRobot) -> None:
     robot.begin(make_plan(SHORT))
     robot.until_robot(RobotState.DONE)

@@ -50,6 +50,34 @@ def test_another_page_is_refused_with_the_holders_name_and_what_to_do(lease: Lea
     assert holder(lease) == "Ada"
 
 
+@pytest.mark.parametrize(("is_away", "is_gone"), [(True, False), (False, True), (False, False)])
+def test_the_robot_of_a_holder_is_theirs_unless_they_are_gone_and_its_line_is_lost(
+    lease: Lease, clock: Clock, is_away: bool, is_gone: bool
+) -> None:
+    lease.admit(ADA, is_idle=True)
+    clock.time += GONE_SECONDS + 1.0 if is_gone else 0.0
+    with pytest.raises(StateError, match="Ada holds"):
+        lease.admit(GRACE, is_idle=True, is_away=is_away)
+
+
+def test_who_connects_after_a_lost_line_holds_the_robot_of_one_who_is_gone(
+    lease: Lease, clock: Clock
+) -> None:
+    lease.admit(ADA, is_idle=True)
+    clock.time += GONE_SECONDS + 1.0
+    assert lease.admit(GRACE, is_idle=True, is_away=True)
+    assert holder(lease) == "Grace"
+
+
+def test_only_the_holder_lets_the_robot_go_for_everybody(lease: Lease) -> None:
+    lease.admit(ADA, is_idle=True)
+    lease.ask(GRACE)
+    with pytest.raises(StateError, match="Ada holds"):
+        lease.drop(GRACE)
+    lease.drop(ADA)
+    assert holder(lease) is None
+
+
 def test_two_tabs_of_one_person_are_two(lease: Lease) -> None:
     lease.admit(ADA, is_idle=True)
     with pytest.raises(StateError, match="Ada holds"):

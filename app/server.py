@@ -26,6 +26,7 @@ from app.routes import (
     scene,
     sequences,
     tables,
+    trials,
     versions,
 )
 from app.routes.assets import REVALIDATED, Assets
@@ -69,6 +70,7 @@ def make_app(studio: Studio, scenes: Scenes, access: Access) -> FastAPI:
         jog.router,
         runs.router,
         tables.router,
+        trials.router,
         robots.router,
         scene.router,
         events.router,

@@ -33,6 +33,7 @@ from app.session import Result, Session, log_failure
 from app.store.database import Database
 from app.store.files import GaitFiles
 from app.store.simulation_log import SimulationLog
+from app.trials.desk import TrialDesk
 from app.version import VERSION
 from app.views import gait_view, steps_view
 from core.errors import FootfallError, StateError
@@ -79,6 +80,7 @@ class Studio:
         )
         self.jog = JogDesk(self.robot.bridge)
         self.runs = RunDesk(self._database)
+        self.trials = TrialDesk(self._database)
         self._told_sources: dict[str, tuple[int, list[str]]] = {}
         self.stop_lane = ThreadPoolExecutor(max_workers=2, thread_name_prefix="stop")
         self._closed = threading.Event()

@@ -10,6 +10,7 @@ from typing import Any
 
 from app.cli.report import end_on_sigterm, note, show
 from app.trajectory_files import read_text
+from app.trials.figures import movement_content, part_content
 from core.errors import InputError
 from core.trials.iterations import (
     FoundIterations,
@@ -53,8 +54,8 @@ def run_trial(options: Namespace) -> int:
     overall = [trial.mean for trial in trials]
     content = {
         "files": [_content(trial) for trial in trials],
-        "mean": _figures(mean_movement(overall)),
-        "spread": _figures(spread(overall)) if len(overall) > 1 else None,
+        "mean": movement_content(mean_movement(overall)),
+        "spread": movement_content(spread(overall)) if len(overall) > 1 else None,
     }
     lines = [line for trial in trials for line in _lines(trial)]
     if len(trials) > 1:
@@ -93,35 +94,16 @@ def _gap_words(track: FootTrack) -> str:
 
 
 def _content(trial: _Trial) -> dict[str, Any]:
-    content: dict[str, Any] = {"file": str(trial.path), **_figures(trial.mean)}
-    content["feet"] = [_figures(foot) for foot in trial.feet]
+    content: dict[str, Any] = {"file": str(trial.path), **movement_content(trial.mean)}
+    content["feet"] = [movement_content(foot) for foot in trial.feet]
     content["frames"] = trial.track.times.size
     content["filled"] = int(trial.track.filled.sum())
     if trial.found is not None:
         content["iterations"] = [
-            {**_figures(part.mean), "seconds": part.seconds, "speed_mm_s": part.speed * 1000.0, "end": end}
-            for part, end in zip(trial.iterations, trial.found.ends, strict=True)
+            part_content(part, end) for part, end in zip(trial.iterations, trial.found.ends, strict=True)
         ]
         content["slip"] = (standing_slip(trial.track, trial.found.steps) * 100.0).tolist()
     return content
-
-
-def _figures(movement: Movement) -> dict[str, float]:
-    """A movement in centimetres and degrees."""
-    return {
-        "plus_x": movement.plus_x * 100.0,
-        "minus_x": movement.minus_x * 100.0,
-        "dx": movement.dx * 100.0,
-        "plus_y": movement.plus_y * 100.0,
-        "minus_y": movement.minus_y * 100.0,
-        "dy": movement.dy * 100.0,
-        "distance": movement.distance * 100.0,
-        "angle_deg": math.degrees(movement.angle),
-        "error_percent": movement.error * 100.0,
-        "net_distance": movement.net_distance * 100.0,
-        "net_angle_deg": math.degrees(movement.net_angle),
-        "net_error_percent": movement.net_error * 100.0,
-    }
 
 
 def _lines(trial: _Trial) -> list[str]:
@@ -141,6 +123,6 @@ def _lines(trial: _Trial) -> list[str]:
 def _table(rows: list[tuple[str, Movement]]) -> list[str]:
     lines = ["  " + " ".join([" " * 7, *(f"{column:>9}" for column in _COLUMNS)])]
     for name, movement in rows:
-        figures = [value for key, value in _figures(movement).items() if key != "net_error_percent"]
+        figures = [value for key, value in movement_content(movement).items() if key != "net_error_percent"]
         lines.append("  " + " ".join([f"{name:<7}", *(f"{value:9.2f}" for value in figures)]))
     return lines

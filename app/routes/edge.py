@@ -20,6 +20,7 @@ from app.open_gait import OpenGait
 from app.pattern_desk import UnknownSearchError
 from app.runs.record import UnknownRunError
 from app.studio import Studio
+from app.trials.desk import UnknownTrialError
 from app.versions import UnknownVersionError
 from core.errors import CheckError, FootfallError, InfeasibleError, InputError, RobotError, StateError
 
@@ -40,6 +41,7 @@ _STATUS: tuple[tuple[type[FootfallError], int], ...] = (
     (UnknownSearchError, 404),
     (UnknownRunError, 404),
     (UnknownSimulationError, 404),
+    (UnknownTrialError, 404),
     (StateError, 409),
     (CheckError, 409),
     (RobotError, 503),
@@ -48,8 +50,8 @@ _STATUS: tuple[tuple[type[FootfallError], int], ...] = (
 )
 
 
-def studio_of(request: Request) -> Studio:
-    """The studio that this server serves."""
+async def studio_of(request: Request) -> Studio:
+    """The studio that this server serves; not a plain function, which would cost each request a thread."""
     studio: Studio = request.app.state.studio
     return studio
 
@@ -59,7 +61,7 @@ def is_page(text: str) -> bool:
     return _PAGE.fullmatch(text) is not None
 
 
-def author_of(request: Request) -> Author:
+async def author_of(request: Request) -> Author:
     """Who edits; a script where no page is named.
 
     Raises:

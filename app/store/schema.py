@@ -111,8 +111,16 @@ def _add_simulations(connection: sqlite3.Connection) -> None:
     )
 
 
+def _add_trials(connection: sqlite3.Connection) -> None:
+    """Trials of the real robot: what is known of each, its foot track, and when it was deleted."""
+    connection.execute(
+        "CREATE TABLE trial(id TEXT PRIMARY KEY, made REAL, deleted REAL, content TEXT, track TEXT)"
+    )
+
+
 _MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     _add_authors_and_versions,
     _add_to_runs,
     _add_simulations,
+    _add_trials,
 )

@@ -1,0 +1,64 @@
+"""Trials in the database."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from typing import Any
+
+from app.store.database import Database
+
+
+@dataclass(frozen=True)
+class TrialRow:
+    """A trial as it is kept: what is known of it, its track as text in cm, and whether it was deleted."""
+
+    content: dict[str, Any]
+    track: str
+    is_deleted: bool
+
+
+class TrialLog:
+    """Everything that is kept of trials.
+
+    Args:
+        database: where it is kept.
+    """
+
+    def __init__(self, database: Database) -> None:
+        self._database = database
+
+    def found(self) -> tuple[TrialRow, ...]:
+        """All trials that are not deleted, the newest first."""
+        rows = self._database.rows(
+            "SELECT content, track, deleted FROM trial WHERE deleted IS NULL ORDER BY made DESC, id"
+        )
+        return tuple(_row(*row) for row in rows)
+
+    def get(self, trial: str) -> TrialRow | None:
+        """One trial, also a deleted one; None where there is none."""
+        rows = self._database.rows("SELECT content, track, deleted FROM trial WHERE id=?", trial)
+        return _row(*rows[0]) if rows else None
+
+    def add(self, content: dict[str, Any], track: str) -> None:
+        """Stores a new trial."""
+        with self._database.writing() as connection:
+            connection.execute(
+                "INSERT INTO trial(id, made, content, track) VALUES(?,?,?,?)",
+                (content["id"], content["made"], json.dumps(content, allow_nan=False), track),
+            )
+
+    def change(self, content: dict[str, Any]) -> None:
+        """Stores what is known of a trial now."""
+        with self._database.writing() as connection:
+            text = json.dumps(content, allow_nan=False)
+            connection.execute("UPDATE trial SET content=? WHERE id=?", (text, content["id"]))
+
+    def put_deleted(self, trial: str, deleted: float | None) -> None:
+        """Takes a trial out of every list, or brings it back with None; nothing of it is lost."""
+        with self._database.writing() as connection:
+            connection.execute("UPDATE trial SET deleted=? WHERE id=?", (deleted, trial))
+
+
+def _row(content: str, track: str, deleted: float | None) -> TrialRow:
+    return TrialRow(json.loads(content), track, deleted is not None)

@@ -1,0 +1,257 @@
+"""Trials for the page and scripts: adding, figures beside the plan, ends of iterations, tables."""
+
+from __future__ import annotations
+
+import time
+import uuid
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from app.store.database import Database
+from app.store.trial_log import TrialLog, TrialRow
+from app.trials.figures import path_content, plan_content, track_content
+from core.arrays import Floats
+from core.errors import InputError
+from core.robot import load_robot
+from core.trials.alignment import align, placed_motion
+from core.trials.iterations import find_iterations
+from core.trials.track import FootTrack
+from core.trials.track_csv import format_track_csv, parse_track_csv
+
+MOST_PLACES = 600
+"""Places of a foot's way in a plot."""
+ROBOT = "deltawalker"
+"""The one robot that stands on a platform (its cable's robot)."""
+
+
+class UnknownTrialError(InputError):
+    """There is no such trial."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlannedFeet:
+    """Where a motion's feet were to be, kept with the trial, since gaits change.
+
+    Args:
+        times: (n,) s.
+        feet: (n, feet, 2) x, y, m.
+    """
+
+    times: Floats
+    feet: Floats
+
+
+@dataclass(frozen=True)
+class TrialWords:
+    """What a person says of a trial.
+
+    Args:
+        name: of the trial.
+        by: who did it.
+        expected_cm: wanted distance of the whole walk.
+        iterations: how many the track shows.
+        note: anything else.
+        gait: the id of the gait that walked, or "".
+        gait_name: its name then.
+        run: the id of the robot's run, or "".
+    """
+
+    name: str
+    by: str
+    expected_cm: float
+    iterations: int
+    note: str = ""
+    gait: str = ""
+    gait_name: str = ""
+    run: str = ""
+
+
+class TrialDesk:
+    """What there is to see of trials; every method may be called from any thread.
+
+    Args:
+        database: where trials are kept.
+    """
+
+    def __init__(self, database: Database) -> None:
+        self._log = TrialLog(database)
+        self._lines: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {}
+
+    def add(self, track: FootTrack, words: TrialWords, planned: PlannedFeet | None) -> dict[str, Any]:
+        """Keeps a new trial and tells its figures.
+
+        Raises:
+            InputError: the track is too short for its iterations.
+        """
+        find_iterations(track, words.iterations)
+        content = {
+            "id": uuid.uuid4().hex[:12],
+            "made": time.time(),
+            **vars(words),
+            "frame_rate": float(1.0 / np.median(np.diff(track.times))),
+            "ends": None,
+            "plan": None if planned is None else _kept_plan(planned),
+        }
+        self._log.add(content, format_track_csv(track))
+        return self.summary(content["id"])
+
+    def lines(self) -> list[dict[str, Any]]:
+        """All trials, the newest first, each with its mean figures."""
+        return [self._line(row) for row in self._log.found()]
+
+    def _line(self, row: TrialRow) -> dict[str, Any]:
+        """A trial's line, computed once for what is known of it."""
+        content, line = self._lines.get(row.content["id"], ({}, {}))
+        if content != row.content:
+            line = _line(row)
+            self._lines[row.content["id"]] = (row.content, line)
+        return line
+
+    def summary(self, trial: str) -> dict[str, Any]:
+        """A trial's figures, each foot's and each iteration's, beside its plan's."""
+        return _summary(self._known(trial))
+
+    def paths(self, trial: str) -> dict[str, Any]:
+        """The feet's ways, tracked and planned, for a plot; cm in the track's frame."""
+        row = self._known(trial)
+        track, plan = _track(row), row.content["plan"]
+        content: dict[str, Any] = {"id": trial, "track": path_content(track, MOST_PLACES), "plan": None}
+        if plan is not None:
+            times, feet = _plan_arrays(plan)
+            placed = placed_motion(times, feet, align(track, feet[0]))
+            content["plan"] = path_content(placed, MOST_PLACES)
+        return content
+
+    def change(self, trial: str, changes: dict[str, Any]) -> dict[str, Any]:
+        """Changes name, note, wanted distance, iterations or their ends.
+
+        Raises:
+            UnknownTrialError: there is no such trial.
+            InputError: the ends are no frames in order, or the iterations too many.
+        """
+        row = self._known(trial)
+        content = {**row.content, **changes}
+        if content["iterations"] != row.content["iterations"] and "ends" not in changes:
+            content["ends"] = None
+        changed = TrialRow(content, row.track, row.is_deleted)
+        shown = _summary(changed)
+        self._log.change(content)
+        return shown
+
+    def delete(self, trial: str) -> None:
+        """Takes a trial out of the list; `restore` brings it back."""
+        self._known(trial)
+        self._log.put_deleted(trial, time.time())
+
+    def restore(self, trial: str) -> dict[str, Any]:
+        """Brings a deleted trial back."""
+        self._known(trial)
+        self._log.put_deleted(trial, None)
+        return self.summary(trial)
+
+    def track(self, trial: str) -> str:
+        """The track as a file in centimetres; what was not seen is empty."""
+        return self._known(trial).track
+
+    def _known(self, trial: str) -> TrialRow:
+        row = self._log.get(trial)
+        if row is None:
+            raise UnknownTrialError(f"There is no trial {trial}.", "trial")
+        return row
+
+
+def _track(row: TrialRow) -> FootTrack:
+    return parse_track_csv(row.track, row.content["name"], frame_rate=row.content["frame_rate"])
+
+
+def _kept_plan(planned: PlannedFeet) -> dict[str, Any]:
+    feet = np.round(planned.feet, 6)
+    return {"times": planned.times.tolist(), "feet": feet.tolist()}
+
+
+def _plan_arrays(plan: dict[str, Any]) -> tuple[Floats, Floats]:
+    return np.array(plan["times"]), np.array(plan["feet"])
+
+
+_WORDS = ("id", "made", "name", "by", "note", "gait", "gait_name", "run", "expected_cm", "iterations")
+
+
+def _summary(row: TrialRow) -> dict[str, Any]:
+    content, track = row.content, _track(row)
+    expected = content["expected_cm"] / 100.0
+    found = find_iterations(track, content["iterations"])
+    ends = found.ends if content["ends"] is None else tuple(content["ends"])
+    if len(ends) != content["iterations"]:
+        raise InputError(f"{content['iterations']} iterations need as many ends.", "ends")
+    length = load_robot(ROBOT).shape.plate_across
+    summary = {
+        **{key: content[key] for key in _WORDS},
+        "frame_rate": content["frame_rate"],
+        "deleted": row.is_deleted,
+        "ends_by_hand": content["ends"] is not None,
+        **track_content(track, expected, found, ends, length),
+        "plan": None,
+    }
+    if content["plan"] is not None:
+        times, feet = _plan_arrays(content["plan"])
+        summary["plan"] = plan_content(times, feet, align(track, feet[0]), expected)
+    return summary
+
+
+def _line(row: TrialRow) -> dict[str, Any]:
+    summary = _summary(row)
+    mean = summary["figures"]
+    speeds = [part["speed_mm_s"] for part in summary["parts"]]
+    return {
+        **{key: summary[key] for key in _WORDS},
+        **{key: mean[key] for key in ("distance", "angle_deg", "error_percent")},
+        **{key: mean[key] for key in ("net_distance", "net_angle_deg", "net_error_percent")},
+        "part_distances": [part["net_distance"] for part in summary["parts"]],
+        "seconds": summary["seconds"],
+        "speed_mm_s": float(np.mean(speeds)),
+        "slip_cm": float(np.max(summary["slip"])),
+        "filled": summary["filled"],
+    }
+
+
+def compared(lines: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Trials of one gait and step together: how many, mean and spread of their figures, sorted by name.
+
+    Args:
+        lines: of the list.
+    """
+    groups: dict[tuple[str, float, int], list[dict[str, Any]]] = {}
+    for line in lines:
+        step = round(line["expected_cm"] / line["iterations"], 4)
+        key = (line["gait_name"] or line["name"], step, line["iterations"])
+        groups.setdefault(key, []).append(line)
+    return [_group(*key, groups[key]) for key in sorted(groups)]
+
+
+def _group(name: str, step: float, iterations: int, trials: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    def folded(key: str, fold: Callable[[list[float]], Any]) -> float:
+        return float(fold([trial[key] for trial in trials]))
+
+    keys = (
+        "distance",
+        "angle_deg",
+        "error_percent",
+        "net_distance",
+        "net_angle_deg",
+        "speed_mm_s",
+        "slip_cm",
+    )
+    spread = {f"{key}_spread": folded(key, lambda v: np.std(v, ddof=1)) for key in keys if len(trials) > 1}
+    return {
+        "gait_name": name,
+        "step_cm": step,
+        "iterations": iterations,
+        "trials": [trial["id"] for trial in trials],
+        "expected_cm": trials[0]["expected_cm"],
+        **{key: folded(key, np.mean) for key in keys},
+        **{f"{key}_spread": spread.get(f"{key}_spread") for key in keys},
+        "distances": [trial["distance"] for trial in reversed(trials)],
+    }

@@ -1,0 +1,76 @@
+"""Tables of trials for other programs: CSV and LaTeX."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+COLUMNS = {
+    "gait_name": "Gait",
+    "step_cm": "Step (cm)",
+    "count": "Trials",
+    "expected_cm": "Wanted (cm)",
+    "distance": "Distance (cm)",
+    "distance_spread": "± (cm)",
+    "angle_deg": "Angle (deg)",
+    "error_percent": "Error (%)",
+    "net_distance": "First to last (cm)",
+    "net_angle_deg": "Its angle (deg)",
+    "speed_mm_s": "Speed (mm/s)",
+    "slip_cm": "Largest slip (cm)",
+}
+"""Columns of the table of gaits, in order; distance and angle as in the published tables."""
+
+_LATEX = {
+    "\\": r"\textbackslash{}",
+    "&": r"\&",
+    "%": r"\%",
+    "$": r"\$",
+    "#": r"\#",
+    "_": r"\_",
+    "{": r"\{",
+    "}": r"\}",
+    "~": r"\textasciitilde{}",
+    "^": r"\textasciicircum{}",
+    "±": r"$\pm$",
+}
+
+
+def table_csv(groups: Sequence[Mapping[str, Any]]) -> str:
+    """Gaits compared, a row a gait and step; what is not known is empty.
+
+    Args:
+        groups: of `app.trials.desk.compared`.
+    """
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(COLUMNS.values())
+    writer.writerows([_cell(group, key) for key in COLUMNS] for group in groups)
+    return text.getvalue()
+
+
+def table_latex(groups: Sequence[Mapping[str, Any]]) -> str:
+    """The same as a LaTeX tabular with rules of booktabs."""
+    lines = [
+        rf"\begin{{tabular}}{{l{'r' * (len(COLUMNS) - 1)}}}",
+        r"\toprule",
+        " & ".join(_escaped(title) for title in COLUMNS.values()) + r" \\",
+        r"\midrule",
+        *(" & ".join(_escaped(_cell(group, key)) for key in COLUMNS) + r" \\" for group in groups),
+        r"\bottomrule",
+        r"\end{tabular}",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _cell(group: Mapping[str, Any], key: str) -> str:
+    value = len(group["trials"]) if key == "count" else group[key]
+    if value is None:
+        return ""
+    return f"{value:.2f}" if isinstance(value, float) else str(value)
+
+
+def _escaped(text: str) -> str:
+    return "".join(_LATEX.get(character, character) for character in text)

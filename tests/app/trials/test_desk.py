@@ -1,0 +1,100 @@
+"""Trials that were kept: figures beside the plan, ends by hand, deleting, tables."""
+
+from __future__ import annotations
+
+import csv
+import io
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.store.database import Database
+from app.trials.desk import PlannedFeet, TrialDesk, TrialWords, UnknownTrialError, compared
+from app.trials.tables import COLUMNS, table_csv, table_latex
+from core.errors import InputError
+from tests.core.trials.tracks import STANCE, stepping_track
+
+WORDS = TrialWords("first", "Ada", 3.0, 3, gait="walk", gait_name="Walk 10 mm")
+TRACK = stepping_track((0.012, 0.0), 3)
+
+
+@pytest.fixture
+def desk(database: Database) -> TrialDesk:
+    return TrialDesk(database)
+
+
+def straight_plan(turn: bool = False) -> PlannedFeet:
+    """Feet that all go 30 mm along x, or along y of a frame that lies turned by 90°."""
+    feet = np.repeat(STANCE[None], 2, axis=0)
+    feet[1, :, 0] += 0.03
+    quarter = np.array([[0.0, 1.0], [-1.0, 0.0]]) if turn else np.eye(2)
+    return PlannedFeet(np.array([0.0, 60.0]), feet @ quarter)
+
+
+@pytest.mark.parametrize("turn", [False, True])
+def test_a_trial_stands_beside_its_plan_however_the_robot_stood(desk: TrialDesk, turn: bool) -> None:
+    summary = desk.add(TRACK, WORDS, straight_plan(turn))
+    assert summary["figures"]["distance"] == pytest.approx(3.6)
+    assert summary["figures"]["error_percent"] == pytest.approx(20.0)
+    assert summary["plan"]["figures"]["distance"] == pytest.approx(3.0, abs=1e-3)
+    assert summary["plan"]["turn_deg"] == pytest.approx(-90.0 if turn else 0.0, abs=1e-3)
+    ways = desk.paths(summary["id"])
+    assert ways["plan"][0]["x"][-1] == pytest.approx(7.0, abs=1e-2)
+    assert ways["track"][0]["x"][-1] == pytest.approx(7.6, abs=1e-2)
+
+
+def test_a_trial_outlasts_the_program(desk: TrialDesk, database: Database) -> None:
+    trial = desk.add(TRACK, WORDS, None)["id"]
+    again = TrialDesk(database).summary(trial)
+    assert (again["name"], again["by"], again["iterations"], again["plan"]) == ("first", "Ada", 3, None)
+    assert [part["net_distance"] for part in again["parts"]] == pytest.approx([1.2] * 3, abs=1e-3)
+
+
+def test_ends_that_were_set_by_hand_count_until_they_are_found_again(desk: TrialDesk) -> None:
+    summary = desk.add(TRACK, WORDS, None)
+    moved = [summary["parts"][0]["end"] - 40, *summary["found_ends"][1:]]
+    changed = desk.change(summary["id"], {"ends": moved})
+    assert changed["ends_by_hand"]
+    assert changed["parts"][0]["end"] == moved[0]
+    assert not desk.change(summary["id"], {"ends": None})["ends_by_hand"]
+
+
+@pytest.mark.parametrize("changes", [{"ends": [400, 300, 900]}, {"ends": [10, 20]}, {"iterations": 50}])
+def test_a_change_that_does_not_fit_leaves_the_trial_as_it_was(
+    desk: TrialDesk, changes: dict[str, Any]
+) -> None:
+    before = desk.add(TRACK, WORDS, None)
+    with pytest.raises(InputError):
+        desk.change(before["id"], changes)
+    assert desk.summary(before["id"]) == before
+
+
+def test_a_deleted_trial_comes_back(desk: TrialDesk) -> None:
+    trial = desk.add(TRACK, WORDS, None)["id"]
+    desk.delete(trial)
+    assert desk.lines() == []
+    desk.restore(trial)
+    assert [line["id"] for line in desk.lines()] == [trial]
+
+
+def test_an_unknown_trial_is_refused(desk: TrialDesk) -> None:
+    with pytest.raises(UnknownTrialError, match="There is no trial"):
+        desk.summary("none")
+
+
+def test_trials_of_one_gait_and_step_stand_in_one_row_of_the_tables(desk: TrialDesk) -> None:
+    for step in (0.010, 0.012):
+        desk.add(stepping_track((step, 0.0), 3), WORDS, None)
+    desk.add(TRACK, TrialWords("other", "Ada", 4.5, 3, gait_name="Amble & more"), None)
+    groups = compared(desk.lines())
+    assert [(group["gait_name"], len(group["trials"])) for group in groups] == [
+        ("Amble & more", 1),
+        ("Walk 10 mm", 2),
+    ]
+    assert groups[1]["distance"] == pytest.approx(3.3, abs=1e-3)
+    assert groups[1]["distances"] == pytest.approx([3.0, 3.6], abs=1e-3)
+    rows = list(csv.reader(io.StringIO(table_csv(groups))))
+    assert rows[0] == list(COLUMNS.values())
+    assert rows[2][:5] == ["Walk 10 mm", "1.00", "2", "3.00", "3.30"]
+    assert r"Amble \& more & 1.50 & 1 & 4.50" in table_latex(groups)

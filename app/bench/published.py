@@ -120,6 +120,20 @@ class Reference:
         """File of an optimised trajectory, direction 1."""
         return self.folder / "trajectories" / "direction1" / f"{_OPTIMISED[gait][1]}_{_STEPS[step]}.csv"
 
+    def text(self, path: Path) -> str:
+        """Text of a file.
+
+        Raises:
+            InputError: there is no such file.
+        """
+        try:
+            return path.read_text("utf-8")
+        except (OSError, ValueError) as error:
+            raise InputError(f"{path} cannot be read: {error}.", "--reference") from error
+
+    def _table(self, path: Path, header: int = 0) -> Floats:
+        return _numbers(path, self.text(path), header)
+
     def optimised_run(self, gait: str, step: float, model: RobotModel) -> PublishedRun:
         """Simulated run of an optimised gait; its body is the actuator plane, the plan's the mass centre.
 
@@ -132,9 +146,11 @@ class Reference:
             InputError: a file is missing or is no such table.
         """
         name = f"traj{_OPTIMISED[gait][0]}{_STEPS[step]}_o1"
-        body, feet = _positions(_table(self.folder / "simulation_optimised" / "simulated" / f"{name}.csv"), 1)
-        wanted = _positions(_table(self.trajectory_path(gait, step), header=1), 0)
-        printed = _table(self.folder / "simulation_optimised" / "errors" / f"{name}_mse.csv")[0]
+        body, feet = _positions(
+            self._table(self.folder / "simulation_optimised" / "simulated" / f"{name}.csv"), 1
+        )
+        wanted = _positions(self._table(self.trajectory_path(gait, step), header=1), 0)
+        printed = self._table(self.folder / "simulation_optimised" / "errors" / f"{name}_mse.csv")[0]
         return PublishedRun(body + [0.0, 0.0, model.com_height], feet, *wanted, tuple(printed / 100))
 
     def manual_run(self, family: str, version: int, model: RobotModel) -> PublishedRun | None:
@@ -154,10 +170,10 @@ class Reference:
         name, root = f"traj{_BY_HAND[family]}{version}_o1", self.folder / "simulation_manual"
         if not (root / "simulated" / f"{name}.csv").exists():
             return None
-        body, feet = _positions(_table(root / "simulated" / f"{name}.csv"), 1)
-        _, planned = _positions(_table(root / "planned" / f"{name}.csv"), 1)
+        body, feet = _positions(self._table(root / "simulated" / f"{name}.csv"), 1)
+        _, planned = _positions(self._table(root / "planned" / f"{name}.csv"), 1)
         still = np.array([0.0, 0.0, MANUAL_HEIGHT])
-        printed = _table(root / "errors" / f"{name}_mse.csv")[0]
+        printed = self._table(root / "errors" / f"{name}_mse.csv")[0]
         wanted_feet = planned + model.module_centres_robot + still
         return PublishedRun(body, feet, np.tile(still, (len(body), 1)), wanted_feet, tuple(printed / 1000))
 
@@ -168,13 +184,12 @@ def _positions(table: Floats, first: int) -> tuple[Floats, Floats]:
     return rows[:, :3], rows[:, 3:].reshape(len(rows), 4, 3)
 
 
-def _table(path: Path, header: int = 0) -> Floats:
+def _numbers(path: Path, text: str, header: int = 0) -> Floats:
     """Numbers of a CSV; lines that begin with # are left out."""
     try:
-        lines = path.read_text("utf-8").splitlines()[header:]
-        return np.array(list(_rows(lines)))
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path} is no table of published positions: {error}.", "--reference") from error
+        return np.array(list(_rows(text.splitlines()[header:])))
+    except ValueError as error:
+        raise InputError(f"{path} is no table of numbers: {error}.", "--reference") from error
 
 
 def _rows(lines: list[str]) -> Iterator[list[float]]:

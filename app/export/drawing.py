@@ -40,6 +40,15 @@ class Rule:
 
 
 @dataclass(frozen=True)
+class Trace:
+    """A line through points (x, y), px."""
+
+    points: tuple[tuple[float, float], ...]
+    colour: str
+    width: float = 1.0
+
+
+@dataclass(frozen=True)
 class Dot:
     """A filled circle, px."""
 
@@ -62,7 +71,7 @@ class Words:
     bold: bool = False
 
 
-Shape = Box | Rule | Dot | Words
+Shape = Box | Rule | Trace | Dot | Words
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from functools import cache
 
 from PIL import Image, ImageDraw, ImageFont
 
-from app.export.drawing import Anchor, Box, Dot, Drawing, Rule, Shape, Words
+from app.export.drawing import Anchor, Box, Dot, Drawing, Rule, Shape, Trace, Words
 
 SCALE = 2
 """Pixels of the picture a pixel of the drawing."""
@@ -41,6 +41,9 @@ def _paint(painter: ImageDraw.ImageDraw, shape: Shape) -> None:
         case Rule(x1, y1, x2, y2, colour, width):
             ends = (x1 * fine, y1 * fine, x2 * fine, y2 * fine)
             painter.line(ends, colour, max(round(width * fine), 1))
+        case Trace(points, colour, width):
+            fine_points = [(x * fine, y * fine) for x, y in points]
+            painter.line(fine_points, colour, max(round(width * fine), 1), joint="curve")
         case Dot(x, y, radius, fill):
             painter.circle((x * fine, y * fine), radius * fine, fill)
         case Words(x, y, text, size, colour, anchor, bold):

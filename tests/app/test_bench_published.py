@@ -69,5 +69,5 @@ def test_no_table_is_a_mean_of_squares() -> None:
 
 
 def test_a_folder_without_the_data_is_refused_by_name(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"trajAa_o1\.csv is no table"):
+    with pytest.raises(InputError, match=r"trajAa_o1\.csv cannot be read"):
         Reference(tmp_path).optimised_run("walk", 0.010, MODEL)

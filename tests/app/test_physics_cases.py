@@ -1,0 +1,75 @@
+"""The gaits that the physics is measured by: what is sent of them, and where their bodies lean."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.bench.cases import all_cases
+from app.bench.physics_cases import (
+    manual_problem,
+    own_problem,
+    published_problem,
+    solved_case,
+    tipping,
+    walker,
+)
+from app.bench.published import Reference
+from core.errors import InputError
+from core.motion_problem import Workspace
+from core.physics.parameters import physics_set
+from core.support import stability_margins
+from core.trajectory import Trajectory
+from tests.reference import reference_path
+
+PHYSICS = physics_set("published")
+
+
+def own(name: str) -> tuple[float, Trajectory]:
+    case = next(
+        case
+        for case in all_cases()
+        if case.name == name
+        and case.gait.options.workspace is Workspace.STROKE
+        and case.gait.options.closing_knots
+    )
+    found = solved_case(case)
+    assert found is not None
+    return found
+
+
+def test_our_own_gait_has_the_largest_margin_that_it_can() -> None:
+    assert own("walk 10 mm")[0] == 0.003
+    assert own("c-gait 25 mm")[0] < 0.003
+
+
+def test_a_gait_made_to_tip_leans_out_in_every_swing_and_ends_as_before() -> None:
+    _, motion = own("walk 10 mm")
+    out = tipping(motion)
+    margins = stability_margins(out.body_world[:, :2], out.feet_world, out.contact)
+    lifted = ~out.contact.all(axis=1)
+    assert margins[lifted] == pytest.approx(np.full(lifted.sum(), -0.005), abs=1e-9)
+    assert out.body_world[[0, -1]] == pytest.approx(motion.body_world[[0, -1]])
+    assert np.array_equal(out.feet_world, motion.feet_world)
+    assert own_problem(out, PHYSICS).waypoints.count == motion.knot_count
+
+
+def test_a_published_gait_is_cut_to_the_motors_range_and_says_by_how_much() -> None:
+    reference = Reference(reference_path("trajectories").parent)
+    problem, cut = published_problem(reference, "walk", 0.010, PHYSICS)
+    assert problem.waypoints.count == 40
+    assert problem.waypoints.strokes.min() == walker().stroke.lower
+    assert cut == pytest.approx(0.00345, abs=1e-5)
+    assert problem.contact.sum() == 40 * 4 - (3 * 5 + 4)
+
+
+def test_a_gait_by_hand_has_a_waypoint_a_sample() -> None:
+    problem = manual_problem("walk", 0, PHYSICS)
+    assert problem.waypoints.count == problem.plan.knot_count == 55
+
+
+def test_published_data_that_is_not_there_is_named(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"walk_a\.csv cannot be read"):
+        published_problem(Reference(tmp_path), "walk", 0.010, PHYSICS)

@@ -10,6 +10,7 @@ from app.bench.cases import Case, all_cases
 from app.bench.published import Reference
 from app.judgement import judge
 from app.simulations import way_problem
+from app.trajectory_files import read_text
 from core.arrays import Floats
 from core.gait import drawn_timeline, motion_problem
 from core.kinematics import free_strokes
@@ -97,7 +98,7 @@ def published_problem(
     """
     model = walker()
     path = reference.trajectory_path(gait, step)
-    motion = parse_trajectory_csv(reference.text(path), path.name).trajectory
+    motion = parse_trajectory_csv(read_text(path), path.name).trajectory
     timeline = timeline_from_order(model.leg_count, library()[gait].gait.order, closing_knots=0)
     motion = replace(motion, contact=timeline.stance.T)
     wanted = free_strokes(model, motion.feet_world, motion.pose(model))

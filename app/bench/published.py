@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from app.trajectory_files import read_text
 from core.arrays import Floats
 from core.errors import InputError
 from core.physics.reporting import tilts
@@ -61,6 +62,7 @@ MANUAL_FEET = 3
 _OPTIMISED = {"walk": ("A", "walk"), "amble": ("B", "ambl"), "s-gait": ("C", "mtri"), "c-gait": ("D", "adjs")}
 """Letter of a gait's simulated files, and the beginning of its trajectories' names."""
 _BY_HAND = {"walk": "A", "amble": "B", "s-gait": "C"}
+_FOLDERS = ("simulation_manual", "simulation_optimised", "trajectories")
 _STEPS = {0.010: "a", 0.015: "b", 0.020: "c", 0.025: "d"}
 
 
@@ -112,27 +114,27 @@ class Reference:
 
     Args:
         folder: holds `simulation_manual`, `simulation_optimised` and `trajectories`.
+
+    Raises:
+        InputError: it does not hold them.
     """
 
     folder: Path
+
+    def __post_init__(self) -> None:
+        missing = [name for name in _FOLDERS if not (self.folder / name).is_dir()]
+        if missing:
+            raise InputError(
+                f"{self.folder} holds no {missing[0]}; name the folder with the published data.",
+                "--reference",
+            )
 
     def trajectory_path(self, gait: str, step: float) -> Path:
         """File of an optimised trajectory, direction 1."""
         return self.folder / "trajectories" / "direction1" / f"{_OPTIMISED[gait][1]}_{_STEPS[step]}.csv"
 
-    def text(self, path: Path) -> str:
-        """Text of a file.
-
-        Raises:
-            InputError: there is no such file.
-        """
-        try:
-            return path.read_text("utf-8")
-        except (OSError, ValueError) as error:
-            raise InputError(f"{path} cannot be read: {error}.", "--reference") from error
-
     def _table(self, path: Path, header: int = 0) -> Floats:
-        return _numbers(path, self.text(path), header)
+        return _numbers(path, read_text(path), header)
 
     def optimised_run(self, gait: str, step: float, model: RobotModel) -> PublishedRun:
         """Simulated run of an optimised gait; its body is the actuator plane, the plan's the mass centre.

@@ -69,5 +69,13 @@ def test_no_table_is_a_mean_of_squares() -> None:
 
 
 def test_a_folder_without_the_data_is_refused_by_name(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"trajAa_o1\.csv cannot be read"):
+    with pytest.raises(InputError, match="holds no simulation_manual"):
+        Reference(tmp_path)
+
+
+def test_a_damaged_table_is_refused_by_name(tmp_path: Path) -> None:
+    for name in ("simulation_manual", "simulation_optimised/simulated", "trajectories"):
+        (tmp_path / name).mkdir(parents=True)
+    (tmp_path / "simulation_optimised/simulated/trajAa_o1.csv").write_text("1,2\n3,x\n")
+    with pytest.raises(InputError, match=r"trajAa_o1\.csv is no table of numbers"):
         Reference(tmp_path).optimised_run("walk", 0.010, MODEL)

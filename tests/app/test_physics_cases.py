@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -17,7 +15,6 @@ from app.bench.physics_cases import (
     walker,
 )
 from app.bench.published import Reference
-from core.errors import InputError
 from core.motion_problem import Workspace
 from core.physics.parameters import physics_set
 from core.support import stability_margins
@@ -68,8 +65,3 @@ def test_a_published_gait_is_cut_to_the_motors_range_and_says_by_how_much() -> N
 def test_a_gait_by_hand_has_a_waypoint_a_sample() -> None:
     problem = manual_problem("walk", 0, PHYSICS)
     assert problem.waypoints.count == problem.plan.knot_count == 55
-
-
-def test_published_data_that_is_not_there_is_named(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match=r"walk_a\.csv cannot be read"):
-        published_problem(Reference(tmp_path), "walk", 0.010, PHYSICS)

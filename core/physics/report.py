@@ -28,7 +28,7 @@ class SimulationReport:
         slip: (legs,) way that each foot slid while it should have stood, m.
         slip_samples: (count, legs) the same by move, m.
         min_margin: smallest distance of the centre of mass to the edge of the support of the feet that
-            carry load, m; None where fewer than three ever do.
+            carry load (within 0.1 s), m; None where fewer than three ever do.
         min_margin_time: when, simulated s.
         motor_error: (legs, 3) largest distance of a motor from its ramp, m.
         motor_error_times: (legs, 3) when, simulated s.

@@ -19,6 +19,8 @@ FALL_HEIGHT = 0.030
 hold it at 48."""
 LOAD = 0.05
 """A foot carries load where the ground pushes it up by more than this, N; a fifth of a foot's own weight."""
+HANDING_OVER = 0.1
+"""Time within which a foot that loses its load still counts as bearing, s."""
 AT_LIMIT = 0.98
 """A motor's force is at its limit from this share of it on."""
 
@@ -172,11 +174,23 @@ def _slips(
 
 
 def _smallest_margin(motion: SimulatedMotion) -> tuple[float | None, float | None]:
-    """The centre of mass's smallest distance to the edge of the feet that carry load, where three do."""
-    carries = carrying(motion)
-    known = carries.sum(axis=1) >= 3
+    """The centre of mass's smallest distance to the edge of the feet that carry load, where three do.
+
+    A foot bears here where it carries load within `HANDING_OVER`: while feet hand over, the robot rocks from
+    one to the other within hundredths of a second, and leans on both.
+    """
+    bears = _within(carrying(motion), motion.times)
+    known = bears.sum(axis=1) >= 3
     if not known.any():
         return None, None
-    margins = stability_margins(motion.centre_world[known, :2], motion.feet_world[known], carries[known])
+    margins = stability_margins(motion.centre_world[known, :2], motion.feet_world[known], bears[known])
     worst = int(margins.argmin())
     return float(margins[worst]), float(motion.times[known][worst])
+
+
+def _within(flags: Bools, times: Floats) -> Bools:
+    """(n, legs) whether a flag is up at any time within `HANDING_OVER`, before or after."""
+    first = np.searchsorted(times, times - HANDING_OVER - 1e-9)
+    after = np.searchsorted(times, times + HANDING_OVER + 1e-9)
+    count = np.concatenate([np.zeros_like(flags[:1], dtype=np.int64), np.cumsum(flags, axis=0)])
+    return np.asarray(count[after] > count[first])

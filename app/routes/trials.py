@@ -15,6 +15,7 @@ from app.trials.desk import PlannedFeet, TrialWords, compared
 from app.trials.tables import table_csv, table_latex
 from core.errors import StateError
 from core.trajectory import Trajectory
+from core.trials.alignment import repeated_motion
 from core.trials.track_csv import FRAME_RATE, PixelScale, parse_track_csv
 
 router = APIRouter(prefix="/api/trials", tags=["trials"])
@@ -86,7 +87,8 @@ async def _planned(studio: Studio, trial: NewTrial) -> tuple[str, str, PlannedFe
     """Id and name of the gait, and where its feet were to be."""
     if trial.run:
         record = await _answer(lambda: studio.runs.record(trial.run))
-        return record.content["gait"], record.content["gait_name"], _feet(record.plan.trajectory)
+        laps = 1 + max((command.lap for command in record.series.streamed), default=0)
+        return record.content["gait"], record.content["gait_name"], _feet(record.plan.trajectory, laps)
     if not trial.gait:
         return "", "", None
 
@@ -97,13 +99,15 @@ async def _planned(studio: Studio, trial: NewTrial) -> tuple[str, str, PlannedFe
             raise StateError(
                 "This gait has no motion yet, so there is nothing to lay the trial over.", "gait"
             )
-        return trial.gait, gait.name, _feet(plan.trajectory)
+        laps, rest = divmod(trial.iterations, gait.iterations)
+        return trial.gait, gait.name, _feet(plan.trajectory, 1 if rest else laps)
 
     return await on_planned(studio, trial.gait, of_gait)
 
 
-def _feet(trajectory: Trajectory) -> PlannedFeet:
-    return PlannedFeet(trajectory.times, trajectory.feet_world[..., :2])
+def _feet(trajectory: Trajectory, laps: int) -> PlannedFeet:
+    """The plan's feet, as often as it is walked."""
+    return PlannedFeet(*repeated_motion(trajectory.times, trajectory.feet_world[..., :2], max(laps, 1)))
 
 
 @router.get("")

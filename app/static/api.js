@@ -41,7 +41,7 @@ async function answer(method, path, body) {
   return response;
 }
 
-const request = async (method, path, body) => (await answer(method, path, body)).json();
+export const request = async (method, path, body) => (await answer(method, path, body)).json();
 
 /** Takes text or a file as it stands, such as a CSV or JSON file. */
 async function sendText(path, text) {
@@ -82,7 +82,9 @@ export const api = {
   restoreVersion: (id, number) => request("POST", `${gait(id)}/versions/${number}/restore`),
   restore: (id) => request("POST", `${gait(id)}/restore`),
   check: (id) => request("POST", `${gait(id)}/check`),
-  approve: (id, by, verdict) => request("POST", `${gait(id)}/approve`, { by, verdict_hash: verdict }),
+  approve: (id, by, verdict, seen) => request("POST", `${gait(id)}/approve`, { by, verdict_hash: verdict, accept_warnings: seen }),
+  approvals: (id) => request("GET", `${gait(id)}/approvals`),
+  approvalDifference: (id, number, to = null) => request("GET", `${gait(id)}/approvals/${number}/difference${to === null ? "" : `?to=${to}`}`),
   run: (id, { first, iterations }) => request("GET", `${gait(id)}/run?from=${first}&iterations=${iterations}`),
   optimiseParts: (id) => request("POST", `${gait(id)}/sequence/optimise`),
   madeTable: (document) => request("POST", "/api/tables/made", { document }),
@@ -112,6 +114,7 @@ export const api = {
   noteRun: (id, note) => request("PUT", `/api/runs/${encodeURIComponent(id)}/note`, { note }),
   deleteRun: (id) => request("DELETE", `/api/runs/${encodeURIComponent(id)}`),
   restoreRun: (id) => request("POST", `/api/runs/${encodeURIComponent(id)}/restore`),
+  jogGhost: async (target) => (await answer("POST", "/api/robot/jog/ghost", target)).arrayBuffer(),
   robot: (verb, body = {}) => request("POST", `/api/robot/${verb}`, body),
 };
 

@@ -7,6 +7,7 @@ import { mountSegments } from "./segments.js";
 import { mountSequence } from "./sequence.js";
 import { mountSequenceBand } from "./sequence_band.js";
 import { mountStage } from "./stage.js";
+import { mountTrialEntry } from "./trial_entry.js";
 import { mountVersions } from "./versions.js";
 
 /**
@@ -22,7 +23,8 @@ export function mountPanels({ store, edits, playback, goTo, gaitTools }) {
   mountCheck(store, edits, goTo);
   const countdown = mountRobot(store, playback);
   mountVersions(store, edits);
-  const runs = mountRuns(store);
+  const trials = mountTrialEntry(store, () => runs());
+  const runs = mountRuns(store, trials);
   mountStage(store, edits, playback);
-  return { segments: segments.escape, sequence: sequence.cancel, countdown, runs };
+  return { segments: segments.escape, sequence: sequence.cancel, countdown, runs: () => runs() || trials() };
 }

@@ -24,7 +24,7 @@ function standing(store, run) {
   return "Measured strokes stand over the planned ones in the plots.";
 }
 
-function mountPanel(store) {
+function mountPanel(store, opening) {
   const body = h("div", { class: "runs-body" });
   const close = h("button", { class: "plain icon-only", "aria-label": "Close runs", title: "Close (Esc)" }, icon("close"));
   const panel = h("section", { class: "runs-panel", id: "runs", "aria-label": "Runs", hidden: true }, h("header", {}, h("h2", { text: "Runs" }), close), body);
@@ -33,6 +33,7 @@ function mountPanel(store) {
   let follow = () => {};
 
   function show(content) {
+    opening();
     panel.hidden = false;
     document.body.toggleAttribute("data-runs", true);
     body.replaceChildren(content);
@@ -71,9 +72,9 @@ function mountPanel(store) {
   return { all, open, leave };
 }
 
-/** Builds the newest runs under the jobs; returns what Esc does. */
-export function mountRuns(store) {
-  const panel = mountPanel(store);
+/** Builds the newest runs under the jobs; `opening` is told when their panel opens. Returns what Esc does. */
+export function mountRuns(store, opening = () => {}) {
+  const panel = mountPanel(store, opening);
   mountTrace(store);
   const list = h("ul", { class: "runs-newest", role: "list", "aria-label": "Newest runs" });
   const more = h("button", { class: "link", text: "All runs", title: "Every run that was kept: filter, compare, files", on: { click: panel.all } });

@@ -49,16 +49,40 @@ def align(track: FootTrack, motion_feet: Floats) -> Alignment:
         InputError: the two have not the same number of feet, or the feet lie in one point.
     """
     feet = frozen_floats(motion_feet, (track.foot_count, 2), "feet")
-    seen = track.feet[0]
-    a, b = feet - feet.mean(axis=0), seen - seen.mean(axis=0)
+    turn, shift = _rigid_move(feet, track.feet[0])
+    gaps = np.hypot(*(feet @ _turning(turn).T + shift - track.feet[0]).T)
+    return Alignment(turn, shift, gaps)
+
+
+def repeated_motion(times: Floats, feet: Floats, laps: int) -> tuple[Floats, Floats]:
+    """A motion done several times, each beginning where the one before has taken the robot.
+
+    Args:
+        times: (n,) s.
+        feet: (n, feet, 2) m.
+        laps: how often.
+
+    Returns:
+        (laps (n − 1) + 1,) s and (laps (n − 1) + 1, feet, 2) m.
+    """
+    turn, shift = _rigid_move(feet[0], feet[-1])
+    every_time, every_place = [times], [feet]
+    for _ in range(laps - 1):
+        every_time.append(every_time[-1][-1] + times[1:] - times[0])
+        before = feet[1:] if len(every_place) == 1 else every_place[-1]
+        every_place.append(before @ _turning(turn).T + shift)
+    return np.concatenate(every_time), np.concatenate(every_place)
+
+
+def _rigid_move(start: Floats, end: Floats) -> tuple[float, Floats]:
+    """Turn and shift that bring (feet, 2) points nearest to others."""
+    a, b = start - start.mean(axis=0), end - end.mean(axis=0)
     sine = float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum())
     cosine = float((a * b).sum())
     if math.hypot(sine, cosine) < 1e-12:
         raise InputError("The feet of the first frame lie in one point, so no direction is known.", "track")
     turn = math.atan2(sine, cosine)
-    shift = seen.mean(axis=0) - _turning(turn) @ feet.mean(axis=0)
-    gaps = np.hypot(*(feet @ _turning(turn).T + shift - seen).T)
-    return Alignment(turn, shift, gaps)
+    return turn, np.asarray(end.mean(axis=0) - _turning(turn) @ start.mean(axis=0))
 
 
 def placed_motion(times: Floats, feet_world: Floats, alignment: Alignment) -> FootTrack:

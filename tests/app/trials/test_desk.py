@@ -40,8 +40,8 @@ def test_a_trial_stands_beside_its_plan_however_the_robot_stood(desk: TrialDesk,
     assert summary["plan"]["figures"]["distance"] == pytest.approx(3.0, abs=1e-3)
     assert summary["plan"]["turn_deg"] == pytest.approx(-90.0 if turn else 0.0, abs=1e-3)
     ways = desk.paths(summary["id"])
-    assert ways["plan"][0]["x"][-1] == pytest.approx(7.0, abs=1e-2)
-    assert ways["track"][0]["x"][-1] == pytest.approx(7.6, abs=1e-2)
+    assert ways["plan"]["feet"][0]["x"][-1] == pytest.approx(7.0, abs=1e-2)
+    assert ways["track"]["feet"][0]["x"][-1] == pytest.approx(7.6, abs=1e-2)
 
 
 def test_a_trial_outlasts_the_program(desk: TrialDesk, database: Database) -> None:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from core.errors import InputError
 from core.robot import load_robot
-from core.trials.alignment import align, placed_motion
+from core.trials.alignment import align, placed_motion, repeated_motion
 from core.trials.band import trial_band
 from core.trials.track import FootTrack
 from core.trials.track_csv import parse_track_csv
@@ -66,3 +66,15 @@ def test_trials_of_other_iterations_are_not_laid_over_each_other() -> None:
 def test_feet_in_one_point_have_no_direction() -> None:
     with pytest.raises(InputError, match="no direction"):
         align(stepping_track((0.01, 0.0), 1), np.zeros((4, 2)))
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3])
+def test_a_repeated_motion_goes_on_from_where_it_ended(turn: float) -> None:
+    turning = np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]])
+    feet = np.stack([STANCE, STANCE + [0.004, 0.0], STANCE @ turning.T + [0.01, 0.0]])
+    times, places = repeated_motion(np.array([0.0, 1.0, 2.0]), feet, 3)
+    np.testing.assert_allclose(times, np.arange(7.0))
+    whole = STANCE
+    for lap in range(3):
+        whole = whole @ turning.T + [0.01, 0.0]
+        np.testing.assert_allclose(places[2 * (lap + 1)], whole, atol=1e-12)

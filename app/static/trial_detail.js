@@ -1,0 +1,89 @@
+/** One trial: how far each foot went beside its plan, iteration by iteration, with a note and files. */
+
+import { h, onPress } from "./dom.js";
+import { clockTime, fixed } from "./format.js";
+import { announce, attempt } from "./toasts.js";
+import { trialApi } from "./trial_api.js";
+import { pathPlot, wayPlot } from "./trial_plot.js";
+
+function table(caption, help, head, rows) {
+  return h("table", { class: "run-table", title: help }, h("caption", { text: caption }),
+    h("thead", {}, h("tr", {}, ...head.map((text) => h("th", { scope: "col", text })))),
+    h("tbody", {}, ...rows.map(([{ text, foot }, ...values]) => h("tr", { data: foot ? { foot } : {} },
+      h("th", { scope: "row" }, foot && h("i", { class: "foot-dot", "aria-hidden": "true" }), text), ...values.map((value) => h("td", { text: value }))))));
+}
+
+const published = ({ distance, angle_deg: angle, error_percent: error }) => [fixed(distance, 2), fixed(angle, 1), fixed(error, 0)];
+const net = ({ net_distance: distance, net_angle_deg: angle, net_error_percent: error }) => [fixed(distance, 2), fixed(angle, 1), fixed(error, 0)];
+
+function movementTable(caption, help, figures, plan, columns) {
+  const rows = figures.feet.map((foot, index) => [{ text: `foot ${index + 1}`, foot: index + 1 }, ...columns(foot)]);
+  rows.push([{ text: "mean" }, ...columns(figures)]);
+  if (plan) rows.push([{ text: "planned" }, ...columns(plan.figures)]);
+  return table(caption, help, ["", "cm", "angle", "error %"], rows);
+}
+
+function iterationTable({ parts }) {
+  return table("Iterations, first to last", "Mean of the feet's net movements in each iteration, its time and its speed", ["", "cm", "s", "mm/s"],
+    parts.map((part, index) => [{ text: `iteration ${index + 1}` }, fixed(part.net_distance, 2), fixed(part.seconds, 1), fixed(part.speed_mm_s, 2)]));
+}
+
+function slipTable({ slip }) {
+  return table("Slip of standing feet, cm", "Farthest that each foot slid between its own steps", ["", "largest", "mean"],
+    slip.map((stands, index) => [{ text: `foot ${index + 1}`, foot: index + 1 }, fixed(Math.max(...stands), 2), fixed(stands.reduce((sum, value) => sum + value, 0) / stands.length, 2)]));
+}
+
+function facts(trial) {
+  const rows = [
+    ["By", trial.by || "–"], ["Added", clockTime(trial.made)], ["Gait", trial.gait_name || "–"], ["Wanted", `${fixed(trial.expected_cm, 1)} cm`],
+    ["Frames", `${trial.frames}, ${fixed(trial.frame_rate, 1)} a second`], ["Gaps", trial.filled ? `${trial.gaps.length}, ${trial.filled} places filled` : "none"],
+    ...(trial.plan ? [["Placement", `${fixed(trial.plan.turn_deg, 1)}°, feet ± ${fixed(Math.max(...trial.plan.gaps_cm) * 10, 1)} mm`, "How the plan lies over the track: turned so that the feet of the first frame agree best; by how much they still differ at most"]] : []),
+  ];
+  return h("dl", { class: "summary" }, ...rows.flatMap(([name, value, help]) => [h("dt", { text: name }), h("dd", { text: value, title: help ?? null })]));
+}
+
+function noteField(trial) {
+  const area = h("textarea", { "aria-label": "Note", rows: "2", maxlength: "4000", placeholder: "Note: floor, cable, what was seen" });
+  area.value = trial.note;
+  area.addEventListener("change", attempt(async () => { await trialApi.change(trial.id, { note: area.value.trim() }); announce("Note kept."); }));
+  return area;
+}
+
+function endsLine(trial, redraw) {
+  if (trial.parts.length < 2) return null;
+  if (trial.ends_by_hand) {
+    const again = h("button", { class: "link", text: "Find them again" });
+    onPress(again, attempt(async () => redraw(await trialApi.change(trial.id, { ends: null }))));
+    return h("p", { class: "quiet" }, "The ends of iterations were moved by hand. ", again);
+  }
+  return h("p", { class: trial.is_clear ? "quiet" : "why", text: trial.is_clear ? "The ends of iterations were found from the feet's steps." : "The feet's steps overlap between iterations: look at their ends." });
+}
+
+/**
+ * Builds a trial's page in the panel.
+ * @param {string} id
+ * @param {{all: () => void, remove: (trial: object) => void}} acts
+ */
+export async function trialDetail(id, { all, remove }) {
+  const [trial, paths] = await Promise.all([trialApi.read(id), trialApi.paths(id)]);
+  const element = h("div", { class: "run-detail" });
+
+  function draw(now) {
+    const moved = attempt(async (part, frame) => draw(await trialApi.change(id, { ends: now.parts.map(({ end }, index) => (index === part ? frame : end)) })));
+    const focused = document.activeElement?.getAttribute?.("aria-label");
+    const erase = h("button", { class: "link", text: "Delete", title: "Takes this trial out of the list; it can be brought back", on: { click: () => remove(now) } });
+    element.replaceChildren(
+      h("button", { class: "link", text: "All trials", on: { click: all } }),
+      h("div", { class: "run-line run-title" }, h("b", { text: now.name })),
+      facts(now), noteField(now), pathPlot(paths), wayPlot(paths.track, now, moved), endsLine(now, draw) ?? "",
+      iterationTable(now),
+      movementTable("Movement as published", "Largest excursions from the first frame; never negative. The planned motion by the same definition", now.figures, now.plan, published),
+      movementTable("Movement, first to last", "Last minus first frame", now.figures, now.plan, net),
+      slipTable(now),
+      h("div", { class: "run-files" }, h("a", { href: `/api/trials/${encodeURIComponent(id)}/track.csv`, download: "", text: "Track as CSV", title: "cm; what was not seen is empty" }), erase));
+    if (focused?.startsWith("End of iteration")) [...element.querySelectorAll(".end-handle")].find((one) => one.getAttribute("aria-label") === focused)?.focus();
+  }
+
+  draw(trial);
+  return element;
+}

@@ -1,0 +1,35 @@
+/** The ways to the trials of the real robot, which are loaded when they are first opened. */
+
+import { byId, h } from "./dom.js";
+import { report } from "./toasts.js";
+
+const HELP = "What the real robot did: foot tracks beside their plan, iteration by iteration, and gaits compared";
+
+/**
+ * Builds the links under the runs and under the robot.
+ * @param {object} store
+ * @param {() => void} opening told when the panel opens
+ * @returns {() => boolean} what Esc does
+ */
+export function mountTrialEntry(store, opening) {
+  let [loading, panel] = [null, null];
+
+  async function open() {
+    try {
+      loading ??= import("./trials.js").then(({ mountTrials }) => mountTrials(store));
+      panel = await loading;
+      opening();
+      panel.open();
+    } catch (error) {
+      loading = null;
+      report(error);
+    }
+  }
+
+  const link = (text) => h("button", { class: "link", text, title: HELP, on: { click: open } });
+  byId("jobs").parentElement.append(h("div", { class: "runs-head" }, h("h2", { text: "Trials" }), link("All trials")));
+  const below = link("Trials of the real robot");
+  below.classList.add("runs-way");
+  byId("robot").append(below);
+  return () => Boolean(panel?.leave());
+}

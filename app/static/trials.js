@@ -1,0 +1,61 @@
+/** Trials of the real robot in a panel: the list with gaits compared, adding tracks, and one trial beside its plan. */
+
+import { h, icon } from "./dom.js";
+import { runIsOn } from "./store.js";
+import { openTab } from "./tabs.js";
+import { attempt, toast } from "./toasts.js";
+import { trialDetail } from "./trial_detail.js";
+import { trialForm } from "./trial_form.js";
+import { trialList } from "./trial_list.js";
+import { trialApi } from "./trial_api.js";
+
+function addStyles() {
+  const styles = h("link", { rel: "stylesheet", href: new URL("./trials.css", import.meta.url).pathname });
+  document.head.append(styles);
+}
+
+/**
+ * Builds the panel, closed.
+ * @param {object} store
+ * @returns {{open: () => void, leave: () => boolean}} `leave` closes it; true where it was open
+ */
+export function mountTrials(store) {
+  addStyles();
+  const body = h("div", { class: "runs-body" });
+  const close = h("button", { class: "plain icon-only", "aria-label": "Close trials", title: "Close (Esc)" }, icon("close"));
+  const panel = h("section", { class: "runs-panel", "aria-label": "Trials", hidden: true }, h("header", {}, h("h2", { text: "Trials" }), close), body);
+  document.querySelector("aside.right").append(panel);
+
+  function show(...content) {
+    panel.hidden = false;
+    document.body.toggleAttribute("data-runs", true);
+    body.replaceChildren(...content);
+    body.scrollTop = 0;
+  }
+
+  function leave() {
+    if (panel.hidden) return false;
+    panel.hidden = true;
+    document.body.toggleAttribute("data-runs", false);
+    return true;
+  }
+
+  const all = attempt(async () => show(await trialList({ open: one, add })));
+  const one = attempt(async (id) => show(await trialDetail(id, { all, remove })));
+
+  function add() {
+    const { view } = store.state;
+    show(trialForm({ view, all, done: (added) => (added.length === 1 ? one(added[0].id) : all()) }));
+  }
+
+  const remove = attempt(async ({ id, name }) => {
+    await trialApi.remove(id);
+    await all();
+    toast(`The trial “${name}” is deleted.`, { action: { label: "Undo", act: attempt(async () => { await trialApi.restore(id); one(id); }) } });
+  });
+
+  close.addEventListener("click", leave);
+  document.querySelector('[role="tablist"][aria-label="Inspector"]').addEventListener("click", leave);
+  store.watch(({ robot }) => [runIsOn(robot)], ({ robot }) => { if (runIsOn(robot)) leave(); });
+  return { open: () => { openTab("robot"); all(); }, leave };
+}

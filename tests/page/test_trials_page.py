@@ -1,0 +1,51 @@
+"""Trials on the page: added, beside their plan, iterations moved by hand, deleted and brought back."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, expect
+
+from core.trials.track_csv import format_track_csv
+from tests.core.trials.tracks import stepping_track
+from tests.page.opened import opened_page
+from tests.studio_process import StudioProcess
+
+
+@pytest.fixture
+def track(tmp_path: Path) -> Path:
+    path = tmp_path / "on glass.csv"
+    path.write_text(format_track_csv(stepping_track((0.0085, 0.0085), 2)))
+    return path
+
+
+def test_a_track_is_added_compared_moved_deleted_and_brought_back(
+    browser: Browser, studio: StudioProcess, track: Path
+) -> None:
+    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
+        page.set_default_timeout(60_000)
+        page.get_by_role("button", name="All trials").click()
+        panel = page.get_by_role("region", name="Trials")
+        expect(panel.get_by_text("No trial yet.")).to_be_visible()
+        panel.get_by_role("button", name="Add trials…").click()
+        panel.get_by_label("Track files").set_input_files(track)
+        expect(panel.get_by_label("Wanted distance, cm")).to_have_value("1")
+        panel.get_by_label("Wanted distance, cm").fill("2")
+        panel.get_by_label("Iterations").fill("2")
+        panel.get_by_role("button", name="Add trials", exact=True).click()
+        end = panel.get_by_role("slider", name="End of iteration 1")
+        published = panel.get_by_role("table", name="Movement as published")
+        expect(published.get_by_role("row", name="mean 2.40 45.0 20")).to_be_visible()
+        expect(published.get_by_role("row", name="planned 2.0")).to_be_visible()
+        before = int(end.get_attribute("aria-valuenow") or 0)
+        end.press("ArrowLeft")
+        expect(panel.get_by_role("button", name="Find them again")).to_be_visible()
+        expect(end).to_have_attribute("aria-valuenow", str(before - 1))
+        expect(end).to_be_focused()
+        panel.get_by_role("button", name="Delete").click()
+        expect(panel.get_by_text("No trial yet.")).to_be_visible()
+        page.get_by_role("button", name="Undo", exact=True).last.click()
+        expect(end).to_have_attribute("aria-valuenow", str(before - 1))
+        panel.get_by_role("button", name="All trials").click()
+        expect(panel.get_by_role("table", name="Gaits compared")).to_contain_text("Walk 10 mm, 1.0 cm")

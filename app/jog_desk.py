@@ -226,7 +226,11 @@ def _moves(answer: JogAnswer) -> list[float]:
 
 
 def _handles(wish: JogWish, look: JogLook, answer: JogAnswer) -> list[dict[str, Any]]:
-    """Present place, target and range of what can be stepped, mm, in the order x, y, z or of the motors."""
+    """Present place, target and range of what can be stepped, mm, in the order x, y, z or of the motors.
+
+    A foot's x and y are from its module's centre and its z from the deepest foot as they stand; the body's
+    are from where it stands, and its z is the actuator plane's height over the deepest foot.
+    """
     if look.part is JogPart.MOTOR:
         return [_motor_handle(wish.model, answer, look.foot, motor) for motor in range(3)]
     return [_place_handle(wish, look, answer, axis) for axis in Axis]
@@ -246,12 +250,14 @@ def _place_handle(wish: JogWish, look: JogLook, answer: JogAnswer, axis: Axis) -
     steps = () if answer.target is None else wish.steps
     least, most = jog_range(model, jog_strokes(model, answer.start, steps), step)
     before = feet_in_robot(model, answer.start)
+    after = before if answer.target is None else feet_in_robot(model, answer.wanted)
+    ground = float(before[:, 2].min())
     if foot is None:
-        start = -float(before[:, 2].min()) if axis is Axis.Z else 0.0
+        start = -ground if axis is Axis.Z else 0.0
         target = start + sum(one.by for one in steps if one.part is JogPart.BODY and one.axis is axis)
     else:
-        centre = model.module_centres_robot[foot, along]
-        start, target = float(before[foot, along] - centre), float(answer.feet[foot, along] - centre)
+        origin = ground if axis is Axis.Z else model.module_centres_robot[foot, along]
+        start, target = float(before[foot, along] - origin), float(after[foot, along] - origin)
     return {"motor": None, "axis": axis.value} | _row_mm(start, target, target + least, target + most)
 
 

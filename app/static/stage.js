@@ -7,6 +7,7 @@ import { fixed, mm } from "./format.js";
 import { mountGhosts } from "./ghosts.js";
 import { mountGoal } from "./goal.js";
 import { troubleOf } from "./lacks.js";
+import { mountJogGhost } from "./jog_ghost.js";
 import { lane } from "./lane.js";
 import { measured, painted } from "./live.js";
 import { Preview } from "./preview/preview.js";
@@ -135,6 +136,7 @@ export async function mountStage(store, edits, playback) {
   preview.addEventListener("ready", () => message(null));
   mountTools(store, preview);
   mountGhosts(store, preview);
+  mountJogGhost(store, preview, playback);
   playback.addEventListener("time", ({ detail }) => preview.setTime(detail.time, detail.cause === "clock"));
   followPlan(store, playback, preview);
   mountGoal(store, edits, preview);

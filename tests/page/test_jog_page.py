@@ -1,0 +1,92 @@
+"""The jog in the Robot panel: a target is looked at first, then the robot goes there."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from contextlib import closing
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from app.bridge.emulated import EmulatedRobot, start_emulator
+from tests.page.opened import opened_page
+from tests.page.test_robot_lease import LONG_MS, look, name
+from tests.studio_process import StudioProcess, running_studio, wait_for
+
+
+@pytest.fixture(scope="module")
+def robot() -> Iterator[EmulatedRobot]:
+    with closing(start_emulator("nominal", 20.0)) as emulated:
+        yield emulated
+
+
+@pytest.fixture(scope="module")
+def studio(tmp_path_factory: pytest.TempPathFactory, robot: EmulatedRobot) -> Iterator[StudioProcess]:
+    with running_studio(tmp_path_factory.mktemp("data"), "--robot", robot.device) as running:
+        yield running
+
+
+@pytest.fixture
+def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
+    with opened_page(browser, studio.url, 1280, 900, has_scene=False) as opened:
+        name(opened, "Ada")
+        opened.get_by_text("Jog: move a motor").click(timeout=LONG_MS)
+        yield opened
+
+
+def test_the_body_is_raised_by_a_target_that_is_seen_first(page: Page, studio: StudioProcess) -> None:
+    jog = page.get_by_role("group", name="Jog", exact=True)
+    move = jog.get_by_role("button", name="Move", exact=True)
+    expect(move).to_have_attribute("title", "Connect the robot first.", timeout=LONG_MS)
+    page.get_by_role("button", name="Connect", exact=True).click()
+    arm = page.get_by_role("button", name="Arm", exact=True)
+    expect(arm).not_to_have_attribute("aria-disabled", "true", timeout=LONG_MS)
+    arm.click()
+    expect(move).to_have_attribute("title", re.compile("Choose a step"), timeout=LONG_MS)
+
+    jog.get_by_role("button", name="Body", exact=True).click()
+    lower = jog.get_by_role("button", name="Body, height minus")
+    expect(lower).to_have_attribute("title", re.compile("Choose a shorter step"), timeout=LONG_MS)
+    jog.get_by_role("spinbutton", name="Jog step").fill("0.4")
+    jog.get_by_role("spinbutton", name="Jog step").press("Enter")
+    higher = jog.get_by_role("button", name="Body, height plus")
+    higher.focus()
+    page.keyboard.press("Enter")
+    expect(jog.get_by_role("status", name="Jog findings")).to_contain_text(
+        "No motor would move", timeout=LONG_MS
+    )
+    expect(move).to_have_attribute("aria-disabled", "true")
+    jog.get_by_role("spinbutton", name="Jog step").fill("3")
+    jog.get_by_role("spinbutton", name="Jog step").press("Enter")
+    higher.click()
+    higher.click()
+    expect(jog.get_by_text(re.compile(r"3 moves, about .* Stop acts within"))).to_be_visible(timeout=LONG_MS)
+    before = studio.robot()["strokes_mm"]
+    assert max(before) < 1.0
+    look(page, "jog")
+
+    expect(move).not_to_have_attribute("aria-disabled", "true")
+    move.click()
+    wait_for(lambda: min(studio.robot()["strokes_mm"]) > 6.0, "the body is raised")
+    expect(jog.get_by_text("From where the motors stand.")).to_be_visible(timeout=LONG_MS)
+    wait_for(lambda: studio.robot()["robot"] == "armed", "the jog is done")
+
+
+def test_letters_and_the_target_alone_move_nothing(page: Page, studio: StudioProcess) -> None:
+    jog = page.get_by_role("group", name="Jog", exact=True)
+    wait_for(
+        lambda: studio.robot()["link"] == "disconnected" or studio.robot()["robot"] == "armed", "it rests"
+    )
+    stands = studio.robot()["strokes_mm"]
+    jog.get_by_role("button", name="Motor", exact=True).click()
+    plus = jog.get_by_role("button", name="Motor 2 of foot 1 plus")
+    expect(plus).not_to_have_attribute("aria-disabled", "true", timeout=LONG_MS)
+    plus.click()
+    expect(jog.get_by_role("img", name=re.compile("Motor 2 of foot 1"))).to_be_visible()
+    page.keyboard.press("m")
+    page.keyboard.press("ArrowRight")
+    jog.get_by_role("button", name="Back to where it stands").click()
+    assert studio.robot()["jog"] is None
+    if stands is not None:
+        assert studio.robot()["strokes_mm"] == pytest.approx(stands, abs=0.1)

@@ -29,7 +29,7 @@ COP_NODE = "/overlay/cop"
 REACH_NODE = f"{ROBOT_ROOT}/{BODY}/reach"
 """Scene path of the lines round each foot's reach; it moves along with the body."""
 
-GHOST_NODES = ("/ghost/before", "/ghost/saved", "/ghost/measured")
+GHOST_NODES = ("/ghost/before", "/ghost/saved", "/ghost/measured", "/ghost/jog")
 """Scene paths of other versions of the gait, each drawn with the lines of one node."""
 
 FLOOR_THEMES: dict[str, tuple[Colour, Colour]] = {

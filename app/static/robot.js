@@ -4,6 +4,7 @@ import { api } from "./api.js";
 import { confirmAct } from "./dialogs.js";
 import { byId, h, onPress, setAllowed, setText } from "./dom.js";
 import { fixed, seconds, shortHash } from "./format.js";
+import { jogPart } from "./jog.js";
 import { leasePart, whyNotHeld } from "./lease.js";
 import { needOperator } from "./operator.js";
 import { portChooser } from "./ports.js";
@@ -91,7 +92,7 @@ function assemble({ store, playback }, parts, send) {
   const run = way(4, h("div", { class: "progress" }, parts.bar), parts.progress, parts.later, parts.record,
     h("div", { class: "buttons" }, parts.pause.button, parts.resume.button, parts.reset.button));
   byId("robot").append(h("div", { class: "robot-state" }, parts.dot, parts.word, parts.sentence), leasePart(store),
-    h("ol", { class: "steps", role: "list", "aria-label": "The robot's way" }, connect, arm, start, run),
+    h("ol", { class: "steps", role: "list", "aria-label": "The robot's way" }, connect, arm, start, run), jogPart(store),
     h("h3", {}, "Strokes measured", h("span", { text: "mm" })), parts.bars.element, parts.stopText, robotLog(store), robotFaults(store));
   return { connect, arm, start, run };
 }
@@ -176,8 +177,9 @@ export function mountRobot(store, playback) {
   const parts = build(store);
   const ways = assemble({ store, playback }, parts, send);
   store.watch(({ robot }) => [robot], ({ robot }) => showRobot(parts, ways, robot));
-  store.watch(({ robot, view }) => [robot?.strokes_mm, robot?.run, view?.plan], ({ robot, view }) => {
-    parts.bars.show(robot?.strokes_mm ?? null, commandedStrokes(robot, view));
+  store.watch(({ robot, view, jog }) => [robot?.strokes_mm, robot?.run, view?.plan, jog?.target_mm], ({ robot, view, jog }) => {
+    const target = jog?.target_mm?.length === robot?.strokes_mm?.length ? jog?.target_mm : null;
+    parts.bars.show(robot?.strokes_mm ?? null, target ?? commandedStrokes(robot, view));
   });
   store.watch((state) => [laterEdit(state)], (state) => setText(parts.later, laterEdit(state)));
   store.watch(({ robot, view, runSummary, selected, runCourse }) => [robot, view, runSummary, selected, runCourse], (state) => {

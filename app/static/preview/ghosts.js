@@ -10,7 +10,7 @@ import { visibleMessage } from "./viser_client.js";
 
 const COLOURS = {
   before: { light: [112, 128, 156], dark: [132, 148, 176] }, saved: { light: [158, 108, 196], dark: [180, 140, 216] },
-  measured: { light: [14, 128, 120], dark: [64, 190, 178] },
+  measured: { light: [14, 128, 120], dark: [64, 190, 178] }, jog: { light: [58, 92, 204], dark: [125, 152, 243] },
 };
 
 /** Places a part's line pieces by its pose. */
@@ -73,7 +73,7 @@ export class Ghosts {
   }
 
   /**
-   * @param {"before"|"saved"|"measured"} kind
+   * @param {"before"|"saved"|"measured"|"jog"} kind
    * @param {ArrayBuffer|null} buffer null takes the ghost away
    */
   set(kind, buffer) {

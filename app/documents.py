@@ -254,6 +254,12 @@ def motion_hash(gait: Gait) -> str:
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
+def sent_hash(gait: Gait) -> str:
+    """SHA-256 of everything in the document that its waypoints depend on: the motion, and how it is sent."""
+    sending = {name: getattr(gait.options, name) for name in _SENDING}
+    return hashlib.sha256(f"{motion_hash(gait)}{json.dumps(sending, sort_keys=True)}".encode()).hexdigest()
+
+
 def asked_hash(gait: Gait) -> str:
     """SHA-256 of what a solver is asked for a gait, whose own recorded motion is left aside."""
     return motion_hash(replace(gait, recorded=None))

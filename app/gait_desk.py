@@ -9,9 +9,9 @@ import json
 import time
 from collections.abc import Callable
 from dataclasses import asdict, replace
-from datetime import UTC, datetime
 from typing import Any
 
+from app.approvals import Approvals, Word, approval_record, approved
 from app.deleted_gaits import ROUTE, DeletedGait, deleted_gaits
 from app.documents import parse_gait
 from app.history import Author, History, Step
@@ -27,10 +27,11 @@ from app.store.gait_log import EditingRow, GaitLog, VersionRow
 from app.undoing import merged_gait
 from app.versions import VersionKind, Versions, is_said_already
 from core.errors import InputError, StateError
-from core.findings import Approval, approve
+from core.findings import Verdict
 from core.gait import Gait, drawn_timeline
 from core.library import library
 from core.sequence import derived
+from core.simulation_check import Simulated
 
 _SCRIPT = Author()
 
@@ -48,6 +49,11 @@ class GaitDesk:
         solve_for: gives what asks the live tier for a gait.
         connected: gives the pages that are connected.
         clock: gives the time, s since the epoch.
+        simulated_for: gives the simulation of exactly a plan's waypoints, where there is one.
+
+    Attributes:
+        versions: of every gait.
+        approvals: of every gait.
     """
 
     def __init__(
@@ -57,13 +63,16 @@ class GaitDesk:
         solve_for: Callable[[Gait], Solve],
         connected: Callable[[], frozenset[str]] = frozenset,
         clock: Callable[[], float] = time.time,
+        simulated_for: Callable[[Plan], Simulated | None] = lambda plan: None,
     ) -> None:
         self._files = files
         self._database = database
-        self._plans = PlanCache(database, solve_for)
+        self._simulated_for = simulated_for
+        self._plans = PlanCache(database, solve_for, self._verdict_of)
         self._connected = connected
         self._log = GaitLog(database)
         self.versions = Versions(self._log, clock)
+        self.approvals = Approvals(self._log)
         self._stored: dict[str, History] = {}
         self._open: dict[str, OpenGait] = {}
 
@@ -137,7 +146,7 @@ class GaitDesk:
 
     def _plan_of(self, open_gait: OpenGait) -> Plan:
         plan = self._plans.of(open_gait)
-        self._open[open_gait.id] = open_gait.with_plan(plan)
+        self._open[open_gait.id] = open_gait.with_plan(plan, self._verdict_of)
         return plan
 
     def planned(self, gait: Gait) -> Plan:
@@ -327,37 +336,37 @@ class GaitDesk:
     def check(self, gait_id: str) -> OpenGait:
         """Checks the present plan by every rule; an approval of another verdict is gone."""
         self.ask_again(gait_id)
-        plan = self.plan(gait_id)
+        verdict = self._verdict_of(self.plan(gait_id), self.open_gait(gait_id).gait)
         open_gait = self.open_gait(gait_id)
-        verdict = verdict_of(plan, open_gait.gait)
-        approval = open_gait.approval
-        if approval is not None and approval.verdict_hash != verdict.content_hash:
-            approval = None
-        self._open[gait_id] = replace(open_gait, verdict=verdict, approval=approval)
+        if open_gait.approval is not None and open_gait.approval.verdict_hash != verdict.content_hash:
+            open_gait = self._put(open_gait.unapproved("The check says something else than before"))
+        self._open[gait_id] = replace(open_gait, verdict=verdict)
         return self._open[gait_id]
 
-    def approve(self, gait_id: str, by: str, verdict_hash: str | None = None) -> OpenGait:
-        """Records a person's approval of the present verdict.
+    def _verdict_of(self, plan: Plan, gait: Gait) -> Verdict:
+        return verdict_of(plan, gait, self._simulated_for(plan))
 
-        Args:
-            gait_id: which gait.
-            by: the person's name.
-            verdict_hash: of the verdict that they saw, where it is known.
+    def approve(self, gait_id: str, word: Word) -> OpenGait:
+        """Records a person's approval of the present verdict; see `app.approvals.approved`."""
+        plan, open_gait = self.plan(gait_id), self.open_gait(gait_id)
+        approval, verdict = approved(open_gait, plan, self._verdict_of, word)
+        version = self.versions.made(open_gait, VersionKind.APPROVED, Author(name=word.by))
+        number = self.versions.newest_number(gait_id) if version is None else version.number
+        record = approval_record(approval, number, plan, verdict)
+        return self._put(replace(open_gait, approval=approval, revoked=None), version, record)
 
-        Raises:
-            StateError: the gait was not checked since its last change, another verdict stands by now, or an
-                error stands.
+    def take_simulation(self, waypoints_hash: str) -> tuple[OpenGait, ...]:
+        """Takes verdicts and approvals of waypoints away of which a new simulation is known.
+
+        Returns:
+            The open gaits whose verdict was of exactly these waypoints.
         """
-        open_gait = self.open_gait(gait_id)
-        if open_gait.verdict is None:
-            raise StateError(
-                "Check this gait first: it changed since the last check, or was never checked.", "check"
-            )
-        if verdict_hash is not None and verdict_hash != open_gait.verdict.content_hash:
-            raise StateError("Another verdict stands by now; look at it and approve again.", "verdict_hash")
-        approval = approve(open_gait.verdict, by, datetime.now(UTC))
-        version = self.versions.made(open_gait, VersionKind.APPROVED, Author(name=by))
-        return self._put(replace(open_gait, approval=approval), version, approval)
+        touched = [
+            gait
+            for gait in self._open.values()
+            if gait.verdict is not None and gait.verdict.waypoints_hash == waypoints_hash
+        ]
+        return tuple(self._put(gait.unapproved("It was simulated since")) for gait in touched)
 
     def take_result(self, motion: str, content: dict[str, Any]) -> tuple[OpenGait, ...]:
         """Stores a checked result and gives back the open gaits whose plan it becomes."""
@@ -371,24 +380,20 @@ class GaitDesk:
 
     def _resulted(self, open_gait: OpenGait, motion: str, content: dict[str, Any]) -> OpenGait:
         """The gait with a result's provenance in its present document, which is no edit of anybody."""
-        resulted = replace(open_gait, verdict=None, approval=None, kept_approval=None)
+        resulted = open_gait.unapproved("The motion was optimised")
         gait = with_result(open_gait.gait, motion, content)
-        if gait == open_gait.gait:
-            self._open[open_gait.id] = resulted
-            return resulted
-        return self._restated(resulted, gait)
+        return self._put(resulted) if gait == open_gait.gait else self._restated(resulted, gait)
 
     def _restated(self, open_gait: OpenGait, gait: Gait) -> OpenGait:
         return self._put(replace(open_gait, gait=gait, history=open_gait.history.restated(gait_text(gait))))
 
     def _put(
-        self, open_gait: OpenGait, version: VersionRow | None = None, approved: Approval | None = None
+        self, open_gait: OpenGait, version: VersionRow | None = None, record: dict[str, Any] | None = None
     ) -> OpenGait:
         """Keeps a changed gait in memory and in the database, with version and approval record."""
         kept = open_gait.kept_approval
         approval = kept if open_gait.approval is None else json.dumps(asdict(open_gait.approval))
         row = EditingRow(open_gait.revision, open_gait.history, open_gait.notice, approval)
-        record = None if approved is None else asdict(approved)
         self._log.put(open_gait.id, row, self._stored.get(open_gait.id), version, record)
         self._stored[open_gait.id] = open_gait.history
         self._open[open_gait.id] = open_gait

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
 from functools import lru_cache
+from typing import Any
 
 from app.documents import gait_content, parse_gait
 from app.history import History, LogEntry, fresh_history
-from app.plans import Plan, verdict_of
+from app.plans import Plan
 from core.errors import FootfallError
 from core.findings import Approval, Verdict
 from core.gait import Gait
+
+VerdictOf = Callable[[Plan, Gait], Verdict]
+"""Checks a plan of a document as everything stands now, the physics included."""
 
 
 @dataclass(frozen=True)
@@ -30,6 +35,7 @@ class OpenGait:
         verdict: of the present revision, or None.
         approval: of the present revision, or None.
         kept_approval: of before the program's start, JSON text; looked at again once the plan is made.
+        revoked: why the last approval is gone, in a sentence; None where it stands or there was none.
     """
 
     id: str
@@ -43,6 +49,7 @@ class OpenGait:
     verdict: Verdict | None = None
     approval: Approval | None = None
     kept_approval: str | None = None
+    revoked: str | None = None
 
     @property
     def before(self) -> Gait | None:
@@ -65,30 +72,45 @@ class OpenGait:
 
     def changed(self, history: History, gait: Gait, notice: str | None = None) -> OpenGait:
         """The gait with another document; what was found of the old one is gone."""
-        return replace(
-            self,
-            history=history,
-            gait=gait,
-            revision=self.revision + 1,
-            notice=notice,
-            verdict=None,
-            approval=None,
-            kept_approval=None,
-        )
+        left = self.unapproved(f"The gait changed (“{history.present.label}”)")
+        return replace(left, history=history, gait=gait, revision=self.revision + 1, notice=notice)
 
-    def with_plan(self, plan: Plan) -> OpenGait:
-        """The gait once its plan is known: an approval comes back that is of exactly this verdict."""
+    def unapproved(self, why: str) -> OpenGait:
+        """The gait without verdict and approval.
+
+        Args:
+            why: what happened, as the beginning of a sentence.
+        """
+        had_one = self.approval is not None or self.kept_approval is not None
+        revoked = f"{why}, and its approval is gone." if had_one else self.revoked
+        return replace(self, verdict=None, approval=None, kept_approval=None, revoked=revoked)
+
+    def with_plan(self, plan: Plan, verdict_of: VerdictOf) -> OpenGait:
+        """The gait once its plan is known: an approval comes back that is of exactly this verdict.
+
+        Args:
+            plan: what it amounts to.
+            verdict_of: checks it as everything stands now.
+        """
         if self.kept_approval is None:
             return self
-        without = replace(self, kept_approval=None)
-        approval = Approval(**json.loads(self.kept_approval))
+        approval = approval_of(json.loads(self.kept_approval))
         try:
             verdict = verdict_of(plan, self.gait)
         except FootfallError:
-            return without
+            return self.unapproved("There is no plan any more")
         if verdict.content_hash != approval.verdict_hash:
-            return without
-        return replace(without, verdict=verdict, approval=approval)
+            return self.unapproved(_what_changed(approval, verdict))
+        return replace(self, verdict=verdict, approval=approval, kept_approval=None)
+
+
+def _what_changed(approval: Approval, verdict: Verdict) -> str:
+    """Why a kept approval is not of today's verdict, as the beginning of a sentence."""
+    if approval.robot_hash and approval.robot_hash != verdict.robot_hash:
+        return "The robot's parameters changed"
+    if approval.waypoints_hash != verdict.waypoints_hash:
+        return "The plan is another one than before"
+    return "The rules of the check, or the simulation, say something else than before"
 
 
 def fresh_gait(gait_id: str, gait: Gait, builtin: bool, saved_at: float | None) -> OpenGait:
@@ -104,6 +126,13 @@ def gait_text(gait: Gait) -> str:
 def gait_of(entry: LogEntry) -> Gait:
     """The document of an entry of the log."""
     return _parsed(entry.document)
+
+
+def approval_of(content: dict[str, Any]) -> Approval:
+    """An approval out of its JSON content, whatever else stands beside it."""
+    known = {field.name for field in fields(Approval)}
+    values = {name: value for name, value in content.items() if name in known}
+    return Approval(**values | {"warnings": tuple(content.get("warnings", ()))})
 
 
 @lru_cache(maxsize=64)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from app.open_gait import OpenGait
+from app.open_gait import OpenGait, VerdictOf
 from app.plans import Plan, Solve
 from app.sequence_plans import plan_of
 from app.store.database import Database
@@ -26,10 +26,12 @@ class PlanCache:
     Args:
         database: where results of the exact tier are.
         solve_for: gives what asks the live tier for a gait.
+        verdict_of: checks a plan as everything stands now.
     """
 
-    def __init__(self, database: Database, solve_for: Callable[[Gait], Solve]) -> None:
+    def __init__(self, database: Database, solve_for: Callable[[Gait], Solve], verdict_of: VerdictOf) -> None:
         self._database = database
+        self.verdict_of = verdict_of
         self._solve_for = solve_for
         self._plans: dict[str, tuple[int, Plan]] = {}
         self._dropped: dict[str, int] = {}
@@ -83,5 +85,5 @@ class PlanCache:
         before = self.known(now)
         self.keep(now, plan)
         if before is not None and before.hash != plan.hash:
-            now = replace(now, verdict=None, approval=None)
-        return now.with_plan(plan)
+            now = now.unapproved("The plan is another one than before")
+        return now.with_plan(plan, self.verdict_of)

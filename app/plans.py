@@ -10,18 +10,19 @@ from typing import Any
 
 import numpy as np
 
+from app.documents import sent_hash
 from app.judgement import Judgement, judge
 from app.planned_part import PlannedPart
 from app.trajectory_content import content_sha256, trajectory_from_content
 from core.arrays import Floats
 from core.balance_check import balance_margins
-from core.checked_plan import CheckedPlan
+from core.checked_plan import checked_plan
 from core.checks import check_plan
 from core.coupling_check import coupling_note
 from core.draft import initial_motion
 from core.errors import CheckError, FootfallError, InputError
 from core.findings import Verdict
-from core.gait import Gait, GaitOptions, motion_problem, resting_poses, travel_world
+from core.gait import Gait, GaitOptions, motion_problem, resting_poses
 from core.held_feet import HeldFeet, held_sentence
 from core.kinematics import UnreachableError, free_strokes
 from core.manual import manual_motion, stance_slip
@@ -32,6 +33,7 @@ from core.provenance import Provenance
 from core.recorded_motion import gait_trajectory
 from core.recording import Recording, RecordingForm
 from core.robot import RobotModel, load_robot
+from core.simulation_check import Simulated
 from core.support import stability_margins
 from core.trajectory import Trajectory
 from core.waypoints import Waypoints
@@ -76,6 +78,7 @@ class Plan:
         result: SHA-256 of the stored result that it is; None for every other plan.
         provenance: of that result, where it is known.
         parts: of a sequence, and the moves between them; empty for a gait of its own.
+        made_of: hash of the document that it was made of; None where it is of none.
     """
 
     source: PlanSource
@@ -90,6 +93,7 @@ class Plan:
     result: str | None = None
     provenance: Provenance | None = None
     parts: tuple[PlannedPart, ...] = ()
+    made_of: str | None = None
 
     @property
     def waypoints(self) -> Waypoints | None:
@@ -281,18 +285,21 @@ def _optimised_note(result: dict[str, Any]) -> str:
     )
 
 
-def verdict_of(plan: Plan, gait: Gait) -> Verdict:
+def verdict_of(plan: Plan, gait: Gait, simulated: Simulated | None = None) -> Verdict:
     """Checks a plan by every rule.
+
+    Args:
+        plan: what the gait amounts to.
+        gait: the document that it is checked against.
+        simulated: a simulation of exactly these waypoints, where there is one.
 
     Raises:
         CheckError: there is nothing to check.
     """
-    if plan.trajectory is None or plan.waypoints is None:
+    if plan.trajectory is None or plan.way is None:
         sentence = "There is no plan to check." if plan.refusal is None else plan.refusal.sentence
         raise CheckError(sentence, "plan")
-    travel = travel_world(gait, plan.model)
-    return check_plan(
-        CheckedPlan(
-            plan.model, plan.trajectory, plan.waypoints, travel, plan.source is PlanSource.DRAFT, plan.way
-        )
-    )
+    is_fresh = plan.made_of is None or plan.made_of == sent_hash(gait)
+    is_draft = plan.source in (PlanSource.DRAFT, PlanSource.ITERATE)
+    checked = checked_plan(gait, plan.model, plan.trajectory, plan.way, is_draft=is_draft, is_fresh=is_fresh)
+    return check_plan(checked, simulated)

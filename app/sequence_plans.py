@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from app.documents import motion_hash
+from app.documents import motion_hash, sent_hash
 from app.judgement import judge
 from app.plans import Plan, PlanSource, Solve, make_plan, with_waypoints
 from app.sequence_parts import placed_parts, unplaced_parts
@@ -45,7 +45,8 @@ def plan_of(gait: Gait, result_for: ResultFor, solve_for: SolveFor) -> Plan:
     def plan_single(single: Gait) -> Plan:
         return make_plan(single, result_for(motion_hash(single)), solve_for(single))
 
-    return sequence_plan(gait, plan_single, solve_for(gait)) if gait.sequence else plan_single(gait)
+    plan = sequence_plan(gait, plan_single, solve_for(gait)) if gait.sequence else plan_single(gait)
+    return replace(plan, made_of=sent_hash(gait))
 
 
 def run_motions(gait: Gait) -> frozenset[str]:

@@ -90,6 +90,7 @@ def gait_view(open_gait: OpenGait, plan: Plan, pages: frozenset[str] = frozenset
         "plan": plan_view(plan),
         "verdict": None if open_gait.verdict is None else verdict_view(open_gait.verdict),
         "approval": None if open_gait.approval is None else approval_view(open_gait.approval),
+        "revoked": open_gait.revoked if open_gait.approval is None else None,
     }
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from core.arrays import Bools, Floats, stretches
 from core.checked_plan import CheckedPlan
-from core.findings import TOLERANCE, Finding, Outcome, RuleMargin, Severity
+from core.findings import TOLERANCE, Outcome, RuleMargin, Severity, found
 from core.leg import foot_from_strokes
 from core.robot import RobotModel
 from core.support import stability_margins, trajectory_pressure
@@ -21,6 +22,15 @@ STANDING_DEPTH = 0.0005
 """Feet within this of the deepest one are taken to stand where only waypoints are known, m."""
 STROKE_BALANCE_SLACK = 0.0005
 """From strokes alone balance is known to this much, since which feet stand is itself a guess, m."""
+KEEP_THREE = "Keep three feet down."
+
+
+@dataclass(frozen=True)
+class _Judged:
+    """The name of the point that balance is judged by, and how far outside the polygon it may be, m."""
+
+    point: str
+    slack: float
 
 
 def check_balance(plan: CheckedPlan) -> Outcome:
@@ -31,7 +41,7 @@ def check_balance(plan: CheckedPlan) -> Outcome:
     """
     t = plan.trajectory
     margins, what = balance_margins(plan.model, t)
-    return _balance_outcome(margins, t.times, t.contact, what, TOLERANCE)
+    return _balance_outcome(margins, t.times, t.contact, _Judged(what, TOLERANCE), plan.asked.margin)
 
 
 def balance_margins(model: RobotModel, t: Trajectory) -> tuple[Floats, str]:
@@ -62,24 +72,38 @@ def _moves_as_planned(t: Trajectory) -> bool:
     return max(float(np.abs(body_gap).max()), float(np.abs(feet_gap).max())) <= TOLERANCE
 
 
-def _balance_outcome(margins: Floats, times: Floats, contact: Bools, what: str, slack: float) -> Outcome:
+def _balance_outcome(
+    margins: Floats, times: Floats, contact: Bools, judged: _Judged, asked: float = 0.0
+) -> Outcome:
+    """Findings on every stretch with too small a margin, and the smallest one.
+
+    Args:
+        margins: (n,) distance to the polygon's edge, m.
+        times: (n,) s.
+        contact: (n, legs) feet that stand.
+        judged: the point's name, and how far outside it may be.
+        asked: the margin that the document asks for, m.
+    """
+    reserve = max(BALANCE_RESERVE, asked)
     findings = []
-    for first, last in _unbalanced_stretches(np.asarray(margins < BALANCE_RESERVE), contact):
+    for first, last in _unbalanced_stretches(np.asarray(margins < reserve - TOLERANCE), contact):
         worst = first + int(margins[first : last + 1].argmin())
         span = f"({times[first]:.1f} to {times[last]:.1f} s)"
+        place = {"sample": worst, "time": float(times[worst])}
         if not np.isfinite(margins[worst]):
-            sentence = (
-                f"At {times[worst]:.1f} s no foot stands {span}: the robot falls. Keep three feet down."
-            )
-            findings.append(Finding("balance", Severity.ERROR, sentence, None, 0.0, worst))
+            words = f"At {times[worst]:.1f} s no foot stands {span}: the robot falls."
+            findings.append(found("balance", Severity.ERROR, words, KEEP_THREE, None, 0.0, **place))
             continue
         value = float(margins[worst])
-        tips = value < -slack
-        outcome = "the robot tips" if tips else "there is hardly any reserve"
-        where = _support_words(value, [str(foot + 1) for foot in np.nonzero(contact[worst])[0]])
-        sentence = f"At {times[worst]:.1f} s the {what} is {where[0]} {span}: {outcome}. {where[1]}"
-        severity, limit = (Severity.ERROR, 0.0) if tips else (Severity.WARNING, BALANCE_RESERVE)
-        findings.append(Finding("balance", severity, sentence, value, limit, worst))
+        tips = value < -judged.slack
+        short = f"less than the {asked * 1000:.1f} mm that the gait asks for"
+        outcome = (
+            "the robot tips" if tips else short if value >= BALANCE_RESERVE else "there is hardly any reserve"
+        )
+        where, remedy = _support_words(value, [str(foot + 1) for foot in np.nonzero(contact[worst])[0]])
+        words = f"At {times[worst]:.1f} s the {judged.point} is {where} {span}: {outcome}."
+        severity, limit = (Severity.ERROR, 0.0) if tips else (Severity.WARNING, reserve)
+        findings.append(found("balance", severity, words, remedy, value, limit, **place))
     smallest = float(margins.min())
     known = smallest if np.isfinite(smallest) else None
     return Outcome(RuleMargin("balance", known, "m"), tuple(findings))
@@ -99,10 +123,10 @@ def _support_words(value: float, standing: Sequence[str]) -> tuple[str, str]:
     """Where a point is by the feet that stand, and what to do."""
     distance = f"{abs(value) * 1000:.2f} mm"
     if len(standing) == 1:
-        return f"{distance} from foot {standing[0]}, which stands alone", "Keep three feet down."
+        return f"{distance} from foot {standing[0]}, which stands alone", KEEP_THREE
     if len(standing) == 2:
         words = f"{distance} from the line between feet {' and '.join(standing)}, which stand alone"
-        return words, "Keep three feet down."
+        return words, KEEP_THREE
     side = "outside" if value < -TOLERANCE else "inside"
     words = f"{distance} {side} the edge of the support polygon of feet {', '.join(standing)}"
     return words, "Shift the body before the step, or ask the optimiser for a stability margin."
@@ -117,4 +141,4 @@ def check_standing_balance(model: RobotModel, waypoints: Waypoints) -> Outcome:
     standing = np.asarray(height <= STANDING_DEPTH)
     margins = stability_margins(np.zeros((waypoints.count, 2)), feet_robot, standing)
     times = np.cumsum(waypoints.durations) - waypoints.durations[0]
-    return _balance_outcome(margins, times, standing, "centre of mass", STROKE_BALANCE_SLACK)
+    return _balance_outcome(margins, times, standing, _Judged("centre of mass", STROKE_BALANCE_SLACK))

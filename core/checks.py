@@ -1,4 +1,8 @@
-"""Every rule that a plan must keep before a person may approve it, in one list; each returns findings."""
+"""Every rule that a plan must keep before a person may approve it, in one list.
+
+The rules stand by kind: `motor_check`, `balance_check`, `ground_check`, `document_check`, `coupling_check`,
+`path_check` on the way between waypoints, and `simulation_check` with what the physics says.
+"""
 
 from __future__ import annotations
 
@@ -8,43 +12,56 @@ from dataclasses import replace
 from core.balance_check import check_balance, check_standing_balance
 from core.checked_plan import CheckedPlan
 from core.coupling_check import check_coupling
-from core.document_check import check_travel
+from core.document_check import check_document, check_origin
 from core.findings import Finding, Outcome, Severity, Verdict
 from core.ground_check import CLEARANCE_LIMIT, check_clearance, check_contact, check_slip
-from core.motor_check import check_deafness, check_motor_speed, check_strokes
+from core.motor_check import (
+    acceleration_note,
+    check_deafness,
+    check_motor_acceleration,
+    check_motor_speed,
+    check_move_size,
+    check_strokes,
+    still_note,
+)
 from core.path_check import SLACK_NOTE, check_path, send_costs
 from core.robot import RobotModel
+from core.simulation_check import Simulated, check_simulation, simulation_note
 from core.waypoints import Waypoints
 
-_RULES = (check_balance, check_contact, check_clearance, check_slip, check_motor_speed)
 
+def check_plan(plan: CheckedPlan, simulated: Simulated | None = None) -> Verdict:
+    """Every rule on a plan, for exactly these waypoints.
 
-def check_plan(plan: CheckedPlan) -> Verdict:
-    """Every rule on a plan, for exactly these waypoints."""
-    rules = (check_strokes(plan.model, plan.knots), check_deafness(plan.waypoints))
-    outcomes = [*rules, *(rule(plan) for rule in _RULES)]
-    if plan.expected_travel is not None:
-        outcomes.append(check_travel(plan, plan.expected_travel))
+    Args:
+        plan: what is checked.
+        simulated: a simulation of exactly these waypoints; without one the verdict warns that there is none.
+    """
+    outcomes = [
+        check_strokes(plan.model, plan.knots, plan.trajectory.times),
+        check_deafness(plan.waypoints),
+        check_balance(plan),
+        check_contact(plan),
+        check_clearance(plan),
+        check_slip(plan),
+        check_motor_speed(plan),
+        *check_motor_acceleration(plan),
+        check_move_size(plan),
+        *check_document(plan),
+    ]
     if plan.model.is_coupled:
         outcomes.append(check_coupling(plan.model, plan.trajectory, CLEARANCE_LIMIT))
     if plan.way is not None:
         outcomes += check_path(plan.model, plan.trajectory, plan.way)
+    outcomes += check_simulation(simulated)
     findings = [finding for outcome in outcomes for finding in outcome.findings]
-    if plan.is_draft:
-        findings.append(
-            Finding(
-                "computed",
-                Severity.ERROR,
-                "This plan is only drawn from the timeline. Click Optimise and check its result.",
-                0.0,
-                1.0,
-            )
-        )
-    verdict = _verdict(plan.waypoints, findings, outcomes)
-    if plan.way is None:
-        return verdict
-    costs = send_costs(plan.model, plan.trajectory, plan.way)
-    return replace(verdict, costs=costs, notes=() if plan.model.is_coupled else (SLACK_NOTE,))
+    verdict = _verdict(plan.model, plan.waypoints, [*findings, *check_origin(plan)], outcomes)
+    notes = [acceleration_note(plan), simulation_note(simulated)]
+    if plan.way is not None:
+        costs = send_costs(plan.model, plan.trajectory, plan.way)
+        verdict = replace(verdict, costs=costs)
+        notes += [still_note(plan), "" if plan.model.is_coupled else SLACK_NOTE]
+    return replace(verdict, notes=tuple(filter(None, notes)))
 
 
 def check_waypoints(model: RobotModel, waypoints: Waypoints) -> Verdict:
@@ -55,9 +72,12 @@ def check_waypoints(model: RobotModel, waypoints: Waypoints) -> Verdict:
         check_standing_balance(model, waypoints),
     ]
     findings = [finding for outcome in outcomes for finding in outcome.findings]
-    return _verdict(waypoints, findings, outcomes)
+    return _verdict(model, waypoints, findings, outcomes)
 
 
-def _verdict(waypoints: Waypoints, findings: Sequence[Finding], outcomes: Sequence[Outcome]) -> Verdict:
+def _verdict(
+    model: RobotModel, waypoints: Waypoints, findings: Sequence[Finding], outcomes: Sequence[Outcome]
+) -> Verdict:
     ordered = sorted(findings, key=lambda f: (f.severity is not Severity.ERROR, f.rule, f.sample or 0))
-    return Verdict(waypoints.content_hash, tuple(ordered), tuple(outcome.margin for outcome in outcomes))
+    margins = tuple(outcome.margin for outcome in outcomes)
+    return Verdict(waypoints.content_hash, tuple(ordered), margins, robot_hash=model.parameters_hash)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Floats, stretches
-from core.findings import TOLERANCE, Finding, Outcome, RuleMargin, Severity
+from core.findings import TOLERANCE, Finding, Outcome, RuleMargin, Severity, found
 from core.kinematics import free_strokes
 from core.manual import stance_slip
 from core.real_motion import heights_over_standing, real_feet, real_strokes
@@ -92,27 +92,31 @@ def check_coupling(model: RobotModel, trajectory: Trajectory, lift_limit: float)
     findings = [_dragged(model, trajectory, swing, lift_limit) for swing in dragged]
     if largest > RESIDUAL_LIMIT:
         sample, foot, actuator = (int(i) for i in np.unravel_index(int(residual.argmax()), residual.shape))
-        sentence = (
+        words = (
             f"{model.actuator_count} motors cannot make {model.motor_count} strokes: that of motor "
             f"{actuator + 1} of foot {foot + 1} is {largest * 1000:.1f} mm off at sample {sample + 1}, where "
             f"{RESIDUAL_LIMIT * 1000:.0f} mm is allowed. {_feet_words(model, trajectory)} "
-            f"{_lifted(swings, dragged)} The other rules judge what was wanted. Move feet that share a motor "
-            "alike, or choose a robot with more motors."
+            f"{_lifted(swings, dragged)} The other rules judge what was wanted."
         )
-        findings.append(
-            Finding(RULE, Severity.WARNING, sentence, largest, RESIDUAL_LIMIT, sample, foot, actuator)
-        )
+        remedy = "Move feet that share a motor alike, or choose a robot with more motors."
+        place = {
+            "sample": sample,
+            "foot": foot,
+            "actuator": actuator,
+            "time": float(trajectory.times[sample]),
+        }
+        findings.append(found(RULE, Severity.WARNING, words, remedy, largest, RESIDUAL_LIMIT, **place))
     return Outcome(margin, tuple(findings))
 
 
 def _dragged(model: RobotModel, t: Trajectory, swing: RealSwing, limit: float) -> Finding:
-    sentence = (
+    words = (
         f"Foot {swing.foot + 1} does not lift in its swing from {t.times[swing.first]:.1f} s: with "
         f"{model.actuator_count} motors it comes at most {max(swing.rise, 0.0) * 1000:.1f} mm above the "
-        f"standing feet, where {limit * 1000:.0f} mm is needed, so it slides. Choose a robot with more "
-        "motors."
+        f"standing feet, where {limit * 1000:.0f} mm is needed, so it slides."
     )
-    return Finding(RULE, Severity.ERROR, sentence, swing.rise, limit, swing.highest, swing.foot)
+    place = {"sample": swing.highest, "foot": swing.foot, "time": float(t.times[swing.highest])}
+    return found(RULE, Severity.ERROR, words, "Choose a robot with more motors.", swing.rise, limit, **place)
 
 
 def _feet_words(model: RobotModel, t: Trajectory) -> str:

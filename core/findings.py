@@ -126,6 +126,7 @@ class Verdict:
         margins: the distance to the limit of each rule, also where nothing was found.
         costs: what stop bound and merging cost in robot seconds; empty where only waypoints are known.
         notes: sentences on what the figures leave out.
+        robot_hash: of the robot's parameters, so that a verdict on other parameters is another one.
     """
 
     waypoints_hash: str
@@ -133,6 +134,12 @@ class Verdict:
     margins: tuple[RuleMargin, ...]
     costs: tuple[SendCost, ...] = ()
     notes: tuple[str, ...] = ()
+    robot_hash: str = ""
+
+    @property
+    def warnings(self) -> tuple[Finding, ...]:
+        """Findings that do not block approval, but that the person who approves has to have seen."""
+        return tuple(f for f in self.findings if f.severity is Severity.WARNING)
 
     @property
     def passed(self) -> bool:
@@ -154,23 +161,42 @@ class Approval:
         waypoints_hash: content hash of the waypoints.
         by: the person's name.
         when: ISO 8601 time with its offset.
+        warnings: sentences of the warnings that stood, and that the person has seen.
+        robot_hash: of the robot's parameters; nothing in approvals of the first release.
     """
 
     verdict_hash: str
     waypoints_hash: str
     by: str
     when: str
+    warnings: tuple[str, ...] = ()
+    robot_hash: str = ""
 
 
-def approve(verdict: Verdict, by: str, when: datetime) -> Approval:
+def approve(verdict: Verdict, by: str, when: datetime, *, accept_warnings: bool = False) -> Approval:
     """Binds a person to a verdict without errors.
 
+    Args:
+        verdict: of the waypoints that are approved.
+        by: the person's name.
+        when: now.
+        accept_warnings: whether the person has seen every warning and accepts it.
+
     Raises:
-        StateError: an error stands, or no name was given.
+        StateError: an error stands, or a warning that was not accepted, or no name was given.
     """
     if not by.strip():
         raise StateError("An approval needs the name of the person who gives it.", "by")
     if not verdict.passed:
         errors = [f for f in verdict.findings if f.severity is Severity.ERROR]
         raise StateError(f"{len(errors)} errors stand, the first: {errors[0].sentence}", "verdict")
-    return Approval(verdict.content_hash, verdict.waypoints_hash, by.strip(), when.isoformat())
+    if verdict.warnings and not accept_warnings:
+        count = len(verdict.warnings)
+        raise StateError(
+            f"{count} warning{'s stand' if count > 1 else ' stands'}, the first: "
+            f"{verdict.warnings[0].sentence} Look at every warning, then approve with accept_warnings.",
+            "accept_warnings",
+        )
+    seen = tuple(finding.sentence for finding in verdict.warnings)
+    hashes = (verdict.content_hash, verdict.waypoints_hash)
+    return Approval(*hashes, by.strip(), when.isoformat(), seen, verdict.robot_hash)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from core.arrays import stretches
-from core.checked_plan import CheckedPlan
-from core.findings import TOLERANCE, Finding, Outcome, RuleMargin, Severity
+from core.arrays import Bools, Floats, stretches
+from core.checked_plan import CheckedPlan, knot_place
+from core.findings import TOLERANCE, Outcome, RuleMargin, Severity, found
 from core.manual import stance_slip
 
 SLIP_LIMIT = 0.0005
@@ -26,34 +26,42 @@ def check_contact(plan: CheckedPlan) -> Outcome:
     for foot in range(t.leg_count):
         for first, last in stretches(np.asarray(gap[:, foot] > CONTACT_LIMIT + TOLERANCE)):
             worst = first + int(gap[first : last + 1, foot].argmax())
-            where = "stand" if t.contact[worst, foot] else "swing"
-            sentence = (
-                f"Foot {foot + 1} should {where} at {t.times[worst]:.1f} s but is "
-                f"{height[worst, foot] * 1000:.1f} mm above the ground. Correct the timeline or the motion."
-            )
+            should = "stand" if t.contact[worst, foot] else "swing"
+            side = "above" if height[worst, foot] > 0 else "below"
             value = float(gap[worst, foot])
-            findings.append(Finding("contact", Severity.ERROR, sentence, value, CONTACT_LIMIT, worst, foot))
+            words = (
+                f"Foot {foot + 1} should {should} at {t.times[worst]:.1f} s but is {value * 1000:.1f} mm "
+                f"{side} the ground."
+            )
+            remedy = "Correct the timeline or the motion."
+            place = knot_place(plan, worst)
+            findings.append(
+                found("contact", Severity.ERROR, words, remedy, value, CONTACT_LIMIT, foot=foot, **place)
+            )
     return Outcome(RuleMargin("contact", CONTACT_LIMIT - float(gap.max()), "m"), tuple(findings))
 
 
 def check_slip(plan: CheckedPlan) -> Outcome:
-    """A foot that stands stays where it is."""
-    slips = stance_slip(plan.trajectory.feet_world, plan.trajectory.contact)
-    findings = [
-        Finding(
-            "slip",
-            Severity.WARNING,
-            f"Foot {foot + 1} slides {slip * 1000:.1f} mm while it stands; more than "
-            f"{SLIP_LIMIT * 1000:.1f} mm. An optimised gait keeps standing feet still.",
-            float(slip),
-            SLIP_LIMIT,
-            None,
-            foot,
+    """A foot that stands stays where it is; the finding is where it slides most."""
+    t = plan.trajectory
+    slips, worst = stance_slip(t.feet_world, t.contact), _fastest_slides(t.feet_world, t.contact)
+    findings = []
+    for foot in np.nonzero(slips > SLIP_LIMIT + TOLERANCE)[0].tolist():
+        value, place = float(slips[foot]), knot_place(plan, int(worst[foot]))
+        words = (
+            f"Foot {foot + 1} slides {value * 1000:.1f} mm while it stands; more than "
+            f"{SLIP_LIMIT * 1000:.1f} mm."
         )
-        for foot, slip in enumerate(slips)
-        if slip > SLIP_LIMIT
-    ]
+        remedy = "An optimised gait keeps standing feet still."
+        findings.append(found("slip", Severity.WARNING, words, remedy, value, SLIP_LIMIT, foot=foot, **place))
     return Outcome(RuleMargin("slip", SLIP_LIMIT - float(slips.max()), "m"), tuple(findings))
+
+
+def _fastest_slides(feet_world: Floats, contact: Bools) -> Floats:
+    """(legs,) knot before which each foot slides furthest from one knot to the next."""
+    both = contact[1:] & contact[:-1]
+    moves = np.linalg.norm(np.diff(feet_world[:, :, :2], axis=0), axis=-1) * both
+    return np.asarray(moves.argmax(axis=0) + 1, dtype=np.float64)
 
 
 def check_clearance(plan: CheckedPlan) -> Outcome:
@@ -65,13 +73,22 @@ def check_clearance(plan: CheckedPlan) -> Outcome:
             rise = float(t.feet_world[first : last + 1, foot, 2].max())
             smallest = min(smallest, rise - CLEARANCE_LIMIT)
             if rise < CLEARANCE_LIMIT - TOLERANCE:
-                sentence = (
+                words = (
                     f"Foot {foot + 1} rises only {rise * 1000:.1f} mm in its swing from "
-                    f"{t.times[first]:.1f} s; less than {CLEARANCE_LIMIT * 1000:.0f} mm drags. "
-                    "Ask for more clearance."
+                    f"{t.times[first]:.1f} s; less than {CLEARANCE_LIMIT * 1000:.0f} mm drags."
                 )
+                remedy, place = "Ask for more clearance.", knot_place(plan, first)
                 findings.append(
-                    Finding("clearance", Severity.WARNING, sentence, rise, CLEARANCE_LIMIT, first, foot)
+                    found(
+                        "clearance",
+                        Severity.WARNING,
+                        words,
+                        remedy,
+                        rise,
+                        CLEARANCE_LIMIT,
+                        foot=foot,
+                        **place,
+                    )
                 )
     margin = float(smallest) if np.isfinite(smallest) else 0.0
     return Outcome(RuleMargin("clearance", margin, "m"), tuple(findings))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Floats, stretches
-from core.findings import Finding, Outcome, RuleMargin, SendCost, Severity
+from core.findings import Outcome, RuleMargin, SendCost, Severity, found
 from core.path_merging import WaypointPlan, cut_plan, plan_of_knots
 from core.robot import RobotModel
 from core.robot_path import RobotPath, robot_path
@@ -123,11 +123,9 @@ def _outcome(
         fits = _fitting(rule, slack, asked)
         way_out = f"With one waypoint a knot it is not so: merge within {fits * 1000:.2g} mm at most."
     severity = Severity.WARNING if is_own and not worst.is_sure else Severity.ERROR
-    sentence = f"{place} {worst.words}. {way_out}"
-    return Outcome(
-        margin,
-        (Finding(name, severity, sentence, margin.margin, 0.0, plan.kept[worst.move], worst.foot),),
-    )
+    where = {"sample": plan.kept[worst.move], "foot": worst.foot, "time": float(times[1])}
+    finding = found(name, severity, f"{place} {worst.words}.", way_out, margin.margin, 0.0, **where)
+    return Outcome(margin, (finding,))
 
 
 def _fitting(rule: _Rule, slack: float, asked: tuple[RobotModel, Trajectory, WaypointPlan]) -> float:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import tomllib
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, fields, is_dataclass
 from enum import StrEnum
 from functools import cache
 from importlib import resources
@@ -150,6 +152,14 @@ class RobotModel:
         return self.masses.body + self.leg_count * self.masses.foot
 
     @property
+    def parameters_hash(self) -> str:
+        """SHA-256 of everything that a plan or a verdict depends on: all but title, sizes and colours."""
+        looks = {"title", "shape", "colours"}
+        values = {field.name: getattr(self, field.name) for field in fields(self) if field.name not in looks}
+        content = {name: _plain(value) for name, value in values.items()}
+        return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+    @property
     def R_robot_from_module(self) -> Floats:
         """(legs, 3, 3) rotation from each module's frame (y outwards) into the robot's."""
         outwards_angle = self.azimuths - np.pi / 2
@@ -169,6 +179,13 @@ class RobotModel:
         zeros = np.zeros(self.leg_count)
         outwards = np.stack([np.cos(self.azimuths), np.sin(self.azimuths), zeros], axis=-1)
         return self.radius * np.where(np.abs(outwards) < ROUNDING, 0.0, outwards)
+
+
+def _plain(value: Any) -> Any:
+    """A parameter as JSON content."""
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    return asdict(value) if is_dataclass(value) and not isinstance(value, type) else value
 
 
 ROUNDING = 1e-15

@@ -48,6 +48,26 @@ def motor_speeds(model: RobotModel, trajectory: Trajectory) -> Floats:
     return np.abs(real_strokes(model, motor_rates(model, t, np.gradient(t.heading, t.times))))
 
 
+def motor_accelerations(model: RobotModel, trajectory: Trajectory) -> Floats:
+    """How fast each motor's speed changes from knot to knot: |Δḣ| / Δt.
+
+    Where velocities are unknown speeds are the mean ones of the moves that end at each knot, 0 at the first.
+
+    Args:
+        model: the robot.
+        trajectory: n knots.
+
+    Returns:
+        (n − 1, legs, 3) m/s²; nan where no rod is long enough.
+    """
+    t = trajectory
+    if t.body_velocity is None or t.feet_velocity is None:
+        rates = _mean_rates(t.times, real_strokes(model, free_strokes(model, t.feet_world, t.pose(model))))
+    else:
+        rates = real_strokes(model, motor_rates(model, t, np.gradient(t.heading, t.times)))
+    return np.asarray(np.abs(np.diff(rates, axis=0)) / np.diff(t.times)[:, None, None])
+
+
 def motor_rates(model: RobotModel, trajectory: Trajectory, heading_rate: Floats) -> Floats:
     """Rate of every stroke: a foot's velocity seen from the moving and turning body.
 

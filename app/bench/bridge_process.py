@@ -154,7 +154,7 @@ class Studio:
     def begin_run(self, gait: str) -> str:
         """Approves a gait, arms, sends, waits for the first waypoint, and returns the run's name."""
         self.ask("POST", f"api/gaits/{gait}/check")
-        self.ask("POST", f"api/gaits/{gait}/approve", {"by": "bench"})
+        self.ask("POST", f"api/gaits/{gait}/approve", {"by": "bench", "accept_warnings": True})
         self.ask("POST", "api/robot/arm", {"by": "bench"})
         self.ask("POST", "api/robot/send", {"gait": gait, "by": "bench"})
         wait_until(lambda: (self.robot()["run"] or {}).get("sent", 0) > 0, "a waypoint was sent")

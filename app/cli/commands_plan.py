@@ -13,11 +13,11 @@ from app.documents import parse_gait
 from app.sequence_plans import steps_between
 from app.trajectory_files import read_text, read_trajectory, write_waypoints
 from app.views import verdict_view
-from core.checked_plan import CheckedPlan
+from core.checked_plan import CheckedPlan, checked_plan
 from core.checks import check_plan
 from core.errors import CheckError, FootfallError, InfeasibleError
 from core.findings import Verdict
-from core.gait import Gait, travel_world
+from core.gait import Gait
 from core.manual import manual_motion
 from core.new_gait import with_robot
 from core.path_merging import plan_waypoints
@@ -81,10 +81,11 @@ def run_check(options: Namespace) -> int:
 
 
 def _verdict(model: RobotModel, trajectory: Trajectory, gait: Gait | None) -> Verdict:
-    merge, bound = (0.0, None) if gait is None else (gait.options.merge, gait.options.stop_bound)
-    way = plan_waypoints(model, trajectory, merge, bound)
-    travel = None if gait is None else travel_world(gait, model)
-    return check_plan(CheckedPlan(model, trajectory, way.waypoints, travel, way=way))
+    if gait is None:
+        way = plan_waypoints(model, trajectory)
+        return check_plan(CheckedPlan(model, trajectory, way.waypoints, way=way))
+    way = plan_waypoints(model, trajectory, gait.options.merge, gait.options.stop_bound)
+    return check_plan(checked_plan(gait, model, trajectory, way))
 
 
 def _trajectory_of(gait: Gait) -> Trajectory:

@@ -11,6 +11,7 @@ from fastapi.responses import JSONResponse
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from starlette.concurrency import run_in_threadpool
 
+from app.approvals import Word
 from app.bridge.course import Course
 from app.deleted_gaits import ROUTE
 from app.documents import MOST_BYTES, gait_content, parse_gait
@@ -48,6 +49,7 @@ class Approve(BaseModel):
     model_config = ConfigDict(extra="forbid")
     by: str = Field(max_length=80)
     verdict_hash: str | None = None
+    accept_warnings: bool = Field(False, description="They have seen every warning of it and accept it.")
 
 
 class Live(BaseModel):
@@ -217,7 +219,8 @@ async def approve(gait_id: str, approval: Approve, studio: TheStudio) -> dict[st
     """Records a person's approval of the present verdict."""
 
     def approved() -> dict[str, Any]:
-        open_gait = studio.gaits.approve(gait_id, approval.by, approval.verdict_hash)
+        word = Word(approval.by, approval.verdict_hash, approval.accept_warnings)
+        open_gait = studio.gaits.approve(gait_id, word)
         studio.publish_gait(open_gait)
         if open_gait.approval is None:
             raise StateError("The approval was not recorded.", "approve")

@@ -1,8 +1,9 @@
 /** The Check section: every rule's outcome, where each finding sits, and the approval of exactly this plan. */
 
 import { api } from "./api.js";
+import { approvalHistory } from "./approvals.js";
 import { byId, h, onPress, setAllowed } from "./dom.js";
-import { clockTime, readable, ruleName, shortHash } from "./format.js";
+import { clockTime, fixed, readable, ruleName, shortHash } from "./format.js";
 import { needOperator } from "./operator.js";
 import { costTable, sendingFields } from "./sending.js";
 import { attempt, toast } from "./toasts.js";
@@ -12,7 +13,7 @@ function findingItem(finding, goTo) {
     finding.sample !== null && `sample ${finding.sample + 1}`].filter(Boolean).join(", ");
   return h("li", { class: "finding" }, h("span", { class: "dot", data: { tone: finding.severity === "error" ? "bad" : "caution" } }),
     h("span", {}, h("b", { text: finding.severity === "error" ? "Error: " : "Warning: " }), finding.sentence),
-    h("span", { class: "where" }, place && h("span", { text: place }),
+    h("span", { class: "where" }, place && h("span", { text: place }), finding.time !== null && h("span", { text: `${fixed(finding.time)} s` }),
       finding.sample !== null && h("button", { class: "link", text: "go to", "aria-label": `Go to ${place}`, on: { click: () => goTo(finding) } })));
 }
 
@@ -25,15 +26,19 @@ function marginList(margins) {
   return [h("h3", { text: "Room left to each limit" }), h("dl", { class: "margins" }, ...rows)];
 }
 
+const lowered = (sentence) => sentence.charAt(0).toLowerCase() + sentence.slice(1);
+
+const warningsOf = (verdict) => (verdict?.findings ?? []).filter(({ severity }) => severity === "warning");
+
 function summary(view, before) {
   const { verdict } = view;
   if (!verdict) {
-    const text = before === "approved" ? "Not checked: the gait changed, and its approval is gone. Check it again."
+    const text = view.revoked ? `Not checked: ${lowered(view.revoked)} Check it again.` : before === "approved" ? "Not checked: the gait changed, and its approval is gone. Check it again."
       : before ? "Not checked: the gait changed since the last check. Check it again." : "Not checked yet. Check tries every rule on the waypoints that would be sent.";
-    return h("p", { class: "box-note", data: { tone: before ? "caution" : "plain" }, text });
+    return h("p", { class: "box-note", data: { tone: before || view.revoked ? "caution" : "plain" }, text });
   }
-  const errors = verdict.findings.filter(({ severity }) => severity === "error").length;
-  const warnings = verdict.findings.length - errors;
+  const warnings = warningsOf(verdict).length;
+  const errors = verdict.findings.length - warnings;
   const counts = [errors && `${errors} error${errors > 1 ? "s" : ""}`, warnings && `${warnings} warning${warnings > 1 ? "s" : ""}`].filter(Boolean).join(", ");
   const text = verdict.passed ? `Passed${counts ? `, with ${counts}` : ": no findings"}.` : `Failed: ${counts}. Errors block approval.`;
   return h("p", { class: "box-note", data: { tone: !verdict.passed ? "bad" : warnings ? "caution" : "good" } }, h("b", { text }));
@@ -44,7 +49,8 @@ function approvalBox({ approval }) {
   return h("dl", { class: "box-note summary", data: { tone: "good" } },
     h("dt", { text: "Approved by" }), h("dd", {}, h("b", { text: approval.by })), h("dt", { text: "when" }), h("dd", { text: clockTime(approval.when), title: approval.when }),
     h("dt", { text: "waypoints" }), h("dd", { class: "mono", text: shortHash(approval.waypoints_hash), title: approval.waypoints_hash }),
-    h("dt", { text: "verdict" }), h("dd", { class: "mono", text: shortHash(approval.verdict_hash), title: approval.verdict_hash }));
+    h("dt", { text: "verdict" }), h("dd", { class: "mono", text: shortHash(approval.verdict_hash), title: approval.verdict_hash }),
+    ...(approval.warnings.length ? [h("dt", { text: "warnings seen" }), h("dd", { text: approval.warnings.length, title: approval.warnings.join("\n") })] : []));
 }
 
 function whyNotCheck({ view, pending }) {
@@ -55,11 +61,27 @@ function whyNotCheck({ view, pending }) {
   return null;
 }
 
-function whyNotApprove({ view, pending }) {
+function whyNotApprove({ view, pending, seenWarnings }) {
   if (!view?.verdict || pending.length) return "Check this version first.";
   if (!view.verdict.passed) return "The check failed. Errors block approval.";
   if (view.approval) return `Already approved by ${view.approval.by}.`;
+  if (warningsOf(view.verdict).length && seenWarnings !== view.verdict.hash) return "Warnings stand. Look at each, then tick that you have seen them.";
   return null;
+}
+
+/** The tick that goes with warnings; it is for one verdict only. */
+function warningTick(store) {
+  const box = h("input", { type: "checkbox" });
+  const count = h("span");
+  const element = h("label", { class: "tick", hidden: true }, box, count);
+  box.addEventListener("change", () => store.set({ seenWarnings: box.checked ? store.state.view?.verdict?.hash ?? null : null }));
+  const show = ({ view, seenWarnings }) => {
+    const warnings = warningsOf(view?.verdict);
+    element.hidden = !warnings.length || !view.verdict.passed || Boolean(view.approval);
+    box.checked = seenWarnings !== undefined && seenWarnings === view?.verdict?.hash;
+    count.textContent = warnings.length === 1 ? "I have seen this warning" : `I have seen these ${warnings.length} warnings`;
+  };
+  return { element, show };
 }
 
 async function approve(store) {
@@ -70,9 +92,9 @@ async function approve(store) {
     toast("The gait changed meanwhile. Check it again.");
     return;
   }
-  const approval = await api.approve(selected, by, view.verdict.hash);
+  const approval = await api.approve(selected, by, view.verdict.hash, store.state.seenWarnings === view.verdict.hash);
   if (store.state.selected !== selected || store.state.view.revision !== view.revision) return;
-  store.set({ view: { ...store.state.view, approval }, checked: { ...store.state.checked, [selected]: "approved" } });
+  store.set({ view: { ...store.state.view, approval, revoked: null }, checked: { ...store.state.checked, [selected]: "approved" } });
 }
 
 async function check(store) {
@@ -91,9 +113,11 @@ export function mountCheck(store, edits, goTo) {
   const [head, body, foot] = [h("div"), h("div", { class: "findings" }), h("div")];
   onPress(checkButton, attempt(() => check(store)), (reason) => toast(reason));
   onPress(approveButton, attempt(() => approve(store)), (reason) => toast(reason));
-  byId("check").append(sendingFields(store, edits), checkButton, head, approveButton, why, foot, body);
+  const tick = warningTick(store);
+  byId("check").append(sendingFields(store, edits), checkButton, head, tick.element, approveButton, why, foot, body, approvalHistory(store));
 
-  store.watch(({ view, pending, checked }) => [view, pending.length, checked], (state) => {
+  store.watch(({ view, pending, checked, seenWarnings }) => [view, pending.length, checked, seenWarnings], (state) => {
+    tick.show(state);
     const { view, checked } = state;
     setAllowed(checkButton, whyNotCheck(state), "Try every rule on the waypoints that would be sent");
     const blocked = whyNotApprove(state);

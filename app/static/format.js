@@ -40,6 +40,8 @@ export function clockTime(moment) {
 export function readable(value, unit) {
   if (unit === "m") return { value: mm(value, 2), unit: "mm" };
   if (unit === "m/s") return { value: mm(value, 2), unit: "mm/s" };
+  if (unit === "m/s²") return { value: mm(value, 2), unit: "mm/s²" };
+  if (unit === "feet") return { value: fixed(value, 0), unit };
   if (unit === "rad") return { value: fixed((value * 180) / Math.PI, 2), unit: "°" };
   return { value: compact(value), unit: unit ?? "" };
 }

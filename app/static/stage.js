@@ -32,7 +32,8 @@ async function openPreview(dark) {
 function verdictWords(view, before) {
   if (view.approval) return ["approved", "good"];
   if (view.verdict) return view.verdict.passed ? ["checked", "good"] : ["check failed", "bad"];
-  if (before === "approved") return ["approval gone: the gait changed", "caution"];
+  if (view.revoked && !view.revoked.startsWith("The gait changed")) return ["approval gone", "caution"];
+  if (view.revoked || before === "approved") return ["approval gone: the gait changed", "caution"];
   return [before ? "check gone: the gait changed" : "not checked", before ? "caution" : "quiet"];
 }
 

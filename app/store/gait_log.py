@@ -142,6 +142,13 @@ class GaitLog:
                 content = json.dumps(approval, allow_nan=False)
                 connection.execute("INSERT INTO approval(gait, content) VALUES(?,?)", (gait, content))
 
+    def approvals(self, gait: str) -> list[tuple[int, dict[str, Any]]]:
+        """The record of a gait's approvals with their numbers, the newest first."""
+        rows = self._database.rows(
+            "SELECT number, content FROM approval WHERE gait=? ORDER BY number DESC", gait
+        )
+        return [(number, json.loads(content)) for number, content in rows]
+
     def versions(self, gait: str) -> tuple[VersionRow, ...]:
         """A gait's versions, the newest first."""
         rows = self._database.rows(

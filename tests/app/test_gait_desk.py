@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from app.approvals import Word
 from app.documents import motion_hash
 from app.gait_desk import GaitDesk, UnknownGaitError
 from app.gait_list import GaitList
@@ -163,9 +164,9 @@ def test_a_manual_gait_is_checked_approved_and_the_approval_survives_a_restart(
     desk: GaitDesk, tmp_path: Path, database: Database
 ) -> None:
     with pytest.raises(StateError, match="Check this gait first"):
-        desk.approve(MANUAL, "Ada")
+        desk.approve(MANUAL, Word("Ada", accept_warnings=True))
     desk.check(MANUAL)
-    approval = desk.approve(MANUAL, "Ada").approval
+    approval = desk.approve(MANUAL, Word("Ada", accept_warnings=True)).approval
     assert approval is not None
     waypoints = desk.plan(MANUAL).waypoints
     assert waypoints is not None
@@ -177,7 +178,7 @@ def test_a_manual_gait_is_checked_approved_and_the_approval_survives_a_restart(
 
 def test_any_edit_takes_the_approval_away_and_undo_does_not_bring_it_back(desk: GaitDesk) -> None:
     desk.check(MANUAL)
-    desk.approve(MANUAL, "Ada")
+    desk.approve(MANUAL, Word("Ada", accept_warnings=True))
     gait = desk.open_gait(MANUAL).gait
     desk.edit(MANUAL, replace(gait, step=(0.006, 0.006, 0.0)), "Step", None)
     assert desk.open_gait(MANUAL).approval is None
@@ -189,7 +190,7 @@ def test_a_drawing_is_a_draft_that_cannot_be_approved(desk: GaitDesk) -> None:
     assert desk.plan(WALK).source is PlanSource.DRAFT
     desk.check(WALK)
     with pytest.raises(StateError, match="only drawn"):
-        desk.approve(WALK, "Ada")
+        desk.approve(WALK, Word("Ada", accept_warnings=True))
 
 
 def test_a_gait_that_ends_in_the_air_keeps_its_drawing_and_says_why(desk: GaitDesk) -> None:
@@ -231,7 +232,7 @@ def test_more_iterations_draw_the_timeline_anew(desk: GaitDesk) -> None:
 def test_an_approval_is_of_the_verdict_that_was_seen(desk: GaitDesk) -> None:
     desk.check(MANUAL)
     with pytest.raises(StateError, match="Another verdict"):
-        desk.approve(MANUAL, "Ada", "0" * 64)
+        desk.approve(MANUAL, Word("Ada", "0" * 64))
 
 
 def test_a_stored_result_that_the_checker_does_not_confirm_is_a_draft(desk: GaitDesk) -> None:
@@ -257,7 +258,7 @@ def test_a_drawn_gait_is_solved_approved_and_its_approval_survives_a_restart(
     assert desk.plan(WALK).source is PlanSource.LIVE
     assert "live tier" in desk.plan(WALK).note
     desk.check(WALK)
-    approval = desk.approve(WALK, "Ada").approval
+    approval = desk.approve(WALK, Word("Ada", accept_warnings=True)).approval
     assert approval is not None
     again = solving(tmp_path, database)
     assert again.plan(WALK).hash == desk.plan(WALK).hash
@@ -271,7 +272,7 @@ def test_a_drawn_gait_is_solved_approved_and_its_approval_survives_a_restart(
 def test_an_edit_takes_the_approval_of_a_live_plan_away(tmp_path: Path, database: Database) -> None:
     desk = solving(tmp_path, database)
     desk.check(WALK)
-    desk.approve(WALK, "Ada")
+    desk.approve(WALK, Word("Ada", accept_warnings=True))
     edit(desk, WALK, foot=1, sample=20)
     assert desk.open_gait(WALK).approval is None
     assert desk.open_gait(WALK).verdict is None

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from app.approvals import Word
 from app.documents import asked_hash, gait_content, gait_from_content, gait_schema, motion_hash, parse_gait
 from app.gait_desk import GaitDesk
 from app.history import Author
@@ -117,7 +118,7 @@ def test_the_desk_solves_checks_and_keeps_it(desk: GaitDesk, tmp_path: Path) -> 
     assert verdict is not None
     assert verdict.passed
     assert not {finding.rule for finding in verdict.findings} & {"slip", "contact", "clearance", "travel"}
-    assert desk.approve(made.id, "Ada").approval is not None
+    assert desk.approve(made.id, Word("Ada", accept_warnings=True)).approval is not None
     (saved,) = tmp_path.rglob(f"{made.id}.json")
     assert parse_gait(saved.read_text()).held == FOUR.held
 

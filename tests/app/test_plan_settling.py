@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 
+from app.approvals import Word
 from app.gait_desk import GaitDesk
 from app.live_desk import LiveDesk
 from app.plan_settling import PlanSettling
@@ -79,7 +80,7 @@ def test_opening_checking_approving_and_opening_again_never_solve_on_the_session
     assert bench.planned(lambda: bench.desk.plan(WALK)).live.status is SolveStatus.SOLVED
     bench.session.submit(lambda: shorter(bench)).result(DEADLINE)
     bench.planned(lambda: bench.desk.check(WALK))
-    approval = bench.planned(lambda: bench.desk.approve(WALK, "Ada")).approval
+    approval = bench.planned(lambda: bench.desk.approve(WALK, Word("Ada", accept_warnings=True))).approval
     again = Bench(tmp_path, database)
     opened = again.session.submit(lambda: again.desk.open_gait(WALK)).result(DEADLINE)
     assert (opened.approval, again.tier.threads) == (None, [])
@@ -116,7 +117,7 @@ def test_a_kept_approval_is_not_lost_by_saving_before_its_plan_is_made(
     bench: Bench, tmp_path: Path, database: Database
 ) -> None:
     bench.planned(lambda: bench.desk.check(WALK))
-    approval = bench.planned(lambda: bench.desk.approve(WALK, "Ada")).approval
+    approval = bench.planned(lambda: bench.desk.approve(WALK, Word("Ada", accept_warnings=True))).approval
     again = Bench(tmp_path, database)
     again.desk.save(WALK)
     assert again.planned(lambda: again.desk.open_gait(WALK)).approval == approval
@@ -142,7 +143,7 @@ def test_approval_record_version_and_state_are_one_transaction(
         return begin()
 
     monkeypatch.setattr(database, "writing", counted)
-    bench.planned(lambda: bench.desk.approve(WALK, "Ada"))
+    bench.planned(lambda: bench.desk.approve(WALK, Word("Ada", accept_warnings=True)))
     assert len(written) == 1
     assert [row[0] for row in database.rows("SELECT gait FROM approval")] == [WALK]
     assert bench.desk.versions.all(WALK)[0].kind == "approved"

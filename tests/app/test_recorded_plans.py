@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from app.approvals import Word
 from app.documents import gait_content, parse_gait
 from app.export.formats import ExportFormat, export
 from app.export.reading import read_gait
@@ -21,6 +22,7 @@ from app.sequence_documents import AskedPart, made_sequence
 from app.store.database import Database
 from app.store.files import GaitFiles
 from core.errors import InputError, StateError
+from core.findings import Severity
 from core.gait import Gait, Orientation, motion_problem
 from core.library import library
 from core.making import Making, making
@@ -93,7 +95,7 @@ def test_it_is_checked_approved_and_kept_over_a_restart(
     verdict = desk.check(gait_id).verdict
     assert verdict is not None
     assert verdict.passed
-    desk.approve(gait_id, "Ada")
+    desk.approve(gait_id, Word("Ada", accept_warnings=True))
     database = Database(tmp_path / "studio.sqlite3")
     again = GaitDesk(GaitFiles(tmp_path), database, lambda gait: no_solver)
     assert again.plan(gait_id).hash == desk.plan(gait_id).hash
@@ -137,7 +139,7 @@ def test_an_edit_that_asks_for_another_motion_sets_it_aside_and_undo_brings_it_b
 ) -> None:
     gait_id = desk.create(recorded).id
     desk.check(gait_id)
-    desk.approve(gait_id, "Ada")
+    desk.approve(gait_id, Word("Ada", accept_warnings=True))
     edited = desk.edit(gait_id, change(recorded), "Edit", None)
     assert edited.gait.recorded is None
     assert edited.notice is not None
@@ -205,7 +207,7 @@ def test_a_document_whose_timeline_says_another_motion_has_no_plan(
 
 def test_another_step_than_the_recorded_one_fails_the_check(recorded: Gait) -> None:
     verdict = verdict_of(planned(_longer(recorded)), _longer(recorded))
-    assert [finding.rule for finding in verdict.findings] == ["travel"]
+    assert [f.rule for f in verdict.findings if f.severity is Severity.ERROR] == ["travel"]
 
 
 def test_csv_and_companion_are_written_again_to_the_last_byte(recorded: Gait) -> None:

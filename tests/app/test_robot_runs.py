@@ -18,7 +18,7 @@ def walk(studio: StudioProcess) -> dict[str, Any]:
     job = studio.ask("POST", "/api/jobs", {"gait": "walk"}).content["id"]
     wait_for(lambda: studio.ask("GET", f"/api/jobs/{job}").content["state"] == "done", "the job is done", 60)
     studio.ask("POST", "/api/gaits/walk/check")
-    assert studio.ask("POST", "/api/gaits/walk/approve", {"by": "Ada"}).status == 200
+    assert studio.ask("POST", "/api/gaits/walk/approve", {"by": "Ada", "accept_warnings": True}).status == 200
     assert studio.ask("POST", "/api/robot/connect").status == 200
     wait_for(lambda: studio.robot()["robot"] == "disarmed", "the robot is up")
     plan: dict[str, Any] = studio.ask("GET", "/api/gaits/walk/view").content["plan"]

@@ -182,7 +182,8 @@ def sent(studio: StudioProcess, robot: EmulatedRobot) -> str:
     """The id of a run that was sent by HTTP and has ended."""
     assert robot.device
     studio.ask("POST", "/api/gaits/walk-manual-0/check")
-    assert studio.ask("POST", "/api/gaits/walk-manual-0/approve", {"by": "Ada"}).status == 200
+    word = {"by": "Ada", "accept_warnings": True}
+    assert studio.ask("POST", "/api/gaits/walk-manual-0/approve", word).status == 200
     studio.ask("POST", "/api/robot/connect")
     wait_for(lambda: studio.robot()["robot"] == "disarmed", "the robot is up")
     assert studio.ask("POST", "/api/robot/arm", {"by": "Ada"}).status == 200

@@ -46,7 +46,7 @@ def test_the_way_over_http(studio: StudioProcess) -> None:
     assert fresh.content["sources"] == ["same", "same"]
     assert fresh.content["document"]["sequence"][1]["gait"]["step"][0] == 0.004
     assert studio.ask("POST", f"{path}/check").content["passed"] is True
-    assert studio.ask("POST", f"{path}/approve", {"by": "Ada"}).status == 200
+    assert studio.ask("POST", f"{path}/approve", {"by": "Ada", "accept_warnings": True}).status == 200
     assert studio.ask("POST", "/api/jobs", {"kind": "optimise", "gait": made.content["id"]}).status == 422
 
 
@@ -77,7 +77,7 @@ def test_a_sequence_is_sent_like_any_gait(studio: StudioProcess, robot: Emulated
         f"/api/gaits/{studio.ask('POST', '/api/sequences', {'name': 'Sent', 'parts': parts}).content['id']}"
     )
     assert studio.ask("POST", f"{path}/check").content["passed"]
-    approval = studio.ask("POST", f"{path}/approve", {"by": "Ada"}).content
+    approval = studio.ask("POST", f"{path}/approve", {"by": "Ada", "accept_warnings": True}).content
     studio.ask("POST", "/api/robot/connect", {"device": robot.device})
     wait_for(lambda: studio.robot()["robot"] == "disarmed", "the robot is up")
     studio.ask("POST", "/api/robot/arm", {"by": "Ada"})

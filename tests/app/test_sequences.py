@@ -13,6 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.approvals import Word
 from app.documents import gait_content, gait_from_content, motion_hash, parse_gait
 from app.export.gait_diagram import facts
 from app.gait_desk import GaitDesk
@@ -108,7 +109,7 @@ def test_one_trajectory_one_verdict_one_approval(desk: GaitDesk, tour: str) -> N
     checked = desk.check(tour)
     assert checked.verdict is not None
     assert checked.verdict.passed
-    approved = desk.approve(tour, "Ada")
+    approved = desk.approve(tour, Word("Ada", accept_warnings=True))
     assert plan.waypoints is not None
     assert approved.approval is not None
     assert approved.approval.waypoints_hash == plan.waypoints.content_hash
@@ -116,7 +117,7 @@ def test_one_trajectory_one_verdict_one_approval(desk: GaitDesk, tour: str) -> N
 
 def test_every_part_edit_is_an_undo_step_and_takes_the_approval_away(desk: GaitDesk, tour: str) -> None:
     desk.check(tour)
-    desk.approve(tour, "Ada")
+    desk.approve(tour, Word("Ada", accept_warnings=True))
     before = desk.document(tour)
     turned = replace(before, sequence=before.sequence[::-1])
     changed = desk.edit(tour, turned, "Move S-Gait up", None)

@@ -98,7 +98,7 @@ def test_a_gait_goes_all_the_way_and_the_robot_parses_exactly_what_was_approved(
     assert job["result"]["max_violation"] < 1e-6
     assert len(job["progress"]) == job["result"]["iterations"] + 1
     assert studio.ask("POST", "/api/gaits/s-gait/check").content["passed"]
-    approval = studio.ask("POST", "/api/gaits/s-gait/approve", {"by": "Ada"}).content
+    approval = studio.ask("POST", "/api/gaits/s-gait/approve", {"by": "Ada", "accept_warnings": True}).content
     studio.ask("POST", "/api/robot/connect", {"device": robot.device})
     wait_for(lambda: studio.robot()["robot"] == "disarmed", "the robot is up")
     studio.ask("POST", "/api/robot/arm", {"by": "Ada"})
@@ -178,7 +178,7 @@ def test_the_end_of_the_studio_stops_a_run_first(tmp_path: Path) -> None:
     with running_studio(tmp_path, "--robot", robot.device) as studio:
         optimised(studio, "walk")
         studio.ask("POST", "/api/gaits/walk/check")
-        studio.ask("POST", "/api/gaits/walk/approve", {"by": "Ada"})
+        studio.ask("POST", "/api/gaits/walk/approve", {"by": "Ada", "accept_warnings": True})
         studio.ask("POST", "/api/robot/connect")
         wait_for(lambda: studio.robot()["robot"] == "disarmed", "the robot is up")
         studio.ask("POST", "/api/robot/arm")
@@ -218,7 +218,8 @@ def test_an_approved_live_plan_is_still_approved_after_a_restart(tmp_path: Path)
         plan = studio.ask("GET", "/api/gaits/walk/view").content["plan"]
         assert plan["source"] == "live"
         assert studio.ask("POST", "/api/gaits/walk/check").content["passed"]
-        approval = studio.ask("POST", "/api/gaits/walk/approve", {"by": "Ada"}).content
+        word = {"by": "Ada", "accept_warnings": True}
+        approval = studio.ask("POST", "/api/gaits/walk/approve", word).content
     with running_studio(tmp_path) as studio:
         view = studio.ask("GET", "/api/gaits/walk/view").content
         assert view["plan"]["hash"] == plan["hash"]

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from app.approvals import Word
 from app.gait_desk import GaitDesk
 from app.history import Author
 from app.live_desk import LiveDesk
@@ -89,7 +90,7 @@ def test_saving_and_approving_make_versions_with_who_did_so(desk: GaitDesk) -> N
     newest = desk.versions.all(WALK)[0]
     assert (newest.number, newest.kind, newest.by) == (2, "saved", "Ada")
     desk.check(MANUAL)
-    desk.approve(MANUAL, "Grace")
+    desk.approve(MANUAL, Word("Grace", accept_warnings=True))
     approved = desk.versions.all(MANUAL)[0]
     assert (approved.kind, approved.by) == ("approved", "Grace")
 

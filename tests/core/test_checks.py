@@ -44,11 +44,11 @@ def warnings(verdict: Verdict) -> set[str]:
     return {f.rule for f in verdict.findings if f.severity is Severity.WARNING}
 
 
-def test_standing_still_passes_without_a_word() -> None:
+def test_standing_still_passes_and_is_only_told_that_it_was_not_simulated() -> None:
     verdict = check_plan(plan_of(standing(), np.zeros(2)))
     assert verdict.passed
-    assert verdict.findings == ()
-    assert all(m.margin is not None and m.margin >= 0 for m in verdict.margins)
+    assert [f.rule for f in verdict.findings] == ["simulation"]
+    assert all(m.margin is None or m.margin >= 0 for m in verdict.margins)
 
 
 def test_each_set_of_too_few_standing_feet_is_found() -> None:
@@ -140,11 +140,39 @@ def test_waypoints_alone_show_a_robot_on_two_feet() -> None:
 def test_an_approval_binds_a_name_to_a_verdict() -> None:
     plan = plan_of(standing())
     verdict = check_plan(plan)
-    approval = approve(verdict, " Ada ", NOON)
+    approval = approve(verdict, " Ada ", NOON, accept_warnings=True)
     assert (approval.by, approval.waypoints_hash) == ("Ada", plan.waypoints.content_hash)
     assert approval.verdict_hash == verdict.content_hash
+    assert approval.robot_hash == MODEL.parameters_hash
     with pytest.raises(StateError, match="name"):
-        approve(verdict, " ", NOON)
+        approve(verdict, " ", NOON, accept_warnings=True)
+
+
+def test_warnings_stand_in_the_approval_and_block_it_until_they_are_accepted() -> None:
+    verdict = check_plan(plan_of(standing()))
+    with pytest.raises(StateError, match=r"1 warning stands, the first: These waypoints were not simulated"):
+        approve(verdict, "Ada", NOON)
+    approval = approve(verdict, "Ada", NOON, accept_warnings=True)
+    assert approval.warnings == tuple(f.sentence for f in verdict.warnings)
+    assert check_waypoints(MODEL, plan_of(standing()).waypoints).warnings == ()
+
+
+def test_other_parameters_of_the_robot_make_another_verdict() -> None:
+    plan = plan_of(standing())
+    heavier = replace(MODEL, masses=replace(MODEL.masses, foot=0.026))
+    renamed = replace(MODEL, title="The old one")
+    verdicts = [check_plan(replace(plan, model=model)) for model in (MODEL, heavier, renamed)]
+    assert verdicts[0].content_hash != verdicts[1].content_hash
+    assert verdicts[0].content_hash == verdicts[2].content_hash
+
+
+def test_every_finding_has_its_remedy_at_the_end_of_its_sentence_and_most_their_time() -> None:
+    verdict = check_plan(plan_of(manual_motion(manual_entry("walk", 2).gait, MODEL).trajectory))
+    assert {f.rule for f in verdict.findings} == {"balance", "slip", "move_size", "simulation"}
+    for finding in verdict.findings:
+        assert finding.remedy
+        assert finding.sentence.endswith(finding.remedy)
+    assert all(f.time is not None for f in verdict.findings if f.rule != "simulation")
 
 
 def test_the_published_manual_walk_slips_and_its_version_2_tips() -> None:
@@ -152,7 +180,7 @@ def test_the_published_manual_walk_slips_and_its_version_2_tips() -> None:
         check_plan(plan_of(manual_motion(manual_entry("walk", version).gait, MODEL).trajectory))
         for version in (0, 2)
     ]
-    assert warnings(verdicts[0]) == {"balance", "slip"}
+    assert warnings(verdicts[0]) == {"balance", "slip", "move_size", "simulation"}
     assert verdicts[0].passed
     assert errors(verdicts[1]) == {"balance"}
 

@@ -14,7 +14,7 @@ def test_the_stop_bound_says_what_it_costs_and_a_change_takes_the_approval(
     browser: Browser, studio: StudioProcess
 ) -> None:
     assert studio.ask("POST", "/api/gaits/walk/check").content["passed"]
-    assert studio.ask("POST", "/api/gaits/walk/approve", {"by": "Ada"}).status == 200
+    assert studio.ask("POST", "/api/gaits/walk/approve", {"by": "Ada", "accept_warnings": True}).status == 200
     before = studio.ask("GET", "/api/gaits/walk/view").content
     with opened_page(browser, studio.url, 1280, 720, has_scene=False) as page:
         page.get_by_role("tab", name="Check").click(timeout=LONG_MS)

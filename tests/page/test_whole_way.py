@@ -77,6 +77,7 @@ def optimise_check_and_approve(page: Page) -> None:
     page.get_by_role("tab", name="Check").click()
     page.get_by_role("button", name="Check", exact=True).click()
     approve = page.get_by_role("button", name="Approve", exact=True)
+    page.get_by_role("checkbox", name=re.compile("I have seen")).check()
     expect(approve).to_be_enabled()
     look(page, "checked")
     approve.click()
@@ -153,7 +154,7 @@ def test_stop_on_the_page_latches_until_it_is_cleared(
     job = studio.ask("POST", "/api/jobs", {"kind": "optimise", "gait": "walk"}).content["id"]
     wait_for(lambda: studio.ask("GET", f"/api/jobs/{job}").content["state"] == "done", "the job is done")
     studio.ask("POST", "/api/gaits/walk/check")
-    studio.ask("POST", "/api/gaits/walk/approve", {"by": "Ada"})
+    studio.ask("POST", "/api/gaits/walk/approve", {"by": "Ada", "accept_warnings": True})
     say_who_you_are(page, "Ada")
     go_the_robots_way(page)
     wait_for(lambda: (studio.robot()["run"] or {}).get("reached", 0) > 2, "some waypoints are reached", 60)

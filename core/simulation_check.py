@@ -1,0 +1,46 @@
+"""The physics as an input of the verdict: what a simulation found, or that there is none."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from core.findings import Outcome, RuleMargin, Severity, found
+from core.physics.findings import physics_outcomes
+from core.physics.problem import SimulationProblem
+from core.physics.report import SimulationReport
+
+RULE = "simulation"
+
+
+@dataclass(frozen=True, eq=False)
+class Simulated:
+    """A simulation of exactly the waypoints that are checked.
+
+    Args:
+        report: what came of it.
+        problem: what was asked.
+    """
+
+    report: SimulationReport
+    problem: SimulationProblem
+
+
+def check_simulation(simulated: Simulated | None) -> list[Outcome]:
+    """What the physics says of these waypoints; a warning where it was not asked."""
+    if simulated is not None:
+        return list(physics_outcomes(simulated.report, simulated.problem))
+    words = "These waypoints were not simulated: balance and slip are known from geometry alone."
+    remedy = "Simulate, then check again."
+    finding = found(RULE, Severity.WARNING, words, remedy, None, 0.0)
+    return [Outcome(RuleMargin(RULE, None, ""), (finding,))]
+
+
+def simulation_note(simulated: Simulated | None) -> str:
+    """What the simulation was made with, in a sentence; nothing where there is none."""
+    if simulated is None:
+        return ""
+    physics = simulated.problem.physics
+    return (
+        f"Simulated with {physics.title}; the feet stay within "
+        f"{simulated.report.feet_mean_error * 1000:.1f} mm of the plan on average."
+    )

@@ -35,3 +35,7 @@ class RobotError(FootfallError):
 
 class StateError(FootfallError):
     """The request does not fit the present state (not approved, not armed, already running)."""
+
+
+class SimulationCancelledError(StateError):
+    """A simulation was ended by whoever asked for it."""

@@ -9,6 +9,9 @@ from collections.abc import Callable
 
 from core.motion_problem import MotionProblem
 from core.patterns.problem import PatternProblem, PatternProgress, PatternResult
+from core.physics.motion import SimulatedMotion
+from core.physics.problem import SimulationProblem
+from core.physics.variations import VariedRun
 from core.trajectory import Trajectory
 from solver_jobs.frontier import Frontier, FrontierSearch
 from solver_jobs.jobs import OPEN_STATES, Job, JobKind, JobState, result_sentence
@@ -43,6 +46,8 @@ __all__ = [
     "fastest_timing",
     "result_sentence",
     "shortest_problem",
+    "simulate",
+    "simulate_variations",
     "solve_exact",
     "solve_live",
     "solve_motion",
@@ -121,3 +126,44 @@ def shortest_problem(problem: PatternProblem) -> PatternProblem:
     from solver_jobs.patterns.shortest import shortest_problem as shorten
 
     return shorten(problem)
+
+
+def simulate(
+    problem: SimulationProblem, progress: Callable[[float], bool] = lambda share: True
+) -> SimulatedMotion:
+    """Runs waypoints through the physics in this process, on one thread.
+
+    Args:
+        problem: what is asked.
+        progress: told the share that is done; false cancels.
+
+    Raises:
+        SimulationCancelledError: `progress` said so.
+        CheckError: a leg's chain opened, or the engine diverged.
+    """
+    from solver_jobs.physics.simulate import simulate as run
+
+    return run(problem, progress)
+
+
+def simulate_variations(
+    problem: SimulationProblem,
+    count: int = 64,
+    seed: int = 0,
+    progress: Callable[[float], bool] = lambda share: True,
+) -> tuple[VariedRun, ...]:
+    """Runs waypoints under seeded variations of the parameters, in this process, on two threads.
+
+    Args:
+        problem: what is asked.
+        count: how many variations.
+        seed: the same seed gives the same variations.
+        progress: told the share that is done; false cancels.
+
+    Raises:
+        SimulationCancelledError: `progress` said so.
+        CheckError: a leg's chain opened, or the engine diverged.
+    """
+    from solver_jobs.physics.simulate import simulate_variations as run
+
+    return run(problem, count, seed, progress)

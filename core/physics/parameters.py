@@ -19,7 +19,8 @@ class PhysicsSet:
         title: what a person reads.
         masses: which set of masses of the robot's file: `scales`, `published` or `model`.
         friction: coefficient of friction between sole and ground.
-        link_stiffness: along a leg's rods, of both rods of a parallelogram together, N/m.
+        link_stiffness: of the soft link in series with each motor along its stroke, N/m: hinges, knee and
+            screw; the rods between keep their length.
         motor_speed: share of the robot's full motor speed that is there.
         motor_force: the most that a motor pushes or pulls, N.
         weak_motor: motor of the wire's order whose speed and force are `weak_share` of the others', or None.

@@ -20,6 +20,8 @@ from solver_jobs.pattern_service import PatternSearch, PatternSolver
 from solver_jobs.remedies import Remedy, RemedySearch
 from solver_jobs.results import Evidence, Iterate, Lack, MotionResult, SolveStatus
 from solver_jobs.runner import JobRunner
+from solver_jobs.simulation_service import Simulation, Simulator
+from solver_jobs.simulation_worker import Simulated
 from solver_jobs.spawning import NICENESS
 from solver_jobs.timing import TimingResult, fastest_timing
 
@@ -41,6 +43,9 @@ __all__ = [
     "PatternSolver",
     "Remedy",
     "RemedySearch",
+    "Simulated",
+    "Simulation",
+    "Simulator",
     "SolveStatus",
     "TimingResult",
     "fastest_timing",

@@ -10,7 +10,7 @@ from app.documents import parse_gait
 from app.open_gait import OpenGait, VerdictOf, approval_of
 from app.plans import Plan
 from app.store.gait_log import GaitLog
-from core.errors import InputError, StateError
+from core.errors import FootfallError, InputError, StateError
 from core.findings import Approval, Verdict, approve
 from core.gait import Gait
 from core.gait_difference import DifferenceGroup, gait_difference
@@ -84,6 +84,16 @@ def approved(open_gait: OpenGait, plan: Plan, verdict_of: VerdictOf, word: Word)
             "check",
         )
     return approve(now, word.by, datetime.now(UTC), accept_warnings=word.accept_warnings), now
+
+
+def is_confirmed(open_gait: OpenGait, plan: Plan, verdict_of: VerdictOf) -> bool:
+    """Whether the gait has no approval, or one of the verdict of this moment."""
+    if open_gait.approval is None:
+        return True
+    try:
+        return verdict_of(plan, open_gait.gait).content_hash == open_gait.approval.verdict_hash
+    except FootfallError:
+        return False
 
 
 def approval_record(approval: Approval, version: int, plan: Plan, verdict: Verdict) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import asdict, replace
 from typing import Any
 
-from app.approvals import Approvals, Word, approval_record, approved
+from app.approvals import Approvals, Word, approval_record, approved, is_confirmed
 from app.deleted_gaits import ROUTE, DeletedGait, deleted_gaits
 from app.documents import parse_gait
 from app.history import Author, History, Step
@@ -50,10 +50,6 @@ class GaitDesk:
         connected: gives the pages that are connected.
         clock: gives the time, s since the epoch.
         simulated_for: gives the simulation of exactly a plan's waypoints, where there is one.
-
-    Attributes:
-        versions: of every gait.
-        approvals: of every gait.
     """
 
     def __init__(
@@ -336,12 +332,16 @@ class GaitDesk:
     def check(self, gait_id: str) -> OpenGait:
         """Checks the present plan by every rule; an approval of another verdict is gone."""
         self.ask_again(gait_id)
-        verdict = self._verdict_of(self.plan(gait_id), self.open_gait(gait_id).gait)
-        open_gait = self.open_gait(gait_id)
-        if open_gait.approval is not None and open_gait.approval.verdict_hash != verdict.content_hash:
-            open_gait = self._put(open_gait.unapproved("The check says something else than before"))
-        self._open[gait_id] = replace(open_gait, verdict=verdict)
+        open_gait = self.confirmed(gait_id)
+        self._open[gait_id] = replace(open_gait, verdict=self._verdict_of(self.plan(gait_id), open_gait.gait))
         return self._open[gait_id]
+
+    def confirmed(self, gait_id: str) -> OpenGait:
+        """The gait, without its approval where the verdict of this moment is not the approved one."""
+        plan, open_gait = self.plan(gait_id), self.open_gait(gait_id)
+        if is_confirmed(open_gait, plan, self._verdict_of):
+            return open_gait
+        return self._put(open_gait.unapproved("The check says something else than before"))
 
     def _verdict_of(self, plan: Plan, gait: Gait) -> Verdict:
         return verdict_of(plan, gait, self._simulated_for(plan))
@@ -361,11 +361,8 @@ class GaitDesk:
         Returns:
             The open gaits whose verdict was of exactly these waypoints.
         """
-        touched = [
-            gait
-            for gait in self._open.values()
-            if gait.verdict is not None and gait.verdict.waypoints_hash == waypoints_hash
-        ]
+        checked = tuple(self._open.values())
+        touched = [g for g in checked if g.verdict and g.verdict.waypoints_hash == waypoints_hash]
         return tuple(self._put(gait.unapproved("It was simulated since")) for gait in touched)
 
     def take_result(self, motion: str, content: dict[str, Any]) -> tuple[OpenGait, ...]:

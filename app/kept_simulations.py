@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from app.plans import Plan
-from app.simulations import physics_content, report_from_content, simulation_key
+from app.simulations import physics_content, report_from_content, simulation_key, simulation_problem
 from app.store.simulation_log import SimulationLog, SimulationRow
 from app.version import VERSION
 from core.errors import InputError
 from core.physics.parameters import physics_set, physics_sets
 from core.physics.report import SimulationReport
+from core.simulation_check import Simulated
 
 
 class UnknownSimulationError(InputError):
@@ -22,10 +24,12 @@ class KeptSimulations:
 
     Args:
         log: where they are kept.
+        told: hears of the waypoints' hash of each one that is kept.
     """
 
-    def __init__(self, log: SimulationLog) -> None:
+    def __init__(self, log: SimulationLog, told: Callable[[str], None] = lambda waypoints: None) -> None:
         self._log = log
+        self._told = told
 
     def put(self, row: SimulationRow, content: dict[str, Any]) -> None:
         """Keeps a simulation; variations that are known of the same stay where it has none of its own."""
@@ -33,6 +37,7 @@ class KeptSimulations:
         if content["variations"] is None and before is not None:
             content = {**content, "variations": before["variations"]}
         self._log.put(row, content)
+        self._told(row.waypoints)
 
     def content(self, key: str) -> dict[str, Any]:
         """A simulation for pages and scripts.
@@ -60,6 +65,18 @@ class KeptSimulations:
     def is_fresh(self, gait_id: str, key: str, plan: Plan) -> bool:
         """Whether a simulation is kept and is of the gait's plan as it is now."""
         return key in keys_of(plan) and any(row.key == key for row in self._log.of_gait(gait_id))
+
+    def simulated(self, plan: Plan) -> Simulated | None:
+        """The newest simulation of a plan as it is now, for its verdict; None where there is none."""
+        if plan.waypoints is None:
+            return None
+        now = keys_of(plan)
+        for row in self._log.of_waypoints(plan.waypoints.content_hash):
+            content = self._log.content(row.key) if row.key in now else None
+            if content is not None:
+                problem = simulation_problem(plan, physics_set(row.physics))
+                return Simulated(report_from_content(content["report"]), problem)
+        return None
 
     def report_for(self, waypoints_hash: str) -> SimulationReport | None:
         """The newest report for exactly these waypoints; None where there is none.

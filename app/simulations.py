@@ -49,7 +49,8 @@ def way_problem(
 def simulation_key(plan: Plan, physics: PhysicsSet) -> str:
     """Hash of everything that a simulation of a plan depends on, this program's version included."""
     waypoints = "" if plan.waypoints is None else plan.waypoints.content_hash
-    parts = [VERSION, plan.hash, waypoints, json.dumps(physics_content(physics), sort_keys=True)]
+    robot, parameters = plan.model.parameters_hash, json.dumps(physics_content(physics), sort_keys=True)
+    parts = [VERSION, robot, plan.hash, waypoints, parameters]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
@@ -74,3 +75,33 @@ def report_from_content(content: dict[str, Any]) -> SimulationReport:
         name: np.array(value) if isinstance(value, list) else value for name, value in content.items()
     }
     return SimulationReport(**values)
+
+
+def report_figures(report: SimulationReport) -> dict[str, Any]:
+    """The figures that scripts get of a simulated run, SI, those of feet and motors from foot 1 on."""
+    content: dict[str, Any] = finite(
+        {
+            "mean_error": {
+                "body": report.body_error,
+                "feet": report.feet_error.tolist(),
+                "feet_mean": report.feet_mean_error,
+            },
+            "max_tilt": report.max_tilt,
+            "max_tilt_time": report.max_tilt_time,
+            "fell": report.fell,
+            "fell_time": report.fell_time,
+            "slip": report.slip.tolist(),
+            "distance": report.distance,
+            "planned_distance": report.planned_distance,
+            "heading": report.heading,
+            "planned_heading": report.planned_heading,
+            "min_margin": report.min_margin,
+            "motor_error": report.motor_error.tolist(),
+            "saturation": report.saturation.tolist(),
+            "loop_error": report.loop_error,
+            "seconds": float(report.arrival_times[-1]),
+            "realtime_factor": report.realtime_factor,
+            "ended_early": report.ended_early,
+        }
+    )
+    return content

@@ -67,14 +67,20 @@ class Studio:
         self.live = LiveDesk(self._solver)
         self._pattern_solvers = tuple(PatternSolver() for _ in range(PATTERN_PROCESSES))
         self.patterns = PatternDesk(self._pattern_solvers, self._tell_page)
-        self.gaits = GaitDesk(self._files, self._database, self.live.solve_for, self.hub.pages)
+        self.simulations = KeptSimulations(SimulationLog(self._database), self._simulated)
+        self.gaits = GaitDesk(
+            self._files,
+            self._database,
+            self.live.solve_for,
+            self.hub.pages,
+            simulated_for=self.simulations.simulated,
+        )
         self._plans = PlanSettling(self.session, self.gaits)
         self._list = GaitList(self.gaits)
         self.session.tell(self.summaries)
         self._runner = JobRunner(self._job_changed, warm_up=_likely_problem())
         self.book = JobBook(self._database)
         self.jobs = JobDesk(self.book, self._runner, self._take_result)
-        self.simulations = KeptSimulations(SimulationLog(self._database))
         self.robot = RobotDesk(
             self._database, device, self._robot_changed, RobotPorts(data / "robot.json"), self._tell_page
         )
@@ -260,6 +266,15 @@ class Studio:
     def _take_result(self, motion: str, content: dict[str, Any]) -> None:
         for open_gait in self.gaits.take_result(motion, content):
             self.publish_soon(open_gait.id)
+
+    def _simulated(self, waypoints_hash: str) -> None:
+        """Takes back what was found of waypoints before they were simulated; any thread may call."""
+
+        def take() -> None:
+            for open_gait in self.gaits.take_simulation(waypoints_hash):
+                self.publish_soon(open_gait.id)
+
+        self.session.tell(take)
 
     def _robot_changed(self, view: dict[str, Any]) -> None:
         self.hub.publish({"type": "robot", "robot": view})

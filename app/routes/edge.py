@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import asyncio
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Annotated, Any, TypeVar
 from urllib.parse import unquote
 
+import numpy as np
 from fastapi import Depends, FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
@@ -22,7 +23,9 @@ from app.runs.record import UnknownRunError
 from app.studio import Studio
 from app.trials.desk import UnknownTrialError
 from app.versions import UnknownVersionError
+from core.arrays import Floats
 from core.errors import CheckError, FootfallError, InfeasibleError, InputError, RobotError, StateError
+from core.robot import RobotModel
 
 Result = TypeVar("Result")
 
@@ -31,6 +34,9 @@ PAGE_HEADER, NAME_HEADER = "x-footfall-page", "x-footfall-name"
 
 MOST_NAME = 80
 """Characters of a person's name."""
+
+MOST_MOTORS = 36
+"""Motors of the largest robot."""
 
 _PAGE = re.compile(r"[A-Za-z0-9-]{1,64}")
 
@@ -92,6 +98,31 @@ async def on_planned(studio: Studio, gait_id: str, action: Callable[[], Result])
 async def changed(studio: Studio, action: Callable[[], OpenGait]) -> dict[str, Any]:
     """Changes a gait, shows it to every page, and waits for its view."""
     return await asyncio.wrap_future(studio.change(action))
+
+
+def strokes_from_mm(model: RobotModel, strokes_mm: Sequence[float], field: str) -> Floats:
+    """The strokes of a robot's motors out of a request.
+
+    Args:
+        model: the robot.
+        strokes_mm: one for each motor, mm.
+        field: where they stand in the request.
+
+    Returns:
+        (legs, 3) m.
+
+    Raises:
+        InputError: too few, too many, or one outside the motors' travel.
+    """
+    if len(strokes_mm) != model.motor_count:
+        raise InputError(
+            f"{len(strokes_mm)} strokes are given; {model.title} has {model.motor_count}.", field
+        )
+    strokes = np.array(strokes_mm, dtype=np.float64).reshape(model.leg_count, 3) / 1000.0
+    travel = model.stroke.travel
+    if strokes.min() < 0.0 or strokes.max() > travel:
+        raise InputError(f"Strokes lie in 0 to {travel * 1000:g} mm; correct the others.", field)
+    return strokes
 
 
 def install_error_handlers(app: FastAPI) -> None:

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-import numpy as np
 from fastapi import APIRouter, Depends, Response
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.concurrency import run_in_threadpool
 
 from app.jog_desk import JogLook, JogWish
-from app.routes.edge import TheAuthor, studio_of
+from app.routes.edge import MOST_MOTORS, TheAuthor, strokes_from_mm, studio_of
 from app.routes.robot import SOMEBODY, Deed, named
 from app.scene.ghost import ghost_blob
 from app.studio import Studio
-from core.arrays import Floats
 from core.errors import InputError
 from core.jog import MOST_STEPS, Axis, JogPart, JogStep
 from core.robot import RobotModel, load_robot
@@ -23,8 +21,6 @@ router = APIRouter(prefix="/api/robot", tags=["robot"])
 TheStudio = Annotated[Studio, Depends(studio_of)]
 
 Millimetres = Annotated[float, Field(allow_inf_nan=False)]
-MOST_MOTORS = 36
-"""Motors of the largest robot."""
 
 
 class Step(BaseModel):
@@ -66,7 +62,7 @@ class Target(BaseModel):
             InputError: there is no such robot, or the strokes are not its.
         """
         model = load_robot(self.robot)
-        given = None if self.from_mm is None else _strokes(model, self.from_mm)
+        given = None if self.from_mm is None else strokes_from_mm(model, self.from_mm, "from_mm")
         return JogWish(model, tuple(_step(one) for one in self.steps), given, _look(model, look))
 
 
@@ -131,15 +127,3 @@ def _look(model: RobotModel, look: Look | None) -> JogLook | None:
     if not 1 <= look.foot <= model.leg_count:
         raise InputError(f"There is no foot {look.foot}; it must lie in 1 to {model.leg_count}.", "look.foot")
     return JogLook(look.part, look.foot - 1)
-
-
-def _strokes(model: RobotModel, strokes_mm: list[float]) -> Floats:
-    if len(strokes_mm) != model.motor_count:
-        raise InputError(
-            f"{len(strokes_mm)} strokes are given; {model.title} has {model.motor_count}.", "from_mm"
-        )
-    strokes = np.array(strokes_mm).reshape(model.leg_count, 3) / 1000.0
-    travel = model.stroke.travel
-    if strokes.min() < 0.0 or strokes.max() > travel:
-        raise InputError(f"Strokes lie in 0 to {travel * 1000:g} mm; correct the others.", "from_mm")
-    return strokes

@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import Annotated, Any
 
 from fastapi import APIRouter
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.document_models import SegmentTableModel
 from app.documents import gait_content, gait_from_content
+from app.routes.edge import MOST_MOTORS, strokes_from_mm
 from core.errors import InputError
 from core.library import default_vocabulary
+from core.pose_taking import take_pose
+from core.real_motion import real_strokes
+from core.robot import load_robot
 from core.segments import Segment, SegmentVocabulary
 from core.table_making import table_from_timeline
 from core.table_repair import DraftTable, Repair, repairs
 
 router = APIRouter(tags=["segment tables"])
+
+NOTICED_MM = 0.25
+"""A foot that is further from where the names put it is named, mm."""
 
 
 class Make(BaseModel):
@@ -32,6 +39,14 @@ class Mend(BaseModel):
     model_config = ConfigDict(extra="forbid")
     table: SegmentTableModel
     kept: list[tuple[int, int]] = Field(default_factory=list, max_length=4000)
+
+
+class Take(BaseModel):
+    """A gait document, and strokes of its robot's motors whose pose its table is to end with."""
+
+    model_config = ConfigDict(extra="forbid")
+    document: dict[str, Any]
+    strokes_mm: list[Annotated[float, Field(allow_inf_nan=False)]] = Field(max_length=MOST_MOTORS)
 
 
 @router.post("/api/tables/made")
@@ -53,6 +68,25 @@ def mended_tables(mend: Mend) -> dict[str, Any]:
     draft = _draft(mend.table)
     found = repairs(draft, {(foot, segment) for foot, segment in mend.kept})
     return {"repairs": [_repair_content(repair, mend.table) for repair in found]}
+
+
+@router.post("/api/tables/pose")
+def table_with_pose(take: Take) -> dict[str, Any]:
+    """The segment table with one more segment, in which every foot goes to where the strokes put it."""
+    gait = gait_from_content(take.document, "document")
+    model = load_robot(gait.robot)
+    taken = take_pose(gait, model, real_strokes(model, strokes_from_mm(model, take.strokes_mm, "strokes_mm")))
+    beside_mm = taken.beside * 1000
+    return {
+        "table": gait_content(replace(gait, segment_table=taken.table))["segment_table"],
+        "name": taken.name,
+        "segment": taken.table.segment_count,
+        "sentences": [
+            f"Foot {foot} stands {off:.1f} mm beside the line of the step, which a named place cannot say."
+            for foot, off in enumerate(beside_mm.tolist(), 1)
+            if off > NOTICED_MM
+        ],
+    }
 
 
 def _draft(model: SegmentTableModel) -> DraftTable:

@@ -7,6 +7,7 @@ import { api } from "./api.js";
 import { h, onPress, setAllowed, setText } from "./dom.js";
 import { fixed, seconds } from "./format.js";
 import { jogRows } from "./jog_rows.js";
+import { takePose } from "./jog_pose.js";
 import { PARTS, handlesOf, withStep } from "./jog_steps.js";
 import { lane } from "./lane.js";
 import { whyNotHeld } from "./lease.js";
@@ -93,7 +94,7 @@ function moving(store, own, body) {
  * Builds the group of the Robot panel.
  * @returns {HTMLElement}
  */
-export function jogPart(store) {
+export function jogPart(store, edits) {
   const own = watchable({ isOpen: false, part: "foot", foot: 1, steps: [], size: STEP_MM.first, asked: null, answer: null });
   const { size, ...parts } = build((patch) => own.set(patch));
   const rows = jogRows((index, sign) => {
@@ -105,7 +106,7 @@ export function jogPart(store) {
   let sent = null;
   const element = h("details", { class: "more jog", role: "group", "aria-label": "Jog" }, h("summary", { text: "Jog: move a motor, a foot or the body by hand" }),
     h("div", {}, choiceRow({ ...parts, size }), rows.element, parts.findings, parts.target,
-      h("div", { class: "buttons" }, parts.move, parts.back), parts.why));
+      h("div", { class: "buttons" }, parts.move, parts.back), parts.why, takePose(store, edits)));
 
   element.addEventListener("toggle", () => own.set({ isOpen: element.open }));
   size.addEventListener("change", () => {
@@ -137,7 +138,8 @@ export function jogPart(store) {
     setAllowed(parts.move, why, "Moves the robot to the target, slowly and in small moves");
     setText(parts.why, why && !answer?.findings.some(({ sentence }) => sentence === why) ? why : "");
     setAllowed(parts.back, now.steps.length ? null : "The target is where it stands.");
-    store.set({ jog: { ...body(), target_mm: now.steps.length ? (answer ?? now.answer)?.target_mm ?? null : null } });
+    const pose = (answer ?? now.answer)?.target_mm ?? null;
+    store.set({ jog: { ...body(), pose_mm: pose, target_mm: now.steps.length ? pose : null } });
     return undefined;
   }
 

@@ -21,7 +21,7 @@ export function mountPanels({ store, edits, playback, goTo, gaitTools }) {
   mountSequenceBand(store, playback);
   const segments = mountSegments(store, edits);
   mountCheck(store, edits, goTo);
-  const countdown = mountRobot(store, playback);
+  const countdown = mountRobot(store, edits, playback);
   mountVersions(store, edits);
   const trials = mountTrialEntry(store, () => runs());
   const runs = mountRuns(store, trials);

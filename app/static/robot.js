@@ -85,14 +85,14 @@ function build(store) {
   };
 }
 
-function assemble({ store, playback }, parts, send) {
+function assemble({ store, edits, playback }, parts, send) {
   const connect = way(1, parts.ports.offer, h("div", { class: "device" }, parts.ports.element, parts.connect.button, parts.disconnect.button), parts.connectNote);
   const arm = way(2, h("div", { class: "buttons" }, parts.arm.button, parts.clear.button, parts.armNote));
   const start = way(3, coursePart(store, playback), parts.summary, send.element, parts.sendNote);
   const run = way(4, h("div", { class: "progress" }, parts.bar), parts.progress, parts.later, parts.record,
     h("div", { class: "buttons" }, parts.pause.button, parts.resume.button, parts.reset.button));
   byId("robot").append(h("div", { class: "robot-state" }, parts.dot, parts.word, parts.sentence), leasePart(store),
-    h("ol", { class: "steps", role: "list", "aria-label": "The robot's way" }, connect, arm, start, run), jogPart(store),
+    h("ol", { class: "steps", role: "list", "aria-label": "The robot's way" }, connect, arm, start, run), jogPart(store, edits),
     h("h3", {}, "Strokes measured", h("span", { text: "mm" })), parts.bars.element, parts.stopText, robotLog(store), robotFaults(store));
   return { connect, arm, start, run };
 }
@@ -166,7 +166,7 @@ async function fetchSummary(store) {
 }
 
 /** Builds the section; returns what Esc may cancel. */
-export function mountRobot(store, playback) {
+export function mountRobot(store, edits, playback) {
   const send = sendControl({
     prepare: async () => Boolean(await needOperator(store, "The run is kept with the name of who started it.")),
     send: attempt(async () => {
@@ -175,7 +175,7 @@ export function mountRobot(store, playback) {
     }),
   });
   const parts = build(store);
-  const ways = assemble({ store, playback }, parts, send);
+  const ways = assemble({ store, edits, playback }, parts, send);
   store.watch(({ robot }) => [robot], ({ robot }) => showRobot(parts, ways, robot));
   store.watch(({ robot, view, jog }) => [robot?.strokes_mm, robot?.run, view?.plan, jog?.target_mm], ({ robot, view, jog }) => {
     const target = jog?.target_mm?.length === robot?.strokes_mm?.length ? jog?.target_mm : null;

@@ -14,7 +14,7 @@ from app.routes.tables import router
 from core.gait import drawn_timeline
 from core.library import library
 
-MADE, REPAIRS = "/api/tables/made", "/api/tables/repairs"
+MADE, REPAIRS, POSE = "/api/tables/made", "/api/tables/repairs", "/api/tables/pose"
 
 
 @pytest.fixture(scope="module")
@@ -93,3 +93,29 @@ def test_a_document_with_a_height_out_of_the_motors_travel_is_refused(client: Te
     assert "The height “Base” is 99 mm" in answer.json()["error"]
     document["segment_table"]["definitions"]["z"]["Base"] = 0.02
     assert client.post(MADE, json={"document": document}).status_code == 200
+
+
+def test_a_pose_becomes_the_last_segment_and_says_what_names_cannot(client: TestClient) -> None:
+    strokes = [8.0] * 3 + [11.0, 8.0, 8.0] + [8.0] * 6
+    manual = content("walk-manual-0")
+    answer = client.post(POSE, json={"document": manual, "strokes_mm": strokes}).json()
+    assert answer["name"] == "Pose 1"
+    assert answer["segment"] == len(manual["segment_table"]["feet"][0]) + 1
+    assert [len(row) for row in answer["table"]["feet"]] == [answer["segment"]] * 4
+    assert answer["table"]["definitions"]["z"]["Pose 1"] == 0.008
+    assert [sentence[:19] for sentence in answer["sentences"]] == ["Foot 2 stands 4.7 m"]
+
+
+@pytest.mark.parametrize(
+    ("gait", "strokes", "where"),
+    [
+        ("walk-manual-0", [8.0] * 11, "strokes_mm"),
+        ("walk-manual-0", [8.0] * 11 + [-1.0], "strokes_mm"),
+        ("walk", [8.0] * 12, "segment_table"),
+    ],
+)
+def test_a_pose_that_a_table_cannot_take_is_refused(
+    client: TestClient, gait: str, strokes: list[float], where: str
+) -> None:
+    refused = client.post(POSE, json={"document": content(gait), "strokes_mm": strokes})
+    assert (refused.status_code, refused.json()["where"]) == (422, where)

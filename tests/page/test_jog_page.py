@@ -90,3 +90,29 @@ def test_letters_and_the_target_alone_move_nothing(page: Page, studio: StudioPro
     assert studio.robot()["jog"] is None
     if stands is not None:
         assert studio.robot()["strokes_mm"] == pytest.approx(stands, abs=0.1)
+
+
+def test_a_pose_is_taken_into_the_segment_table_and_undone(page: Page, studio: StudioProcess) -> None:
+    jog = page.get_by_role("group", name="Jog", exact=True)
+    take = jog.get_by_role("button", name="Take this pose as a waypoint")
+    expect(take).to_have_attribute("title", re.compile("has no segment table"), timeout=LONG_MS)
+    page.get_by_text("By hand (9)").click()
+    page.get_by_text("Manual walk, v0", exact=True).click()
+    expect(take).not_to_have_attribute("aria-disabled", "true", timeout=LONG_MS)
+
+    def segments() -> int:
+        view = studio.ask("GET", "/api/gaits/walk-manual-0/view").content
+        return len(view["document"]["segment_table"]["feet"][0])
+
+    before = segments()
+    jog.get_by_role("button", name="Body", exact=True).click()
+    higher = jog.get_by_role("button", name="Body, height plus")
+    expect(higher).not_to_have_attribute("aria-disabled", "true", timeout=LONG_MS)
+    higher.click()
+    take.click()
+    expect(page.get_by_text(f"Pose 1 is segment {before + 1} of the segment table.")).to_be_visible(
+        timeout=LONG_MS
+    )
+    wait_for(lambda: segments() == before + 1, "the table is longer")
+    page.keyboard.press("Control+z")
+    wait_for(lambda: segments() == before, "the pose is undone")

@@ -14,6 +14,7 @@ from app.bench.live import bench_live
 from app.bench.measure import Row, conditions
 from app.bench.page import bench_page
 from app.bench.patterns import bench_patterns
+from app.bench.physics import bench_physics
 from app.bench.scene import bench_scene
 from app.bench.timing import bench_timing
 from app.bench.trajectories import bench_trajectories
@@ -35,6 +36,7 @@ BENCHMARKS: dict[str, Benchmark] = {
     "transitions": bench_transitions,
     "edits": bench_edits,
     "patterns": bench_patterns,
+    "physics": bench_physics,
     "bridge": bench_bridge,
     "page": bench_page,
     "gaits": bench_gait_list,

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable
-from enum import StrEnum
 from pathlib import Path
 from typing import NoReturn
 
@@ -21,7 +20,19 @@ from app.cli import (
     commands_pattern,
     commands_plan,
     commands_robot,
+    commands_simulate,
     commands_trial,
+)
+from app.cli.argument_types import (
+    add_robot,
+    foot_order,
+    number,
+    one_of,
+    pair,
+    pixel,
+    rule_number,
+    whole,
+    words_of,
 )
 from app.cli.methods import Method
 from app.export.formats import ExportFormat
@@ -29,9 +40,9 @@ from app.version import VERSION
 from core.errors import InputError
 from core.motion_problem import Boundary, Cost, Workspace
 from core.patterns.problem import LEAST_SAMPLES, MOST_LEGS, MOST_SAMPLES, PatternRules
-from core.robot import ROBOT_NAMES
-
-ROBOTS = ", ".join(ROBOT_NAMES)
+from core.physics.parameters import physics_sets
+from core.physics.problem import Rig
+from core.physics.variations import MOST_VARIATIONS
 
 PATTERN_RULES = {
     "--shortest-swing": ("shortest_swing", "samples that a swing lasts at least"),
@@ -50,98 +61,6 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         raise InputError(f"{message}. See {self.prog} --help.", "command line")
-
-
-def number(least: float, most: float, unit: str) -> Callable[[str], float]:
-    """An argument type: a finite number within bounds."""
-
-    def convert(text: str) -> float:
-        try:
-            value = float(text)
-        except ValueError:
-            raise argparse.ArgumentTypeError(f"“{text}” is not a number") from None
-        if not (math.isfinite(value) and least <= value <= most):
-            raise argparse.ArgumentTypeError(f"{text} must lie between {least} and {most} {unit}")
-        return value
-
-    return convert
-
-
-def whole(least: int, most: int) -> Callable[[str], int]:
-    """An argument type: a whole number within bounds."""
-
-    def convert(text: str) -> int:
-        try:
-            value = int(text)
-        except ValueError:
-            raise argparse.ArgumentTypeError(f"“{text}” is not a whole number") from None
-        if not least <= value <= most:
-            raise argparse.ArgumentTypeError(f"{text} must lie between {least} and {most}")
-        return value
-
-    return convert
-
-
-def one_of(kind: type[StrEnum]) -> Callable[[str], StrEnum]:
-    """An argument type: one of a closed set of words."""
-
-    def convert(text: str) -> StrEnum:
-        try:
-            return kind(text)
-        except ValueError:
-            raise argparse.ArgumentTypeError(f"“{text}” must be one of {', '.join(kind)}") from None
-
-    return convert
-
-
-def words_of(kind: type[StrEnum]) -> str:
-    """A closed set of words as help shows it."""
-    return "{" + ",".join(kind) + "}"
-
-
-def rule_number(text: str) -> int | None:
-    """An argument type: a rule's whole number, or off."""
-    return None if text == "off" else whole(0, MOST_SAMPLES)(text)
-
-
-def pair(text: str) -> tuple[float, float]:
-    """An argument type: two finite numbers, `X,Y`."""
-    parts = text.split(",")
-    if len(parts) != 2:
-        raise argparse.ArgumentTypeError(f"“{text}” must be two numbers X,Y")
-    convert = number(-1.0, 1.0, "m")
-    return convert(parts[0]), convert(parts[1])
-
-
-def pixel(text: str) -> tuple[float, float]:
-    """An argument type: a place in a picture, `X,Y`."""
-    parts = text.split(",")
-    if len(parts) != 2:
-        raise argparse.ArgumentTypeError(f"“{text}” must be two numbers X,Y")
-    convert = number(-100_000.0, 100_000.0, "px")
-    return convert(parts[0]), convert(parts[1])
-
-
-def foot_order(text: str) -> tuple[int, ...]:
-    """An argument type: feet in order, `3,2,4,1`."""
-    try:
-        return tuple(int(part) for part in text.split(","))
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"“{text}” must be feet such as 3,2,4,1") from None
-
-
-def add_robot(parser: argparse.ArgumentParser, default: str) -> None:
-    """The option that names a robot; `default` says what holds without it."""
-    parser.add_argument(
-        "--robot", type=robot_name, default=None, metavar="NAME", help=f"{ROBOTS} ({default})"
-    )
-
-
-def robot_name(text: str) -> str:
-    """An argument type: a robot that comes with the program."""
-    if text not in ROBOT_NAMES:
-        raise argparse.ArgumentTypeError(f"“{text}” must be one of {ROBOTS}")
-    return text
 
 
 def make_parser() -> argparse.ArgumentParser:
@@ -172,6 +91,8 @@ def make_parser() -> argparse.ArgumentParser:
     check = command("check", commands_plan.run_check, "Check a trajectory or a gait by every rule.")
     check.add_argument("file", type=Path, help="TRAJ.csv or GAIT.json")
     add_robot(check, "default the gait's own, else deltawalker")
+    text = "Run the waypoints of a trajectory or a gait in a physics model."
+    _simulate_words(command("simulate", commands_simulate.run_simulate, text))
     text = "Write a gait or a recorded motion in another form."
     _export_words(command("export", commands_files.run_export, text))
     _import_words(command("import", commands_files.run_import, "Make a gait of another program's file."))
@@ -183,6 +104,8 @@ def make_parser() -> argparse.ArgumentParser:
     bench.add_argument("names", nargs="*", metavar="NAME", help="none: all but those in a browser")
     bench.add_argument("--count", type=whole(1, 100_000), default=EDITS, help="edits to try (edits)")
     bench.add_argument("--seed", type=whole(0, 2**31), default=SEED, help="of the edits (edits)")
+    bench.add_argument("--reference", type=Path, default=None, help="folder of published data (physics)")
+    bench.add_argument("--report", type=Path, default=None, help="HTML page with plots to write (physics)")
     bench.add_argument("--markdown", action="store_true", help="print tables as Markdown")
     return parser
 
@@ -318,11 +241,27 @@ def _pattern_words(parser: argparse.ArgumentParser) -> None:
 def _waypoint_words(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", type=Path, help="trajectory CSV")
     add_robot(parser, "default deltawalker")
+    _way_words(parser)
+    parser.add_argument("-o", "--output", type=Path, default=None, help="waypoint CSV to write")
+
+
+def _way_words(parser: argparse.ArgumentParser) -> None:
     merge = "leave out waypoints this near the motors' straight way; 0.001 is the firmware's own tolerance"
     parser.add_argument("--merge", type=number(0.0, 0.02, "m"), default=None, metavar="M", help=merge)
     bound = "cut moves so that the robot is never deaf for longer, at least 0.77 s"
     parser.add_argument("--stop-bound", type=number(0.1, 60.0, "s"), default=None, metavar="S", help=bound)
-    parser.add_argument("-o", "--output", type=Path, default=None, help="waypoint CSV to write")
+
+
+def _simulate_words(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("file", type=Path, help="TRAJ.csv or GAIT.json")
+    add_robot(parser, "default the gait's own, else deltawalker")
+    _way_words(parser)
+    text = f"parameters: {', '.join(physics_sets())} (default the first)"
+    parser.add_argument("--physics", default=None, metavar="SET", help=text)
+    parser.add_argument("--rig", type=one_of(Rig), metavar=words_of(Rig), default=Rig.WALKING)
+    text = "try so many seeded variations of the parameters as well"
+    parser.add_argument("--variations", type=whole(0, MOST_VARIATIONS), default=0, metavar="N", help=text)
+    parser.add_argument("--seed", type=whole(0, 2**31), default=0, help="of the variations (default 0)")
 
 
 def _export_words(parser: argparse.ArgumentParser) -> None:
@@ -355,6 +294,7 @@ def _send_words(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", type=Path, help="waypoint CSV")
     parser.add_argument("--robot", required=True, help="emulator, a serial device, or socket://HOST:PORT")
     parser.add_argument("--yes", action="store_true", help="approve in your name without being asked")
+    parser.add_argument("--data", type=Path, default=None, help="data folder, where the run is kept")
 
 
 def _trial_words(parser: argparse.ArgumentParser) -> None:

@@ -135,11 +135,30 @@ class Gate:
             RobotError: the line did not take it.
         """
         with self._lock:
-            self._stops += 1
-            message = encode_flush() + encode_stop() if self._unsure else encode_stop()
-            now = self._clock()
-            sent = self._put(message)
-        return sent and self._note(message, now)
+            return self._send_stop()
+
+    def try_stop(self) -> bool:
+        """Does what `stop` does unless a message is just going out, or the last one did not.
+
+        Returns:
+            Whether it did; if not, nothing was done.
+
+        Raises:
+            RobotError: the line did not take it.
+        """
+        if self._failed or not self._lock.acquire(blocking=False):
+            return False
+        try:
+            self._send_stop()
+        finally:
+            self._lock.release()
+        return True
+
+    def _send_stop(self) -> bool:
+        self._stops += 1
+        message = encode_flush() + encode_stop() if self._unsure else encode_stop()
+        now = self._clock()
+        return self._put(message) and self._note(message, now)
 
     def _put(self, data: bytes) -> bool:
         if self._outlet is None:

@@ -12,6 +12,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from app.bridge.gate import Clock, Gate, Log
 from app.bridge.jog import JogPlan
@@ -214,10 +215,29 @@ class RobotBridge:
         except RobotError as error:
             reason = error.sentence
         with self._lock:
-            if reason is not None:
-                self._session.hung_up(reason, self._clock())
-            self._session.stop(by, self._clock())
-        self._inbox.put(None)
+            self._latch_stop(by, reason)
+
+    def try_stop(self, by: str) -> Callable[[], None] | None:
+        """Does what `stop` does as far as that needs no waiting, for a thread that must not wait.
+
+        Unless a message is just going out, the stop is on the wire when this returns.
+
+        Returns:
+            What is left to do, by a thread that may wait; None if nothing is.
+        """
+        reason = None
+        try:
+            if not self._gate.try_stop():
+                return partial(self.stop, by)
+        except RobotError as error:
+            reason = error.sentence
+        if not self._lock.acquire(blocking=False):
+            return partial(self._latch_sent_stop, by, reason)
+        try:
+            self._latch_stop(by, reason)
+        finally:
+            self._lock.release()
+        return None
 
     def clear(self, by: str) -> None:
         """Lets a stopped robot go, after replacing its target by where it stands.
@@ -247,6 +267,16 @@ class RobotBridge:
         self._do(lambda now: self._session.jog(plan, by, now))
 
     # Inside
+
+    def _latch_sent_stop(self, by: str, reason: str | None) -> None:
+        with self._lock:
+            self._latch_stop(by, reason)
+
+    def _latch_stop(self, by: str, reason: str | None) -> None:
+        if reason is not None:
+            self._session.hung_up(reason, self._clock())
+        self._session.stop(by, self._clock())
+        self._inbox.put(None)
 
     def _do(self, wish: Callable[[float], None]) -> None:
         with self._lock:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import errno
 import os
+import select
 import selectors
 import threading
+import time
 from collections.abc import Callable
 
 import serial
@@ -65,15 +67,24 @@ class Transport:
         Raises:
             RobotError: the line took no bytes in time, or has hung up.
         """
+        deadline = time.monotonic() + WRITE_DEADLINE
         try:
-            self._port.write(data)
-        except serial.SerialTimeoutException as error:
-            raise RobotError(
-                f"{self.device} took no message for {WRITE_DEADLINE} s. Check cable and power.",
-                self.device,
-            ) from error
+            while data:
+                data = data[self._write_some(data, deadline) :]
         except (serial.SerialException, OSError) as error:
             raise RobotError(_hung_up(self.device), self.device) from error
+
+    def _write_some(self, data: bytes, deadline: float) -> int:
+        try:
+            # Not asked first: a terminal asked whether it takes bytes has the asker wait for what comes in.
+            return os.write(self._port.fileno(), data)
+        except BlockingIOError:
+            left = max(0.0, deadline - time.monotonic())
+            if select.select([], [self._port.fileno()], [], left)[1]:
+                return 0
+        raise RobotError(
+            f"{self.device} took no message for {WRITE_DEADLINE} s. Check cable and power.", self.device
+        )
 
     def close(self) -> None:
         """Closes the line; doing it twice does no harm."""
@@ -113,9 +124,7 @@ class Transport:
 
 def _open(device: str) -> serial.SerialBase:
     try:
-        return serial.serial_for_url(
-            device, baudrate=BAUD, timeout=0, write_timeout=WRITE_DEADLINE, exclusive=True
-        )
+        return serial.serial_for_url(device, baudrate=BAUD, timeout=0, exclusive=True)
     except (serial.SerialException, OSError, ValueError) as error:
         raise RobotError(_refusal(device, error), device) from error
 

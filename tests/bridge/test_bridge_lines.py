@@ -4,6 +4,7 @@ import os
 import threading
 import time
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 import pytest
@@ -61,9 +62,11 @@ class Lockstep:
 
     def log(self, direction: Direction, data: bytes, when: float) -> None:
         self.traffic.append((direction, data, when))
+
+    def taken(self, count: int) -> None:
+        """The bridge has taken so many bytes into account."""
         with self._change:
-            if direction is Direction.FROM_ROBOT:
-                self._ahead -= len(data)
+            self._ahead -= count
             self._change.notify_all()
 
     def connect(self, bridge: RobotBridge) -> None:
@@ -95,9 +98,21 @@ def emulator(lockstep: Lockstep) -> Iterator[EmulatedRobot]:
     robot.close()
 
 
+class FollowedBridge(RobotBridge):
+    """A bridge that tells what it has taken into account."""
+
+    def __init__(self, lockstep: Lockstep, **options: Any) -> None:
+        self._lockstep = lockstep
+        super().__init__(lockstep.log, **options)
+
+    def _feed(self, item: Any) -> None:
+        super()._feed(item)
+        self._lockstep.taken(len(getattr(item, "data", b"")))
+
+
 @pytest.fixture
 def bridge(emulator: EmulatedRobot, lockstep: Lockstep) -> Iterator[RobotBridge]:
-    bridge = RobotBridge(lockstep.log, clock=lambda: emulator.firmware.now, tick=0.005)
+    bridge = FollowedBridge(lockstep, clock=lambda: emulator.firmware.now, tick=0.005)
     yield bridge
     bridge.close()
 
@@ -196,6 +211,22 @@ def test_a_stop_does_not_wait_for_a_subscriber_that_dawdles(bridge: RobotBridge,
     until_robot(bridge, RobotState.STOPPED)
 
 
+def test_a_stop_that_waits_for_nothing_is_on_the_line_when_it_returns(
+    bridge: RobotBridge, lockstep: Lockstep
+) -> None:
+    make_ready(bridge, lockstep)
+    bridge.send(random_plan(3, 4), "Ada")
+    until(bridge, has_reached(1))
+    left = bridge.try_stop("Grace")
+    sent = [data for way, data, _ in lockstep.traffic if way is Direction.TO_ROBOT]
+    assert sent[-1] == b"<s,1>"
+    if left is not None:
+        left()
+    assert bridge.snapshot.robot is RobotState.STOPPING
+    until_robot(bridge, RobotState.STOPPED)
+    assert "Grace" in (bridge.snapshot.stop_text or "")
+
+
 def test_an_unplugged_cable_ends_the_run_as_a_fault(
     bridge: RobotBridge, emulator: EmulatedRobot, lockstep: Lockstep
 ) -> None:
@@ -215,7 +246,7 @@ def test_every_fault_that_is_asked_for_beforehand_ends_in_a_named_state(fault: F
     lockstep = Lockstep(PtyPort())
     firmware = Firmware(PROFILES[ProfileName.NOMINAL])
     robot = EmulatedRobot(firmware, lockstep, pace=lockstep.pace, faults=[fault], booted=True)
-    bridge = RobotBridge(lockstep.log, clock=lambda: firmware.now, tick=0.005)
+    bridge = FollowedBridge(lockstep, clock=lambda: firmware.now, tick=0.005)
     make_ready(bridge, lockstep)
     bridge.send(random_plan(6, 8), "Ada")
     until_robot(bridge, RobotState.FAULT, RobotState.DONE)
@@ -316,6 +347,15 @@ def test_a_device_that_is_no_line_is_refused_by_name(device: str) -> None:
     assert bridge.snapshot.last_error is not None
     bridge.stop("Ada")
     bridge.close()
+
+
+def test_a_line_that_takes_nothing_more_is_said_to() -> None:
+    port = PtyPort()
+    line = Transport(port.device, lambda _: None, lambda _: None)
+    with pytest.raises(RobotError, match=r"took no message for 0\.5 s"):
+        line.write(b"x" * 1_000_000)
+    line.close()
+    port.close()
 
 
 def listen_once(device: str) -> Transport:

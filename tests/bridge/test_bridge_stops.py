@@ -1,6 +1,7 @@
 """Stops that must be heard: over half messages, failed writes, lost bytes and endless ramps."""
 
 import re
+import threading
 from collections.abc import Callable
 
 import pytest
@@ -14,6 +15,7 @@ from tests.bridge.virtual_robot import VirtualRobot, make_plan, random_plan
 
 FLUSH, STOP = encode_flush(), b"<s,1>"
 WAYPOINT = b"<p,1,0.40,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000>"
+PATIENCE = 20.0
 LONG = [[10.0] * 12, [3.0] * 12, [12.0] * 12]
 
 
@@ -187,6 +189,46 @@ def test_only_a_trusted_line_takes_a_message_and_a_failed_write_outlasts_the_tru
     gate.stop()
     assert not gate.write(WAYPOINT, gate.permit())
     assert outlet.taken == [FLUSH + STOP, STOP, WAYPOINT, FLUSH + STOP]
+
+
+class SlowOutlet(Outlet):
+    """A line on which a message takes until it is let out."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.begun, self.let_out = threading.Event(), threading.Event()
+
+    def write(self, data: bytes) -> None:
+        self.begun.set()
+        assert self.let_out.wait(PATIENCE)
+        super().write(data)
+
+
+def test_who_must_not_wait_sends_the_stop_only_where_no_message_is_going_out() -> None:
+    gate, outlet = Gate(lambda way, data, when: None, lambda: 0.0), SlowOutlet()
+    gate.attach(outlet)
+    writer = threading.Thread(target=gate.flush)
+    writer.start()
+    assert outlet.begun.wait(PATIENCE)
+    before = gate.permit()
+    assert not gate.try_stop()
+    assert gate.permit() == before
+    outlet.let_out.set()
+    writer.join()
+    assert gate.try_stop()
+    assert outlet.taken == [FLUSH, FLUSH + STOP]
+
+
+def test_who_must_not_wait_leaves_a_line_that_failed_to_others() -> None:
+    gate, outlet = Gate(lambda way, data, when: None, lambda: 0.0), Outlet()
+    gate.attach(outlet)
+    outlet.broken = True
+    with pytest.raises(RobotError):
+        gate.try_stop()
+    outlet.broken = False
+    assert not gate.try_stop()
+    gate.stop()
+    assert outlet.taken == [FLUSH + STOP]
 
 
 # A fault's own stop

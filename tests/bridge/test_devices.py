@@ -1,16 +1,23 @@
 """Serial devices: found again under another name, remembered, and told from the robot."""
 
 import json
+import threading
+import time
 from pathlib import Path
 
 import pytest
 
 from app.bridge.devices import SerialDevice, found_again
-from app.bridge.states import LinkState
+from app.bridge.emulated import start_emulator
+from app.bridge.faults import Fault
+from app.bridge.ports import PtyPort, TcpPort
+from app.bridge.robot import RobotBridge
+from app.bridge.states import LinkState, RobotSnapshot
 from app.bridge.transport import serial_devices
 from app.robot_ports import RobotPorts
 from tests.bridge.virtual_robot import VirtualRobot
 
+PATIENCE = 30.0
 BOARD = SerialDevice("/dev/ttyACM0", "Feather M0", "F00D")
 MOVED = SerialDevice("/dev/ttyACM1", "Feather M0", "F00D")
 OTHER = SerialDevice("/dev/ttyACM0", "Feather M0", "BEEF")
@@ -73,6 +80,16 @@ def test_the_devices_of_this_computer_can_be_listed() -> None:
     assert all(one.device for one in serial_devices())
 
 
+class FastClock:
+    """Lets so many seconds pass in a real one."""
+
+    def __init__(self, speed: float) -> None:
+        self._speed = speed
+
+    def __call__(self) -> float:
+        return time.monotonic() * self._speed
+
+
 def opened(from_robot: bytes) -> VirtualRobot:
     robot = VirtualRobot()
     robot.from_robot = lambda data: from_robot if data else b""
@@ -93,3 +110,50 @@ def test_nothing_is_sent_to_what_is_no_robot() -> None:
     other = opened(b"$GPGGA,123519\r\n")
     other.until(lambda s: s.link is LinkState.LOST)
     assert other.sent == []
+
+
+def until_link(bridge: RobotBridge, link: LinkState) -> RobotSnapshot:
+    reached = threading.Event()
+    unsubscribe = bridge.subscribe(lambda shown: reached.set() if shown.link is link else None)
+    assert reached.wait(PATIENCE), bridge.snapshot
+    unsubscribe()
+    return bridge.snapshot
+
+
+def test_a_board_that_comes_back_under_another_name_is_found_and_answers(tmp_path: Path) -> None:
+    first, second = tmp_path / "ttyACM0", tmp_path / "ttyACM1"
+    present: list[SerialDevice] = []
+    ports = RobotPorts(tmp_path / "robot.json", lambda: tuple(present))
+    bridge = RobotBridge()
+    robots = []
+    for name in (first, second):
+        robots.append(start_emulator("nominal", 20.0, booted=True))
+        name.symlink_to(robots[-1].device)
+        present[:] = [SerialDevice(str(name), "Feather M0", "F00D")]
+        device = str(name) if name is first else ports.view(is_lost=True)["again"]["device"]
+        bridge.connect(device)
+        ports.connected(device)
+        assert until_link(bridge, LinkState.READY).device == str(name)
+        robots[-1].inject(Fault.UNPLUG)
+        until_link(bridge, LinkState.LOST)
+        name.unlink()
+    bridge.close()
+    for robot in robots:
+        robot.close()
+
+
+@pytest.mark.parametrize("port", [PtyPort, TcpPort])
+def test_a_device_that_is_no_robot_is_recognised_on_every_kind_of_line(port: type[PtyPort | TcpPort]) -> None:
+    other, asked = port(), []
+    bridge = RobotBridge(clock=FastClock(20.0))
+    bridge.connect(other.device)
+    lost = threading.Event()
+    bridge.subscribe(lambda shown: lost.set() if shown.link is LinkState.LOST else None)
+    deadline = time.monotonic() + PATIENCE
+    while not lost.wait(0.01) and time.monotonic() < deadline:
+        asked.append(other.read())
+        other.write(b"$GPGGA,123519\r\n")
+    assert f"Something on {other.device} sends" in bridge.snapshot.sentence
+    assert b"".join(asked) == b""
+    bridge.close()
+    other.close()

@@ -47,7 +47,7 @@ def simulated_motion(
 
     Args:
         problem: what was asked.
-        course: of the motors.
+        course: of the motors, as far as the run came.
         layout: of the engine's values.
         recorded: positions and sensors, a row a turn.
         loop_error: m.
@@ -71,11 +71,11 @@ def simulated_motion(
         attitude=move.attitudes(attitude),
         feet_world=move.points(feet),
         strokes=positions[:, layout.motors] + forces / layout.stiffness,
-        targets=course.targets[:n],
+        targets=course.targets,
         motor_forces=forces,
         ground_forces=move.vectors(ground),
         centre_world=move.points(sensors[:, -3:]),
-        arrivals=course.arrivals[course.arrivals < n],
+        arrivals=course.arrivals,
         loop_error=loop_error,
         seconds=seconds,
         ended_early=ended_early,

@@ -15,7 +15,7 @@ from core.kinematics import BodyPose
 from core.path_merging import robot_feet
 from core.physics.motors import motor_speeds
 from core.physics.problem import Rig, SimulationProblem
-from core.physics.ramp import TURN, motor_course
+from core.physics.ramp import TURN, MotorCourse, motor_course
 from core.physics.reporting import FALL_TILT, rotations, tilts
 from solver_jobs.physics.mjcf import LINK_RELAXATION, mjcf_text, rest_height
 from solver_jobs.physics.reading import Layout
@@ -75,11 +75,22 @@ class SimulatedRun:
 
     @property
     def recorded(self) -> tuple[Floats, Floats]:
-        """Positions (n, nq) and sensors (n, …) from the moment at which the robot's time begins."""
-        return (
-            np.concatenate(self._positions)[SETTLING - 1 :],
-            np.concatenate(self._sensors)[SETTLING - 1 :],
-        )
+        """Positions (n, nq) and sensors (n, …) from the moment at which the robot's time begins.
+
+        Of a robot that fell before it had settled, all.
+        """
+        first = SETTLING - 1 if self._row >= SETTLING else 0
+        return np.concatenate(self._positions)[first:], np.concatenate(self._sensors)[first:]
+
+    @property
+    def course_done(self) -> MotorCourse:
+        """The motors' course as far as it came."""
+        rows = len(self.recorded[0])
+        if self._row < SETTLING:
+            still = np.repeat(self.course.targets[:1], rows, 0)
+            return MotorCourse(still, still, np.zeros(1, dtype=np.int64))
+        arrivals = self.course.arrivals[self.course.arrivals < rows]
+        return MotorCourse(self.course.targets[:rows], self.course.strokes[:rows], arrivals)
 
     def state(self) -> Floats:
         """The engine's state from which the next chunk starts."""
@@ -108,7 +119,9 @@ class SimulatedRun:
         fallen = self._fallen(positions)
         if fallen is not None:
             count = fallen + 1
-            self.ended_early = f"It fell over at {(self._row + count - SETTLING) * TURN:.2f} s."
+            seconds = (self._row + count - SETTLING) * TURN
+            when = f"at {seconds:.2f} s" if seconds >= 0 else "before its first move"
+            self.ended_early = f"It fell over {when}."
         self._look_at_chains(sensors[: count * self._steps])
         self._positions.append(positions[:count])
         self._sensors.append(sensors[self._steps - 1 :: self._steps][:count])

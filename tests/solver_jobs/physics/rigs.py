@@ -10,6 +10,7 @@ import numpy as np
 
 from core.arrays import Floats
 from core.gait import heading_step, motion_problem
+from core.kinematics import BodyPose, free_strokes
 from core.library import library
 from core.path_merging import WaypointPlan, plan_waypoints, robot_feet
 from core.physics.masses import default_physics
@@ -24,6 +25,11 @@ MODEL = load_robot("deltawalker")
 SCALES = physics_set("scales")
 MIDDLE = 0.008
 """A stroke at which the feet stand in the middle of their reach, m."""
+
+
+def strokes_of(feet_robot: Floats) -> Floats:
+    """(legs, 3) strokes that put feet somewhere in the robot's frame, m."""
+    return free_strokes(MODEL, feet_robot, BodyPose(np.zeros(3), np.asarray(0.0)))
 
 
 def problem_of_strokes(

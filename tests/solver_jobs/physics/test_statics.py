@@ -7,9 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.arrays import Floats
 from core.errors import InfeasibleError, InputError
-from core.kinematics import BodyPose, free_strokes
 from core.leg import foot_from_strokes
 from core.path_merging import robot_feet
 from core.physics.masses import default_physics, part_masses
@@ -18,7 +16,7 @@ from core.physics.problem import Rig
 from core.physics.reporting import rotations, tilts
 from core.robot import load_robot
 from solver_jobs import simulate
-from tests.solver_jobs.physics.rigs import MIDDLE, MODEL, SCALES, problem_of_strokes, resting
+from tests.solver_jobs.physics.rigs import MIDDLE, MODEL, SCALES, problem_of_strokes, resting, strokes_of
 
 GRAVITY = SCALES.gravity
 
@@ -34,17 +32,13 @@ def test_three_feet_carry_the_weight_by_the_levers_of_the_centre_of_mass() -> No
     strokes[:, 0] -= 0.004
     # Foot 1 hangs in the air, and the others lie so far ahead that the body's middle is amid them.
     leaned = robot_feet(MODEL, strokes)[0] + np.array([0.010, 0.0, 0.0])
-    strokes = np.repeat(_strokes_of(leaned)[None], 2, 0)
+    strokes = np.repeat(strokes_of(leaned)[None], 2, 0)
     motion = simulate(problem_of_strokes(strokes))
     assert motion.ground_forces[-1, 0, 2] == 0.0
     feet, centre = motion.feet_world[-1, 1:], motion.centre_world[-1]
     levers = np.vstack([feet[:, 0], feet[:, 1], np.ones(3)])
     expected = np.linalg.solve(levers, 0.570 * GRAVITY * np.array([centre[0], centre[1], 1.0]))
     np.testing.assert_allclose(motion.ground_forces[-1, 1:, 2], expected, rtol=0.01)
-
-
-def _strokes_of(feet_robot: Floats) -> Floats:
-    return free_strokes(MODEL, feet_robot, BodyPose(np.zeros(3), np.asarray(0.0)))
 
 
 def test_the_robot_sags_by_what_its_links_yield_and_no_more() -> None:

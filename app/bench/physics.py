@@ -152,7 +152,9 @@ def _bars(cases: Sequence[OptimisedCase]) -> list[Row]:
             len(runs) - falls,
             len(runs),
         ),
-        _bar("of them without leaning beyond the limit", "–", len(runs) - leans, len(runs)),
+        _bar(
+            f"of them that lean by at most {np.degrees(TILT_LIMIT):.0f}°", "–", len(runs) - leans, len(runs)
+        ),
         _bar("gaits of −5 mm margin that fall or lean", "all", seen, len(out)),
         *_speed(walk),
     ]

@@ -40,7 +40,14 @@ figure { margin: 0; }
 figure svg { width: 100%; height: auto; }
 figcaption { color: #667085; font-size: 12px; font-variant-numeric: tabular-nums; }
 .absent { align-self: center; color: #667085; }
-@page { size: A4 landscape; margin: 12mm; }
+@page { size: A4 portrait; margin: 12mm; }
+@media print {
+  body { margin: 0; padding: 0; max-width: none; font-size: 11px; }
+  h2 { margin: 0 0 2mm; break-before: page; }
+  .intro + h2 { break-before: avoid; margin-top: 4mm; }
+  .case { grid-template-columns: repeat(3, 50mm); gap: 0 12mm; margin: 0 0 2mm; }
+  figcaption { font-size: 9px; }
+}
 """
 
 _WORDS = (
@@ -72,7 +79,7 @@ def physics_page(optimised: Sequence[OptimisedCase], manual: Sequence[ManualCase
             '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">',
             '<meta name="viewport" content="width=device-width, initial-scale=1">',
             f"<title>{title} · Footfall Studio</title>\n<style>{_STYLE}</style>\n</head>\n<body>",
-            f"<h1>{title}</h1>\n<p>{escape(_WORDS)} Footfall Studio {escape(VERSION)}.</p>",
+            f'<h1>{title}</h1>\n<p class="intro">{escape(_WORDS)} Footfall Studio {escape(VERSION)}.</p>',
             *by_hand,
             *figures,
             "</body>\n</html>\n",

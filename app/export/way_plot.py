@@ -13,6 +13,8 @@ from core.arrays import Floats
 INK, QUIET, GRID, SHEET = "#1b2430", "#667085", "#e3e6eb", "#ffffff"
 SIZE, EDGE, HEAD = 300.0, 30.0, 26.0
 """Side of the plot, space for numbers at the left and below, and for the title, px."""
+RIGHT = 12.0
+"""Space at the right for half of a number, px."""
 GRID_STEP = 0.020
 """Distance of grid lines, m."""
 PALE = 0.72
@@ -61,7 +63,7 @@ def way_plot(ways: Ways, colours: tuple[str, ...], reach: float) -> Drawing:
     for foot, colour in enumerate(colours):
         shapes += _track(paper, ways.planned_feet[:, foot], ways.feet[:, foot], colour)
     return Drawing(
-        width=EDGE + SIZE + 4,
+        width=EDGE + SIZE + RIGHT,
         height=HEAD + SIZE + EDGE,
         title=ways.title,
         description=_in_words(ways),

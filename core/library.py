@@ -70,14 +70,15 @@ class LibraryEntry:
     """Whether a motion of it keeps every limit of its robot."""
 
 
-def _read(name: str) -> dict[str, Any]:
+def data_table(name: str) -> dict[str, Any]:
+    """Content of a parameters file of this program, by the file's name."""
     return tomllib.loads(resources.files("core.data").joinpath(name).read_text("utf-8"))
 
 
 @cache
 def default_vocabulary() -> SegmentVocabulary:
     """Named positions and segments of thesis Tables 3.2 to 3.4."""
-    table = _read("segments.toml")
+    table = data_table("segments.toml")
     segments = {name: Segment(**values) for name, values in table["segments"].items()}
     return SegmentVocabulary(table["xy"], table["z"], segments)
 
@@ -85,24 +86,24 @@ def default_vocabulary() -> SegmentVocabulary:
 @cache
 def library() -> Mapping[str, LibraryEntry]:
     """Every built-in gait by its id, group by group, in the order of the page's list."""
-    optimised = _read("gaits.toml")["gait"]
+    optimised = data_table("gaits.toml")["gait"]
     items = [
         *((Group.OPTIMISED, item) for item in optimised),
-        *((Group.BY_HAND, item) for item in _read("manual.toml")["gait"]),
+        *((Group.BY_HAND, item) for item in data_table("manual.toml")["gait"]),
         *((Group.APPENDIX, ordered) for item in optimised for ordered in _appendix_items(item)),
-        *((Group.TEXTBOOK, item) for item in _read("textbook.toml")["gait"]),
+        *((Group.TEXTBOOK, item) for item in data_table("textbook.toml")["gait"]),
     ]
     singles = {item["id"]: _entry(group, item) for group, item in items}
     for pattern in library_patterns().values():
         singles[pattern.id] = LibraryEntry(pattern.id, pattern.gait, None, Group.PATTERNS, pattern.walks)
-    sequences = (_sequence_entry(item, singles) for item in _read("sequences.toml")["sequence"])
+    sequences = (_sequence_entry(item, singles) for item in data_table("sequences.toml")["sequence"])
     return MappingProxyType(singles | {entry.id: entry for entry in sequences})
 
 
 @cache
 def library_patterns() -> Mapping[str, LibraryPattern]:
     """The periodic patterns of the library by the id of the gait that each becomes."""
-    found = (library_pattern(item) for item in _read("patterns.toml")["pattern"])
+    found = (library_pattern(item) for item in data_table("patterns.toml")["pattern"])
     return MappingProxyType({pattern.id: pattern for pattern in found})
 
 
@@ -119,7 +120,7 @@ def group_ids(group: Group) -> tuple[str, ...]:
 
 def appendix_orders() -> dict[str, tuple[tuple[int, ...], ...]]:
     """The foot orders of the thesis's Appendix A by gait, four each, version 1 first."""
-    items = (item for item in _read("gaits.toml")["gait"] if "appendix" in item)
+    items = (item for item in data_table("gaits.toml")["gait"] if "appendix" in item)
     return {item["id"]: tuple(tuple(order) for order in item["appendix"]) for item in items}
 
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import dataclass
 from functools import cache
-from importlib import resources
 
 from core.errors import InputError
+from core.library import data_table
 
 
 @dataclass(frozen=True)
@@ -47,8 +46,7 @@ class PhysicsSet:
 @cache
 def physics_sets() -> dict[str, PhysicsSet]:
     """The sets that come with the program, by name; the first is the default."""
-    text = resources.files("core").joinpath("data/physics.toml").read_text("utf-8")
-    return {name: PhysicsSet(name=name, **table) for name, table in tomllib.loads(text).items()}
+    return {name: PhysicsSet(name=name, **table) for name, table in data_table("physics.toml").items()}
 
 
 def physics_set(name: str | None = None) -> PhysicsSet:

@@ -19,6 +19,9 @@ VERSION_MARK = "~"
 STYLES = "page.css"
 """Name of all style sheets in one."""
 
+LATER = "later-modules"
+"""Id of the template that holds the preloads of the second wave; `opening.js` takes them out."""
+
 Stamp = tuple[int, int]
 """When a file was changed, ns, and its bytes."""
 
@@ -52,8 +55,9 @@ class PageState:
 class ModulePage:
     """The page, made anew where a file of its folder changed.
 
-    What the scripts import comes first, then what the modules import that the HTML names as a preload: those
-    are imported by `import()` while the page starts. What else is imported that way waits until asked for.
+    What the scripts import comes at once. What the modules import that the HTML names as a preload stands in
+    a template, out of which the page takes it when what is seen first is drawn: read earlier, those modules
+    take the processor from it. What else is imported by `import()` waits until asked for.
 
     Args:
         folder: with `index.html` and the modules; it is served as /static.
@@ -90,17 +94,14 @@ class ModulePage:
 
     def _preloads(self, scripts: list[str], entries: list[str]) -> list[str]:
         first = self._reached(scripts, ())
-        waves = [(first, "")]
-        known = set(first)
+        later: list[Path] = []
         for entry in entries:
-            wave = self._reached([entry], known)
-            waves.append((wave, ' fetchpriority="low"'))
-            known.update(wave)
-        return [
-            f'<link rel="modulepreload"{hurry} href="/static/{path.relative_to(self._folder).as_posix()}">'
-            for wave, hurry in waves
-            for path in wave
-        ]
+            later += self._reached([entry], {*first, *later})
+        return [*self._links(first), f'<template id="{LATER}">', *self._links(later), "</template>"]
+
+    def _links(self, modules: list[Path]) -> list[str]:
+        names = (module.relative_to(self._folder).as_posix() for module in modules)
+        return [f'<link rel="modulepreload" href="/static/{name}">' for name in names]
 
     def _reached(self, names: list[str], known: Collection[Path]) -> list[Path]:
         """The modules and all that they import, without those that are known."""

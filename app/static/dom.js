@@ -70,3 +70,6 @@ export function stateParts(tone, name, word) {
     h("span", { class: "word", text: word }),
   ];
 }
+
+/** Resolves when what is changed now has been painted. */
+export const painted = () => new Promise((resume) => { requestAnimationFrame(() => setTimeout(resume)); });

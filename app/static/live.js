@@ -4,8 +4,11 @@
  */
 
 import { api } from "./api.js";
+import { painted } from "./dom.js";
 import { lane } from "./lane.js";
 import { shownDocument, shownPlan, shownText } from "./store.js";
+
+export { painted };
 
 const IDLE_MS = 150;
 const HELD_MS = 600;
@@ -21,9 +24,6 @@ function refusedPlan(sentence) {
     margin: [], heading: [], balance: null, strokes_mm: null, foot_speeds_mm_s: null, motor_speeds_mm_s: null, duration: 0, live: null, seconds: null,
   };
 }
-
-/** Resolves when what is changed now has been painted. */
-export const painted = () => new Promise((resume) => { requestAnimationFrame(() => setTimeout(resume)); });
 
 /** Resolves in a task of its own, so that reading a large answer and drawing it do not hold up a frame together. */
 const nextTask = () => new Promise((resume) => { setTimeout(resume); });

@@ -1,14 +1,33 @@
-/** What a person sees first: the list of gaits. The page's other modules are read meanwhile. */
+/** What a person sees first: the list of gaits. The page's other modules are read once it stands. */
 
+import { byId, painted } from "./dom.js";
 import { listen } from "./events.js";
 import { mountGaits, selectAfterHello } from "./gaits.js";
 import { createStore } from "./store.js";
 import { report } from "./toasts.js";
 
+/** A tab in the background is not painted, and a studio that has only just started still reads its files. */
+const LONGEST_LIST_MS = 300;
+
+/** The list that comes with the page, which names it as a preload: the greeting has to wait for a socket and brings the same. */
+async function listEarly(store) {
+  try {
+    const { gaits } = await (await fetch("/api/gaits")).json();
+    if (gaits && !store.state.greeted) store.set({ gaits });
+  } catch {
+    return;
+  }
+  await painted();
+}
+
 const store = createStore();
 mountGaits(store);
 listen(store, () => selectAfterHello(store));
 
-import("./main.js").then(({ start }) => start(store), (error) => {
+const late = new Promise((resume) => { setTimeout(resume, LONGEST_LIST_MS); });
+Promise.race([listEarly(store), late]).then(() => {
+  document.head.append(byId("later-modules").content);
+  return import("./main.js");
+}).then(({ start }) => start(store), (error) => {
   report(new Error(`The page could not be loaded whole: ${error.message}. Reload it.`));
 });

@@ -49,6 +49,24 @@ def test_gaits_are_found_by_words_and_escape_shows_all(page: Page) -> None:
     expect(search).to_have_value("")
 
 
+def test_the_list_stands_before_the_studio_has_greeted(browser: Browser, studio: StudioProcess) -> None:
+    page = browser.new_page()
+    page.route_web_socket("**/api/events**", lambda socket: None)
+    page.goto(studio.url)
+    gaits = page.get_by_role("list", name="Gaits")
+    expect(gaits.get_by_role("button", name="Trial 40")).to_be_visible(timeout=LONG_MS)
+    gaits.get_by_role("button", name="Trial 40").click()
+    expect(page.get_by_label("Gait name")).to_have_value("Trial 40", timeout=LONG_MS)
+    page.close()
+
+
+def test_a_list_that_does_not_come_with_the_page_comes_with_the_greeting(page: Page) -> None:
+    page.route("**/api/gaits", lambda route: route.abort())
+    page.reload()
+    gaits = page.get_by_role("list", name="Gaits")
+    expect(gaits.get_by_role("button", name="Trial 40")).to_be_visible(timeout=LONG_MS)
+
+
 def test_a_line_of_the_list_follows_an_edit_elsewhere(page: Page, studio: StudioProcess) -> None:
     document = studio.ask("GET", "/api/gaits/trial-0007").content
     studio.ask("PUT", "/api/gaits/trial-0007?label=Name", {**document, "name": "Seventh heaven"})

@@ -13,6 +13,7 @@ from starlette.middleware import Middleware
 
 from app.documents import gait_schema
 from app.routes import (
+    approvals,
     events,
     exports,
     gaits,
@@ -25,6 +26,7 @@ from app.routes import (
     runs,
     scene,
     sequences,
+    simulations,
     tables,
     trials,
     versions,
@@ -62,6 +64,7 @@ def make_app(studio: Studio, scenes: Scenes, access: Access) -> FastAPI:
         exports.router,
         sequences.router,
         gaits.router,
+        approvals.router,
         versions.router,
         jobs.router,
         patterns.router,
@@ -69,6 +72,7 @@ def make_app(studio: Studio, scenes: Scenes, access: Access) -> FastAPI:
         robot_faults.router,
         jog.router,
         runs.router,
+        simulations.router,
         tables.router,
         trials.router,
         robots.router,

@@ -18,7 +18,7 @@ from app.history import Author
 from app.job_book import JobBook
 from app.job_desk import JobDesk
 from app.jog_desk import JogDesk
-from app.kept_simulations import KeptSimulations
+from app.kept_simulations import KeptSimulations, keys_of
 from app.live_desk import LiveDesk
 from app.open_gait import OpenGait
 from app.pattern_desk import PatternDesk
@@ -30,6 +30,8 @@ from app.runs.desk import RunDesk
 from app.sequence_documents import source_states
 from app.sequence_plans import run_motions, runs_without_result
 from app.session import Result, Session, log_failure
+from app.simulation_desk import KIND as SIMULATE
+from app.simulation_desk import SimulationDesk
 from app.store.database import Database
 from app.store.files import GaitFiles
 from app.store.simulation_log import SimulationLog
@@ -40,8 +42,9 @@ from core.errors import FootfallError, StateError
 from core.gait import Gait, motion_problem
 from core.library import library
 from core.motion_problem import MotionProblem
+from core.physics.parameters import physics_set
 from core.robot import load_robot
-from solver_jobs import Job, JobKind, JobRunner, LiveSolver, PatternSolver
+from solver_jobs import Job, JobKind, JobRunner, LiveSolver, PatternSolver, Simulator
 
 _SCRIPT = Author()
 
@@ -81,6 +84,11 @@ class Studio:
         self._runner = JobRunner(self._job_changed, warm_up=_likely_problem())
         self.book = JobBook(self._database)
         self.jobs = JobDesk(self.book, self._runner, self._take_result)
+        self._simulator = Simulator()
+        self._simulating = SimulationDesk(
+            self._simulator, self.book, self.simulations, self.session.tell, self._show_simulation
+        )
+        self._simulated_as: dict[str, frozenset[str]] = {}
         self.robot = RobotDesk(
             self._database, device, self._robot_changed, RobotPorts(data / "robot.json"), self._tell_page
         )
@@ -101,6 +109,8 @@ class Studio:
         self._solver.close()
         for solver in self._pattern_solvers:
             solver.close()
+        self._simulator.close()
+        self._simulating.close()
         self._plans.close()
         self.session.close()
         self.hub.close()
@@ -159,11 +169,18 @@ class Studio:
 
     def view(self, gait_id: str) -> dict[str, Any]:
         """A gait with its plan, on the session's thread."""
-        return self._gait_view(self.gaits.open_gait(gait_id))
+        is_first = gait_id not in self._simulated_as
+        view = self._gait_view(self.gaits.open_gait(gait_id))
+        if is_first:
+            self._publish_jobs(gait_id)
+        return view
 
     def _gait_view(self, open_gait: OpenGait) -> dict[str, Any]:
-        view = gait_view(open_gait, self.gaits.plan(open_gait.id), self.hub.pages())
+        plan = self.gaits.plan(open_gait.id)
+        self._simulated_as[open_gait.id] = keys_of(plan)
+        view = gait_view(open_gait, plan, self.hub.pages())
         return view | {
+            "simulation": self.simulations.standing(open_gait.id, plan),
             "sources": self._sources(open_gait),
             "version": self.gaits.versions.newest_number(open_gait.id),
         }
@@ -176,7 +193,10 @@ class Studio:
         return self.gaits.glance(gait_id)[0]
 
     def job_view(self, content: dict[str, Any]) -> dict[str, Any]:
-        """A job, and whether it is of the gait as it is now."""
+        """A job, and whether it is of the gait as it is now; None where its plan is not made yet."""
+        if content["kind"] == SIMULATE:
+            keys = self._simulated_as.get(content["gait"])
+            return {**content, "fresh": None if keys is None else content["motion"] in keys}
         try:
             gait = self._glanced(content["gait"])
             fresh = content["motion"] in (run_motions(gait) if gait.sequence else {asked_hash(gait)})
@@ -190,12 +210,15 @@ class Studio:
         self.hub.publish({"type": "gait", "view": view})
         if not self._list.has(open_gait.id):
             self.publish_list()
-        for content in self.book.contents():
-            if content["gait"] == open_gait.id:
-                self.hub.publish({"type": "job", "job": self.job_view(content)})
+        self._publish_jobs(open_gait.id)
         for sequence in self.gaits.sequences_with(open_gait.id):
             self._publish_sources(sequence)
         return view
+
+    def _publish_jobs(self, gait_id: str) -> None:
+        for content in self.book.contents():
+            if content["gait"] == gait_id:
+                self.hub.publish({"type": "job", "job": self.job_view(content)})
 
     def _publish_sources(self, sequence: OpenGait) -> None:
         """Tells how a sequence's parts stand to their gaits, where that is another way than told last."""
@@ -236,6 +259,35 @@ class Studio:
         view = self.job_view(content)
         self.hub.publish({"type": "job", "job": view})
         return view
+
+    def submit_simulation(
+        self, gait_id: str, physics: str | None = None, variations: int = 0
+    ) -> dict[str, Any]:
+        """Starts a simulation of what would be sent of a gait; its plan is made.
+
+        Args:
+            gait_id: which gait.
+            physics: name of the set of parameters; None for the usual one.
+            variations: how many variations of them are tried as well.
+        """
+        open_gait, plan = self.gaits.open_gait(gait_id), self.gaits.plan(gait_id)
+        content = self._simulating.submit(open_gait, plan, physics_set(physics), variations)
+        view = self.job_view(content)
+        self.hub.publish({"type": "job", "job": view})
+        return view
+
+    def cancel_job(self, job_id: str) -> dict[str, Any]:
+        """Asks a job to end; one that ended already stays as it is."""
+        desk = self._simulating if self.book.content(job_id)["kind"] == SIMULATE else self.jobs
+        view = self.job_view(desk.cancel(job_id))
+        self.hub.publish({"type": "job", "job": view})
+        return view
+
+    def _show_simulation(self, content: dict[str, Any]) -> None:
+        """Shows a simulation's job, and once it is done its gait, which has another simulation now."""
+        if content["state"] == "done":
+            self.publish_soon(content["gait"])
+        self.hub.publish({"type": "job", "job": self.job_view(content)})
 
     def submit_parts(self, gait_id: str) -> list[dict[str, Any]]:
         """Starts an optimisation of each part of a sequence that can have an exact motion and has none yet.

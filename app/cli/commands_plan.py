@@ -70,7 +70,7 @@ def run_check(options: Namespace) -> int:
         gait = parse_gait(read_text(path), path.name)
         if options.robot is not None:
             gait = with_robot(gait, load_robot(options.robot))
-        verdict = _verdict(load_robot(gait.robot), _trajectory_of(gait), gait)
+        verdict = _verdict(load_robot(gait.robot), trajectory_of(gait), gait)
     else:
         read = read_trajectory(path)
         for assumption in read.assumptions:
@@ -88,7 +88,7 @@ def _verdict(model: RobotModel, trajectory: Trajectory, gait: Gait | None) -> Ve
     return check_plan(checked_plan(gait, model, trajectory, way))
 
 
-def _trajectory_of(gait: Gait) -> Trajectory:
+def trajectory_of(gait: Gait) -> Trajectory:
     """Recorded, by hand table, or solved now and confirmed; of a sequence those of its parts, chained.
 
     Raises:
@@ -122,7 +122,7 @@ def _part_trajectory(index: int, part: SequencePart) -> Trajectory:
         CheckError: no motion was confirmed, or the part makes none.
     """
     try:
-        return _trajectory_of(run_of(part).gait)
+        return trajectory_of(run_of(part).gait)
     except FootfallError as refusal:
         sentence = f"{part_name(index, part)}, has no motion: {refusal.sentence}"
         kind = InfeasibleError if isinstance(refusal, InfeasibleError) else CheckError

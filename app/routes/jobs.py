@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Depends
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 from starlette.concurrency import run_in_threadpool
 
-from app.routes.edge import TheAuthor, on_session, studio_of
+from app.routes.edge import TheAuthor, on_planned, on_session, studio_of
 from app.studio import Studio
 from app.views import plan_view
 from solver_jobs import JobKind
@@ -16,18 +16,34 @@ from solver_jobs import JobKind
 router = APIRouter(prefix="/api/jobs", tags=["jobs"])
 TheStudio = Annotated[Studio, Depends(studio_of)]
 
+MOST_VARIATIONS = 256
+"""Of a simulation."""
+
 
 class JobRequest(BaseModel):
     """What to compute, for which gait."""
 
     model_config = ConfigDict(extra="forbid")
-    kind: Literal["optimise", "timing"] = "optimise"
+    kind: Literal["optimise", "timing", "simulate"] = "optimise"
     gait: str
+    physics: str | None = Field(default=None, description="of simulate: a set of physics parameters")
+    variations: int = Field(default=0, ge=0, le=MOST_VARIATIONS, description="of simulate: how many")
+
+    @model_validator(mode="after")
+    def _fits(self) -> JobRequest:
+        if self.kind != "simulate" and (self.physics is not None or self.variations):
+            raise ValueError(f"physics and variations belong to simulate; leave them out of {self.kind}")
+        return self
 
 
 @router.post("", status_code=202)
 async def submit(job: JobRequest, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
-    """Starts the optimisation of a gait as it is now, or the search for its fastest timing."""
+    """Starts the optimisation of a gait as it is now, the search for its fastest timing, or a simulation."""
+    if job.kind == "simulate":
+        content = await on_planned(
+            studio, job.gait, lambda: studio.submit_simulation(job.gait, job.physics, job.variations)
+        )
+        return {"id": content["id"]}
     kind = JobKind.TIMING if job.kind == "timing" else JobKind.MOTION
     content = await on_session(studio, lambda: studio.submit_job(job.gait, kind, author))
     return {"id": content["id"]}
@@ -48,7 +64,7 @@ async def read_job(job_id: str, studio: TheStudio) -> dict[str, Any]:
 @router.delete("/{job_id}")
 async def cancel(job_id: str, studio: TheStudio) -> dict[str, Any]:
     """Cancels a job; one that has ended stays as it is."""
-    return await on_session(studio, lambda: studio.job_view(studio.jobs.cancel(job_id)))
+    return await on_session(studio, lambda: studio.cancel_job(job_id))
 
 
 @router.get("/{job_id}/course/{number}")

@@ -29,8 +29,11 @@ COP_NODE = "/overlay/cop"
 REACH_NODE = f"{ROBOT_ROOT}/{BODY}/reach"
 """Scene path of the lines round each foot's reach; it moves along with the body."""
 
-GHOST_NODES = ("/ghost/before", "/ghost/saved", "/ghost/measured", "/ghost/jog")
+GHOST_NODES = ("/ghost/before", "/ghost/saved", "/ghost/measured", "/ghost/simulated", "/ghost/jog")
 """Scene paths of other versions of the gait, each drawn with the lines of one node."""
+
+CONTACT_NODE, SLIP_NODE = "/ghost/contact", "/ghost/slip"
+"""Scene paths of what the simulated robot's feet do to the ground."""
 
 FLOOR_THEMES: dict[str, tuple[Colour, Colour]] = {
     "light": ((212, 219, 228), (246, 248, 250)),
@@ -122,6 +125,8 @@ def add_overlay(server: viser.ViserServer, model: RobotModel) -> None:
     _add_lines(server, REACH_NODE, np.full((1, 2, 3), INK, dtype=np.uint8), 1.5)
     for node in GHOST_NODES:
         _add_lines(server, node, INK, 1.25)
+    _add_lines(server, CONTACT_NODE, GOOD, 2.5)
+    _add_lines(server, SLIP_NODE, BAD, 3.0)
     for leg, colour in enumerate(model.colours):
         rgb = (int(colour[1:3], 16), int(colour[3:5], 16), int(colour[5:7], 16))
         _add_lines(server, f"/overlay/swing{leg + 1}", rgb, 2.5)

@@ -20,12 +20,13 @@ ROUND_CORNERS = 8
 """Of a foot's outline; lines are dear where there is no GPU."""
 
 
-def ghost_blob(model: RobotModel, trajectory: Trajectory) -> PoseBlob:
+def ghost_blob(model: RobotModel, trajectory: Trajectory, fps: float = FRAMES_A_SECOND) -> PoseBlob:
     """Poses of the body, an arm's rod for each motor, and the feet, with their lines as `overlay["lines"]`.
 
     Args:
         model: the robot.
         trajectory: what it does.
+        fps: least number of frames a second.
 
     Returns:
         The blob; lines are (pieces, 2, 3) a node, in the node's frame, m, as JSON values.
@@ -36,7 +37,7 @@ def ghost_blob(model: RobotModel, trajectory: Trajectory) -> PoseBlob:
         trajectory.body_world,
         trajectory.heading,
         trajectory.feet_world,
-        FRAMES_A_SECOND,
+        fps,
     )
     lines = part_lines(model)
     # One line in the middle stands for the two rods of an arm, which lie the same way beside each other.

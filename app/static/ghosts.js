@@ -1,21 +1,25 @@
-/** The ghosts of the 3D preview: the gait before the last edit, as it was saved, and as a run measured it, as quiet second robots. */
+/** The ghosts of the 3D preview: the gait before the last edit, as it was saved, as a run measured it and as physics has it, as quiet second robots. */
 
 import { api } from "./api.js";
 import { checkMenu, recalled, remember } from "./check_menu.js";
 import { byId } from "./dom.js";
 import { lane } from "./lane.js";
+import { simulationOver } from "./simulation.js";
 
 const KINDS = {
   before: { text: "Before the last edit", help: "The gait as it was before the last edit, at the same time; while you drag, as it is without the drag" },
   saved: { text: "As saved", help: "The gait as it was saved, at the same time" },
   measured: { text: "As measured", shown: true, help: "The robot of the run that is open, by its measured strokes, with the plan's standing feet on the ground" },
+  simulated: { text: "As simulated", shown: true, help: "The robot of the simulation, leaning and slipping as physics has it; green rings are feet that carry load, red lines where feet slid" },
 };
 
 const keyOf = (view, of) => `${view.id} ${of} ${view.revision} ${view.saved_at}`;
 
 /** Which version is fetched for a ghost, and why there is none. */
-function versionOf(kind, { view, live, run }) {
+function versionOf(kind, state) {
+  const { view, live, run } = state;
   if (!view) return { reason: "No gait is selected." };
+  if (kind === "simulated") return simulationOver(state) ? { of: `${view.simulation.key} ${view.simulation.made}` } : { reason: "This plan was not simulated." };
   if (kind === "measured") return run?.gait === view.id ? { of: run.id } : { reason: "No run of this gait is open. Open one under Runs." };
   if (kind === "saved") return view.edited || live ? { of: "saved" } : { reason: "The gait is as it was saved." };
   if (live) return { of: "present" };
@@ -28,7 +32,7 @@ function follow(store, preview, kind, menu, isOn) {
   const offer = lane(async ({ id, of, key }) => {
     let poses = null;
     try {
-      poses = await (kind === "measured" ? api.runGhost(of) : api.ghost(id, of));
+      poses = await (kind === "measured" ? api.runGhost(of) : kind === "simulated" ? api.simulatedGhost(of.split(" ")[0]) : api.ghost(id, of));
     } catch {
       // That version makes no motion: there is nothing to be drawn.
     }
@@ -60,5 +64,5 @@ export function mountGhosts(store, preview) {
   });
   for (const kind of Object.keys(KINDS)) followers[kind] = follow(store, preview, kind, menu, () => choice[kind]);
   byId("stage-tools").append(menu.element);
-  store.watch(({ view, live, run }) => [view?.id, view?.revision, view?.saved_at, view?.edited, Boolean(live), run?.id], () => Object.values(followers).forEach((update) => update()));
+  store.watch((state) => [state.view?.id, state.view?.revision, state.view?.saved_at, state.view?.edited, Boolean(state.live), state.run?.id, simulationOver(state)], () => Object.values(followers).forEach((update) => update()));
 }

@@ -2,7 +2,7 @@
 
 import { api } from "./api.js";
 import { byId, h, setText } from "./dom.js";
-import { clockTime, compact, seconds } from "./format.js";
+import { clockTime, compact, fixed, seconds } from "./format.js";
 import { announce, attempt } from "./toasts.js";
 
 const TONES = {
@@ -15,7 +15,7 @@ export const jobIsOn = (job) => ["queued", "running", "cancelling"].includes(job
 export const jobTone = (job) => TONES[job.state] ?? "quiet";
 
 /** Whether a finished job's answer belongs to an older version of its gait. */
-export const isOlder = (job) => Boolean(job) && ["done", "infeasible", "failed"].includes(job.state) && !job.fresh;
+export const isOlder = (job) => Boolean(job) && ["done", "infeasible", "failed"].includes(job.state) && job.fresh === false;
 
 /** The optimisation whose curve and explanation are shown: the one picked, else the newest of this gait. */
 export function jobOf({ jobs, shownJob, selected }) {
@@ -24,9 +24,11 @@ export function jobOf({ jobs, shownJob, selected }) {
 }
 
 const isTiming = (job) => job.kind === "timing";
+const isSimulation = (job) => job.kind === "simulate";
 
 function figures(job) {
   const last = job.progress?.at(-1);
+  if (isSimulation(job)) return job.state === "running" ? `simulated ${fixed((job.share ?? 0) * 100, 0)} %` : job.sentence;
   if (jobIsOn(job)) return last ? `iteration ${last.iteration} · violation ${compact(last.primal)}` : job.sentence;
   if (job.state === "done" && job.result && isTiming(job)) return `fastest ${seconds(job.result.total_seconds)} s, drawn ${seconds(job.result.drawn_seconds)} s`;
   if (job.state === "done" && job.result) return `${job.result.iterations} iterations · ${seconds(job.result.solve_seconds)} s`;
@@ -50,8 +52,8 @@ async function pick(store, id) {
   const job = store.state.jobs.find((one) => one.id === id);
   const { selectGait } = await import("./gaits.js");
   if (store.state.gaits.some((gait) => gait.id === job.gait)) await selectGait(store, job.gait);
-  store.set({ shownJob: id });
-  byId("tab-optimise").click();
+  if (!isSimulation(job)) store.set({ shownJob: id });
+  byId(isSimulation(job) ? "tab-simulate" : "tab-optimise").click();
 }
 
 function show(part, job, shown) {
@@ -72,7 +74,7 @@ function show(part, job, shown) {
 function tellEnded(before, jobs) {
   for (const job of jobs) {
     const known = before.get(job.id);
-    if (known && jobIsOn(known) && !jobIsOn(job)) announce(`${isTiming(job) ? "Fastest timing of" : "Optimise"} ${job.gait_name}: ${job.state}. ${job.sentence}`);
+    if (known && jobIsOn(known) && !jobIsOn(job)) announce(`${isTiming(job) ? "Fastest timing of" : isSimulation(job) ? "Simulate" : "Optimise"} ${job.gait_name}: ${job.state}. ${job.sentence}`);
   }
   return new Map(jobs.map((job) => [job.id, job]));
 }

@@ -1,9 +1,10 @@
-/** What a run measured over what was planned, on the plan's time axis: strokes, and heights of the feet. */
+/** What a run measured, and what physics makes of the plan, over what was planned, on the plan's time axis. */
 
 import { acrossOf, pathOf } from "./curves.js";
+import { simulationOver, traceOf } from "./simulation.js";
 
-/** What of a run stands over which strip: its rows, and how many values of a row belong to a foot. */
-const OVER = { strokes: { of: "measured_mm", aFoot: 3 }, heights: { of: "foot_heights_mm", aFoot: 1 } };
+/** What of a run stands over which strip: its rows, and how many values of a row belong to a foot; none where they are the body's. */
+const OVER = { strokes: { of: "measured_mm", aFoot: 3 }, heights: { of: "foot_heights_mm", aFoot: 1 }, margin: { of: "margins_mm", aFoot: 0 } };
 
 /** A run's telemetry an iteration of the plan: the plan's times, which grow, with what was measured then. */
 function iterations({ plan_times: times, laps }, values) {
@@ -35,6 +36,12 @@ export function runOver({ run, trace, selected, iterate }) {
   return run?.strokes && run.gait === selected ? run.strokes : null;
 }
 
+/** What stands over a strip, the run's on top: each with what it is called and how its lines are broken. */
+export function oversOf(state, strip) {
+  const [simulated, measured] = [measuredOf(traceOf(simulationOver(state)), strip), measuredOf(runOver(state), strip)];
+  return [simulated && { ...simulated, word: measured ? "simulated dashed" : "simulated solid", dash: measured ? [6, 3] : [] }, measured && { ...measured, word: "measured solid", dash: [] }].filter(Boolean);
+}
+
 /** Least and greatest measured value, mm. */
 export function measuredRange({ laps }) {
   const values = laps.flatMap(({ rows }) => rows.flat()).filter((value) => value !== null);
@@ -42,13 +49,14 @@ export function measuredRange({ laps }) {
 }
 
 /** A curve a foot, as `stripCanvas` takes them. */
-export function measuredCurves({ laps, aFoot }, axis, scale) {
-  const feet = Math.ceil((laps[0]?.rows[0].length ?? 0) / aFoot);
+export function measuredCurves({ laps, aFoot, dash }, axis, scale) {
+  const each = aFoot || 1;
+  const feet = Math.ceil((laps[0]?.rows[0].length ?? 0) / each);
   return Array.from({ length: feet }, (_, foot) => ({
-    tone: foot + 1, width: 1.5, alpha: 1,
+    tone: aFoot ? foot + 1 : "fine", width: 1.5, alpha: 1, dash,
     d: laps.flatMap(({ times, rows }) => {
       const across = acrossOf(axis, times);
-      return Array.from({ length: aFoot }, (__, one) => pathOf(across, (index) => rows[index][foot * aFoot + one], scale));
+      return Array.from({ length: each }, (__, one) => pathOf(across, (index) => rows[index][foot * each + one], scale));
     }).join(""),
   }));
 }

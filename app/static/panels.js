@@ -6,6 +6,7 @@ import { mountRuns } from "./runs.js";
 import { mountSegments } from "./segments.js";
 import { mountSequence } from "./sequence.js";
 import { mountSequenceBand } from "./sequence_band.js";
+import { mountSimulate } from "./simulate.js";
 import { mountStage } from "./stage.js";
 import { mountTrialEntry } from "./trial_entry.js";
 import { mountVersions } from "./versions.js";
@@ -21,6 +22,10 @@ export function mountPanels({ store, edits, playback, goTo, gaitTools }) {
   mountSequenceBand(store, playback);
   const segments = mountSegments(store, edits);
   mountCheck(store, edits, goTo);
+  mountSimulate(store, (time) => {
+    playback.pause();
+    playback.setTime(time);
+  });
   const countdown = mountRobot(store, edits, playback);
   mountVersions(store, edits);
   const trials = mountTrialEntry(store, () => runs());

@@ -5,7 +5,8 @@ import { checkMenu, recalled, remember } from "./check_menu.js";
 import { HEIGHT, WIDTH, acrossOf, indexAt, pathOf, rangeOf, scaleOf } from "./curves.js";
 import { byId, h, setText, svg } from "./dom.js";
 import { fixed } from "./format.js";
-import { measuredCurves, measuredOf, measuredRange, runOver } from "./measured.js";
+import { measuredCurves, measuredRange, oversOf, runOver } from "./measured.js";
+import { simulationOver } from "./simulation.js";
 import { shownDocument, shownPlan } from "./store.js";
 import { stripCanvas } from "./strip_canvas.js";
 import { STRIPS, ownerOf } from "./strips.js";
@@ -45,7 +46,7 @@ function missing({ series }, across) {
   return bands;
 }
 
-/** A curve a foot; the motors of a foot are one path. What was planned is dashed where it was also measured. */
+/** A curve a foot; the motors of a foot are one path. What was planned is dotted where something lies over it. */
 function curvesOf({ series }, across, scale, dashed) {
   const paths = new Map();
   for (const { foot, valueAt } of series) paths.set(foot, (paths.get(foot) ?? "") + pathOf(across, valueAt, scale));
@@ -66,19 +67,19 @@ function footTags({ series }, across, scale) {
   });
 }
 
-/** Draws a strip, with what a run measured over it; returns what the pointer asks it for. */
-function draw(row, content, across, count, axis, over) {
+/** Draws a strip, with what was measured or simulated over it; returns what the pointer asks it for. */
+function draw(row, content, across, count, axis, overs) {
   const { low = null, high = null, wanted = null, floor = null, most = 0 } = content;
-  const [planned, measured] = [rangeOf(content.series, count), over ? measuredRange(over) : [Infinity, -Infinity]];
-  const range = [Math.min(planned[0], measured[0]), Math.max(planned[1], measured[1])];
+  const ranges = [rangeOf(content.series, count), ...overs.map(measuredRange)];
+  const range = [Math.min(...ranges.map(([least]) => least)), Math.max(...ranges.map(([, greatest]) => greatest))];
   const given = [low, high, wanted, floor, most].filter((value) => value !== null);
   const scale = scaleOf(Math.min(range[0], ...given), Math.max(range[1], ...given));
   const limits = [low, high].filter((value) => value !== null);
   const lines = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: "none", "aria-hidden": "true" },
     ...limits.map((value) => line(scale(value), "limit")), ...(floor === null ? [] : [line(scale(floor), "floor")]),
     ...(wanted === null ? [] : [line(scale(wanted), "wanted")]));
-  row.canvas.show({ bands: missing(content, across), curves: [...curvesOf(content, across, scale, Boolean(over)), ...(over ? measuredCurves(over, axis, scale) : [])], clips: beyond(content, scale, range) });
-  row.strip.replaceChildren(lines, row.canvas.element, ...limits.map((value) => tick(value, scale)), ...(content.tags ? footTags(content, across, scale) : []), ...(over ? [h("span", { class: "measured-key", text: "measured solid, planned dotted" })] : []));
+  row.canvas.show({ bands: missing(content, across), curves: [...curvesOf(content, across, scale, overs.length > 0), ...overs.flatMap((over) => measuredCurves(over, axis, scale))], clips: beyond(content, scale, range) });
+  row.strip.replaceChildren(lines, row.canvas.element, ...limits.map((value) => tick(value, scale)), ...(content.tags ? footTags(content, across, scale) : []), ...(overs.length ? [h("span", { class: "measured-key", text: [...overs.map(({ word }) => word), "planned dotted"].join(", ") })] : []));
   row.strip.setAttribute("aria-label", summary(row.kind, range, limits));
   return { content, scale };
 }
@@ -115,7 +116,7 @@ function render(rows, state) {
   for (const row of rows) {
     if (row.strip.hidden) continue;
     const content = row.kind.of(plan, options);
-    if (content) row.drawn = draw(row, content, across, plan.times.length, axis, measuredOf(runOver(state), row.kind.key));
+    if (content) row.drawn = draw(row, content, across, plan.times.length, axis, oversOf(state, row.kind.key));
     else say(row, row.kind.lack);
   }
 }
@@ -189,7 +190,7 @@ export function mountPlots(store) {
   byId("plots").append(...rows.flatMap(({ label, strip }) => [label, strip]));
   mountChoice(rows, () => render(rows, store.state));
   mountHover(store, rows);
-  store.watch((state) => [shownPlan(state), shownDocument(state)?.options, axisKey(state), runOver(state)], (state) => render(rows, state));
+  store.watch((state) => [shownPlan(state), shownDocument(state)?.options, axisKey(state), runOver(state), simulationOver(state)], (state) => render(rows, state));
 
   return (time) => {
     const plan = shownPlan(store.state);

@@ -3,7 +3,7 @@
  *
  * Everything that several tabs must agree on comes from the server; the rest (`selected`, `shownJob`, `pending`,
  * `gesture`, `tool`, `selection`, `preview`, `zoom`, `live`, `remedies`,
- * `iterate`, `tableDrafts`, `runCourse`, `jog`) belongs to this tab alone.
+ * `iterate`, `tableDrafts`, `runCourse`, `jog`, `simulation`) belongs to this tab alone.
  */
 
 const INITIAL = Object.freeze({
@@ -34,6 +34,7 @@ const INITIAL = Object.freeze({
   run: null,
   trace: null,
   runCourse: null,
+  simulation: null,
   jog: null,
   operator: "",
 });

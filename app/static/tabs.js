@@ -5,7 +5,7 @@
 
 import { byId } from "./dom.js";
 
-const NAMES = ["optimise", "segments", "check", "robot"];
+const NAMES = ["optimise", "segments", "check", "simulate", "robot"];
 /** The last tab opens a part of its own over the sections, with the pattern search. */
 const TABS = [...NAMES, "patterns"];
 

@@ -22,7 +22,7 @@ def plan_times(problem: SimulationProblem, motion: SimulatedMotion) -> Floats:
     """
     reached = len(motion.arrivals)
     robot, planned = motion.times[motion.arrivals], problem.times[:reached]
-    if reached < problem.waypoints.count:
+    if reached < problem.waypoints.count and motion.times[-1] > robot[-1]:
         robot = np.append(robot, motion.times[-1])
         planned = problem.times[: reached + 1]
     # Of waypoints that are reached at one sample, as within the firmware's threshold, the last one counts.

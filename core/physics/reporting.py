@@ -109,6 +109,15 @@ def carrying(motion: SimulatedMotion) -> Bools:
     return np.asarray(motion.ground_forces[..., 2] > LOAD)
 
 
+def bearing(motion: SimulatedMotion) -> Bools:
+    """(n, legs) feet that carry load within `HANDING_OVER`.
+
+    While feet hand over, the robot rocks from one to the other within hundredths of a second, and leans on
+    both.
+    """
+    return _within(carrying(motion), motion.times)
+
+
 def soles(problem: SimulationProblem, motion: SimulatedMotion, rotation: Floats) -> Floats:
     """(n, legs, 3) middles of the soles, m: `sole_depth` below the platforms along the body's axis.
 
@@ -174,12 +183,8 @@ def _slips(
 
 
 def _smallest_margin(motion: SimulatedMotion) -> tuple[float | None, float | None]:
-    """The centre of mass's smallest distance to the edge of the feet that carry load, where three do.
-
-    A foot bears here where it carries load within `HANDING_OVER`: while feet hand over, the robot rocks from
-    one to the other within hundredths of a second, and leans on both.
-    """
-    bears = _within(carrying(motion), motion.times)
+    """The centre of mass's smallest distance to the edge of the feet that bear, where three do."""
+    bears = bearing(motion)
     known = bears.sum(axis=1) >= 3
     if not known.any():
         return None, None

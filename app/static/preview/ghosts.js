@@ -5,12 +5,14 @@
  * scene it is one node of line pieces, whose corners are placed anew with each pose.
  */
 
+import { GhostMarks } from "./ghost_marks.js";
 import { PoseTable, VALUES_A_NODE } from "./poses.js";
 import { visibleMessage } from "./viser_client.js";
 
 const COLOURS = {
   before: { light: [112, 128, 156], dark: [132, 148, 176] }, saved: { light: [158, 108, 196], dark: [180, 140, 216] },
   measured: { light: [14, 128, 120], dark: [64, 190, 178] }, jog: { light: [58, 92, 204], dark: [125, 152, 243] },
+  simulated: { light: [190, 62, 122], dark: [232, 124, 174] },
 };
 
 /** Places a part's line pieces by its pose. */
@@ -57,6 +59,11 @@ class Ghost {
   forget() {
     this.#time = null;
   }
+
+  get table() { return this.#table; }
+
+  /** The parts' poses at the time that was asked for last. */
+  get pose() { return this.#pose; }
 }
 
 export class Ghosts {
@@ -64,22 +71,25 @@ export class Ghosts {
   #ghosts = new Map();
   #news = new Set(Object.keys(COLOURS));
   #theme = "light";
+  #marks;
   /** How often a ghost was placed. */
   moves = 0;
 
   /** @param {import("./viser_client.js").ViserClient} client */
   constructor(client) {
     this.#client = client;
+    this.#marks = new GhostMarks(client, place);
   }
 
   /**
-   * @param {"before"|"saved"|"measured"|"jog"} kind
+   * @param {"before"|"saved"|"measured"|"simulated"|"jog"} kind
    * @param {ArrayBuffer|null} buffer null takes the ghost away
    */
   set(kind, buffer) {
     if (buffer) this.#ghosts.set(kind, new Ghost(buffer));
     else this.#ghosts.delete(kind);
     this.#news.add(kind);
+    if (kind === "simulated") this.#marks.set(this.#ghosts.get(kind)?.table ?? null);
   }
 
   setDark(dark) {
@@ -90,11 +100,13 @@ export class Ghosts {
   /** The client's scene is a new one: everything has to be said again. */
   forget() {
     for (const kind of Object.keys(COLOURS)) this.#news.add(kind);
+    this.#marks.forget();
   }
 
   /** Messages that bring the ghosts up to a time. */
   messages(time) {
-    return Object.keys(COLOURS).flatMap((kind) => this.#messagesOf(kind, time));
+    const messages = Object.keys(COLOURS).flatMap((kind) => this.#messagesOf(kind, time));
+    return [...messages, ...this.#marks.messages(time, this.#ghosts.get("simulated")?.pose)];
   }
 
   #messagesOf(kind, time) {

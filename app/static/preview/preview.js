@@ -21,7 +21,7 @@
  *   setOverlay(overlay | null)    what lies on the floor; loadPoses sets it by itself where the poses carry one:
  *                                 { floor: m, times: [n] s, com: [n][3] m, cop: [n][2] m or null, feet: [n][legs][3] m, contact: [n][legs] bool,
  *                                   margins: [n] m }   null takes it away
- *   setGhost(kind, buffer | null) another version of the gait as a quiet second robot: "before", "saved", "measured" or "jog"
+ *   setGhost(kind, buffer | null) another version of the gait as a quiet second robot: "before", "saved", "measured", "simulated" or "jog"
  *   setReach(reach | null)        where the feet can be, of the poses that are shown (`GET …/reach`)
  *   show(part, visible)           part: "polygon", "com", "cop", "traces", "footholds", "trouble", "robot", "reach"
  *   setCaution(metres)            margin below which the polygon is amber (0.003 by default; below 0 it is red)

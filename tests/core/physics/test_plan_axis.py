@@ -41,3 +41,8 @@ def test_time_stands_before_the_first_arrival_and_after_the_last() -> None:
     times = plan_times(problem, late)
     assert (times[:11] == problem.times[0]).all()
     assert (times[-5:] == problem.times[-1]).all()
+
+
+def test_a_run_that_ended_at_an_arrival_ends_at_its_waypoint() -> None:
+    problem, motion = walk_problem(), followed(walk_problem(), moves=6)
+    assert plan_times(problem, motion)[-1] == problem.times[6]

@@ -1,0 +1,105 @@
+"""The types of arguments: numbers within bounds, words of a closed set, and what a refusal says of them."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Callable
+from enum import StrEnum
+
+from core.patterns.problem import MOST_SAMPLES
+from core.robot import ROBOT_NAMES
+
+ROBOTS = ", ".join(ROBOT_NAMES)
+
+
+def number(least: float, most: float, unit: str) -> Callable[[str], float]:
+    """An argument type: a finite number within bounds."""
+
+    def convert(text: str) -> float:
+        try:
+            value = float(text)
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"“{text}” is not a number") from None
+        if not (math.isfinite(value) and least <= value <= most):
+            raise argparse.ArgumentTypeError(f"{text} must lie between {least} and {most} {unit}")
+        return value
+
+    return convert
+
+
+def whole(least: int, most: int) -> Callable[[str], int]:
+    """An argument type: a whole number within bounds."""
+
+    def convert(text: str) -> int:
+        try:
+            value = int(text)
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"“{text}” is not a whole number") from None
+        if not least <= value <= most:
+            raise argparse.ArgumentTypeError(f"{text} must lie between {least} and {most}")
+        return value
+
+    return convert
+
+
+def one_of(kind: type[StrEnum]) -> Callable[[str], StrEnum]:
+    """An argument type: one of a closed set of words."""
+
+    def convert(text: str) -> StrEnum:
+        try:
+            return kind(text)
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"“{text}” must be one of {', '.join(kind)}") from None
+
+    return convert
+
+
+def words_of(kind: type[StrEnum]) -> str:
+    """A closed set of words as help shows it."""
+    return "{" + ",".join(kind) + "}"
+
+
+def rule_number(text: str) -> int | None:
+    """An argument type: a rule's whole number, or off."""
+    return None if text == "off" else whole(0, MOST_SAMPLES)(text)
+
+
+def pair(text: str) -> tuple[float, float]:
+    """An argument type: two finite numbers, `X,Y`."""
+    parts = text.split(",")
+    if len(parts) != 2:
+        raise argparse.ArgumentTypeError(f"“{text}” must be two numbers X,Y")
+    convert = number(-1.0, 1.0, "m")
+    return convert(parts[0]), convert(parts[1])
+
+
+def pixel(text: str) -> tuple[float, float]:
+    """An argument type: a place in a picture, `X,Y`."""
+    parts = text.split(",")
+    if len(parts) != 2:
+        raise argparse.ArgumentTypeError(f"“{text}” must be two numbers X,Y")
+    convert = number(-100_000.0, 100_000.0, "px")
+    return convert(parts[0]), convert(parts[1])
+
+
+def foot_order(text: str) -> tuple[int, ...]:
+    """An argument type: feet in order, `3,2,4,1`."""
+    try:
+        return tuple(int(part) for part in text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"“{text}” must be feet such as 3,2,4,1") from None
+
+
+def add_robot(parser: argparse.ArgumentParser, default: str) -> None:
+    """The option that names a robot; `default` says what holds without it."""
+    parser.add_argument(
+        "--robot", type=robot_name, default=None, metavar="NAME", help=f"{ROBOTS} ({default})"
+    )
+
+
+def robot_name(text: str) -> str:
+    """An argument type: a robot that comes with the program."""
+    if text not in ROBOT_NAMES:
+        raise argparse.ArgumentTypeError(f"“{text}” must be one of {ROBOTS}")
+    return text

@@ -1,0 +1,148 @@
+"""`simulate`."""
+
+from __future__ import annotations
+
+import sys
+from argparse import Namespace
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from pathlib import Path
+
+import numpy as np
+
+from app.cli.commands_plan import NOT_FIT, ROBOT, trajectory_of
+from app.cli.report import end_on_sigterm, note, show
+from app.documents import parse_gait
+from app.simulation_content import variations_content
+from app.simulations import report_figures, way_problem
+from app.trajectory_files import read_text, read_trajectory
+from core.arrays import Floats
+from core.findings import Finding, Severity
+from core.gait import Gait
+from core.new_gait import with_robot
+from core.path_merging import plan_waypoints
+from core.physics.findings import physics_outcomes
+from core.physics.parameters import physics_set
+from core.physics.problem import SimulationProblem
+from core.physics.report import SimulationReport
+from core.physics.reporting import report
+from core.physics.variations import VariedRun
+from core.robot import RobotModel, load_robot
+from core.trajectory import Trajectory
+from solver_jobs import simulate, simulate_variations
+
+
+def run_simulate(options: Namespace) -> int:
+    """Physics of exactly the waypoints that would be sent of a trajectory or gait file."""
+    end_on_sigterm()
+    problem = _problem(options)
+    motion = simulate(problem, _progress("Simulated"))
+    figures = report(problem, motion)
+    findings = tuple(found for one in physics_outcomes(figures, problem) for found in one.findings)
+    runs: Sequence[VariedRun] = ()
+    if options.variations:
+        tell = _progress("Variations")
+        runs = simulate_variations(problem, options.variations, options.seed, tell)
+    passed = all(found.severity is not Severity.ERROR for found in findings)
+    content = {
+        **report_figures(figures),
+        "passed": passed,
+        "findings": [asdict(found) for found in findings],
+        "robot": problem.model.name,
+        "physics": problem.physics.name,
+        "rig": problem.rig.value,
+        "waypoints": problem.waypoints.count,
+        "hash": problem.waypoints.content_hash,
+        "variations": {"seed": options.seed, **variations_content(runs)} if runs else None,
+    }
+    show(options, content, _lines(problem, figures, findings, runs))
+    return 0 if passed else NOT_FIT
+
+
+def _problem(options: Namespace) -> SimulationProblem:
+    model, trajectory, gait = _input(options)
+    merge, bound = (0.0, None) if gait is None else (gait.options.merge, gait.options.stop_bound)
+    merge = merge if options.merge is None else options.merge
+    bound = bound if options.stop_bound is None else options.stop_bound
+    way = plan_waypoints(model, trajectory, merge, bound)
+    return way_problem(model, trajectory, way, physics_set(options.physics), options.rig)
+
+
+def _input(options: Namespace) -> tuple[RobotModel, Trajectory, Gait | None]:
+    """Robot, motion and document of a trajectory or gait file; a trajectory has no document."""
+    path: Path = options.file
+    if path.suffix != ".json":
+        read = read_trajectory(path)
+        for assumption in read.assumptions:
+            note(assumption)
+        return load_robot(options.robot or ROBOT), read.trajectory, None
+    gait = parse_gait(read_text(path), path.name)
+    if options.robot is not None:
+        gait = with_robot(gait, load_robot(options.robot))
+    return load_robot(gait.robot), trajectory_of(gait), gait
+
+
+def _progress(what: str) -> Callable[[float], bool]:
+    """Shows how far it is to a person at a terminal; never asks for an end."""
+    is_watched = sys.stderr.isatty()
+
+    def tell(share: float) -> bool:
+        if is_watched:
+            sys.stderr.write(f"\r{what} {share * 100:3.0f} %" + ("\n" if share >= 1 else ""))
+            sys.stderr.flush()
+        return True
+
+    return tell
+
+
+def _lines(
+    problem: SimulationProblem,
+    figures: SimulationReport,
+    findings: Sequence[Finding],
+    runs: Sequence[VariedRun],
+) -> list[str]:
+    """The report for people."""
+    feet = figures.feet_error
+    margin = "–" if figures.min_margin is None else f"{figures.min_margin * 1000:.1f} mm"
+    lines = [
+        _outcome(figures, findings),
+        f"{problem.waypoints.count} waypoints, {figures.arrival_times[-1]:.1f} s of the robot, "
+        f"{figures.realtime_factor:.1f} × real time; {problem.physics.title}, {problem.rig.value}.",
+        f"  mean error   body {figures.body_error * 1000:.1f} mm, feet {_mm(feet)} mm "
+        f"(mean {figures.feet_mean_error * 1000:.1f} mm)",
+        f"  distance     {figures.distance * 1000:.1f} of {figures.planned_distance * 1000:.1f} mm planned",
+        f"  heading      {np.degrees(figures.heading):.1f} of {np.degrees(figures.planned_heading):.1f}°",
+        f"  largest tilt {np.degrees(figures.max_tilt):.1f}° at {figures.max_tilt_time:.1f} s",
+        f"  least margin {margin}",
+        f"  slip         {_mm(figures.slip)} mm (feet 1 to {len(feet)})",
+        f"  motors       {figures.motor_error.max() * 1000:.2f} mm behind their ramps at most, at their "
+        f"force's limit {figures.saturation.max() * 100:.0f} % of the time at most",
+        f"  rods         {figures.loop_error * 1000:.3f} mm off their length at most",
+    ]
+    lines += [f"  {found.severity.value}: {found.rule}: {found.sentence}" for found in findings]
+    return lines + _variation_lines(runs)
+
+
+def _outcome(figures: SimulationReport, findings: Sequence[Finding]) -> str:
+    if figures.fell:
+        return f"Falls over at {figures.fell_time:.1f} s."
+    errors = sum(found.severity is Severity.ERROR for found in findings)
+    warnings = len(findings) - errors
+    return f"{'Walks' if not errors else 'Not fit'}: {errors} errors, {warnings} warnings."
+
+
+def _variation_lines(runs: Sequence[VariedRun]) -> list[str]:
+    if not runs:
+        return []
+    content = variations_content(runs)
+    others = [
+        f"    {'falls' if run.fell else 'ends early' if run.ended_early else 'tips'}: {run.variation.words}"
+        for run in runs
+        if not run.walks
+    ]
+    walk = len(runs) - len(others)
+    return [f"  variations   {walk} of {len(runs)} walk ({content['share'] * 100:.0f} %)", *others]
+
+
+def _mm(values: Floats) -> str:
+    return ", ".join(f"{value * 1000:.1f}" for value in values)

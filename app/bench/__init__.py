@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from app.bench.bridge import bench_bridge
+from app.bench.bridge_telemetry import bench_telemetry
 from app.bench.edits import bench_edits
 from app.bench.exact import bench_exact, bench_growth
 from app.bench.frontier import bench_frontier
@@ -38,6 +39,7 @@ BENCHMARKS: dict[str, Benchmark] = {
     "patterns": bench_patterns,
     "physics": bench_physics,
     "bridge": bench_bridge,
+    "telemetry": bench_telemetry,
     "page": bench_page,
     "gaits": bench_gait_list,
     "scene": bench_scene,

@@ -17,12 +17,14 @@ import urllib.request
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from app.bridge.ports import PtyPort
+from app.bridge.profiles import ProfileName
 from core.errors import StateError
 
 CHUNK_BYTES = 65536
@@ -97,9 +99,10 @@ class Tap:
 
 
 @contextmanager
-def emulator_process(speed: float = 1.0) -> Iterator[str]:
+def emulator_process(speed: float = 1.0, profile: ProfileName = ProfileName.PUBLISHED) -> Iterator[str]:
     """Device of a `footfall emulate` that is a process of its own."""
-    words = (sys.executable, "-u", "-m", "app", "emulate", "--speed", str(speed))
+    options = ("--speed", str(speed), "--profile", profile.value)
+    words = (sys.executable, "-u", "-m", "app", "emulate", *options)
     process = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
     try:
         yield (process.stdout.readline() if process.stdout is not None else "").strip()
@@ -128,6 +131,23 @@ class Studio:
         if found is None:
             raise StateError(f"The studio does not start; it said {line!r}.", "bridge")
         self._url = found.group()
+
+    @property
+    def address(self) -> str:
+        """Where its page is."""
+        return self._url
+
+    def memory_mb(self) -> float:
+        """What it holds in memory itself, MB.
+
+        Raises:
+            StateError: this system does not tell.
+        """
+        listing = Path(f"/proc/{self._process.pid}/status")
+        found = re.search(r"VmRSS:\s+(\d+) kB", listing.read_text() if listing.exists() else "")
+        if found is None:
+            raise StateError("This system does not tell a process's memory. Measure on Linux.", "memory")
+        return int(found.group(1)) / 1000.0
 
     def ask(self, method: str, path: str, content: dict[str, Any] | None = None) -> Any:
         """One request; the content of its answer.
@@ -191,6 +211,43 @@ def busy_cores(niceness: int) -> Iterator[None]:
         for worker in workers:
             worker.terminate()
             worker.join()
+
+
+@contextmanager
+def sleeper() -> Iterator[Callable[[], list[float]]]:
+    """A process that does nothing but sleep, and how much later than asked for it woke up each time, s.
+
+    What the machine itself makes anybody wait, whatever a program does.
+    """
+    context = multiprocessing.get_context("spawn")
+    ours, theirs = context.Pipe()
+    process = context.Process(target=_sleep, args=(theirs,), daemon=True)
+    process.start()
+    ours.recv()
+
+    def late() -> list[float]:
+        ours.send(None)
+        wakes: list[float] = ours.recv()
+        return wakes
+
+    try:
+        yield late
+    finally:
+        process.terminate()
+        process.join()
+
+
+def _sleep(pipe: Connection) -> None:
+    pipe.send(None)
+    wakes: list[float] = []
+    while True:
+        due = time.monotonic() + POLL
+        if pipe.poll(POLL):
+            pipe.recv()
+            pipe.send(wakes)
+            wakes = []
+        else:
+            wakes.append(time.monotonic() - due)
 
 
 def _compute(niceness: int) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from app.bench.bridge_process import Piece, Studio, Tap, busy_cores, emulator_process, wait_until
+from app.bench.bridge_process import Piece, Studio, Tap, busy_cores, emulator_process, sleeper, wait_until
 from app.bench.measure import Row, milliseconds
 from app.store.database import Database
 from core.wire import encode_flush, encode_stop
@@ -37,17 +37,20 @@ WATCHED = 1.0
 
 
 def bench_stop(stops: int = STOPS) -> list[Row]:
-    """Time from a request's being sent to the stop's bytes on the line, by HTTP, idle and with busy cores."""
+    """Time from a request's being sent to the stop's bytes on the line, by HTTP, idle and with busy cores.
+
+    Beside it stands how late a process that only sleeps wakes up meanwhile: the machine's own share.
+    """
     with tempfile.TemporaryDirectory() as data, emulator_process() as robot:
         tap = Tap(robot)
         studio = Studio(Path(data), tap.device)
         try:
             studio.connect()
-            rows = [_stop_row("idle", stop_latencies(studio, tap, stops))]
+            rows = [_stop_row("idle", studio, tap, stops)]
             for cores, niceness in BUSY.items():
                 with busy_cores(niceness):
                     time.sleep(WATCHED)
-                    rows.append(_stop_row(cores, stop_latencies(studio, tap, stops)))
+                    rows.append(_stop_row(cores, studio, tap, stops))
         finally:
             studio.close()
             tap.close()
@@ -74,7 +77,10 @@ def _when_stopped(tap: Tap, seen: int) -> float:
     return next(piece.time for piece in tap.from_host[seen:] if encode_stop() in piece.data)
 
 
-def _stop_row(cores: str, latencies: list[float]) -> Row:
+def _stop_row(cores: str, studio: Studio, tap: Tap, stops: int) -> Row:
+    with sleeper() as late:
+        latencies = stop_latencies(studio, tap, stops)
+        wakes = late()
     p50, p99 = np.percentile(latencies, (50, 99))
     return {
         "cores": cores,
@@ -82,6 +88,7 @@ def _stop_row(cores: str, latencies: list[float]) -> Row:
         "median_ms": milliseconds(float(p50)),
         "p99_ms": milliseconds(float(p99)),
         "max_ms": milliseconds(max(latencies)),
+        "sleeper_p99_ms": milliseconds(float(np.percentile(wakes, 99))),
     }
 
 

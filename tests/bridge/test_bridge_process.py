@@ -10,9 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from app.bench.bridge_process import Piece, Studio, Tap, emulator_process
+from app.bench.bridge_process import Piece, Studio, Tap, emulator_process, sleeper, wait_until
 from app.bench.bridge_still import BOUNDS, seconds_to_stand
 from app.bench.bridge_stop import _lost, kill_rounds, stop_latencies
+from app.bench.bridge_telemetry import LINES_A_SECOND, bench_telemetry, lines_between
 from app.bridge.profiles import ProfileName
 
 GENEROUS = 2.0
@@ -70,3 +71,24 @@ def test_the_command_tells_what_has_spoilt_the_robots_memory() -> None:
     process.communicate()
     os.close(device)
     assert "fault state. A message of 2 waypoints" in told
+
+
+def test_telemetry_is_kept_to_the_last_line_and_a_page_hears_of_it_all_the_time() -> None:
+    (row,) = bench_telemetry(20.0, 20.0)
+    assert row["lines"] > 20.0 * LINES_A_SECOND * 0.9
+    assert row["lines_not_kept"] == 0
+    assert 0.0 < row["page_gap_max_ms"] < GENEROUS * 1000.0
+    assert row["stop_seen_ms"] < GENEROUS * 1000.0
+
+
+def test_lines_are_counted_between_a_runs_first_waypoint_and_its_stop() -> None:
+    pass_ = b"new data tf 0\r\nj,1.0,\r\n"
+    run = b"new data tf 1\r\np,1,1.0,5\r\nj,1.0,\r\n" + 2 * pass_ + b"new data tf 1\r\ns,1\r\nj,1.0,\r\n"
+    assert lines_between(3 * pass_ + run + pass_) == 3
+    assert lines_between(3 * pass_) == 0
+
+
+def test_a_sleeper_tells_how_late_it_woke() -> None:
+    with sleeper() as late:
+        wait_until(lambda: len(late()) > 0, "the sleeper has woken")
+        assert all(seconds >= 0.0 for seconds in late())

@@ -147,7 +147,7 @@ def allowed(snapshot: RobotSnapshot) -> dict[str, str | None]:
         "disconnect": _why_not_disconnect(link, robot),
         "arm": only({RobotState.DISARMED, RobotState.DONE}, _why_not_arm(robot)),
         "send": only({RobotState.ARMED}, "Arm the robot first."),
-        "pause": only({RobotState.MOVING}, "Nothing is moving."),
+        "pause": only({RobotState.MOVING} if snapshot.run else set(), _why_not_pause(robot)),
         "resume": only({RobotState.PAUSED}, "No run is paused."),
         "clear": only({RobotState.STOPPED, RobotState.FAULT, RobotState.STOPPING}, "Nothing is stopped."),
         "reset": only({RobotState.ARMED}, "Arm the robot first."),
@@ -159,6 +159,11 @@ def _why_not_disconnect(link: LinkState, robot: RobotState) -> str | None:
     if link is LinkState.DISCONNECTED:
         return "No robot is connected."
     return "Stop the run first." if link is LinkState.READY and robot in RUNNING else None
+
+
+def _why_not_pause(robot: RobotState) -> str:
+    """Of a robot on which no run moves; a reset or a jog ends by itself."""
+    return "Only a run can be paused; Stop ends this." if robot is RobotState.MOVING else "Nothing is moving."
 
 
 def _why_not_arm(robot: RobotState) -> str:

@@ -32,7 +32,7 @@ function build(change) {
   const size = h("input", { type: "number", min: STEP_MM.least, max: STEP_MM.most, step: "0.1", value: STEP_MM.first, "aria-label": "Jog step" });
   return {
     parts, foot, size,
-    findings: h("ul", { class: "jog-findings", role: "status", "aria-label": "Jog findings" }),
+    findings: h("ul", { class: "jog-findings" }),
     target: h("p", { class: "why" }), why: h("p", { class: "why" }),
     move: h("button", { class: "primary", text: "Move", "data-robot": true }), back: h("button", { text: "Back to where it stands" }),
   };
@@ -64,7 +64,7 @@ const findingRow = ({ severity, sentence }) => h("li", { data: { toneText: sever
 /** Why nothing can be moved now; null where Move may be pressed. */
 function whyNotMove({ robot }, answer) {
   if (!answer) return "The studio has not answered yet.";
-  return (robot && whyNotHeld(robot)) ?? answer.reason;
+  return (answer.wired && robot && whyNotHeld(robot)) || answer.reason;
 }
 
 /** Asks the studio where the steps lead, the newest question only. */
@@ -105,7 +105,7 @@ export function jogPart(store, edits) {
   const ask = asking(own);
   let sent = null;
   const element = h("details", { class: "more jog", role: "group", "aria-label": "Jog" }, h("summary", { text: "Jog: move a motor, a foot or the body by hand" }),
-    h("div", {}, choiceRow({ ...parts, size }), rows.element, parts.findings, parts.target,
+    h("div", {}, choiceRow({ ...parts, size }), rows.element, h("div", { role: "status", "aria-label": "Jog findings" }, parts.findings), parts.target,
       h("div", { class: "buttons" }, parts.move, parts.back), parts.why, takePose(store, edits)));
 
   element.addEventListener("toggle", () => own.set({ isOpen: element.open }));
@@ -138,8 +138,8 @@ export function jogPart(store, edits) {
     setAllowed(parts.move, why, "Moves the robot to the target, slowly and in small moves");
     setText(parts.why, why && !answer?.findings.some(({ sentence }) => sentence === why) ? why : "");
     setAllowed(parts.back, now.steps.length ? null : "The target is where it stands.");
-    const pose = (answer ?? now.answer)?.target_mm ?? null;
-    store.set({ jog: { ...body(), pose_mm: pose, target_mm: now.steps.length ? pose : null } });
+    const { target_mm: pose = null, wired = false } = answer ?? now.answer ?? {};
+    store.set({ jog: { ...body(), pose_mm: pose, target_mm: now.steps.length ? pose : null, wired } });
     return undefined;
   }
 

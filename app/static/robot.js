@@ -178,7 +178,7 @@ export function mountRobot(store, edits, playback) {
   const ways = assemble({ store, edits, playback }, parts, send);
   store.watch(({ robot }) => [robot], ({ robot }) => showRobot(parts, ways, robot));
   store.watch(({ robot, view, jog }) => [robot?.strokes_mm, robot?.run, view?.plan, jog?.target_mm], ({ robot, view, jog }) => {
-    const target = jog?.target_mm?.length === robot?.strokes_mm?.length ? jog?.target_mm : null;
+    const target = jog?.wired ? jog.target_mm : null;
     parts.bars.show(robot?.strokes_mm ?? null, target ?? commandedStrokes(robot, view));
   });
   store.watch((state) => [laterEdit(state)], (state) => setText(parts.later, laterEdit(state)));

@@ -9,7 +9,7 @@ import pytest
 
 from app.bridge.profiles import ProfileName
 from app.bridge.run import plan_moves
-from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPhase, RunProgress
+from app.bridge.states import JogProgress, LinkState, RobotSnapshot, RobotState, RunPhase, RunProgress
 from app.robot_view import RunOrigin, robot_view, run_end, stop_seconds
 from app.run_summary import sent_waypoints
 from core.wire_timing import LONGEST_SCAN, OVERRUN, ramp_time
@@ -71,3 +71,11 @@ def test_how_a_run_ended_is_told_whatever_the_robot_was_made_to_do_since(
     shown: RobotSnapshot, reached: int, state: str
 ) -> None:
     assert run_end(shown, replace(RUN, reached=reached)) == state
+
+
+def test_the_stop_time_of_a_jog_is_that_of_its_longest_move_and_it_is_not_paused() -> None:
+    jogged = replace(MOVING, run=None, jog=JogProgress("foot 1", "Ada", 0, 2, 0.003))
+    view = robot_view(jogged, "robot", None)
+    assert view["stop_seconds"] == pytest.approx(LONGEST_SCAN + ramp_time(0.004) + OVERRUN)
+    assert view["allowed"]["pause"] == "Only a run can be paused; Stop ends this."
+    assert robot_view(MOVING, "robot", None)["allowed"]["pause"] is None

@@ -11,6 +11,7 @@ from playwright.sync_api import Browser, Page, expect
 
 from app.bridge.emulated import EmulatedRobot, start_emulator
 from tests.page.opened import opened_page
+from tests.page.test_accessibility import serious_findings
 from tests.page.test_robot_lease import LONG_MS, look, name
 from tests.studio_process import StudioProcess, running_studio, wait_for
 
@@ -57,6 +58,7 @@ def test_the_body_is_raised_by_a_target_that_is_seen_first(page: Page, studio: S
         "No motor would move", timeout=LONG_MS
     )
     expect(move).to_have_attribute("aria-disabled", "true")
+    assert serious_findings(page, {"include": [["#robot"]]}) == []
     jog.get_by_role("spinbutton", name="Jog step").fill("3")
     jog.get_by_role("spinbutton", name="Jog step").press("Enter")
     higher.click()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import Browser, BrowserContext, Page
 
 
 @contextmanager
@@ -18,10 +18,15 @@ def opened_page(
     """
     page = browser.new_page(viewport={"width": width, "height": height})
     if not has_scene:
-        page.route("**/viser/**", lambda route: route.fulfill(body="<html></html>", content_type="text/html"))
+        leave_scene_out(page)
     problems: list[str] = []
     page.on("pageerror", lambda error: problems.append(str(error)))
     page.goto(url)
     yield page
     page.close()
     assert problems == []
+
+
+def leave_scene_out(where: Page | BrowserContext) -> None:
+    """An empty frame instead of the 3D scene, in a page or in all of a window's."""
+    where.route("**/viser/**", lambda route: route.fulfill(body="<html></html>", content_type="text/html"))

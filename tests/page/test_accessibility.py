@@ -18,8 +18,9 @@ OWN = {"exclude": [["#viser"]]}
 
 
 @pytest.fixture
-def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 800) as opened:
+def page(browser: Browser, studio: StudioProcess, request: pytest.FixtureRequest) -> Iterator[Page]:
+    has_scene = "scene" in request.keywords
+    with opened_page(browser, studio.url, 1280, 800, has_scene=has_scene) as opened:
         expect(opened.get_by_role("grid", name="Footfall timeline").get_by_role("row")).to_have_count(4)
         yield opened
 
@@ -34,6 +35,7 @@ def serious_findings(page: Page, context: dict[str, list[list[str]]] = OWN) -> l
     ]
 
 
+@pytest.mark.scene
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_no_part_of_the_page_has_a_serious_finding(page: Page, scheme: str) -> None:
     page.emulate_media(color_scheme="dark" if scheme == "dark" else "light")

@@ -16,7 +16,7 @@ LONG_MS = 60_000
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1024, 768) as opened:
+    with opened_page(browser, studio.url, 1024, 768, has_scene=False) as opened:
         expect(opened.get_by_label("Gait name")).not_to_have_value("", timeout=LONG_MS)
         yield opened
 

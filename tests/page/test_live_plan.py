@@ -17,8 +17,9 @@ LONG_MS = 60_000
 
 
 @pytest.fixture
-def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1280, 800) as opened:
+def page(browser: Browser, studio: StudioProcess, request: pytest.FixtureRequest) -> Iterator[Page]:
+    has_scene = "scene" in request.keywords
+    with opened_page(browser, studio.url, 1280, 800, has_scene=has_scene) as opened:
         yield opened
 
 
@@ -200,6 +201,7 @@ def test_a_search_for_ways_out_that_was_cut_short_says_so_and_goes_on(page: Page
     expect(why).to_be_hidden()
 
 
+@pytest.mark.scene
 def test_what_cannot_be_reached_is_marked_in_3d_at_its_time(page: Page) -> None:
     choose(page, "S-Gait 10 mm")
     step = page.get_by_role("spinbutton", name="Step", exact=True)
@@ -230,6 +232,7 @@ def trouble_extent(page: Page) -> float:
     return extent
 
 
+@pytest.mark.scene
 def test_dragging_the_goal_in_3d_changes_the_step_as_one_edit(page: Page, studio: StudioProcess) -> None:
     choose(page, "Walk 10 mm")
     goal = page.get_by_role("slider", name="Goal", exact=True)
@@ -251,6 +254,7 @@ def test_dragging_the_goal_in_3d_changes_the_step_as_one_edit(page: Page, studio
     expect(goal).to_have_attribute("aria-valuetext", re.compile("step 10.0 mm"))
 
 
+@pytest.mark.scene
 def test_arrow_keys_move_the_goal_by_half_a_millimetre_and_turn_it(page: Page, studio: StudioProcess) -> None:
     choose(page, "Walk 10 mm")
     before = document(studio, "walk")["step"]

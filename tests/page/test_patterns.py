@@ -9,7 +9,7 @@ from functools import partial
 import pytest
 from playwright.sync_api import Browser, Locator, Page, Request, expect
 
-from tests.page.opened import opened_page
+from tests.page.opened import leave_scene_out, opened_page
 from tests.page.test_accessibility import serious_findings
 from tests.studio_process import StudioProcess, wait_for
 
@@ -23,9 +23,7 @@ SEARCH = {"include": [[".pattern-panel"], [".pattern-view"], [".right .tabs"]]}
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     """A page without its 3D scene, with the pattern search open."""
     with opened_page(browser, f"{studio.url}static/icon.svg", 1280, 800) as opened:
-        opened.route(
-            "**/viser/**", lambda route: route.fulfill(body="<html></html>", content_type="text/html")
-        )
+        leave_scene_out(opened)
         opened.goto(studio.url)
         expect(opened.get_by_label("Gait name")).not_to_have_value("", timeout=LONG_MS)
         yield opened

@@ -25,8 +25,9 @@ ROOM_FOR_PLACEHOLDER = """field => {
 
 
 @pytest.fixture
-def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
-    with opened_page(browser, studio.url, 1024, 768) as opened:
+def page(browser: Browser, studio: StudioProcess, request: pytest.FixtureRequest) -> Iterator[Page]:
+    has_scene = "scene" in request.keywords
+    with opened_page(browser, studio.url, 1024, 768, has_scene=has_scene) as opened:
         yield opened
 
 
@@ -292,6 +293,7 @@ def test_undo_in_a_number_is_the_pages_and_the_focused_number_follows(
     expect(step).to_have_value("10")
 
 
+@pytest.mark.scene
 def test_the_turn_grows_to_the_right_and_the_greyed_button_says_why(page: Page) -> None:
     choose(page, "Walk 10 mm")
     turn = page.get_by_role("slider", name="Goal turn")

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
 
+from tests.page.opened import leave_scene_out
 from tests.studio_process import StudioProcess, wait_for
 
 LONG_MS = 60_000
@@ -22,6 +23,7 @@ def gait(studio: StudioProcess) -> str:
 @pytest.fixture
 def context(browser: Browser) -> Iterator[BrowserContext]:
     opened = browser.new_context(viewport={"width": 1100, "height": 740})
+    leave_scene_out(opened)
     yield opened
     opened.close()
 
@@ -116,6 +118,8 @@ def test_undo_says_who_changed_the_same_and_leaves_it(
     browser: Browser, studio: StudioProcess, gait: str
 ) -> None:
     contexts = [browser.new_context(viewport={"width": 1100, "height": 740}) for _ in "ab"]
+    for one in contexts:
+        leave_scene_out(one)
     ada, grace = (tab(one, studio, gait, name) for one, name in zip(contexts, ("Ada", "Grace"), strict=True))
     margin = [page.get_by_role("spinbutton", name="Stability margin", exact=True) for page in (ada, grace)]
     margin[0].fill("1")

@@ -9,6 +9,7 @@ from app.bridge.gate import Gate, Kind
 from app.bridge.jog import JogPlan
 from app.bridge.profiles import ProfileName
 from app.bridge.states import LinkState, RobotState
+from app.robot_view import jog_stop_seconds
 from core.errors import InputError, StateError
 from core.jog import JogPart, JogStep
 from core.jog_check import check_jog
@@ -84,6 +85,23 @@ def test_a_stop_in_the_middle_of_a_jog_holds_and_nothing_resumes(wait: float) ->
     assert robot.strokes_mm == pytest.approx(stands, abs=0.02)
     assert [m for m in robot.sent[len(sent) :] if not m.startswith((b"<p", b"<s,0", b"<s,1"))] == []
     assert len(robot.sent) - len(sent) <= 3
+
+
+@pytest.mark.parametrize("profile", [ProfileName.SLOW, ProfileName.PUBLISHED])
+def test_motors_stand_within_the_stop_time_that_is_stated_of_a_jog(profile: ProfileName) -> None:
+    for number in range(15):
+        robot = armed(profile)
+        robot.session.jog(jog_plan(robot), "Ada", robot.now)
+        robot.wait(number * 0.137)
+        shown = robot.snapshot
+        assert shown.jog is not None
+        stated = jog_stop_seconds(shown.jog.largest_move, shown)
+        assert stated < 1.2
+        robot.stop("Grace")
+        robot.wait(stated)
+        stands = robot.strokes_mm
+        robot.wait(1.0)
+        assert robot.strokes_mm == pytest.approx(stands, abs=0.02)
 
 
 def test_a_jog_that_is_not_reached_ends_as_a_fault_that_names_it() -> None:

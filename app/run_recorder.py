@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import logging
 import sqlite3
 import threading
@@ -11,19 +12,15 @@ from typing import Any
 
 from app.bridge.states import Direction, Transition
 from app.store.database import Database
+from app.store.run_journal import Entry, EntryKind, RunJournal
 from app.store.run_log import RunLog
-from app.store.run_rows import ByteRow, StateRow
 from app.store.run_writer import RunWriter
 from core.errors import StateError
 
 logger = logging.getLogger(__name__)
 
-GATHER_SECONDS = 0.03
-"""Bytes are gathered for this long, s. With the writing and a busy machine's delays that leaves room within
-the 0.1 s after which a killed program's record has to have them."""
-
-SYNC_SECONDS = 0.5
-"""How often what was written is brought to the disk, s."""
+GATHER_SECONDS = 0.1
+"""The database gets what has gathered for this long, s; the journal has it at once."""
 
 RETRY_SECONDS = 0.5
 """Time between two attempts where the database does not take the record, s."""
@@ -34,17 +31,17 @@ LAG_SHOWN = 1.0
 MOST_WAITING = 64_000_000
 """Bytes of memory for what waits: more than an hour of telemetry."""
 
-PIECE_OVERHEAD = 300
-"""Bytes of memory that a piece takes beside its data."""
+ENTRY_OVERHEAD = 300
+"""Bytes of memory that an entry takes beside its data."""
 
 CLOSE_SECONDS = 5.0
 """How long the end of the program waits for a database that does not take the record, s."""
 
-_Item = ByteRow | StateRow | dict[str, Any]
+_KINDS = {Direction.TO_ROBOT: EntryKind.TO_ROBOT, Direction.FROM_ROBOT: EntryKind.FROM_ROBOT}
 
 
 class RunRecorder:
-    """Writes what the bridge logs while a run is on; never makes the bridge wait.
+    """Writes what the bridge logs while a run is on, into a journal at once and then into the database.
 
     What the database does not take is kept in memory and tried again. Where memory has an end too, bytes are
     left out, counted, and the record says so.
@@ -62,24 +59,21 @@ class RunRecorder:
         writer: RunWriter | None = None,
     ) -> None:
         self._runs = RunLog(database)
+        self._data = database.path.parent
         self._writer = writer or RunWriter(database.path)
         self._changed = changed
-        self._lock = threading.Lock()
-        self._waiting: list[_Item] = []
+        self._lock, self._noting = threading.Lock(), threading.Lock()
+        self._waiting: list[tuple[str, Entry]] = []
         self._memory = 0
         self._left_out = 0
         self._run: str | None = None
         self._noted = 0
+        self._journals: dict[str, RunJournal] = {}
         self._behind: float | None = None
         self._reason = ""
-        self._is_on_disk = True
-        self._wake, self._closing, self._closed = threading.Event(), threading.Event(), threading.Event()
-        self._threads = [
-            threading.Thread(target=work, name=name, daemon=True)
-            for work, name in ((self._work, "run recorder"), (self._sync_on, "run record to disk"))
-        ]
-        for thread in self._threads:
-            thread.start()
+        self._wake, self._closing = threading.Event(), threading.Event()
+        self._thread = threading.Thread(target=self._work, name="run recorder", daemon=True)
+        self._thread.start()
 
     @property
     def trouble(self) -> str | None:
@@ -100,19 +94,16 @@ class RunRecorder:
 
     def log(self, direction: Direction, data: bytes, when: float) -> None:
         """Takes bytes from the bridge; kept only while a run is on."""
-        run = self._run
-        if run is not None:
-            self._put((run, when, direction.value, data), len(data))
+        self._put(Entry(_KINDS[direction], when, data))
 
     def note(self, changes: Iterable[Transition]) -> None:
         """Takes the bridge's changes of state; those since the run began are kept, each once."""
-        run = self._run
-        if run is None:
-            return
-        for change in changes:
-            if change.number > self._noted:
+        with self._noting:
+            fresh = [change for change in changes if change.number > self._noted]
+            for change in fresh:
                 self._noted = change.number
-                self._put((run, change.time, change.link.value, change.robot.value, change.cause), 0)
+                words = (change.link.value, change.robot.value, change.cause)
+                self._put(Entry(EntryKind.STATE, change.time, json.dumps(words).encode()))
 
     def begin(self, content: dict[str, Any], plan: dict[str, Any] | None = None, after: int = 0) -> None:
         """Starts the record of a run.
@@ -123,55 +114,69 @@ class RunRecorder:
             after: number of the last change of state before the run.
 
         Raises:
-            StateError: the database does not take it, so that the run would leave no trace.
+            StateError: the data folder does not take it, so that the run would leave no trace.
         """
+        run = content["id"]
         try:
-            self._runs.begin(content, plan)
-        except sqlite3.Error as error:
+            journal = RunJournal(self._data, run)
+            try:
+                self._runs.begin(content, plan)
+            except sqlite3.Error:
+                journal.close(is_in_database=True)
+                raise
+        except (OSError, sqlite3.Error) as error:
             raise StateError(
-                f"The record of the run cannot be begun: the database does not take it ({error}). Make room "
-                "on the disk of the data folder, then send again.",
+                f"The record of the run cannot be begun: the data folder does not take it ({error}). Make "
+                "room on its disk, then send again.",
                 "record",
             ) from error
-        self._left_out, self._noted = 0, after
-        self._run = content["id"]
+        with self._lock:
+            self._journals[run] = journal
+            self._left_out, self._noted, self._run = 0, after, run
 
     def end(self, content: dict[str, Any]) -> None:
         """Completes the record of a run, after every byte that was logged before."""
-        self._run = None
-        self._put({**content, "left_out": self._left_out} if self._left_out else content, 0)
+        whole = {**content, "left_out": self._left_out} if self._left_out else content
+        self._put(Entry(EntryKind.END, time.monotonic(), json.dumps(whole, allow_nan=False).encode()))
 
     def close(self) -> None:
         """Writes what is left and ends."""
         self._closing.set()
         self._wake.set()
-        for thread in self._threads:
-            thread.join()
+        self._thread.join()
+        for journal in self._journals.values():
+            journal.close(is_in_database=False)
         self._writer.close()
 
-    def _put(self, item: _Item, size: int) -> None:
+    def _put(self, entry: Entry) -> None:
         with self._lock:
-            if size and self._memory + size > MOST_WAITING:
-                self._left_out += size
+            run = self._run
+            if run is None:
                 return
-            self._memory += size + PIECE_OVERHEAD
-            self._waiting.append(item)
+            if entry.kind.is_bytes and self._memory + len(entry.data) > MOST_WAITING:
+                self._left_out += len(entry.data)
+                return
+            if entry.kind is EntryKind.END:
+                self._run = None
+            self._memory += _memory(entry)
+            self._waiting.append((run, entry))
+            self._journals[run].add(entry)
         self._wake.set()
 
     def _work(self) -> None:
         give_up = float("inf")
-        while not self._closed.is_set():
+        while True:
             self._wake.wait()
-            self._closing.wait(GATHER_SECONDS)
             self._wake.clear()
-            if self._closing.is_set():
-                give_up = min(give_up, time.monotonic() + CLOSE_SECONDS)
+            is_closing = self._closing.wait(GATHER_SECONDS)
             is_written = self._write()
+            if is_closing:
+                give_up = min(give_up, time.monotonic() + CLOSE_SECONDS)
+                if is_written or time.monotonic() > give_up:
+                    break
             if not is_written:
                 time.sleep(RETRY_SECONDS)
                 self._wake.set()
-            if self._closing.is_set() and (is_written or time.monotonic() > give_up):
-                self._closed.set()
         if self._waiting:
             logger.error("%d pieces of a run's record could not be written.", len(self._waiting))
 
@@ -182,14 +187,16 @@ class RunRecorder:
         if not batch:
             return True
         try:
-            self._writer.write(*_sorted(batch))
+            self._writer.write(batch)
         except sqlite3.Error as error:
             self._fell_behind(str(error))
             return False
-        self._is_on_disk = False
         with self._lock:
             del self._waiting[: len(batch)]
-            self._memory = sum(PIECE_OVERHEAD + _size(item) for item in self._waiting)
+            self._memory -= sum(_memory(entry) for _, entry in batch)
+            ended = [self._journals.pop(run) for run, entry in batch if entry.kind is EntryKind.END]
+        for journal in ended:
+            journal.close(is_in_database=True)
         self._caught_up()
         return True
 
@@ -208,35 +215,6 @@ class RunRecorder:
             if was_told:
                 self._changed()
 
-    def _sync_on(self) -> None:
-        while not self._closed.wait(SYNC_SECONDS):
-            self._sync()
-        self._sync()
 
-    def _sync(self) -> None:
-        if self._is_on_disk:
-            return
-        self._is_on_disk = True
-        try:
-            self._writer.sync()
-        except sqlite3.Error as error:
-            self._is_on_disk = False
-            logger.warning("A run's record was not brought to the disk: %s", error)
-
-
-def _sorted(batch: list[_Item]) -> tuple[list[ByteRow], list[StateRow], list[dict[str, Any]]]:
-    pieces: list[ByteRow] = []
-    states: list[StateRow] = []
-    runs: list[dict[str, Any]] = []
-    for item in batch:
-        if isinstance(item, dict):
-            runs.append(item)
-        elif len(item) == 4:
-            pieces.append(item)
-        else:
-            states.append(item)
-    return pieces, states, runs
-
-
-def _size(item: _Item) -> int:
-    return len(item[3]) if isinstance(item, tuple) and len(item) == 4 else 0
+def _memory(entry: Entry) -> int:
+    return len(entry.data) + ENTRY_OVERHEAD

@@ -105,11 +105,16 @@ def estimate_seconds(waypoints: Waypoints) -> float:
 
     Within 12 % of the emulated board for merged and unmerged gaits.
     """
+    return float(move_estimates(waypoints).sum())
+
+
+def move_estimates(waypoints: Waypoints) -> Floats:
+    """(count,) about how long the robot takes over each waypoint, s, from where it stands at the first."""
     here = waypoints.strokes[0]
-    total = 0.0
-    for there in waypoints.strokes:
+    seconds = np.zeros(waypoints.count)
+    for number, there in enumerate(waypoints.strokes):
         distance = float(np.abs(there - here).max())
-        total += move_seconds(distance)
+        seconds[number] = move_seconds(distance)
         if distance > ARRIVAL_THRESHOLD:
             here = there
-    return total
+    return seconds

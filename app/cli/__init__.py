@@ -9,7 +9,7 @@ import sys
 from collections.abc import Sequence
 
 from app.cli.arguments import make_parser
-from app.cli.report import Interrupted
+from app.cli.report import INTERRUPTED, Interrupted
 from core.errors import CheckError, FootfallError, InfeasibleError, InputError, RobotError, StateError
 
 _EXIT: tuple[tuple[type[FootfallError], int], ...] = (
@@ -19,7 +19,6 @@ _EXIT: tuple[tuple[type[FootfallError], int], ...] = (
     (StateError, 4),
     (RobotError, 5),
 )
-INTERRUPTED = 130
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

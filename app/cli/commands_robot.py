@@ -6,37 +6,29 @@ import getpass
 import signal
 import sys
 import threading
-import time
 from argparse import Namespace
 from datetime import UTC, datetime
 from pathlib import Path
 from types import FrameType
 from typing import Any
 
-from app.bridge.delivery import HELD_STOP
-from app.bridge.emulated import EmulatedRobot, start_emulator
-from app.bridge.robot import RobotBridge
+from app.bridge.emulated import start_emulator
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPlan
-from app.cli.report import Interrupted, end_on_sigterm, note, show, verdict_lines
-from app.robot_view import EMULATOR
+from app.cli.report import INTERRUPTED, end_on_sigterm, note, show, verdict_lines
+from app.cli.streaming import stream
 from app.store.files import default_data_folder
 from app.trajectory_files import read_waypoints
 from app.views import verdict_view
 from core.checks import check_waypoints
-from core.errors import CheckError, InputError, RobotError, StateError
+from core.errors import CheckError, InputError, RobotError
 from core.findings import Approval, Severity, Verdict, approve
 from core.robot import load_robot
 from core.waypoints import Waypoints
 
-READY_SECONDS = 20.0
-"""The board needs about 8 s; later than this nothing will come."""
-CLEAR_SECONDS = 10.0
-"""A stop is confirmed or overdue by then."""
 LOOK_SECONDS = 0.2
 """How often an emulated robot is looked at for fault states."""
 ROBOT_FAILED = 5
 NOT_FIT = 4
-_ENDS = frozenset({RobotState.DONE, RobotState.STOPPED, RobotState.FAULT})
 
 
 def run_serve(options: Namespace) -> int:
@@ -102,44 +94,17 @@ def run_emulate(options: Namespace) -> int:
 
 
 def run_send(options: Namespace) -> int:
-    """Checks, approves and streams a waypoint file; Ctrl-C is Stop."""
+    """Checks, approves and streams a waypoint file as a run that is kept; Ctrl-C is Stop."""
     end_on_sigterm()
-    waypoints = read_waypoints(options.file)
-    verdict = check_waypoints(load_robot("deltawalker"), waypoints)
+    waypoints, model = read_waypoints(options.file), load_robot("deltawalker")
+    verdict = check_waypoints(model, waypoints)
     if not verdict.passed:
         return _refuse(options, verdict)
-    approval = _approval(verdict, options)
-    emulator = start_emulator() if options.robot == EMULATOR else None
-    bridge = RobotBridge()
-    try:
-        watch = _Watch(bridge)
-        bridge.connect(options.robot if emulator is None else emulator.device)
-        plan = RunPlan(waypoints, approval, (True,) * waypoints.count)
-        ended = _run(bridge, watch, plan)
-        if ended.robot is RobotState.FAULT and HELD_STOP in ended.sentence:
-            note("The robot held a stop from before. It is cleared, and the run begins again.")
-            watch.clear(approval.by)
-            ended = _run(bridge, watch, plan)
-        return _report(options, ended, waypoints)
-    except (KeyboardInterrupt, Interrupted):
-        bridge.stop(approval.by)
-        note("Stop was sent; it takes effect after the move that is running.")
-        raise
-    finally:
-        bridge.close()
-        _close(emulator)
-
-
-def _run(bridge: RobotBridge, watch: _Watch, plan: RunPlan) -> RobotSnapshot:
-    watch.wait_ready()
-    bridge.arm(plan.approval.by)
-    bridge.send(plan, plan.approval.by)
-    return watch.wait_end()
-
-
-def _close(emulator: EmulatedRobot | None) -> None:
-    if emulator is not None:
-        emulator.close()
+    plan = RunPlan(waypoints, _approval(verdict, options), (True,) * waypoints.count)
+    data = (options.data or default_data_folder()).expanduser()
+    ended = stream(model, plan, options.file, options.robot, data)
+    status = _report(options, ended.snapshot, waypoints)
+    return INTERRUPTED if ended.is_interrupted else status
 
 
 def _refuse(options: Namespace, verdict: Verdict) -> int:
@@ -174,71 +139,10 @@ def _approval(verdict: Verdict, options: Namespace) -> Approval:
     return approve(verdict, name, datetime.now(UTC))
 
 
-class _Watch:
-    """Waits for states of the bridge."""
-
-    def __init__(self, bridge: RobotBridge) -> None:
-        self._bridge = bridge
-        self._changed = threading.Event()
-        bridge.subscribe(lambda snapshot: self._changed.set())
-
-    def wait_ready(self) -> None:
-        """Waits until the robot answers.
-
-        Raises:
-            RobotError: it does not.
-        """
-        deadline = threading.Event()
-        timer = threading.Timer(READY_SECONDS, deadline.set)
-        timer.start()
-        try:
-            while self._bridge.snapshot.robot is not RobotState.DISARMED:
-                if deadline.is_set() or self._bridge.snapshot.link is LinkState.LOST:
-                    raise RobotError(
-                        f"No robot answered within {READY_SECONDS:.0f} s: {self._bridge.snapshot.sentence}",
-                        "--robot",
-                    )
-                self._step()
-        finally:
-            timer.cancel()
-
-    def clear(self, by: str) -> None:
-        """Clears a stop as soon as the robot has confirmed it and stands still.
-
-        Raises:
-            StateError: it does not within its time.
-        """
-        deadline = time.monotonic() + CLEAR_SECONDS
-        while True:
-            try:
-                self._bridge.clear(by)
-                return
-            except StateError:
-                if time.monotonic() > deadline:
-                    raise
-            self._step()
-
-    def wait_end(self) -> RobotSnapshot:
-        """Waits until the run has ended, saying how far it is."""
-        told = -1
-        while True:
-            snapshot = self._bridge.snapshot
-            run = snapshot.run
-            if run is not None and run.reached != told:
-                told = run.reached
-                note(f"{run.reached} of {run.count} waypoints reached, {run.elapsed:.1f} s")
-            if snapshot.robot in _ENDS or snapshot.link is LinkState.LOST:
-                return snapshot
-            self._step()
-
-    def _step(self) -> None:
-        self._changed.wait(0.1)
-        self._changed.clear()
-
-
 def _report(options: Namespace, snapshot: RobotSnapshot, waypoints: Waypoints) -> int:
     run = snapshot.run
     content: dict[str, Any] = {
+        "run": run.run_id if run else None,
         "state": "lost" if snapshot.link is LinkState.LOST else snapshot.robot.value,
         "sentence": snapshot.sentence,
         "sent": run.sent if run else 0,

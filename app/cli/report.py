@@ -13,6 +13,9 @@ from typing import Any
 from app.finite import finite
 from core.findings import SendCost, Severity, Verdict
 
+INTERRUPTED = 130
+"""Exit status of a command that Ctrl-C or SIGTERM ended."""
+
 
 class Interrupted(Exception):  # noqa: N818 - it is no error
     """SIGTERM arrived; commands end as by Ctrl-C."""

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from app.finite import finite
-from app.runs.owners import end_abandoned
+from app.runs.abandoned import end_abandoned
 from app.runs.record import RunRecord, known_row, read_record
 from app.store.database import Database
 from app.store.run_log import RunFilter, RunLog, RunRow

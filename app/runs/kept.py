@@ -12,7 +12,7 @@ from app.bridge.robot import RobotBridge
 from app.bridge.states import LinkState, RobotSnapshot, RunPlan
 from app.robot_view import RUNNING, RunOrigin, run_end
 from app.run_recorder import RunRecorder
-from app.runs.owners import RunOwner, end_abandoned
+from app.runs.abandoned import end_abandoned
 from app.store.database import Database
 from core.errors import FootfallError, StateError
 
@@ -47,7 +47,6 @@ class KeptRuns:
         end_abandoned(database)
         self.previous = next(iter(database.runs(1)), None)
         self.origin: RunOrigin | None = None
-        self._owner = RunOwner(database.path.parent)
         self._recorder = RunRecorder(database, changed)
         self._record: dict[str, Any] | None = None
         self._sending = threading.Lock()
@@ -64,7 +63,6 @@ class KeptRuns:
         """Stops a run, closes the line and writes what is left of the record."""
         self.bridge.close()
         self._recorder.close()
-        self._owner.close()
 
     def send(self, run_plan: RunPlan, kept: KeptRun, by: str) -> None:
         """Sends a run whose record begins before the first byte goes out.
@@ -95,7 +93,6 @@ class KeptRuns:
             "ended": None,
             "state": "running",
             "sentence": "",
-            "owner": self._owner.name,
         }
         changes = self.bridge.transitions
         self._recorder.begin(record, kept.plan, after=changes[-1].number if changes else 0)

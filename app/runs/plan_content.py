@@ -7,13 +7,17 @@ from typing import Any
 
 import numpy as np
 
+from app.bridge.states import RunPlan
 from app.plans import Plan
 from app.trajectory_content import trajectory_content, trajectory_from_content
-from core.errors import StateError
+from core.arrays import Floats
+from core.errors import InputError, StateError
 from core.findings import Approval
 from core.path_merging import WaypointPlan
-from core.robot import load_robot
+from core.robot import RobotModel, load_robot
 from core.run_pose import RanPlan
+from core.trajectory import Trajectory
+from core.waypoint_motion import motion_of_waypoints
 from core.waypoints import Waypoints
 
 
@@ -30,15 +34,36 @@ def run_plan_content(plan: Plan, way: WaypointPlan, approval: Approval) -> dict[
     """
     if plan.trajectory is None:
         raise StateError("A plan without a motion cannot be sent.", "plan")
-    return {
-        "robot": plan.model.name,
-        "durations": way.waypoints.durations.tolist(),
-        "strokes_mm": way.waypoints.strokes_mm.tolist(),
-        "times": way.times.tolist(),
+    return _content(plan.model, way.waypoints, way.times, plan.trajectory, approval) | {
         "merge": way.merge,
         "stop_bound": way.stop_bound,
+    }
+
+
+def file_plan_content(model: RobotModel, plan: RunPlan) -> dict[str, Any] | None:
+    """What is kept of a file's waypoints with a run of them; None where they make no motion of a gait.
+
+    Args:
+        model: the robot.
+        plan: the waypoints, approved.
+    """
+    try:
+        trajectory = motion_of_waypoints(model, plan.waypoints).trajectory
+    except InputError:  # a single pose, say: it is sent, and there is nothing to lay it over
+        return None
+    return _content(model, plan.waypoints, trajectory.times, trajectory, plan.approval)
+
+
+def _content(
+    model: RobotModel, waypoints: Waypoints, times: Floats, trajectory: Trajectory, approval: Approval
+) -> dict[str, Any]:
+    return {
+        "robot": model.name,
+        "durations": waypoints.durations.tolist(),
+        "strokes_mm": waypoints.strokes_mm.tolist(),
+        "times": times.tolist(),
         "approval": asdict(approval),
-        "trajectory": trajectory_content(plan.trajectory),
+        "trajectory": trajectory_content(trajectory),
     }
 
 

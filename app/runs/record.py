@@ -98,7 +98,8 @@ def read_record(log: RunLog, run: str) -> RunRecord:
     content = log.plan(run)
     if content is None:
         raise StateError(
-            "This run was kept by an older program, without its plan: its strokes cannot be laid over one.",
+            "This run was kept without its plan, by an older program or as its waypoints make no motion: its "
+            "strokes cannot be laid over one.",
             run,
         )
     plan, began = ran_plan(content), row.content["started_monotonic"]

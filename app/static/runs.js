@@ -18,6 +18,7 @@ const MOST_TRIES = 10;
 /** How the shown gait stands to a run that is laid over it. */
 function standing(store, run) {
   const { view, selected } = store.state;
+  if (run.gait.startsWith("file:")) return "This run was of a file, sent by a command: nothing is laid over the plots.";
   const known = store.state.gaits.some(({ id }) => id === run.gait);
   if (selected !== run.gait) return `The gait of this run is not ${known ? "the one that is shown" : "among the gaits any more"}: nothing is laid over the plots.`;
   if (view?.plan?.waypoints_hash !== run.waypoints_hash) return "The gait has changed since: measured strokes stand over what is planned now.";

@@ -79,6 +79,20 @@ def free_id(name: str, taken: Set[str]) -> str:
     return next(candidate for candidate in ids if candidate not in taken)
 
 
+def require_folder(data: Path) -> None:
+    """Makes the data folder where it does not exist.
+
+    Raises:
+        InputError: it cannot be made.
+    """
+    try:
+        data.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(
+            f"The data folder {data} cannot be made: {error.strerror}. Give another with --data.", "--data"
+        ) from error
+
+
 class GaitFiles:
     """The folder `gaits` and its `trash`.
 
@@ -89,14 +103,8 @@ class GaitFiles:
     def __init__(self, data: Path) -> None:
         self._gaits = data / "gaits"
         self._trash = data / "trash"
-        try:
-            self._gaits.mkdir(parents=True, exist_ok=True)
-            self._trash.mkdir(exist_ok=True)
-        except OSError as error:
-            raise InputError(
-                f"The data folder {data} cannot be made: {error.strerror}. Give another with --data.",
-                "--data",
-            ) from error
+        for folder in (data, self._gaits, self._trash):
+            require_folder(folder)
         _sweep(self._gaits)
 
     def stamps(self) -> dict[str, tuple[int, int]]:

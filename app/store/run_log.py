@@ -21,6 +21,14 @@ class RunRow:
 
 
 @dataclass(frozen=True)
+class RunCounts:
+    """How many pieces of bytes and how many changes of state are kept of a run."""
+
+    pieces: int
+    states: int
+
+
+@dataclass(frozen=True)
 class RunFilter:
     """Which runs are wanted; None and empty for all.
 
@@ -83,6 +91,12 @@ class RunLog:
             "SELECT content FROM run WHERE json_extract(content, '$.state') = 'running'"
         )
         return tuple(json.loads(content) for (content,) in rows)
+
+    def counts(self, run: str) -> RunCounts:
+        """How much of a run's bytes and states is kept."""
+        pieces = self._database.rows("SELECT COUNT(*) FROM run_bytes WHERE run=?", run)
+        states = self._database.rows("SELECT COUNT(*) FROM run_state WHERE run=?", run)
+        return RunCounts(pieces[0][0], states[0][0])
 
     def choices(self) -> dict[str, list[Any]]:
         """What can be filtered by: gaits with their names, states and operators that there are."""

@@ -7,11 +7,26 @@ import sqlite3
 from collections.abc import Iterable
 from typing import Any
 
+from app.bridge.states import Direction
+from app.store.run_journal import Entry, EntryKind
+
 ByteRow = tuple[str, float, str, bytes]
 """Run, monotonic time in s, direction, data."""
 
 StateRow = tuple[str, float, str, str, str]
 """Run, monotonic time in s, link, robot, cause."""
+
+
+def byte_row(run: str, entry: Entry) -> ByteRow:
+    """An entry of bytes as its row."""
+    way = Direction.TO_ROBOT if entry.kind is EntryKind.TO_ROBOT else Direction.FROM_ROBOT
+    return run, entry.time, way.value, entry.data
+
+
+def state_row(run: str, entry: Entry) -> StateRow:
+    """A change of state as its row."""
+    link, robot, cause = json.loads(entry.data)
+    return run, entry.time, link, robot, cause
 
 
 def put_run(connection: sqlite3.Connection, content: dict[str, Any]) -> None:

@@ -22,7 +22,7 @@ from core.waypoints import parse_waypoint_csv
 from core.wire_timing import OVERRUN
 from tests.app.command import run, run_json
 from tests.reference import reference_path
-from tests.studio_process import PROJECT, wait_for
+from tests.studio_process import PROJECT
 
 
 def test_the_way_from_gait_to_waypoints(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
@@ -50,46 +50,11 @@ def test_the_defaults_of_each_command_suit_the_next(
     assert run(capsys, "waypoints", str(trajectory), "-o", str(waypoints))[0] == 0
     robot = start_emulator("nominal", 20.0, booted=True)
     try:
-        status, answer = run_json(capsys, "send", str(waypoints), "--robot", robot.device, "--yes")
+        words = ("--robot", robot.device, "--yes", "--data", str(tmp_path))
+        status, answer = run_json(capsys, "send", str(waypoints), *words)
     finally:
         robot.close()
     assert (status, answer["state"], answer["reached"]) == (0, "done", 45)
-
-
-def test_an_interrupted_send_stops_the_robot_and_the_next_one_runs_to_its_end(tmp_path: Path) -> None:
-    waypoints = tmp_path / "way.csv"
-    rows = ["0.4," + ",".join([f"{h}.0000"] * 12) for h in (5, 8) * 6]
-    waypoints.write_text(
-        "duration_s," + ",".join(f"h{i}" for i in range(1, 13)) + "\n" + "\n".join(rows) + "\n"
-    )
-    robot = start_emulator("nominal", 4.0, booted=True)
-    command = [
-        sys.executable,
-        "-m",
-        "app",
-        "send",
-        str(waypoints),
-        "--robot",
-        robot.device,
-        "--yes",
-        "--json",
-    ]
-    try:
-        first = subprocess.Popen(
-            command, cwd=PROJECT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-        )
-        with first:
-            wait_for(lambda: len(robot.firmware.messages) > 2, "the run has begun")
-            first.send_signal(signal.SIGINT)
-            assert first.wait(15) == 130
-            assert first.stdout is not None
-            assert "Interrupted" in json.loads(first.stdout.read())["error"]
-        assert robot.firmware.messages[-1].payload == "s,1"
-        second = subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, timeout=60)
-        assert second.returncode == 0, second.stderr
-        assert json.loads(second.stdout)["reached"] == 12
-    finally:
-        robot.close()
 
 
 def test_a_gait_without_a_standing_foot_is_valid_json(
@@ -170,7 +135,9 @@ def test_an_absent_serial_device_is_exit_5(capsys: pytest.CaptureFixture[str], t
     path = tmp_path / "way.csv"
     header = "duration_s," + ",".join(f"h{i}" for i in range(1, 13))
     path.write_text(f"{header}\n0.4," + ",".join(["5.5"] * 12) + "\n")
-    status, answer = run_json(capsys, "send", str(path), "--robot", "/dev/no-such-robot", "--yes")
+    status, answer = run_json(
+        capsys, "send", str(path), "--robot", "/dev/no-such-robot", "--yes", "--data", str(tmp_path)
+    )
     assert status == 5
     assert "/dev/no-such-robot" in answer["error"]
 

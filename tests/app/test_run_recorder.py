@@ -6,7 +6,6 @@ import sqlite3
 import threading
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -15,14 +14,14 @@ from app.bridge.emulated import start_emulator
 from app.bridge.states import Direction, LinkState, RobotState, Transition
 from app.robot_view import RunOrigin
 from app.run_recorder import RunRecorder
+from app.runs.abandoned import end_abandoned
 from app.runs.desk import RunDesk
 from app.runs.kept import KeptRun, KeptRuns
-from app.runs.owners import RunOwner, end_abandoned
 from app.store.database import Database
+from app.store.run_journal import Entry, EntryKind, RunJournal
 from app.store.run_log import RunFilter, RunLog
-from app.store.run_rows import ByteRow, StateRow
 from app.store.run_writer import RunWriter
-from core.errors import InputError, StateError
+from core.errors import StateError
 from tests.bridge.virtual_robot import make_plan
 from tests.studio_process import wait_for
 
@@ -37,13 +36,11 @@ class FullDisk(RunWriter):
         self.is_full = True
         self.refusals = 0
 
-    def write(
-        self, pieces: Sequence[ByteRow], states: Sequence[StateRow], runs: Sequence[dict[str, Any]]
-    ) -> None:
+    def write(self, entries: Sequence[tuple[str, Entry]]) -> None:
         if self.is_full:
             self.refusals += 1
             raise sqlite3.OperationalError("database or disk is full")
-        super().write(pieces, states, runs)
+        super().write(entries)
 
 
 @pytest.fixture
@@ -104,7 +101,7 @@ def test_a_record_that_lags_is_told_of_until_it_has_caught_up(
 def test_where_memory_has_an_end_the_record_says_what_it_lacks(
     database: Database, recorder: RunRecorder, writer: FullDisk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(run_recorder, "MOST_WAITING", 3 * (run_recorder.PIECE_OVERHEAD + 1))
+    monkeypatch.setattr(run_recorder, "MOST_WAITING", 3 * (run_recorder.ENTRY_OVERHEAD + 1))
     recorder.begin(RECORD)
     log_some(recorder)
     assert "has a hole: 2 bytes" in str(recorder.trouble)
@@ -144,6 +141,7 @@ def test_the_end_of_the_program_does_not_wait_for_ever(
     recorder.begin(RECORD)
     log_some(recorder)
     recorder.close()
+    assert journals(database) == ["r.journal"]
     assert "5 pieces of a run's record could not be written." in caplog.text
 
 
@@ -166,35 +164,79 @@ def test_a_run_whose_record_cannot_be_begun_is_not_sent(database: Database) -> N
         robot.close()
 
 
-def test_only_runs_whose_program_is_gone_are_called_interrupted(database: Database) -> None:
-    data = database.path.parent
-    living, gone = RunOwner(data), RunOwner(data)
-    gone.close()
-    owners = {"a": living.name, "b": gone.name, "c": None, "d": "../../etc/passwd"}
-    for number, (run, owner) in enumerate(owners.items()):
-        database.put_run(RECORD | {"id": run, "started": float(number), "owner": owner})
+def journals(database: Database) -> list[str]:
+    return sorted(path.name for path in (database.path.parent / "running").iterdir())
+
+
+def test_what_the_database_never_got_is_completed_from_the_journal_of_a_program_that_is_gone(
+    database: Database, writer: FullDisk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(run_recorder, "CLOSE_SECONDS", 0.0)
+    recorder = RunRecorder(database, writer=writer)
+    writer.is_full = False
+    recorder.begin(RECORD)
+    log_some(recorder)
+    recorder.note([change(1)])
+    wait_for(lambda: len(RunLog(database).states_of("r")) == 1, "the database has the beginning")
+    writer.is_full = True
+    log_some(recorder, first=5)
+    recorder.note([change(2)])
     end_abandoned(database)
-    assert {run["id"]: run["state"] for run in database.runs()} == {
-        "a": "running",
-        "b": "interrupted",
-        "c": "interrupted",
-        "d": "interrupted",
-    }
-    living.close()
-    assert not list((data / "running").iterdir())
+    assert database.runs()[0]["state"] == "running"  # it lives
+    recorder.close()
+    end_abandoned(database)
+    assert [data for _, _, data in RunLog(database).bytes_of("r")] == [b"%d" % n for n in range(10)]
+    assert [cause for *_, cause in RunLog(database).states_of("r")] == ["change 1", "change 2"]
+    assert database.runs()[0]["state"] == "interrupted"
+    assert journals(database) == []
 
 
-def test_a_run_whose_program_was_killed_meanwhile_is_listed_as_interrupted(database: Database) -> None:
-    owner = RunOwner(database.path.parent)
-    run = {"gait_name": "Walk", "waypoints_hash": "", "by": "Ada", "sentence": "", "ended": None}
-    database.put_run(RECORD | run | {"owner": owner.name})
-    desk = RunDesk(database)
-    assert desk.found(RunFilter(), 0, 5)["runs"][0]["state"] == "running"
-    owner.close()
-    assert desk.found(RunFilter(), 0, 5)["runs"][0]["state"] == "interrupted"
+def test_a_run_whose_end_the_database_never_got_ends_as_it_did(
+    database: Database, writer: FullDisk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(run_recorder, "CLOSE_SECONDS", 0.0)
+    recorder = RunRecorder(database, writer=writer)
+    recorder.begin(RECORD)
+    recorder.end(RECORD | {"state": "done"})
+    recorder.close()
+    assert journals(database) == ["r.journal"]
+    end_abandoned(database)
+    assert database.runs()[0]["state"] == "done"
 
 
-def test_a_data_folder_that_takes_no_mark_is_refused(tmp_path: Path) -> None:
-    (tmp_path / "running").write_text("a file where a folder should be")
-    with pytest.raises(InputError, match=r"data folder .* cannot be used"):
-        RunOwner(tmp_path)
+def test_an_entry_that_was_cut_off_is_left_out(database: Database) -> None:
+    data = database.path.parent
+    database.put_run(RECORD)
+    journal = RunJournal(data, "r")
+    journal.add(Entry(EntryKind.FROM_ROBOT, 11.0, b"whole"))
+    journal.add(Entry(EntryKind.FROM_ROBOT, 12.0, b"cut off"))
+    journal.close(is_in_database=False)
+    path = data / "running" / "r.journal"
+    path.write_bytes(path.read_bytes()[:-3])
+    end_abandoned(database)
+    assert RunLog(database).bytes_of("r") == [(11.0, "from robot", b"whole")]
+
+
+def test_only_runs_whose_program_is_gone_are_called_interrupted_also_while_the_studio_is_open(
+    database: Database,
+) -> None:
+    more = {"gait_name": "Walk", "waypoints_hash": "", "by": "Ada", "sentence": "", "ended": None}
+    for run in ("living", "old"):
+        database.put_run(RECORD | more | {"id": run})
+    living, desk = RunJournal(database.path.parent, "living"), RunDesk(database)
+
+    def states() -> dict[str, str]:
+        return {run["id"]: run["state"] for run in desk.found(RunFilter(), 0, 5)["runs"]}
+
+    assert states() == {"living": "running", "old": "interrupted"}
+    living.close(is_in_database=False)
+    assert states() == {"living": "interrupted", "old": "interrupted"}
+
+
+def test_a_data_folder_that_takes_no_journal_begins_no_run(database: Database) -> None:
+    (database.path.parent / "running").write_text("a file where a folder should be")
+    recorder = RunRecorder(database)
+    with pytest.raises(StateError, match="record of the run cannot be begun"):
+        recorder.begin(RECORD)
+    recorder.close()
+    assert database.runs() == []

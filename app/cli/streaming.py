@@ -1,0 +1,221 @@
+"""A waypoint file on its way to the robot: kept as a run, with its progress told, and stopped by Ctrl-C."""
+
+from __future__ import annotations
+
+import secrets
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from app.bridge.delivery import HELD_STOP
+from app.bridge.emulated import start_emulator
+from app.bridge.robot import RobotBridge
+from app.bridge.states import IN_RUN, LinkState, RobotSnapshot, RobotState, RunPhase, RunPlan, RunProgress
+from app.bridge.stopping import STOP_LIMIT
+from app.cli.report import Interrupted, ignore_interrupts, note
+from app.robot_view import EMULATOR, RunOrigin
+from app.runs.kept import KeptRun, KeptRuns
+from app.runs.plan_content import file_plan_content
+from app.store.database import Database
+from app.store.files import require_folder
+from core.errors import RobotError, StateError
+from core.robot import RobotModel
+from core.waypoint_path import move_estimates
+
+READY_SECONDS = 20.0
+"""The board needs about 8 s; later than this nothing will come."""
+CLEAR_SECONDS = 10.0
+"""A stop is confirmed or overdue by then."""
+STOP_SECONDS = STOP_LIMIT + 0.5
+"""By then a stop is confirmed, or said not to be."""
+TOLD_SECONDS = 1.0
+"""A run's progress is told at least this often, where it can be told on one line, s."""
+_ENDS = frozenset({RobotState.DONE, RobotState.STOPPED, RobotState.FAULT})
+
+
+@dataclass(frozen=True)
+class Streamed:
+    """How a run ended, and whether a person broke it off."""
+
+    snapshot: RobotSnapshot
+    is_interrupted: bool
+
+
+def stream(model: RobotModel, plan: RunPlan, file: Path, device: str, data: Path) -> Streamed:
+    """Connects the robot, sends the waypoints as a run that is kept, and waits for its end.
+
+    Args:
+        model: the robot.
+        plan: the file's waypoints, approved.
+        file: what the run is called.
+        device: `emulator`, a serial device, or `socket://HOST:PORT`.
+        data: the data folder.
+
+    Raises:
+        InputError: the data folder cannot be used.
+        RobotError: there is no such device, or no robot answers.
+        StateError: the robot cannot be armed or cleared, or the run's record cannot be begun.
+    """
+    require_folder(data)
+    with closing(Database(data / "studio.sqlite3")) as database, _robot(device) as line:
+        kept = KeptRuns(database, lambda: note(kept.trouble or "The record of the run has caught up."))
+        with closing(kept):
+            sending = Sending(kept, plan, KeptRun(_origin(plan, file), file_plan_content(model, plan)))
+            try:
+                return Streamed(sending.run(line), is_interrupted=False)
+            except (KeyboardInterrupt, Interrupted):
+                ignore_interrupts()
+                return Streamed(sending.stop(), is_interrupted=True)
+
+
+def _origin(plan: RunPlan, file: Path) -> RunOrigin:
+    times = np.cumsum(plan.waypoints.durations) - plan.waypoints.durations[0]
+    return RunOrigin("", f"file:{file.name}", file.name, plan.waypoints, times)
+
+
+@contextmanager
+def _robot(device: str) -> Iterator[str]:
+    if device != EMULATOR:
+        yield device
+        return
+    with closing(start_emulator()) as emulator:
+        yield emulator.device
+
+
+class Sending:
+    """One file's way to the robot.
+
+    Args:
+        kept: the bridge and the record.
+        plan: what is sent.
+        run: what is kept of it, but for its id.
+    """
+
+    def __init__(self, kept: KeptRuns, plan: RunPlan, run: KeptRun) -> None:
+        self._kept = kept
+        self._plan = plan
+        self._run = run
+        self._by = plan.approval.by
+        self._progress = Progress(plan)
+        self._changed = threading.Event()
+        kept.bridge.subscribe(lambda snapshot: self._changed.set())
+
+    @property
+    def _bridge(self) -> RobotBridge:
+        return self._kept.bridge
+
+    def run(self, device: str) -> RobotSnapshot:
+        """Connects and sends; once more where the robot held a stop from before."""
+        self._bridge.connect(device)
+        note("The robot's line is open. Its board may restart; its motors may then move for about 8 s.")
+        ended = self._send()
+        if ended.robot is RobotState.FAULT and HELD_STOP in ended.sentence:
+            note("The robot held a stop from before. It is cleared, and the run begins again.")
+            self._clear()
+            ended = self._send()
+        return ended
+
+    def stop(self) -> RobotSnapshot:
+        """Stops the robot, waits until it has confirmed that, and says what happened."""
+        before = self._bridge.snapshot
+        self._bridge.stop(self._by)
+        note("Stop was sent; it takes effect after the move that is running.")
+        deadline = time.monotonic() + STOP_SECONDS
+        while self._bridge.snapshot.robot is RobotState.STOPPING and time.monotonic() < deadline:
+            self._step()
+        after = self._bridge.snapshot
+        what = "nothing was sent"
+        if before.run is not None:
+            what = f"{before.run.reached} of {before.run.count} waypoints were reached"
+            what += "" if before.robot in IN_RUN else ", and the run had ended"
+        return replace(after, sentence=f"Interrupted: {what}. {after.sentence}")
+
+    def _send(self) -> RobotSnapshot:
+        self._wait_ready()
+        self._bridge.arm(self._by)
+        origin = replace(self._run.origin, run_id=secrets.token_hex(6))
+        self._kept.send(self._plan, replace(self._run, origin=origin), self._by)
+        try:
+            while True:
+                snapshot = self._bridge.snapshot
+                self._progress.tell(snapshot)
+                if snapshot.robot in _ENDS or snapshot.link is LinkState.LOST:
+                    return snapshot
+                self._step()
+        finally:
+            self._progress.end()
+
+    def _wait_ready(self) -> None:
+        deadline = time.monotonic() + READY_SECONDS
+        while self._bridge.snapshot.robot is not RobotState.DISARMED:
+            snapshot = self._bridge.snapshot
+            if time.monotonic() > deadline or snapshot.link is LinkState.LOST:
+                raise RobotError(
+                    f"No robot answered within {READY_SECONDS:.0f} s: {snapshot.sentence}", "--robot"
+                )
+            self._step()
+
+    def _clear(self) -> None:
+        """Clears a stop as soon as the robot has confirmed it and stands still."""
+        deadline = time.monotonic() + CLEAR_SECONDS
+        while True:
+            try:
+                return self._bridge.clear(self._by)
+            except StateError:
+                if time.monotonic() > deadline:
+                    raise
+            self._step()
+
+    def _step(self) -> None:
+        self._changed.wait(0.1)
+        self._changed.clear()
+
+
+class Progress:
+    """Tells how far a run is, on standard error: on one line of a terminal, else a line each time.
+
+    Args:
+        plan: what is sent.
+    """
+
+    def __init__(self, plan: RunPlan) -> None:
+        self._estimates = move_estimates(plan.waypoints)
+        self._is_terminal = sys.stderr.isatty()
+        self._told: tuple[RobotState, RunPhase, int] | None = None
+        self._told_at = 0.0
+
+    def tell(self, snapshot: RobotSnapshot) -> None:
+        """Tells what is new; on a terminal also the time that is left, as it passes."""
+        run = snapshot.run
+        if run is None:
+            return
+        now, news = time.monotonic(), (snapshot.robot, run.phase, run.reached)
+        is_due = self._is_terminal and now > self._told_at + TOLD_SECONDS
+        if news == self._told and not is_due:
+            return
+        self._told, self._told_at = news, now
+        text = f"{snapshot.robot}: {self._place(run)}"
+        if self._is_terminal:
+            sys.stderr.write(f"\r\x1b[K{text}")
+            sys.stderr.flush()
+        else:
+            note(text)
+
+    def end(self) -> None:
+        """Ends the line."""
+        if self._is_terminal and self._told is not None:
+            sys.stderr.write("\n")
+
+    def _place(self, run: RunProgress) -> str:
+        left = float(self._estimates[run.reached :].sum())
+        if run.phase is RunPhase.START_POSE:
+            return f"on the way to the start pose, then {run.count} waypoints in about {left:.0f} s"
+        if run.reached == run.count:
+            return f"waypoint {run.count} of {run.count} reached, {run.elapsed:.0f} s in all"
+        return f"waypoint {run.reached} of {run.count} reached, about {left:.0f} s left"

@@ -1,0 +1,123 @@
+"""A file in which what passes in a run stands at once, until the database has it.
+
+A kill of the program takes nothing of it. It is locked as long as the program lives, and the system
+unlocks it however that ends; so it also says whether a run is still under way.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import logging
+import os
+import struct
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from enum import IntEnum
+from pathlib import Path
+
+logger = logging.getLogger(__name__)
+
+_HEAD = struct.Struct("<BdI")
+"""Kind, time in s, length of what follows in bytes."""
+
+
+class EntryKind(IntEnum):
+    """What an entry holds."""
+
+    TO_ROBOT = 0
+    FROM_ROBOT = 1
+    STATE = 2
+    """Link, robot and cause as JSON."""
+    END = 3
+    """The run's content as JSON."""
+
+    @property
+    def is_bytes(self) -> bool:
+        """Whether it is bytes on the line."""
+        return self in (EntryKind.TO_ROBOT, EntryKind.FROM_ROBOT)
+
+
+@dataclass(frozen=True)
+class Entry:
+    """Something that happened in a run, at a monotonic time in s."""
+
+    kind: EntryKind
+    time: float
+    data: bytes
+
+
+class RunJournal:
+    """The journal of a run that this program sends.
+
+    Args:
+        data: the data folder.
+        run: the run's id.
+
+    Raises:
+        OSError: the folder takes no such file.
+    """
+
+    def __init__(self, data: Path, run: str) -> None:
+        self._path = _path(data, run)
+        self._path.parent.mkdir(exist_ok=True)
+        self._file = os.open(self._path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o644)
+        fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        self._is_full = False
+
+    def add(self, entry: Entry) -> None:
+        """Adds an entry; it outlives this program when this returns.
+
+        Where the disk takes no more, the journal ends there, and only the database may have the rest.
+        """
+        if self._is_full:
+            return
+        content = _HEAD.pack(entry.kind, entry.time, len(entry.data)) + entry.data
+        try:
+            self._is_full = os.write(self._file, content) < len(content)
+        except OSError:
+            self._is_full = True
+        if self._is_full:
+            logger.warning("%s takes no more of a run; the database may.", self._path)
+
+    def close(self, *, is_in_database: bool) -> None:
+        """Unlocks the journal, and takes it away where the database has everything."""
+        if is_in_database:
+            self._path.unlink(missing_ok=True)
+        os.close(self._file)
+
+
+@contextmanager
+def abandoned_journal(data: Path, run: str) -> Iterator[tuple[Entry, ...] | None]:
+    """What stands in the journal of a run whose program is gone; None where it lives.
+
+    Nobody else gets it meanwhile, and after that it is gone.
+    """
+    path = _path(data, run)
+    try:
+        file = os.open(path, os.O_RDONLY | os.O_CLOEXEC)
+    except OSError:
+        yield ()
+        return
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        yield _read(path.read_bytes())
+        path.unlink(missing_ok=True)
+    except BlockingIOError:
+        yield None
+    finally:
+        os.close(file)
+
+
+def _read(content: bytes) -> tuple[Entry, ...]:
+    entries, place = [], 0
+    while place + _HEAD.size <= len(content):
+        kind, time, length = _HEAD.unpack_from(content, place)
+        place += _HEAD.size + length
+        if place <= len(content):
+            entries.append(Entry(EntryKind(kind), time, content[place - length : place]))
+    return tuple(entries)
+
+
+def _path(data: Path, run: str) -> Path:
+    return data / "running" / f"{run}.journal"

@@ -87,7 +87,7 @@ def report_sentence(figures: dict[str, Any]) -> str:
     if figures["fell"]:
         return f"The robot falls over at {figures['fell_time']:.1f} s."
     if figures["ended_early"]:
-        return f"It ended early: {figures['ended_early']}"
+        return str(figures["ended_early"])
     tilt = np.degrees(figures["max_tilt"])
     return (
         f"The robot stays on its feet, leans by {tilt:.1f}° at most and goes "

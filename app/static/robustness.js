@@ -9,7 +9,7 @@ const degrees = (radians) => fixed((radians * 180) / Math.PI);
 /** How a variation came out: what it is called, its sign, and its sentence. */
 function cameOf({ walks, fell, max_tilt: tilt, distance, feet_error: error, ended_early: early }) {
   if (fell) return ["falls", "×", `falls over, leaning by ${degrees(tilt)}°`];
-  if (early) return ["falls", "×", `ends early: ${early}`];
+  if (early) return ["falls", "×", `ends early: ${early.replace(/\.$/, "")}`];
   const figures = `leans by ${degrees(tilt)}° at most, goes ${mm(distance)} mm, feet ${mm(error)} mm off`;
   return walks ? ["walks", "", `walks: ${figures}`] : ["tips", "!", `tips onto a foot in the air: ${figures}`];
 }

@@ -17,7 +17,6 @@ function whyNot(state) {
   if (!view) return "No gait is selected.";
   if (pending.length) return "The last edit is not accepted yet.";
   if (simulationJob(state)) return "This gait is being simulated. Cancel that or wait for it.";
-  if (view.plan?.live?.status === "infeasible") return "There is no motion to simulate: the live tier finds none. Optimise says what is missing.";
   if (!view.plan?.waypoints_hash) return view.plan?.refusal?.sentence ?? "There is no plan to simulate. Optimise first.";
   return null;
 }
@@ -61,7 +60,8 @@ function standing(state) {
   if (failed) return [failed, "bad"];
   if (!view?.simulation) return ["Not simulated yet. Simulate says whether the robot walks, tips, slips or lacks force, before anything moves.", "plain"];
   if (!view.simulation.fresh) return ["The gait changed since: these figures are of an older version. Simulate again.", "caution"];
-  return simulation ? null : ["The simulation is being fetched.", "plain"];
+  if (!simulation) return ["The simulation is being fetched.", "plain"];
+  return view.plan?.source === "draft" ? ["This motion is only drawn: it cannot be sent, and physics says what would come of it.", "caution"] : null;
 }
 
 /** Builds the section; `goToTime` brings the playhead to a time of the plan. */

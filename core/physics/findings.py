@@ -66,7 +66,7 @@ def _end(report: SimulationReport, problem: SimulationProblem) -> Outcome:
         return Outcome(margin)
     words = (
         f"The simulation ended {missing} of {problem.waypoints.count} waypoints early: "
-        f"{report.ended_early or 'no reason is known'}."
+        f"{(report.ended_early or 'no reason is known').rstrip('.')}."
     )
     place = _place(report, problem, float(report.arrival_times[-1]))
     remedy = "Mend what stands before, then simulate again."

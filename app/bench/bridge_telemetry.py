@@ -17,9 +17,10 @@ from app.bench.bridge_process import Studio, Tap, emulator_process, wait_until
 from app.bench.measure import Row, milliseconds
 from app.bridge.profiles import ProfileName
 from app.store.database import Database
+from core.errors import StateError
 
 HOUR = 3600.0
-SPEED = 20.0
+SPEED = 10.0
 """Seconds of the robot in a second; what the machine does not manage the robot makes up by taking longer."""
 
 LINES_A_SECOND = 69.3
@@ -74,6 +75,9 @@ def bench_telemetry(seconds: float = HOUR, speed: float = SPEED) -> list[Row]:
     Args:
         seconds: time of the robot.
         speed: seconds of the robot in a second.
+
+    Raises:
+        StateError: the run ended by itself, for a machine that is too busy for this speed.
     """
     with tempfile.TemporaryDirectory() as data, emulator_process(speed, ProfileName.NOMINAL) as robot:
         tap = Tap(robot)
@@ -118,6 +122,8 @@ def _paused_run(studio: Studio, tap: Tap, page: Page, seconds: float, speed: flo
         wait_until(lines.are_said, "the robot has said its lines", patience)
         memory.append(studio.memory_mb())
     took = time.monotonic() - began
+    if (shown := studio.robot())["robot"] != "paused":
+        raise StateError(f"The run did not stay paused: {shown['sentence']} Choose a lower speed.", "speed")
     gaps = np.diff([when for when, _ in page.heard[first:]])
     studio.ask("POST", "api/robot/stop")
     wait_until(lambda: page.heard[-1][1] == "stopped", "the page hears of the stop")

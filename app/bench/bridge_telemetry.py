@@ -13,7 +13,7 @@ import numpy as np
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from app.bench.bridge_process import Studio, Tap, emulator_process, wait_until
+from app.bench.bridge_process import ANSWER_SECONDS, Studio, Tap, emulator_process, wait_until
 from app.bench.measure import Row, milliseconds
 from app.bridge.profiles import ProfileName
 from app.store.database import Database
@@ -50,7 +50,8 @@ class Page:
 
     def __init__(self, address: str) -> None:
         self.heard: list[tuple[float, str]] = []
-        self._socket = connect(address.replace("http", "ws", 1) + "api/events", max_size=None)
+        events = address.replace("http", "ws", 1) + "api/events"
+        self._socket = connect(events, max_size=None, open_timeout=ANSWER_SECONDS)
         self._thread = threading.Thread(target=self._listen, name="page", daemon=True)
         self._thread.start()
 

@@ -142,8 +142,14 @@ class GaitDesk:
 
     def _plan_of(self, open_gait: OpenGait) -> Plan:
         plan = self._plans.of(open_gait)
-        self._open[open_gait.id] = open_gait.with_plan(plan, self._verdict_of)
+        self._seen(open_gait, open_gait.with_plan(plan, self._verdict_of))
         return plan
+
+    def _seen(self, before: OpenGait, now: OpenGait) -> None:
+        """Takes a gait with its plan over; an approval that it took away is gone in the database too."""
+        self._open[now.id] = now
+        if (before.approval or before.kept_approval) and not (now.approval or now.kept_approval):
+            self._put(now)
 
     def planned(self, gait: Gait) -> Plan:
         """What a document amounts to, whether or not it is the present one of a gait; any thread may ask."""
@@ -166,7 +172,7 @@ class GaitDesk:
         """Takes over a plan that was made elsewhere, unless the gait or its results changed meanwhile."""
         now = self._open.get(asked.open_gait.id)
         if now is not None:
-            self._open[now.id] = self._plans.taken(asked, plan, now)
+            self._seen(now, self._plans.taken(asked, plan, now))
 
     def ask_again(self, gait_id: str) -> None:
         """Asks the live tier once more where it broke off; what was found of the old plan is gone."""
@@ -356,11 +362,7 @@ class GaitDesk:
         return self._put(replace(open_gait, approval=approval, revoked=None), version, record)
 
     def take_simulation(self, waypoints_hash: str) -> tuple[OpenGait, ...]:
-        """Takes verdicts and approvals of waypoints away of which a new simulation is known.
-
-        Returns:
-            The open gaits whose verdict was of exactly these waypoints.
-        """
+        """Takes verdict and approval from the open gaits whose waypoints were simulated since; gives them."""
         checked = tuple(self._open.values())
         touched = [g for g in checked if g.verdict and g.verdict.waypoints_hash == waypoints_hash]
         return tuple(self._put(gait.unapproved("It was simulated since")) for gait in touched)

@@ -13,6 +13,7 @@ from fastapi import Depends, FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 
+from app.approvals import UnknownApprovalError
 from app.gait_desk import UnknownGaitError
 from app.history import Author
 from app.job_book import UnknownJobError
@@ -44,6 +45,7 @@ _STATUS: tuple[tuple[type[FootfallError], int], ...] = (
     (UnknownGaitError, 404),
     (UnknownJobError, 404),
     (UnknownVersionError, 404),
+    (UnknownApprovalError, 404),
     (UnknownSearchError, 404),
     (UnknownRunError, 404),
     (UnknownSimulationError, 404),

@@ -220,7 +220,8 @@ class ApprovalMachine(RuleBasedStateMachine):
         approval = self.desk.open_gait(GAIT).approval
         if approval is None:
             return
-        assert self.given is None or approval.waypoints_hash == self.given.waypoints
+        assert self.given is not None
+        assert approval.waypoints_hash == self.given.waypoints
         assert [one.approval for one in self.desk.approvals.all(GAIT)].count(approval) == 1
 
 

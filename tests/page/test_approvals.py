@@ -1,0 +1,63 @@
+"""The check on the page: warnings want a tick, an edit takes the approval away, approvals are compared."""
+
+from __future__ import annotations
+
+import os
+import re
+
+from playwright.sync_api import Browser, Page, expect
+
+from tests.page.opened import opened_page
+from tests.studio_process import StudioProcess
+
+LONG_MS = 60_000
+
+
+def look(page: Page, name: str) -> None:
+    """Keeps a screenshot where somebody asked for them."""
+    folder = os.environ.get("FOOTFALL_SCREENSHOTS")
+    if folder:
+        page.screenshot(path=f"{folder}/{name}.png")
+
+
+def check(page: Page) -> None:
+    page.get_by_role("button", name="Check", exact=True).click()
+    expect(page.get_by_role("list", name="Findings")).to_be_visible(timeout=LONG_MS)
+
+
+def test_warnings_want_a_tick_and_the_approvals_of_a_gait_are_compared(
+    browser: Browser, studio: StudioProcess
+) -> None:
+    with opened_page(browser, studio.url, 1280, 720, has_scene=False) as page:
+        page.get_by_role("button", name=re.compile("Operator")).click(timeout=LONG_MS)
+        page.get_by_role("textbox", name="Your name").fill("Ada")
+        page.keyboard.press("Enter")
+        page.get_by_role("tab", name="Check").click(timeout=LONG_MS)
+        check(page)
+        approve = page.get_by_role("button", name="Approve", exact=True)
+        tick = page.get_by_role("checkbox", name=re.compile("I have seen"))
+        expect(approve).to_have_attribute("aria-disabled", "true", timeout=LONG_MS)
+        look(page, "warnings")
+        tick.check()
+        expect(approve).not_to_have_attribute("aria-disabled", "true", timeout=LONG_MS)
+        approve.click()
+        approvals = page.get_by_role("list", name="Approvals")
+        expect(approvals.get_by_text("stands")).to_be_visible(timeout=LONG_MS)
+        expect(tick).to_be_hidden(timeout=LONG_MS)
+        bound = page.get_by_role("spinbutton", name="Stop bound", exact=True)
+        bound.fill("0.9")
+        bound.press("Enter")
+        gone = page.get_by_text(re.compile("the gait changed .*, and its approval is gone"))
+        expect(gone).to_be_visible(timeout=LONG_MS)
+        expect(approvals.get_by_text("gone")).to_be_visible(timeout=LONG_MS)
+        check(page)
+        expect(tick).not_to_be_checked(timeout=LONG_MS)
+        tick.check()
+        approve.click()
+        expect(approvals.get_by_role("listitem")).to_have_count(2, timeout=LONG_MS)
+        approvals.get_by_role("button", name=re.compile("Compare")).last.click()
+        changed = page.get_by_role("region", name="What changed")
+        expect(changed).to_contain_text("Stop bound 1.0 s → 0.9 s", timeout=LONG_MS)
+        expect(changed).to_contain_text("Other waypoints", timeout=LONG_MS)
+        changed.scroll_into_view_if_needed()
+        look(page, "approvals")

@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from tests.studio_process import Answer, StudioProcess, wait_for
 
 SPEED = 20.0
+LONG = 60.0
+"""Deadline on a busy computer, s."""
 ADA = {"X-Footfall-Page": "page-a", "X-Footfall-Name": "Ada"}
 GRACE = {"X-Footfall-Page": "page-g", "X-Footfall-Name": "Grace"}
 LIFT = {"part": "foot", "foot": 3, "axis": "z", "by_mm": 4.0}
@@ -38,7 +40,7 @@ def jog(studio: StudioProcess) -> Iterator[Jog]:
 
 def arm(studio: StudioProcess) -> None:
     assert studio.ask("POST", "/api/robot/connect", None, ADA).status == 200
-    wait_for(lambda: studio.robot()["robot"] == "disarmed", "the robot is up")
+    wait_for(lambda: studio.robot()["robot"] == "disarmed", "the robot is up", LONG)
     assert studio.ask("POST", "/api/robot/arm", None, ADA).status == 200
 
 
@@ -54,10 +56,10 @@ def made(jog: Jog, studio: StudioProcess, *steps: dict[str, Any]) -> dict[str, A
         answers.append(jog(*steps))
         return answers[-1].status == 200 or "stand still" not in answers[-1].content["error"]
 
-    wait_for(accepted, "the robot stands still")
+    wait_for(accepted, "the robot stands still", LONG)
     assert answers[-1].status == 200, answers[-1].content
     assert answers[-1].content["jog"]["by"] == "Ada"
-    wait_for(lambda: settled(studio), "the jog is done")
+    wait_for(lambda: settled(studio), "the jog is done", LONG)
     return studio.robot()
 
 
@@ -127,7 +129,7 @@ def test_only_who_holds_an_armed_robot_without_a_run_moves_it(studio: StudioProc
     assert (refused.status, refused.content["error"]) == (409, "Connect the robot first.")
     assert studio.robot()["lease"]["page"] is None
     assert studio.ask("POST", "/api/robot/connect", None, ADA).status == 200
-    wait_for(lambda: studio.robot()["robot"] == "disarmed", "the robot is up")
+    wait_for(lambda: studio.robot()["robot"] == "disarmed", "the robot is up", LONG)
     refused = jog(RAISE)
     assert (refused.status, refused.content["error"]) == (409, "Arm the robot first.")
     assert studio.ask("POST", "/api/robot/arm", None, ADA).status == 200
@@ -135,7 +137,7 @@ def test_only_who_holds_an_armed_robot_without_a_run_moves_it(studio: StudioProc
     assert (refused.status, refused.content["where"]) == (409, "lease")
     assert jog(RAISE, who=GRACE, preview=True).status == 200
     studio.ask("POST", "/api/robot/reset", None, ADA)
-    wait_for(lambda: studio.robot()["robot"] != "moving", "the reset is over")
+    wait_for(lambda: studio.robot()["robot"] != "moving", "the reset is over", LONG)
     assert settled(studio)
 
 
@@ -170,10 +172,10 @@ def test_the_same_refusals_stand_in_the_preview(studio: StudioProcess, jog: Jog)
 
 def test_a_stop_ends_a_jog(studio: StudioProcess, jog: Jog) -> None:
     arm(studio)
-    wait_for(lambda: jog({**RAISE, "by_mm": 15.0}).status == 200, "the robot stands still")
+    wait_for(lambda: jog({**RAISE, "by_mm": 15.0}).status == 200, "the robot stands still", LONG)
     assert studio.robot()["stop_seconds"] < 1.2
     assert studio.ask("POST", "/api/robot/stop", None, GRACE).status == 200
-    wait_for(lambda: studio.robot()["robot"] == "stopped", "the robot stands still")
+    wait_for(lambda: studio.robot()["robot"] == "stopped", "the robot stands still", LONG)
     assert studio.robot()["jog"] is None
     assert jog(RAISE).status == 409
 

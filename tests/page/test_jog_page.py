@@ -31,6 +31,7 @@ def studio(tmp_path_factory: pytest.TempPathFactory, robot: EmulatedRobot) -> It
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     with opened_page(browser, studio.url, 1280, 900, has_scene=False) as opened:
+        opened.set_default_timeout(LONG_MS)
         name(opened, "Ada")
         opened.get_by_text("Jog: move a motor").click(timeout=LONG_MS)
         yield opened
@@ -70,9 +71,9 @@ def test_the_body_is_raised_by_a_target_that_is_seen_first(page: Page, studio: S
 
     expect(move).not_to_have_attribute("aria-disabled", "true")
     move.click()
-    wait_for(lambda: min(studio.robot()["strokes_mm"]) > 6.0, "the body is raised")
+    wait_for(lambda: min(studio.robot()["strokes_mm"]) > 6.0, "the body is raised", 60.0)
     expect(jog.get_by_text("From where the motors stand.")).to_be_visible(timeout=LONG_MS)
-    wait_for(lambda: studio.robot()["robot"] == "armed", "the jog is done")
+    wait_for(lambda: studio.robot()["robot"] == "armed", "the jog is done", 60.0)
 
 
 def test_letters_and_the_target_alone_move_nothing(page: Page, studio: StudioProcess) -> None:
@@ -115,6 +116,6 @@ def test_a_pose_is_taken_into_the_segment_table_and_undone(page: Page, studio: S
     expect(page.get_by_text(f"Pose 1 is segment {before + 1} of the segment table.")).to_be_visible(
         timeout=LONG_MS
     )
-    wait_for(lambda: segments() == before + 1, "the table is longer")
+    wait_for(lambda: segments() == before + 1, "the table is longer", 60.0)
     page.keyboard.press("Control+z")
-    wait_for(lambda: segments() == before, "the pose is undone")
+    wait_for(lambda: segments() == before, "the pose is undone", 60.0)

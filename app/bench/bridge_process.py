@@ -181,9 +181,9 @@ class Studio:
         return str(self.robot()["run"]["id"])
 
     def kill(self) -> float:
-        """Kill −9; returns when, by `time.monotonic()` in s."""
-        self._process.send_signal(signal.SIGKILL)
+        """Kill −9; returns when, by `time.monotonic()` in s: taken before a busy machine may come between."""
         when = time.monotonic()
+        self._process.send_signal(signal.SIGKILL)
         self._process.communicate()
         return when
 

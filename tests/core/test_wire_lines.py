@@ -99,6 +99,37 @@ def test_no_line_makes_the_parser_raise(raw: bytes) -> None:
     parse_line(raw)
 
 
+SPOKEN = (
+    f"j,{COMMAS}",
+    f"E, {COMMAS}",
+    f"Trajectory Point 0: \tp 1.00 {SPACES}",
+    "p durations i1.00",
+    "Number of trajectory points \t1",
+    "num pts 1 execute waypoints ",
+    "Curr point 0 Max pts 1",
+)
+
+
+@given(
+    st.sampled_from(SPOKEN),
+    st.lists(st.tuples(st.integers(0, 120), st.integers(0, 3), st.binary(max_size=3)), max_size=4),
+)
+def test_a_line_that_a_bad_cable_changed_is_whole_or_unknown(
+    text: str, changes: list[tuple[int, int, bytes]]
+) -> None:
+    raw = text.encode()
+    for place, cut, put in changes:
+        raw = raw[:place] + put + raw[place + cut :]
+    line = parse_line(raw)
+    if isinstance(line, Telemetry):
+        assert len(line.strokes_mm) == len(TWELVE)
+        assert all(-1.0 <= stroke <= 21.5 for stroke in line.strokes_mm)
+    if isinstance(line, TrajectoryPoint | ErrorScan):
+        numbers = line.strokes_mm if isinstance(line, TrajectoryPoint) else line.errors_mm
+        assert len(numbers) == len(TWELVE)
+    assert not isinstance(line, Echo)
+
+
 @given(st.lists(st.binary(max_size=200), max_size=20))
 def test_no_stream_makes_the_reader_raise(chunks: list[bytes]) -> None:
     reader = LineReader()

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 
 import numpy as np
 
-from app.bench.measure import Row, seconds_of
+from app.bench.measure import Row
 from app.bench.physics_page import physics_page
 from app.bench.physics_runs import (
     ManualCase,
@@ -18,6 +18,7 @@ from app.bench.physics_runs import (
     optimised_cases,
     paper_cases,
     tipped,
+    walked,
 )
 from app.bench.published import PAPER_TABLE_I, PublishedRun, Reference
 from app.store.files import write_atomically
@@ -32,6 +33,8 @@ MOST_WALK_SECONDS = 2.0
 LEAST_REALTIME = 15.0
 MOST_VARIATION_SECONDS = 60.0
 VARIATIONS = 64
+CORES = 2
+"""On which the variations are computed."""
 
 
 def bench_physics(reference: Path | None = None, page: Path | None = None) -> list[Row]:
@@ -165,21 +168,28 @@ def _bar(what: str, bar: str, count: int, of: int) -> Row:
 
 
 def _speed(walk: Walked) -> list[Row]:
-    """Computing time of one walk, and of its variations."""
-    what = f"walk of {walk.problem.waypoints.count} knots, {walk.robot_seconds:.0f} s on the robot"
-    realtime = walk.report.realtime_factor
-    whole = seconds_of(partial(simulate_variations, walk.problem, count=VARIATIONS))
+    """Computing time of one walk, and of its variations, in seconds of processor time."""
+    what = f"walk of {walk.problem.waypoints.count} knots, {walk.robot_seconds:.0f} s on the robot, one core"
+    alone = walked(walk.problem)
+    realtime = alone.robot_seconds / alone.processor_seconds
+    begin = time.process_time()
+    varied = simulate_variations(walk.problem, count=VARIATIONS)
+    whole = (time.process_time() - begin) / CORES
+    walks = f"{sum(run.walks for run in varied)} of {VARIATIONS} walk"
     return [
         _limit(
-            what, f"≤ {MOST_WALK_SECONDS:.0f} s", f"{walk.seconds:.2f} s", walk.seconds <= MOST_WALK_SECONDS
+            what,
+            f"≤ {MOST_WALK_SECONDS:.0f} s",
+            f"{alone.processor_seconds:.2f} s",
+            alone.processor_seconds <= MOST_WALK_SECONDS,
         ),
         _limit(
-            "the same", f"≥ {LEAST_REALTIME:.0f} × real time", f"{realtime:.1f}", realtime >= LEAST_REALTIME
+            "the same", f"≥ {LEAST_REALTIME:.0f} × real time", f"{realtime:.0f}", realtime >= LEAST_REALTIME
         ),
         _limit(
-            f"{VARIATIONS} variations of it",
+            f"{VARIATIONS} variations of it, {CORES} cores",
             f"≤ {MOST_VARIATION_SECONDS:.0f} s",
-            f"{whole:.1f} s",
+            f"{whole:.0f} s, {walks}",
             whole <= MOST_VARIATION_SECONDS,
         ),
     ]

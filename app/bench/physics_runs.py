@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -39,7 +40,7 @@ class Walked:
         body: (reached, 3) at each waypoint's arrival, m.
         feet: (reached, legs, 3) m.
         robot_seconds: from first to last arrival.
-        seconds: computing time.
+        processor_seconds: computing time of one core, whatever else the machine does.
     """
 
     problem: SimulationProblem
@@ -47,7 +48,7 @@ class Walked:
     body: Floats
     feet: Floats
     robot_seconds: float
-    seconds: float
+    processor_seconds: float
 
     @property
     def longest_slide(self) -> float:
@@ -73,13 +74,13 @@ class Walked:
 
 def walked(problem: SimulationProblem) -> Walked:
     """Simulates one walk in this process."""
+    begin = time.process_time()
     motion = simulate(problem)
+    spent = time.process_time() - begin
     figures = report(problem, motion)
     reached = motion.arrivals[: problem.waypoints.count]
     whole = float(motion.times[reached[-1]] - motion.times[reached[0]])
-    return Walked(
-        problem, figures, motion.body_world[reached], motion.feet_world[reached], whole, motion.seconds
-    )
+    return Walked(problem, figures, motion.body_world[reached], motion.feet_world[reached], whole, spent)
 
 
 @dataclass(frozen=True, eq=False)

@@ -233,8 +233,13 @@ def test_nothing_that_was_not_approved_reaches_the_wire(
     monkeypatch.setattr(RobotBridge, "send", lambda bridge, plan, by, run_id=None: wire.send(plan))
     database = Database(tmp_path / "robot.sqlite3")
     robot = RobotDesk(database, "emulator", lambda view: None, RobotPorts(tmp_path / "robot.json"))
+
+    class Wired(ApprovalMachine):
+        def __init__(self) -> None:
+            super().__init__(robot, wire)
+
     try:
-        run_state_machine_as_test(lambda: ApprovalMachine(robot, wire), settings=A_FEW)
+        run_state_machine_as_test(Wired, settings=A_FEW)
     finally:
         robot.close()
         database.close()

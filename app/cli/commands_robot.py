@@ -18,12 +18,11 @@ from app.cli.report import INTERRUPTED, end_on_sigterm, note, show, verdict_line
 from app.cli.streaming import stream
 from app.store.files import default_data_folder
 from app.trajectory_files import read_waypoints
-from app.views import verdict_view
+from app.views import approval_view, verdict_view
 from core.checks import check_waypoints
 from core.errors import CheckError, InputError, RobotError
 from core.findings import Approval, Severity, Verdict, approve
 from core.robot import load_robot
-from core.waypoints import Waypoints
 
 LOOK_SECONDS = 0.2
 """How often an emulated robot is looked at for fault states."""
@@ -103,7 +102,7 @@ def run_send(options: Namespace) -> int:
     plan = RunPlan(waypoints, _approval(verdict, options), (True,) * waypoints.count)
     data = (options.data or default_data_folder()).expanduser()
     ended = stream(model, plan, options.file, options.robot, data)
-    status = _report(options, ended.snapshot, waypoints)
+    status = _report(options, ended.snapshot, plan)
     return INTERRUPTED if ended.is_interrupted else status
 
 
@@ -136,11 +135,11 @@ def _approval(verdict: Verdict, options: Namespace) -> Approval:
         )
         if sys.stdin.readline().strip().lower() not in ("y", "yes"):
             raise CheckError("Not approved; nothing was sent.", str(options.file))
-    return approve(verdict, name, datetime.now(UTC))
+    return approve(verdict, name, datetime.now(UTC), accept_warnings=True)
 
 
-def _report(options: Namespace, snapshot: RobotSnapshot, waypoints: Waypoints) -> int:
-    run = snapshot.run
+def _report(options: Namespace, snapshot: RobotSnapshot, plan: RunPlan) -> int:
+    run, waypoints = snapshot.run, plan.waypoints
     content: dict[str, Any] = {
         "run": run.run_id if run else None,
         "state": "lost" if snapshot.link is LinkState.LOST else snapshot.robot.value,
@@ -150,6 +149,7 @@ def _report(options: Namespace, snapshot: RobotSnapshot, waypoints: Waypoints) -
         "count": waypoints.count,
         "seconds": run.elapsed if run else 0.0,
         "waypoints_hash": waypoints.content_hash,
+        "approval": approval_view(plan.approval),
     }
     is_done = snapshot.robot is RobotState.DONE
     if not is_done:

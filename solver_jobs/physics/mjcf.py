@@ -58,7 +58,7 @@ def mjcf_text(model: RobotModel, physics: PhysicsSet, rig: Rig, pose: BodyPose, 
     """
     root = Element("mujoco", model=model.name)
     ElementTree.SubElement(root, "compiler", angle="radian", autolimits="true")
-    ElementTree.SubElement(
+    option = ElementTree.SubElement(
         root,
         "option",
         timestep=repr(time_step),
@@ -68,6 +68,8 @@ def mjcf_text(model: RobotModel, physics: PhysicsSet, rig: Rig, pose: BodyPose, 
         tolerance="1e-10",
         gravity=_numbers(np.zeros(3) if rig is Rig.FLOATING else gravity_vector(physics)),
     )
+    # One robot is one island; looking for more only takes time.
+    ElementTree.SubElement(option, "flag", island="disable")
     world = ElementTree.SubElement(root, "worldbody")
     place = (0.0, 0.0, -model.sole_depth)
     _touchless(world, "floor", type="plane", size="1 1 0.1", pos=_numbers(place))

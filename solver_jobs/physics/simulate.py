@@ -12,7 +12,7 @@ from core.physics.problem import SimulationProblem
 from core.physics.reporting import report
 from core.physics.variations import VariedRun, variations, varied_problem, varied_run
 from solver_jobs.physics.reading import new_pool, simulated_motion
-from solver_jobs.physics.running import TIME_STEP, SimulatedRun, advance
+from solver_jobs.physics.running import TIME_STEP, VARIED_STEP, SimulatedRun, advance
 
 Progress = Callable[[float], bool]
 
@@ -98,7 +98,7 @@ def simulate_variations(
         def tell(share: float, before: int = first, now: int = len(some)) -> bool:
             return progress((before + share * now) / count)
 
-        motions = simulate_together(problems, tell)
+        motions = simulate_together(problems, tell, time_step=VARIED_STEP)
         done += [
             varied_run(variation, report(varied, motion))
             for variation, varied, motion in zip(some, problems, motions, strict=True)

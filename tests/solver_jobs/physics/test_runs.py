@@ -19,6 +19,7 @@ from core.trajectory import quarter_turn, turn_trajectory
 from core.waypoints import Waypoints
 from core.wire_timing import RAMP_SPEED, ramp_time
 from solver_jobs import simulate, simulate_variations
+from solver_jobs.physics.running import TIME_STEP
 from solver_jobs.physics.simulate import simulate as simulate_at
 from solver_jobs.physics.simulate import simulate_together
 from tests.solver_jobs.physics.rigs import (
@@ -162,7 +163,7 @@ def test_the_same_run_gives_the_same_bits_alone_and_beside_others() -> None:
 
 def test_halving_the_step_moves_the_feet_by_less_than_half_a_millimetre() -> None:
     problem = part_of(walk("walk", 0.010, margin=-0.005), 0, 16)
-    whole, half = simulate(problem), simulate_at(problem, time_step=0.0005)
+    whole, half = simulate(problem), simulate_at(problem, time_step=TIME_STEP / 2)
     assert np.abs(whole.feet_world - half.feet_world).max() < 0.0005
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
 
-from tests.page.opened import leave_scene_out
+from tests.page.opened import flat_browser, leave_scene_out
 from tests.studio_process import StudioProcess, wait_for
 
 LONG_MS = 60_000
@@ -22,7 +22,7 @@ def gait(studio: StudioProcess) -> str:
 
 @pytest.fixture
 def context(browser: Browser) -> Iterator[BrowserContext]:
-    opened = browser.new_context(viewport={"width": 1100, "height": 740})
+    opened = flat_browser(browser).new_context(viewport={"width": 1100, "height": 740})
     leave_scene_out(opened)
     yield opened
     opened.close()

@@ -150,7 +150,7 @@ def _bars(cases: Sequence[OptimisedCase]) -> list[Row]:
     return [
         _bar("own gaits at or below thesis Table 4.2", f"{len(cases)} of {len(cases)}", reached, len(cases)),
         _bar(
-            f"own gaits with {FALL_MARGIN * 1000:.0f} mm margin that walk",
+            f"own gaits with {FALL_MARGIN * 1000:.0f} mm margin that do not fall",
             "all",
             len(runs) - falls,
             len(runs),

@@ -121,7 +121,10 @@ class VirtualBridge:
 
     def stop(self, by: str = "Ada") -> None:
         """Does what `RobotBridge.stop` does."""
-        self.gate.stop()
+        try:
+            self.gate.stop()
+        except RobotError as error:
+            self.session.hung_up(error.sentence, self.now)
         self.session.stop(by, self.now)
 
     def open(self) -> None:

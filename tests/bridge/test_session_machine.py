@@ -27,8 +27,8 @@ from core.wire import (
 )
 from tests.bridge.virtual_robot import VirtualRobot, make_plan
 
-LONGEST_WAIT = 120.0
-"""Every wait ends within this: a way to the start pose and six waypoints, all at their deadlines, s."""
+LONGEST_WAIT = 300.0
+"""Every wait ends within this: five moves to the start pose and six waypoints, all at their deadlines, s."""
 
 STOPS = (encode_stop(), encode_flush(), encode_flush() + encode_stop())
 BY = "Ada"
@@ -134,6 +134,13 @@ class Session(RuleBasedStateMachine):
         if not self.wish(lambda: self.robot.session.send(plan, BY, self.robot.now)):
             self.approved = before
 
+    @precondition(lambda self: self.robot.session.robot in (RobotState.DISARMED, RobotState.DONE))
+    @rule(seed=st.integers(0, 999), count=st.integers(2, 6), seconds=st.floats(0.0, 8.0))
+    def run(self, seed: int, count: int, seconds: float) -> None:
+        self.arm()
+        self.send(seed, count)
+        self.robot.wait(seconds)
+
     @rule()
     def pause(self) -> None:
         self.wish(lambda: self.robot.session.pause(BY, self.robot.now))
@@ -168,6 +175,7 @@ class Session(RuleBasedStateMachine):
         self.robot.gate.attach(None)
         self.robot.session.closed(self.robot.now)
 
+    @precondition(lambda self: self.robot.session.robot is not RobotState.FAULT)
     @rule(fault=st.sampled_from(Fault), motor=st.integers(0, 11))
     def strike(self, fault: Fault, motor: int) -> None:
         self.robot.troubles.strike(fault, motor)
@@ -177,7 +185,7 @@ class Session(RuleBasedStateMachine):
         self.robot.troubles.mend()
         self.robot.firmware.power_cycle()
 
-    @rule(seconds=st.floats(0.0, 3.0))
+    @rule(seconds=st.floats(0.0, 6.0))
     def wait(self, seconds: float) -> None:
         self.robot.wait(seconds)
 
@@ -211,5 +219,5 @@ class Session(RuleBasedStateMachine):
 
 TestSession = Session.TestCase
 TestSession.settings = settings(
-    max_examples=15, stateful_step_count=25, deadline=None, suppress_health_check=[HealthCheck.too_slow]
+    max_examples=10, stateful_step_count=20, deadline=None, suppress_health_check=[HealthCheck.too_slow]
 )

@@ -9,6 +9,7 @@ import numpy as np
 
 from app.finite import finite
 from core.arrays import Floats
+from core.physics.findings import TILT_LIMIT
 from core.physics.motion import SimulatedMotion
 from core.physics.plan_axis import plan_times
 from core.physics.problem import SimulationProblem
@@ -89,10 +90,10 @@ def report_sentence(figures: dict[str, Any]) -> str:
     if figures["ended_early"]:
         return str(figures["ended_early"])
     tilt = np.degrees(figures["max_tilt"])
-    return (
-        f"The robot stays on its feet, leans by {tilt:.1f}° at most and goes "
-        f"{figures['distance'] * 1000:.1f} of {figures['planned_distance'] * 1000:.1f} mm."
-    )
+    way = f"goes {figures['distance'] * 1000:.1f} of {figures['planned_distance'] * 1000:.1f} mm"
+    if figures["max_tilt"] > TILT_LIMIT:
+        return f"The robot tips: it leans by {tilt:.1f}° at {figures['max_tilt_time']:.1f} s, and {way}."
+    return f"The robot stays on its feet, leans by {tilt:.1f}° at most and {way}."
 
 
 def variations_content(runs: Sequence[VariedRun]) -> dict[str, Any]:

@@ -25,7 +25,7 @@ function whyNot(state) {
 function setChooser() {
   const select = h("select", { "aria-label": "Physics parameters", title: "Masses, friction and motors of the simulated robot" });
   api.physicsSets().then(({ sets }) => select.replaceChildren(...sets.map(({ name, title }) => h("option", { value: name, text: title }))), report);
-  return { select, element: h("label", { class: "set-choice" }, h("span", { class: "quiet", text: "Robot" }), select) };
+  return { select, element: h("label", { class: "set-choice" }, h("span", { class: "quiet", text: "Physics" }), select) };
 }
 
 /** A bar with the share that is done, and Cancel. */

@@ -171,7 +171,8 @@ def _judge(studio: Studio, tap: Tap, data: Path, run: str, when: float) -> Kille
 def _lost(pieces: list[Piece], record: bytes, when: float) -> float | None:
     """Age of the oldest byte before a kill that a record lacks; None if the record has a hole, or nothing."""
     before = [piece for piece in pieces if piece.time <= when]
-    begin = b"".join(piece.data for piece in before).rfind(record) if record else -1
+    # A record may also hold what passed between the look at the clock and the kill itself.
+    begin = b"".join(piece.data for piece in pieces).rfind(record) if record else -1
     if begin < 0:
         return None
     end = begin + len(record)

@@ -14,7 +14,6 @@ from core.errors import FootfallError, InputError, StateError
 from core.findings import Approval, Verdict, approve
 from core.gait import Gait
 from core.gait_difference import DifferenceGroup, gait_difference
-from core.simulation_check import RULE as SIMULATION
 from core.waypoint_path import estimate_seconds
 from core.wire_timing import stop_time
 
@@ -109,7 +108,7 @@ def approval_figures(plan: Plan, verdict: Verdict) -> dict[str, Any]:
         "waypoints": plan.waypoints.count,
         "seconds": round(estimate_seconds(plan.waypoints), 1),
         "stop_seconds": round(stop_time(plan.waypoints), 2),
-        "simulated": all(finding.rule != SIMULATION for finding in verdict.findings),
+        "simulated": any(margin.rule.startswith("simulated_") for margin in verdict.margins),
         "margins": {m.rule: [m.margin, m.unit] for m in verdict.margins if m.margin is not None},
     }
 

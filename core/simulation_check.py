@@ -1,15 +1,17 @@
-"""The physics as an input of the verdict: what a simulation found, or that there is none."""
+"""The physics as an input of the verdict: what a simulation found, or a note that there is none."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from core.findings import Outcome, RuleMargin, Severity, found
+from core.findings import Outcome
 from core.physics.findings import physics_outcomes
 from core.physics.problem import SimulationProblem
 from core.physics.report import SimulationReport
 
-RULE = "simulation"
+NOT_SIMULATED = (
+    "These waypoints were not simulated: balance and slip are known from geometry alone. Simulate shows more."
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,19 +28,14 @@ class Simulated:
 
 
 def check_simulation(simulated: Simulated | None) -> list[Outcome]:
-    """What the physics says of these waypoints; a warning where it was not asked."""
-    if simulated is not None:
-        return list(physics_outcomes(simulated.report, simulated.problem))
-    words = "These waypoints were not simulated: balance and slip are known from geometry alone."
-    remedy = "Simulate, then check again."
-    finding = found(RULE, Severity.WARNING, words, remedy, None, 0.0)
-    return [Outcome(RuleMargin(RULE, None, ""), (finding,))]
+    """What the physics says of these waypoints; nothing where it was not asked (see `simulation_note`)."""
+    return [] if simulated is None else list(physics_outcomes(simulated.report, simulated.problem))
 
 
 def simulation_note(simulated: Simulated | None) -> str:
-    """What the simulation was made with, in a sentence; nothing where there is none."""
+    """What the simulation was made with, in a sentence, or that there is none."""
     if simulated is None:
-        return ""
+        return NOT_SIMULATED
     physics = simulated.problem.physics
     return (
         f"Simulated with {physics.title}; the feet stay within "

@@ -17,7 +17,7 @@ from core.errors import InputError, StateError
 from core.physics.parameters import physics_set
 from core.physics.reporting import report
 from core.robot import RobotModel
-from core.simulation_check import Simulated
+from core.simulation_check import NOT_SIMULATED, Simulated
 from tests.simulated_walk import followed, no_solver
 
 GAIT = "walk-manual-0"
@@ -78,7 +78,7 @@ def test_a_newer_simulation_takes_verdict_and_approval_away_and_is_part_of_the_n
     assert gone.revoked == "It was simulated since, and its approval is gone."
     verdict = desk.check(GAIT).verdict
     assert verdict is not None
-    assert "simulation" not in {finding.rule for finding in verdict.findings}
+    assert NOT_SIMULATED not in verdict.notes
     assert "simulated_slip" in {margin.rule for margin in verdict.margins}
 
 

@@ -14,7 +14,6 @@ from core import (
     ground_check,
     motor_check,
     path_check,
-    simulation_check,
 )
 from core.physics import findings as physics
 from core.robot import load_robot
@@ -32,7 +31,6 @@ MODULES = (
     motor_check,
     path_check,
     physics,
-    simulation_check,
 )
 
 

@@ -29,6 +29,8 @@ def test_warnings_want_a_tick_and_the_approvals_of_a_gait_are_compared(
     browser: Browser, studio: StudioProcess
 ) -> None:
     with opened_page(browser, studio.url, 1280, 720, has_scene=False) as page:
+        page.evaluate("localStorage.setItem('footfall.gait', 'walk-manual-0')")
+        page.reload()
         page.get_by_role("button", name=re.compile("Operator")).click(timeout=LONG_MS)
         page.get_by_role("textbox", name="Your name").fill("Ada")
         page.keyboard.press("Enter")

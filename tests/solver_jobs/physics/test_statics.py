@@ -122,6 +122,11 @@ def test_the_sets_of_masses_weigh_what_they_say() -> None:
         assert min(masses.body, masses.foot) > 0
 
 
+def test_a_robot_s_own_physics_are_by_the_scales_where_it_was_weighed() -> None:
+    assert default_physics(MODEL).masses == "scales"
+    assert default_physics(load_robot("hexapod")).masses == "model"
+
+
 def test_a_robot_that_was_never_weighed_is_refused_under_the_scales_masses() -> None:
     model = load_robot("hexapod")
     with pytest.raises(InputError, match="model"):

@@ -13,7 +13,7 @@ from core.gait import heading_step, motion_problem
 from core.kinematics import BodyPose, free_strokes
 from core.library import library
 from core.path_merging import WaypointPlan, plan_waypoints, robot_feet
-from core.physics.masses import default_physics
+from core.physics.masses import physics_for
 from core.physics.parameters import PhysicsSet, physics_set
 from core.physics.problem import Rig, SimulationProblem
 from core.robot import RobotModel, load_robot
@@ -54,7 +54,7 @@ def problem_of_strokes(
     knots = 0.4 * np.arange(len(body), dtype=np.float64)
     contact = np.ones((len(body), model.leg_count), dtype=np.bool_)
     plan = Trajectory(knots, body, np.full(len(body), heading), feet, contact)
-    chosen = default_physics(model) if physics is None else physics
+    chosen = physics_for(model) if physics is None else physics
     return SimulationProblem(model, waypoints, plan, knots[:count], stands, stands, chosen, rig)
 
 
@@ -87,5 +87,5 @@ def planned(model: RobotModel, plan: WaypointPlan, motion: Trajectory) -> Simula
         plan.times,
         plan.contact,
         plan.standing,
-        default_physics(model),
+        physics_for(model),
     )

@@ -14,7 +14,7 @@ import robot_description
 from core.arrays import Floats
 from core.closed_chain import BODY, foot_joints, foot_link, knee_link, motor_joint
 from core.kinematics import BodyPose
-from core.physics.masses import default_physics, part_masses
+from core.physics.masses import part_masses, physics_for
 from core.physics.parameters import physics_set
 from core.physics.problem import Rig
 from core.robot import ROBOT_NAMES, load_robot
@@ -27,7 +27,7 @@ STEP = 0.001
 def compiled(robot: str = "deltawalker", rig: Rig = Rig.WALKING) -> mujoco.MjModel:
     model = load_robot(robot)
     pose = BodyPose(np.zeros(3), np.asarray(0.0))
-    return mujoco.MjModel.from_xml_string(mjcf_text(model, default_physics(model), rig, pose, STEP))
+    return mujoco.MjModel.from_xml_string(mjcf_text(model, physics_for(model), rig, pose, STEP))
 
 
 def urdf_places(robot: str) -> dict[str, Floats]:
@@ -59,7 +59,7 @@ def test_motors_and_feet_stand_where_the_urdf_has_them(robot: str) -> None:
 @pytest.mark.parametrize("robot", ROBOT_NAMES)
 def test_the_engine_weighs_what_the_parameters_say(robot: str) -> None:
     engine, model = compiled(robot), load_robot(robot)
-    masses = part_masses(model, default_physics(model))
+    masses = part_masses(model, physics_for(model))
     assert engine.body_mass.sum() == pytest.approx(masses.total(model), abs=1e-4)
     assert engine.body(BODY).mass[0] == pytest.approx(masses.body)
     assert engine.body(BODY).ipos[2] == pytest.approx(model.com_height)

@@ -10,7 +10,7 @@ import pytest
 from core.errors import InfeasibleError, InputError
 from core.leg import foot_from_strokes
 from core.path_merging import robot_feet
-from core.physics.masses import default_physics, part_masses
+from core.physics.masses import part_masses, physics_for
 from core.physics.parameters import physics_set
 from core.physics.problem import Rig
 from core.physics.reporting import rotations, tilts
@@ -109,7 +109,7 @@ def test_a_floating_robot_keeps_its_centre_of_mass() -> None:
 def test_every_robot_stands(robot: str) -> None:
     model = load_robot(robot)
     motion = simulate(problem_of_strokes(resting(model=model), model=model))
-    weight = part_masses(model, default_physics(model)).total(model) * GRAVITY
+    weight = part_masses(model, physics_for(model)).total(model) * GRAVITY
     np.testing.assert_allclose(motion.ground_forces[-1, :, 2].sum(), weight, rtol=1e-3)
     assert np.degrees(tilts(rotations(motion.attitude)).max()) < 0.01
 
@@ -123,8 +123,11 @@ def test_the_sets_of_masses_weigh_what_they_say() -> None:
 
 
 def test_a_robot_s_own_physics_are_by_the_scales_where_it_was_weighed() -> None:
-    assert default_physics(MODEL).masses == "scales"
-    assert default_physics(load_robot("hexapod")).masses == "model"
+    assert physics_for(MODEL).masses == "scales"
+    assert physics_for(load_robot("hexapod")).masses == "model"
+    assert physics_for(load_robot("hexapod"), "published").masses == "published"
+    with pytest.raises(InputError, match="moon"):
+        physics_for(MODEL, "moon")
 
 
 def test_a_robot_that_was_never_weighed_is_refused_under_the_scales_masses() -> None:

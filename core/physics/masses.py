@@ -64,10 +64,11 @@ def part_masses(model: RobotModel, physics: PhysicsSet) -> PartMasses:
     return PartMasses(masses.body * physics.body_mass_factor, masses.knee, masses.foot)
 
 
-def physics_for(model: RobotModel, name: str | None = None) -> PhysicsSet:
-    """A robot's physics: the named set, or by the scales where it was weighed, else the optimiser's masses.
+def default_physics(model: RobotModel) -> PhysicsSet:
+    """The set to simulate a robot with: by the scales where it was weighed, else the optimiser's masses."""
+    return physics_set("scales" if "scales" in model.mass_sets else "model")
 
-    Raises:
-        InputError: there is no set of that name.
-    """
-    return physics_set(name or ("scales" if "scales" in model.mass_sets else "model"))
+
+def physics_for(model: RobotModel, name: str | None = None) -> PhysicsSet:
+    """The set of a name, or the robot's default."""
+    return default_physics(model) if name is None else physics_set(name)

@@ -31,6 +31,7 @@ from app.store.simulation_log import SimulationRow
 from app.version import VERSION
 from core.errors import FootfallError, StateError
 from core.physics.findings import physics_outcomes
+from core.physics.masses import part_masses
 from core.physics.motion import SimulatedMotion
 from core.physics.parameters import PhysicsSet
 from core.physics.problem import SimulationProblem
@@ -133,10 +134,12 @@ class SimulationDesk:
 
         Raises:
             CheckError: the plan has no waypoints.
+            InputError: the robot has no such masses.
             StateError: this gait is being simulated.
         """
         if any(work.row.gait == open_gait.id for work in self._on.values()):
             raise StateError("This gait is being simulated. Wait for it, or cancel that job.", "gait")
+        part_masses(plan.model, physics)
         problem, key = simulation_problem(plan, physics), simulation_key(plan, physics)
         job_id = uuid.uuid4().hex[:12]
         handle = self._tier.submit(problem, variations, progress=self._teller(job_id))

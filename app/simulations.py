@@ -12,9 +12,10 @@ import numpy as np
 from app.finite import finite
 from app.plans import Plan
 from app.version import VERSION
-from core.errors import CheckError
+from core.errors import CheckError, InputError
 from core.path_merging import WaypointPlan
-from core.physics.parameters import PhysicsSet
+from core.physics.masses import default_physics, part_masses
+from core.physics.parameters import PhysicsSet, physics_sets
 from core.physics.problem import Rig, SimulationProblem
 from core.physics.report import SimulationReport
 from core.robot import RobotModel
@@ -44,6 +45,21 @@ def way_problem(
     return SimulationProblem(
         model, way.waypoints, trajectory, way.times, way.contact, way.standing, physics, rig
     )
+
+
+def fitting_sets(model: RobotModel) -> tuple[PhysicsSet, ...]:
+    """The sets of physics parameters whose masses the robot has, its usual one first."""
+    usual = default_physics(model)
+    others = (one for one in physics_sets().values() if one != usual and _has_masses(model, one))
+    return (usual, *others)
+
+
+def _has_masses(model: RobotModel, physics: PhysicsSet) -> bool:
+    try:
+        part_masses(model, physics)
+    except InputError:
+        return False
+    return True
 
 
 def simulation_key(plan: Plan, physics: PhysicsSet) -> str:

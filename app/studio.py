@@ -42,7 +42,7 @@ from core.errors import FootfallError, StateError
 from core.gait import Gait, motion_problem
 from core.library import library
 from core.motion_problem import MotionProblem
-from core.physics.parameters import physics_set
+from core.physics.masses import physics_for
 from core.robot import load_robot
 from solver_jobs import Job, JobKind, JobRunner, LiveSolver, PatternSolver, Simulator
 
@@ -267,11 +267,11 @@ class Studio:
 
         Args:
             gait_id: which gait.
-            physics: name of the set of parameters; None for the usual one.
+            physics: name of the set of parameters; None for the robot's usual one.
             variations: how many variations of them are tried as well.
         """
         open_gait, plan = self.gaits.open_gait(gait_id), self.gaits.plan(gait_id)
-        content = self._simulating.submit(open_gait, plan, physics_set(physics), variations)
+        content = self._simulating.submit(open_gait, plan, physics_for(plan.model, physics), variations)
         view = self.job_view(content)
         self.hub.publish({"type": "job", "job": view})
         return view

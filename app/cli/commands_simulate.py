@@ -22,8 +22,8 @@ from core.gait import Gait
 from core.new_gait import with_robot
 from core.path_merging import plan_waypoints
 from core.physics.findings import physics_outcomes
-from core.physics.parameters import physics_set
-from core.physics.problem import SimulationProblem
+from core.physics.masses import physics_for
+from core.physics.problem import Rig, SimulationProblem
 from core.physics.report import SimulationReport
 from core.physics.reporting import report
 from core.physics.variations import VariedRun
@@ -65,7 +65,7 @@ def _problem(options: Namespace) -> SimulationProblem:
     merge = merge if options.merge is None else options.merge
     bound = bound if options.stop_bound is None else options.stop_bound
     way = plan_waypoints(model, trajectory, merge, bound)
-    return way_problem(model, trajectory, way, physics_set(options.physics), options.rig)
+    return way_problem(model, trajectory, way, physics_for(model, options.physics), options.rig)
 
 
 def _input(options: Namespace) -> tuple[RobotModel, Trajectory, Gait | None]:
@@ -105,7 +105,7 @@ def _lines(
     feet = figures.feet_error
     margin = "–" if figures.min_margin is None else f"{figures.min_margin * 1000:.1f} mm"
     lines = [
-        _outcome(figures, findings),
+        _outcome(problem, figures, findings),
         f"{problem.waypoints.count} waypoints, {figures.arrival_times[-1]:.1f} s of the robot, "
         f"{figures.realtime_factor:.1f} × real time; {problem.physics.title}, {problem.rig.value}.",
         f"  mean error   body {figures.body_error * 1000:.1f} mm, feet {_mm(feet)} mm "
@@ -123,12 +123,13 @@ def _lines(
     return lines + _variation_lines(runs)
 
 
-def _outcome(figures: SimulationReport, findings: Sequence[Finding]) -> str:
+def _outcome(problem: SimulationProblem, figures: SimulationReport, findings: Sequence[Finding]) -> str:
     if figures.fell:
         return f"Falls over at {figures.fell_time:.1f} s."
     errors = sum(found.severity is Severity.ERROR for found in findings)
     warnings = len(findings) - errors
-    return f"{'Walks' if not errors else 'Not fit'}: {errors} errors, {warnings} warnings."
+    fit = "Walks" if problem.rig is Rig.WALKING else "Done"
+    return f"{'Not fit' if errors else fit}: {errors} errors, {warnings} warnings."
 
 
 def _variation_lines(runs: Sequence[VariedRun]) -> list[str]:

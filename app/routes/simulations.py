@@ -10,8 +10,8 @@ from starlette.concurrency import run_in_threadpool
 
 from app.routes.edge import studio_of
 from app.scene.simulated_ghost import simulated_blob
+from app.simulations import fitting_sets
 from app.studio import Studio
-from core.physics.parameters import physics_sets
 from core.robot import load_robot
 
 router = APIRouter(prefix="/api/simulations", tags=["simulations"])
@@ -19,9 +19,9 @@ TheStudio = Annotated[Studio, Depends(studio_of)]
 
 
 @router.get("/sets")
-async def read_sets() -> dict[str, Any]:
-    """The sets of physics parameters to choose from, the usual one first."""
-    return {"sets": [{"name": one.name, "title": one.title} for one in physics_sets().values()]}
+async def read_sets(robot: str) -> dict[str, Any]:
+    """The sets of physics parameters that fit a robot, the usual one first."""
+    return {"sets": [{"name": one.name, "title": one.title} for one in fitting_sets(load_robot(robot))]}
 
 
 @router.get("/{key}")

@@ -105,7 +105,7 @@ export const api = {
   optimise: (id) => request("POST", "/api/jobs", { kind: "optimise", gait: id }),
   timing: (id) => request("POST", "/api/jobs", { kind: "timing", gait: id }),
   simulate: (id, physics, variations) => request("POST", "/api/jobs", { kind: "simulate", gait: id, physics, variations }),
-  physicsSets: () => request("GET", "/api/simulations/sets"),
+  physicsSets: (robot) => request("GET", `/api/simulations/sets?robot=${encodeURIComponent(robot)}`),
   simulation: (key) => request("GET", `/api/simulations/${encodeURIComponent(key)}`),
   simulatedGhost: async (key) => (await answer("GET", `/api/simulations/${encodeURIComponent(key)}/ghost`)).arrayBuffer(),
   cancelJob: (id) => request("DELETE", `/api/jobs/${encodeURIComponent(id)}`),

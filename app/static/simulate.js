@@ -21,10 +21,19 @@ function whyNot(state) {
   return null;
 }
 
-/** The choice of physics parameters. */
-function setChooser() {
+/** The choice of physics parameters, of those that fit the shown gait's robot. */
+function setChooser(store) {
   const select = h("select", { "aria-label": "Physics parameters", title: "Masses, friction and motors of the simulated robot" });
-  api.physicsSets().then(({ sets }) => select.replaceChildren(...sets.map(({ name, title }) => h("option", { value: name, text: title }))), report);
+  store.watch(({ view }) => [view?.document.robot], async ({ view }) => {
+    if (!view) return;
+    const { robot } = view.document;
+    try {
+      const { sets } = await api.physicsSets(robot);
+      if (store.state.view?.document.robot === robot) select.replaceChildren(...sets.map(({ name, title }) => h("option", { value: name, text: title })));
+    } catch (error) {
+      report(error);
+    }
+  });
   return { select, element: h("label", { class: "set-choice" }, h("span", { class: "quiet", text: "Physics" }), select) };
 }
 
@@ -68,7 +77,7 @@ function standing(state) {
 export function mountSimulate(store, goToTime) {
   const run = h("button", { class: "primary", text: "Simulate" });
   const vary = h("button", { text: `${VARIATIONS} variations` });
-  const { select, element: sets } = setChooser();
+  const { select, element: sets } = setChooser(store);
   const progress = progressPart();
   const [note, figures, map] = [h("p", { class: "box-note" }), h("div", { class: "simulated" }), robustness()];
   const press = (variations) => attempt(() => api.simulate(store.state.selected, select.value || null, variations));

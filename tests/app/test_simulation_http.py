@@ -126,6 +126,17 @@ def test_a_gait_that_is_out_of_reach_is_refused_with_its_reason(studio: StudioPr
     assert "cannot reach" in answer.content["error"]
 
 
+def test_a_robot_that_was_never_weighed_has_the_optimisers_masses(studio: StudioProcess) -> None:
+    sets = studio.ask("GET", "/api/simulations/sets?robot=hexapod").content["sets"]
+    assert [one["name"] for one in sets] == ["model"]
+    assert studio.ask("GET", "/api/simulations/sets?robot=deltawalker").content["sets"][0]["name"] == "scales"
+    wrong = {"kind": "simulate", "gait": "hexapod-tripod", "physics": "scales"}
+    answer = studio.ask("POST", "/api/jobs", wrong)
+    assert answer.status == 422
+    assert "has no masses “scales”" in answer.content["error"]
+    assert studio.ask("GET", "/api/simulations/sets?robot=spider").status == 422
+
+
 def test_an_unknown_simulation_is_not_found(studio: StudioProcess) -> None:
     for path in ("/api/simulations/none", "/api/simulations/none/ghost"):
         assert studio.ask("GET", path).status == 404

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from app.cli.commands_plan import NOT_FIT, ROBOT, trajectory_of
-from app.cli.report import end_on_sigterm, note, show
+from app.cli.report import Interrupted, end_on_sigterm, note, show
 from app.documents import parse_gait
 from app.simulation_content import variations_content
 from app.simulations import report_figures, way_problem
@@ -23,6 +23,7 @@ from core.new_gait import with_robot
 from core.path_merging import plan_waypoints
 from core.physics.findings import physics_outcomes
 from core.physics.masses import physics_for
+from core.physics.motion import SimulatedMotion
 from core.physics.problem import Rig, SimulationProblem
 from core.physics.report import SimulationReport
 from core.physics.reporting import report
@@ -36,7 +37,7 @@ def run_simulate(options: Namespace) -> int:
     """Physics of exactly the waypoints that would be sent of a trajectory or gait file."""
     end_on_sigterm()
     problem = _problem(options)
-    motion = simulate(problem, _progress("Simulated"))
+    motion = _simulated(problem)
     figures = report(problem, motion)
     findings = tuple(found for one in physics_outcomes(figures, problem) for found in one.findings)
     runs: Sequence[VariedRun] = ()
@@ -57,6 +58,19 @@ def run_simulate(options: Namespace) -> int:
     }
     show(options, content, _lines(problem, figures, findings, runs))
     return 0 if passed else NOT_FIT
+
+
+def _simulated(problem: SimulationProblem) -> SimulatedMotion:
+    """The run; an interrupt that comes while the engine is being loaded is one too."""
+    try:
+        return simulate(problem, _progress("Simulated"))
+    except ImportError as error:
+        cause: BaseException | None = error
+        while cause is not None:
+            if isinstance(cause, KeyboardInterrupt | Interrupted):
+                raise Interrupted from error
+            cause = cause.__cause__
+        raise
 
 
 def _problem(options: Namespace) -> SimulationProblem:

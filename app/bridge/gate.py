@@ -135,7 +135,10 @@ class Gate:
             RobotError: the line did not take it.
         """
         with self._lock:
-            return self._send_stop()
+            now = self._clock()
+            message = self._stop_message()
+            sent = self._put(message)
+        return sent and self._note(message, now)
 
     def try_stop(self) -> bool:
         """Does what `stop` does unless a message is just going out, or the last one did not.
@@ -149,16 +152,19 @@ class Gate:
         if self._failed or not self._lock.acquire(blocking=False):
             return False
         try:
-            self._send_stop()
+            now = self._clock()
+            message = self._stop_message()
+            sent = self._put(message)
         finally:
             self._lock.release()
+        if sent:
+            self._note(message, now)
         return True
 
-    def _send_stop(self) -> bool:
+    def _stop_message(self) -> bytes:
+        """Revokes every permit; what a stop is on this line."""
         self._stops += 1
-        message = encode_flush() + encode_stop() if self._unsure else encode_stop()
-        now = self._clock()
-        return self._put(message) and self._note(message, now)
+        return encode_flush() + encode_stop() if self._unsure else encode_stop()
 
     def _put(self, data: bytes) -> bool:
         if self._outlet is None:

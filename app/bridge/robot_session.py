@@ -148,9 +148,10 @@ class RobotSession(RobotLink):
 
     def stop(self, by: str, now: float) -> None:
         """Latches a stop whose bytes are already out."""
-        if self.link is LinkState.DISCONNECTED or self.robot is RobotState.STOPPING:
+        if self.link is LinkState.DISCONNECTED:
             return
-        if self.robot is RobotState.STOPPED and not self._clearing and not self._stop.pending:
+        stands = self.robot is RobotState.STOPPED and not self._stop.pending
+        if (stands or self.robot is RobotState.STOPPING) and not self._clearing:
             return
         self._stop.begin(now, text=self._describe_stop(by, now))
         self._drop_run(now)

@@ -123,10 +123,20 @@ class Transport:
 
 
 def _open(device: str) -> serial.SerialBase:
+    _require_line(device)
     try:
         return serial.serial_for_url(device, baudrate=BAUD, timeout=0, exclusive=True)
     except (serial.SerialException, OSError, ValueError) as error:
         raise RobotError(_refusal(device, error), device) from error
+
+
+def _require_line(device: str) -> None:
+    """Refuses pyserial's other addresses: some are no line, and one writes a file of the caller's choice."""
+    if "://" in device and not device.startswith("socket://"):
+        raise RobotError(
+            f"{device} is no robot's line. Name a serial device such as /dev/ttyACM0, or socket://HOST:PORT.",
+            device,
+        )
 
 
 def _refusal(device: str, error: Exception) -> str:

@@ -4,6 +4,7 @@ import os
 import threading
 import time
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -347,6 +348,14 @@ def test_a_device_that_is_no_line_is_refused_by_name(device: str) -> None:
     assert bridge.snapshot.last_error is not None
     bridge.stop("Ada")
     bridge.close()
+
+
+def test_an_address_that_is_no_line_is_refused_before_anything_is_opened(tmp_path: Path) -> None:
+    written = tmp_path / "written"
+    for device in (f"spy:///dev/null?file={written}", "loop://", "rfc2217://127.0.0.1:9"):
+        with pytest.raises(RobotError, match="is no robot's line"):
+            Transport(device, lambda _: None, lambda _: None)
+    assert not written.exists()
 
 
 def test_a_line_that_takes_nothing_more_is_said_to() -> None:

@@ -8,10 +8,11 @@ import pytest
 
 from app.bridge.gate import Gate
 from app.bridge.states import LinkState, RobotState
-from app.bridge.words import clearing_sentence
+from app.bridge.words import NOT_STOPPED, clearing_sentence
 from core.errors import RobotError, StateError
 from core.wire import encode_flush
 from tests.bridge.virtual_robot import VirtualRobot, make_plan, random_plan
+from tests.studio_process import wait_for
 
 FLUSH, STOP = encode_flush(), b"<s,1>"
 WAYPOINT = b"<p,1,0.40,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000>"
@@ -231,6 +232,25 @@ def test_who_must_not_wait_leaves_a_line_that_failed_to_others() -> None:
     assert outlet.taken == [FLUSH + STOP]
 
 
+def test_what_a_stop_is_noted_in_delays_no_other_stop() -> None:
+    notes, outlet = threading.Event(), Outlet()
+    gate = Gate(lambda way, data, when: _hold(notes), lambda: 0.0)
+    gate.attach(outlet)
+    first = threading.Thread(target=gate.stop)
+    first.start()
+    wait_for(lambda: len(outlet.taken) == 1, "the first stop is out")
+    second = threading.Thread(target=gate.stop)
+    second.start()
+    wait_for(lambda: len(outlet.taken) == 2, "the second stop is out")
+    notes.set()
+    first.join()
+    second.join()
+
+
+def _hold(notes: threading.Event) -> None:
+    assert notes.wait(PATIENCE)
+
+
 # A fault's own stop
 
 
@@ -334,6 +354,27 @@ def test_an_overdue_stop_is_repeated_although_the_robot_is_silent(robot: Virtual
 
 
 # Clearing
+
+
+@pytest.mark.parametrize("last", [b"<p,1,1.00,", b"<s,0>"])
+def test_a_stop_stands_that_comes_while_one_which_was_not_confirmed_is_cleared(
+    robot: VirtualRobot, last: bytes
+) -> None:
+    robot.begin(random_plan(3, 4))
+    robot.wait(3.0)
+    robot.to_robot = losing(1000)
+    robot.stop()
+    robot.until(lambda s: NOT_STOPPED in s.sentence)
+    robot.until(lambda _: robot.session.watch.stands_still(robot.now))
+    robot.to_robot = bytes
+    robot.session.clear("Ada", robot.now)
+    robot.until(lambda _: robot.sent[-1].startswith(last))
+    robot.stop("Grace")
+    assert robot.snapshot.sentence.startswith("Stop was sent")
+    robot.until(lambda s: s.robot is not RobotState.STOPPING)
+    assert robot.snapshot.robot is RobotState.STOPPED
+    assert robot.snapshot.stop_text == "stopped by Grace"
+    assert payloads(robot)[-1] == "s,1"
 
 
 def test_clearing_says_which_motor_it_moves(robot: VirtualRobot) -> None:

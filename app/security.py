@@ -79,7 +79,8 @@ class Guard:
         if refusal is not None:
             await _refuse(scope, receive, send, refusal)
             return
-        if self._access.token is not None and _query_token(scope) is not None and scope["type"] == "http":
+        is_address = scope["type"] == "http" and scope["method"] in ("GET", "HEAD")
+        if self._access.token is not None and _query_token(scope) is not None and is_address:
             response = RedirectResponse(scope["path"], status_code=303)
             response.set_cookie(COOKIE, self._access.token, httponly=True, samesite="strict")
             await response(scope, receive, send)

@@ -11,14 +11,21 @@ from starlette.websockets import WebSocketDisconnect
 
 from app.events import Subscriber
 from app.routes.edge import is_page, on_session
+from app.routes.robot import send_stop
 from app.studio import Studio
 
 router = APIRouter()
 
+STOP = "stop"
+
 
 @router.websocket("/api/events")
 async def events(socket: WebSocket) -> None:
-    """Sends `hello`, then every change; whatever a client sends is a sign of life of its page."""
+    """Sends `hello`, then every change; whatever a client sends is a sign of life of its page.
+
+    What begins with `stop`, a blank and a name after it, stops the robot too: a browser may keep a request
+    waiting for others of the page, but not this.
+    """
     studio: Studio = socket.app.state.studio
     page = socket.query_params.get("page", "")
     await socket.accept()
@@ -53,4 +60,6 @@ async def _next_or_gone(subscriber: Subscriber, listening: asyncio.Task[None]) -
 async def _drain(socket: WebSocket, studio: Studio, page: str) -> None:
     while True:
         studio.robot.lease.heard(page)
-        await socket.receive_text()
+        word, _, name = (await socket.receive_text()).partition(" ")
+        if word == STOP:
+            await send_stop(studio, name)

@@ -8,7 +8,7 @@ from dataclasses import replace
 from enum import StrEnum
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Depends, Query
+from fastapi import APIRouter, Body, Depends
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.concurrency import run_in_threadpool
 
@@ -21,13 +21,15 @@ router = APIRouter(prefix="/api/robot", tags=["robot"])
 TheStudio = Annotated[Studio, Depends(studio_of)]
 
 SOMEBODY = "somebody on the page"
+MOST_NAME = 80
+"""Characters of a person's name."""
 
 
 class Deed(BaseModel):
     """Who does it."""
 
     model_config = ConfigDict(extra="forbid")
-    by: str = Field(default=SOMEBODY, max_length=80)
+    by: str = Field(default=SOMEBODY, max_length=MOST_NAME)
 
 
 TheDeed = Annotated[Deed | None, Body()]
@@ -106,17 +108,28 @@ async def disconnect(studio: TheStudio, author: TheAuthor, deed: TheDeed = None)
     return await _moved(studio, author, deed, lambda _: studio.robot.disconnect(), ends=True)
 
 
-@router.post("/stop")
-async def stop(studio: TheStudio, by: Annotated[str, Query(max_length=80)] = SOMEBODY) -> dict[str, Any]:
-    """Stops the robot: at once on the wire, in effect after the move that is running.
+async def send_stop(studio: Studio, by: str) -> None:
+    """Stops the robot; a name that is too long or none is no reason to refuse it.
 
-    A body is not read, and the lease is not asked for.
+    Args:
+        studio: whose robot.
+        by: who stops it.
     """
+    name = by.strip()[:MOST_NAME] or SOMEBODY
     # On this very thread: on a busy computer each further one takes its time to wake up.
-    left = studio.robot.bridge.try_stop(by)
+    left = studio.robot.bridge.try_stop(name)
     if left is not None:
         # A lane of its own: it must not wait behind anything else that the server does.
         await asyncio.get_running_loop().run_in_executor(studio.stop_lane, left)
+
+
+@router.post("/stop")
+async def stop(studio: TheStudio, by: str = SOMEBODY) -> dict[str, Any]:
+    """Stops the robot: at once on the wire, in effect after the move that is running.
+
+    A body is not read, and the lease is not asked for. Of a long name 80 characters are kept.
+    """
+    await send_stop(studio, by)
     return studio.robot.view()
 
 

@@ -26,13 +26,14 @@ async function refusal(response) {
   return new ApiError(`The studio refused this with status ${response.status}.`, response.status);
 }
 
-async function answer(method, path, body) {
+async function answer(method, path, body, signal) {
   let response;
   try {
     response = await fetch(path, {
       method,
       headers: { ...authorHeaders(), ...(body === undefined ? {} : { "Content-Type": "application/json" }) },
       body: body === undefined ? undefined : JSON.stringify(body),
+      signal,
     });
   } catch {
     throw new ApiError("The studio does not answer. Is it still running?", 0);
@@ -41,7 +42,7 @@ async function answer(method, path, body) {
   return response;
 }
 
-export const request = async (method, path, body) => (await answer(method, path, body)).json();
+export const request = async (method, path, body, signal) => (await answer(method, path, body, signal)).json();
 
 /** Takes text or a file as it stands, such as a CSV or JSON file. */
 async function sendText(path, text) {
@@ -123,17 +124,20 @@ export const api = {
   robot: (verb, body = {}) => request("POST", `/api/robot/${verb}`, body),
 };
 
+/** Time after which a Stop that was not answered is sent again. */
+const STOP_MS = 1000;
+
 /**
  * Sends Stop, again and again until it is answered; needs no body.
  * @param {string} by who stops, where known
  * @returns {Promise<object>} the robot's state
- * @throws {ApiError} after `attempts` failures
+ * @throws {ApiError} after `attempts` failures, each of which takes `STOP_MS` at most
  */
 export async function sendStop(by, attempts = 5) {
   let failure = null;
   for (let attempt = 0; attempt < attempts; attempt += 1) {
     try {
-      return await request("POST", `/api/robot/stop${by ? `?by=${encodeURIComponent(by)}` : ""}`);
+      return await request("POST", `/api/robot/stop${by ? `?by=${encodeURIComponent(by)}` : ""}`, undefined, AbortSignal.timeout(STOP_MS));
     } catch (error) {
       failure = error;
       await new Promise((resume) => setTimeout(resume, 150 * attempt));

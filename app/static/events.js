@@ -7,6 +7,11 @@ import { acceptLine, acceptRobot, acceptSources, acceptSteps, acceptView, withJo
 const FIRST_WAIT_MS = 300;
 const LONGEST_WAIT_MS = 5000;
 
+let say = () => {};
+
+/** Says something to the studio over the socket, where that is open. */
+export const sayToStudio = (text) => say(text);
+
 function receive(store, message, onHello) {
   switch (message.type) {
     case "hello":
@@ -34,13 +39,12 @@ function receive(store, message, onHello) {
 export function listen(store, onHello) {
   let wait = FIRST_WAIT_MS;
   let closeSocket = () => {};
-  let answer = () => {};
   onRenamed(() => closeSocket());
 
   function take(data) {
     wait = FIRST_WAIT_MS;
     const message = JSON.parse(data);
-    if (message.type === "beat") answer("here");
+    if (message.type === "beat") say("here");
     else receive(store, message, onHello);
   }
 
@@ -52,7 +56,7 @@ export function listen(store, onHello) {
 
   function follow({ socket, early }) {
     closeSocket = () => socket.close();
-    answer = (text) => { if (socket.readyState === WebSocket.OPEN) socket.send(text); };
+    say = (text) => { if (socket.readyState === WebSocket.OPEN) socket.send(text); };
     socket.addEventListener("message", ({ data }) => take(data));
     if (socket.readyState === WebSocket.CLOSED) closed();
     else socket.addEventListener("close", closed);

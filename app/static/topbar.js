@@ -3,6 +3,8 @@
 import { sendStop } from "./api.js";
 import { ownSteps } from "./author.js";
 import { byId, h, onPress, setAllowed, setAttribute, setText, stateParts } from "./dom.js";
+import { NOT_TAKEN, takeStopOver } from "./early_stop.js";
+import { sayToStudio } from "./events.js";
 import { clockTime, seconds } from "./format.js";
 import { freeName } from "./gait_names.js";
 import { showKeys } from "./key_list.js";
@@ -22,14 +24,21 @@ const ROBOT_TONES = {
 export const robotTone = (robot) => ROBOT_TONES[robot?.robot] ?? "quiet";
 export const linkTone = (robot) => LINK_TONES[robot?.link] ?? "quiet";
 
-/** Sends Stop; needs neither the WebSocket nor a known state. */
+/** True where the socket tells that a stop was taken, though nobody answered it. */
+const isStopped = ({ connected, robot }) => connected && ["stopping", "stopped"].includes(robot?.robot);
+
+/**
+ * Sends Stop on two ways, each of which is enough: a request is tried again, and needs no known state; what goes over
+ * the socket waits for no other request of this page, of which a browser lets six at most be on.
+ */
 export async function stopRobot(store) {
   const button = byId("stop");
   button.dataset.busy = "";
   try {
+    sayToStudio(`stop ${store.state.operator}`);
     acceptRobot(store, await sendStop(store.state.operator));
   } catch {
-    toast("Stop did not reach the studio: it does not answer. Cut the robot's power.", { tone: "bad", of: "studio" });
+    if (!isStopped(store.state)) toast(NOT_TAKEN, { tone: "bad", of: "studio" });
   } finally {
     delete button.dataset.busy;
   }
@@ -140,6 +149,7 @@ export function mountTopbar(store, edits) {
   mountStates(store);
   byId("operator").addEventListener("click", () => changeOperator(store));
   byId("help").addEventListener("click", showKeys);
+  takeStopOver();
   byId("stop").addEventListener("click", () => stopRobot(store));
   store.watch((state) => [stopLimit(state)], (state) => {
     const limit = stopLimit(state);

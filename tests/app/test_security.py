@@ -20,6 +20,10 @@ def client(
     async def health() -> str:
         return "ok"
 
+    @app.post("/api/robot/stop")
+    async def stop() -> dict[str, str]:
+        return {"robot": "stopping"}
+
     @app.websocket("/api/events")
     async def events(socket: WebSocket) -> None:
         await socket.accept()
@@ -68,6 +72,12 @@ def test_a_public_address_demands_its_token() -> None:
     assert public.get("/api/health", headers={"authorization": "Bearer wrong"}).status_code == 403
     assert public.get("/api/health", headers={"authorization": f"Bearer {TOKEN}"}).status_code == 200
     assert public.get("/api/health", headers={"host": "rebound.example"}).status_code == 403
+
+
+def test_a_deed_with_its_token_in_the_address_is_done_and_not_sent_elsewhere() -> None:
+    public = client("0.0.0.0", TOKEN, "http://10.1.2.3:8400")
+    assert public.post(f"/api/robot/stop?token={TOKEN}").json() == {"robot": "stopping"}
+    assert public.post("/api/robot/stop?token=wrong").status_code == 403
 
 
 def test_the_printed_address_sets_a_cookie_and_hides_the_token() -> None:

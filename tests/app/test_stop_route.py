@@ -12,6 +12,7 @@ import httpx
 import pytest
 from anyio.to_thread import current_default_thread_limiter
 from fastapi import FastAPI
+from fastapi.testclient import TestClient
 
 from app.routes import robot
 
@@ -23,10 +24,10 @@ class FakeBridge:
 
     def __init__(self, *, leaves_some: bool) -> None:
         self._leaves_some = leaves_some
-        self.sent_on = self.left_to = ""
+        self.by = self.sent_on = self.left_to = ""
 
     def try_stop(self, by: str) -> Callable[[], None] | None:
-        assert by == "Grace"
+        self.by = by
         self.sent_on = threading.current_thread().name
         return self._rest if self._leaves_some else None
 
@@ -34,11 +35,16 @@ class FakeBridge:
         self.left_to = threading.current_thread().name
 
 
-async def stop_where_every_worker_is_taken(bridge: FakeBridge, lane: ThreadPoolExecutor) -> int:
+def app_with(bridge: FakeBridge, lane: ThreadPoolExecutor | None = None) -> FastAPI:
     app = FastAPI()
     app.include_router(robot.router)
     desk = SimpleNamespace(bridge=bridge, view=dict)
     app.state.studio = SimpleNamespace(robot=desk, stop_lane=lane)
+    return app
+
+
+async def stop_where_every_worker_is_taken(bridge: FakeBridge, lane: ThreadPoolExecutor) -> int:
+    app = app_with(bridge, lane)
     limiter = current_default_thread_limiter()
     for _ in range(int(limiter.total_tokens)):
         limiter.acquire_on_behalf_of_nowait(object())
@@ -53,5 +59,16 @@ def test_a_stop_goes_out_on_the_servers_own_thread_though_every_worker_is_taken(
     bridge = FakeBridge(leaves_some=leaves_some)
     with ThreadPoolExecutor(1, "stop") as lane:
         assert asyncio.run(stop_where_every_worker_is_taken(bridge, lane)) == 200
+    assert bridge.by == "Grace"
     assert bridge.sent_on == threading.current_thread().name
     assert bridge.left_to.startswith("stop") is leaves_some
+
+
+@pytest.mark.parametrize(
+    ("said", "by"), [("", robot.SOMEBODY), ("%20", robot.SOMEBODY), ("G" * 81, "G" * 80), ("a&by=b", "b")]
+)
+def test_a_stop_is_refused_nobody_for_their_name(said: str, by: str) -> None:
+    bridge = FakeBridge(leaves_some=False)
+    answer = TestClient(app_with(bridge)).post(f"/api/robot/stop?by={said}")
+    assert answer.status_code == 200
+    assert bridge.by == by

@@ -104,6 +104,42 @@ def test_a_second_tab_looks_on_is_given_the_robot_and_the_first_can_still_stop(
     says_who_holds(ada, "Nobody holds the robot.")
 
 
+@pytest.fixture
+def held_still(studio: StudioProcess) -> Iterator[StudioProcess]:
+    """A studio whose robot answers and stands; its stop is cleared afterwards."""
+    studio.ask("POST", "/api/robot/connect")
+    wait_for(lambda: studio.robot()["robot"] == "disarmed", "the robot answers")
+    yield studio
+    assert studio.ask("POST", "/api/robot/clear").status == 200
+    wait_for(lambda: studio.robot()["robot"] == "disarmed", "the stop is cleared")
+    studio.ask("POST", "/api/robot/disconnect")
+
+
+@pytest.mark.parametrize("way", ["request", "socket"])
+def test_a_stop_goes_out_on_two_ways_of_which_each_is_enough(
+    ada: Page, held_still: StudioProcess, way: str
+) -> None:
+    if way == "request":
+        ada.evaluate("WebSocket.prototype.send = () => {}")
+    else:
+        ada.route("**/api/robot/stop*", lambda route: route.abort())
+        ada.route("**/api/robot/stop*", lambda route: None, times=1)
+    press(ada, "Stop")
+    wait_for(lambda: held_still.robot()["robot"] == "stopped", "the robot is stopped")
+    assert held_still.robot()["stop_text"] == "stopped by Ada"
+    is_state(ada, "stopped")
+    expect(ada.locator("#stop")).not_to_have_attribute("data-busy", "", timeout=LONG_MS)
+    assert ada.get_by_text("did not reach the studio").count() == 0
+
+
+def test_stop_works_while_the_page_is_still_being_read(ada: Page, held_still: StudioProcess) -> None:
+    ada.route("**/static/main.js", lambda route: route.abort())
+    ada.reload()
+    with ada.expect_response("**/api/robot/stop"):
+        ada.get_by_role("button", name="Stop", exact=True).press("Enter")
+    wait_for(lambda: held_still.robot()["robot"] == "stopped", "the robot is stopped")
+
+
 def approve(studio: StudioProcess) -> None:
     job = studio.ask("POST", "/api/jobs", {"gait": "walk"}).content["id"]
     wait_for(lambda: studio.ask("GET", f"/api/jobs/{job}").content["state"] == "done", "the job is done", 60)

@@ -75,7 +75,7 @@ def test_a_larger_turn_gets_a_longer_return() -> None:
 @pytest.mark.parametrize("gait_id", group_ids(Group.OPTIMISED))
 def test_every_built_in_gait_is_a_motion_that_the_checker_confirms(gait_id: str) -> None:
     problem = motion_problem(optimised_entry(gait_id).gait, MODEL)
-    assert problem.limits.margin == 0.003
+    assert problem.limits.margin >= 0.003
     assert check_motion(problem, solve_live(problem).trajectory).confirmed
 
 

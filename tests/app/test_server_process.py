@@ -147,7 +147,7 @@ def test_a_job_is_cancelled_and_the_next_one_runs(studio: StudioProcess) -> None
     document["options"]["workspace"] = "cylinder"
     studio.ask("PUT", "/api/gaits/amble?label=Too%20far", document)
     job = studio.ask("POST", "/api/jobs", {"gait": "amble"}).content["id"]
-    wait_for(lambda: studio.ask("GET", f"/api/jobs/{job}").content["state"] != "queued", "the job runs")
+    wait_for(lambda: bool(studio.ask("GET", f"/api/jobs/{job}").content["progress"]), "the job runs")
     studio.ask("DELETE", f"/api/jobs/{job}")
     wait_for(lambda: studio.ask("GET", f"/api/jobs/{job}").content["ended"] is not None, "the job ended")
     cancelled = studio.ask("GET", f"/api/jobs/{job}").content

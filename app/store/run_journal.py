@@ -110,9 +110,12 @@ def abandoned_journal(data: Path, run: str) -> Iterator[tuple[Entry, ...] | None
 
 
 def _read(content: bytes) -> tuple[Entry, ...]:
+    """The entries up to the first that is none: a loss of power may leave zeros at a file's end."""
     entries, place = [], 0
     while place + _HEAD.size <= len(content):
         kind, time, length = _HEAD.unpack_from(content, place)
+        if kind > max(EntryKind) or not length:
+            break
         place += _HEAD.size + length
         if place <= len(content):
             entries.append(Entry(EntryKind(kind), time, content[place - length : place]))

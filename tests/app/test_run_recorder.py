@@ -204,6 +204,19 @@ def test_a_run_whose_end_the_database_never_got_ends_as_it_did(
     assert database.runs()[0]["state"] == "done"
 
 
+@pytest.mark.parametrize("tail", [bytes(40), b"\x07" + b"\x01" * 40, b"\x02" + bytes(12)])
+def test_what_a_loss_of_power_left_at_a_journals_end_is_no_entry(database: Database, tail: bytes) -> None:
+    RunLog(database).begin(RECORD, None)
+    journal = RunJournal(database.path.parent, "r")
+    journal.add(Entry(EntryKind.FROM_ROBOT, 11.0, b"j,"))
+    journal.close(is_in_database=False)
+    with (database.path.parent / "running" / "r.journal").open("ab") as file:
+        file.write(tail)
+    end_abandoned(database)
+    assert RunLog(database).bytes_of("r") == [(11.0, "from robot", b"j,")]
+    assert RunLog(database).running() == ()
+
+
 def test_an_entry_that_was_cut_off_is_left_out(database: Database) -> None:
     data = database.path.parent
     database.put_run(RECORD)

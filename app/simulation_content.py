@@ -14,7 +14,7 @@ from core.physics.motion import SimulatedMotion
 from core.physics.plan_axis import plan_times
 from core.physics.problem import SimulationProblem
 from core.physics.report import SimulationReport
-from core.physics.reporting import bearing, carrying
+from core.physics.reporting import bearing, carrying, rotations, soles
 from core.physics.variations import VariedRun
 from core.support import stability_margins
 
@@ -62,8 +62,9 @@ def shown_samples(motion: SimulatedMotion) -> list[int]:
 def _slips(
     problem: SimulationProblem, motion: SimulatedMotion, report: SimulationReport
 ) -> list[dict[str, Any]]:
-    """Where feet slid that should have stood: from and to on the ground, of each move, m."""
+    """Where soles slid that should have stood: from and to on the ground, of each move, m."""
     marks = []
+    places = soles(problem, motion, rotations(motion.attitude))
     for move, foot in np.argwhere(report.slip_samples > SHOWN_SLIP):
         ends = motion.arrivals[move - 1], motion.arrivals[move]
         marks.append(
@@ -72,7 +73,7 @@ def _slips(
                 "waypoint": int(move),
                 "plan_time": float(problem.times[move]),
                 "length": float(report.slip_samples[move, foot]),
-                "way": [_rounded(motion.feet_world[at, foot], 6) for at in ends],
+                "way": [_rounded(places[at, foot], 6) for at in ends],
             }
         )
     return marks

@@ -35,7 +35,7 @@ def check_plan(plan: CheckedPlan, simulated: Simulated | None = None) -> Verdict
 
     Args:
         plan: what is checked.
-        simulated: a simulation of exactly these waypoints; without one the verdict warns that there is none.
+        simulated: a simulation of exactly these waypoints; without one a note says that there is none.
     """
     outcomes = [
         check_strokes(plan.model, plan.knots, plan.trajectory.times),

@@ -56,7 +56,7 @@ def physics_set(name: str | None = None) -> PhysicsSet:
         InputError: there is none of that name.
     """
     sets = physics_sets()
-    chosen = name or next(iter(sets))
+    chosen = next(iter(sets)) if name is None else name
     if chosen not in sets:
         raise InputError(f"There is no physics set “{chosen}”; choose one of {', '.join(sets)}.", "physics")
     return sets[chosen]

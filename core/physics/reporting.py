@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from core.arrays import Bools, Floats
 from core.physics.motion import SimulatedMotion
+from core.physics.motors import motor_force_limits
 from core.physics.problem import Rig, SimulationProblem
 from core.physics.report import SimulationReport
 from core.support import stability_margins
@@ -46,7 +47,7 @@ def report(problem: SimulationProblem, motion: SimulatedMotion) -> SimulationRep
     margin, margin_time = _smallest_margin(motion)
     planned = _planned_at(problem, len(arrivals))
     track = np.abs(motion.strokes - motion.targets)
-    force = np.abs(motion.motor_forces)
+    force, limits = np.abs(motion.motor_forces), motor_force_limits(problem.model, problem.physics)
     way, planned_way = (
         points[-1, :2] - points[0, :2] for points in (motion.body_world[arrivals], planned[0])
     )
@@ -69,7 +70,7 @@ def report(problem: SimulationProblem, motion: SimulatedMotion) -> SimulationRep
         min_margin_time=margin_time,
         motor_error=track.max(axis=0),
         motor_error_times=motion.times[track.argmax(axis=0)],
-        saturation=(force >= AT_LIMIT * force_limits(problem)).mean(axis=0),
+        saturation=(force >= AT_LIMIT * limits).mean(axis=0),
         peak_forces=force.max(axis=0),
         peak_force_times=motion.times[force.argmax(axis=0)],
         arrival_times=motion.times[arrivals],
@@ -94,14 +95,6 @@ def tilts(rotation: Floats) -> Floats:
     """(n,) angle between the body's axis and the vertical, rad, of rotations R_world_body (n, 3, 3)."""
     axis = rotation[:, :, 2]
     return np.asarray(np.arctan2(np.hypot(axis[:, 0], axis[:, 1]), axis[:, 2]))
-
-
-def force_limits(problem: SimulationProblem) -> Floats:
-    """(legs, 3) the most that each motor pushes or pulls, N."""
-    limits = np.full(problem.model.motor_count, problem.physics.motor_force)
-    if problem.physics.weak_motor is not None:
-        limits[problem.physics.weak_motor] *= problem.physics.weak_share
-    return limits.reshape(-1, 3)
 
 
 def carrying(motion: SimulatedMotion) -> Bools:
@@ -176,7 +169,8 @@ def _slips(
     """
     steps = np.linalg.norm(np.diff(soles(problem, motion, rotation)[..., :2], axis=0), axis=-1)
     carries = carrying(motion)
-    way = np.concatenate([np.zeros_like(steps[:1]), np.cumsum(steps * (carries[1:] & carries[:-1]), axis=0)])
+    slid = np.cumsum(steps * (carries[1:] & carries[:-1]), axis=0)
+    way = np.concatenate([np.zeros((1, problem.model.leg_count)), slid])
     slips = np.zeros(problem.standing.shape)
     slips[1 : len(arrivals)] = np.diff(way[arrivals], axis=0)
     return np.asarray(np.where(problem.standing, slips, 0.0))

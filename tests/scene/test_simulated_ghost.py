@@ -66,6 +66,18 @@ def test_feet_that_carry_load_and_slides_are_marked() -> None:
     assert np.array(line)[:, 2] == pytest.approx(-MODEL.sole_depth)
 
 
+def test_a_leaning_robot_slides_where_its_soles_are() -> None:
+    slips = np.zeros((PROBLEM.waypoints.count, MODEL.leg_count))
+    slips[4, 2] = 0.003
+    upright, lean = followed(PROBLEM), np.radians(3.0)
+    attitude = np.tile([np.cos(lean / 2), 0.0, np.sin(lean / 2), 0.0], (len(upright.times), 1))
+    leaning = replace(upright, attitude=attitude)
+    (mark,) = motion_content(PROBLEM, leaning, walk_report(slip_samples=slips))["slips"]
+    platforms = upright.feet_world[upright.arrivals[[3, 4]], 2, :2]
+    aside = [MODEL.sole_depth * np.sin(lean), 0.0]
+    assert np.array(mark["way"])[:, :2] == pytest.approx(platforms - aside, abs=1e-5)
+
+
 def test_a_run_that_broke_off_is_drawn_as_far_as_it_went() -> None:
     motion = followed(PROBLEM, moves=6)
     ghost = simulated_blob(MODEL, content(replace(motion, ended_early="It fell.")))

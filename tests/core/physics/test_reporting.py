@@ -197,6 +197,13 @@ def test_a_weak_motor_is_at_its_own_limit() -> None:
     assert share.sum() == 1.0
 
 
+def test_a_run_that_fell_at_its_first_sample_has_figures_too() -> None:
+    rows = {name: value[:1] for name, value in vars(PLANNED).items() if isinstance(value, np.ndarray)}
+    first = replace(PLANNED, ended_early="it fell", **rows)
+    figures = report(PROBLEM, first)
+    assert (figures.distance, figures.slip.tolist()) == (0.0, [0.0] * 4)
+
+
 def test_a_run_that_ended_early_is_judged_by_what_was_reached() -> None:
     short = replace(PLANNED, arrivals=PLANNED.arrivals[:3], ended_early="it fell")
     figures = report(PROBLEM, short)

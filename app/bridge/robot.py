@@ -275,7 +275,7 @@ class RobotBridge:
     def _latch_stop(self, by: str, reason: str | None) -> None:
         if reason is not None:
             self._session.hung_up(reason, self._clock())
-        self._session.stop(by, self._clock())
+        self._session.stop(by, self._clock(), is_sent=reason is None)
         self._inbox.put(None)
 
     def _do(self, wish: Callable[[float], None]) -> None:

@@ -25,7 +25,8 @@ from app.bridge.jog import Jog, JogPlan
 from app.bridge.robot_link import RobotLink
 from app.bridge.run import Move, Run
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPhase, RunPlan
-from app.bridge.words import SENTENCES, clearing_sentence
+from app.bridge.watch import STALE_TIME
+from app.bridge.words import NOT_SENT, SENTENCES, clearing_sentence
 from core.errors import RobotError, StateError
 from core.wire import (
     HIGHEST_MM,
@@ -99,7 +100,7 @@ class RobotSession(RobotLink):
         """Begins a run and returns its name, which is made up unless given."""
         self.require_link("sent a plan")
         self.require_robot(RobotState.ARMED, remedy="Arm the robot, then send the plan.")
-        run = Run(plan, self._measured(), run_id or uuid.uuid4().hex[:12], by, now)
+        run = Run(plan, self._measured_now(now), run_id or uuid.uuid4().hex[:12], by, now)
         self._run = run
         cause = f"Run {run.run_id} sent by {by}."
         self.become(now, cause, SENTENCES[RobotState.MOVING], robot=RobotState.MOVING)
@@ -110,6 +111,7 @@ class RobotSession(RobotLink):
         """Sends every motor to 0.5 mm."""
         self.require_link("reset")
         self.require_robot(RobotState.ARMED, remedy="Arm the robot, then reset it.")
+        self._measured_now(now)
         self._run = None
         sentence = f"Every motor goes to {RESET_MM} mm."
         self.become(now, f"Reset by {by}.", sentence, robot=RobotState.MOVING)
@@ -141,21 +143,26 @@ class RobotSession(RobotLink):
         waiting = self.robot is RobotState.PAUSED
         if waiting and self._run is not None:
             self.require_link("resumed")
-            self._run.require_in_place(self._measured())
+            self._run.require_in_place(self._measured_now(now))
         self.become(now, f"Resumed by {by}.", SENTENCES[RobotState.MOVING], robot=RobotState.MOVING)
         if waiting:
             self._send_next(now)
 
-    def stop(self, by: str, now: float) -> None:
-        """Latches a stop whose bytes are already out."""
+    def stop(self, by: str, now: float, *, is_sent: bool = True) -> None:
+        """Latches a stop whose bytes are already out, or which the line did not take.
+
+        A fault that it comes after is still told of.
+        """
         if self.link is LinkState.DISCONNECTED:
             return
         stands = self.robot is RobotState.STOPPED and not self._stop.pending
         if (stands or self.robot is RobotState.STOPPING) and not self._clearing:
             return
-        self._stop.begin(now, text=self._describe_stop(by, now))
+        cause = self._stop.cause if self.robot is RobotState.FAULT else ""
+        self._stop.begin(now, text=self._describe_stop(by, now), cause=cause)
         self._drop_run(now)
-        self.become(now, f"Stop by {by}.", SENTENCES[RobotState.STOPPING], robot=RobotState.STOPPING)
+        sentence = self._stop.describe(RobotState.STOPPING) if is_sent else f"{cause} {NOT_SENT}".strip()
+        self.become(now, f"Stop by {by}.", sentence, robot=RobotState.STOPPING)
 
     def clear(self, by: str, now: float) -> None:
         """Replaces what the stopped robot would go on with by where it stands, then lets it go."""
@@ -294,6 +301,15 @@ class RobotSession(RobotLink):
         if self.watch.strokes_mm is None:
             raise StateError("The robot has not told its strokes yet. Wait for its telemetry.")
         return self.watch.strokes_mm
+
+    def _measured_now(self, now: float) -> tuple[float, ...]:
+        age = now - self.watch.last_reading
+        if age > STALE_TIME:
+            raise StateError(
+                f"The robot has not told its strokes for {age:.1f} s (limit {STALE_TIME} s). Wait for its "
+                "telemetry; if none comes, stop the robot and look at its cable."
+            )
+        return self._measured()
 
 
 def _words(line: Line | None) -> str:

@@ -39,6 +39,11 @@ class StopWay:
         """“stopped at 12.4 s by NAME” as long as a person's stop stands."""
         return None if self._stop is None else self._stop.text
 
+    @property
+    def cause(self) -> str:
+        """Sentence of the fault that asked for the stop, or empty."""
+        return "" if self._stop is None else self._stop.cause
+
     def begin(self, now: float, *, text: str | None = None, cause: str = "") -> None:
         """A stop was asked for by a person (`text`) or a fault (`cause`)."""
         self._stop = Stopping(now, text, cause)
@@ -92,8 +97,7 @@ class StopWay:
     def describe(self, robot: RobotState) -> str:
         """What to say of a robot in this state while the stop stands."""
         shown = RobotState.STOPPING if self.pending else robot
-        cause = "" if self._stop is None else self._stop.cause
-        return f"{cause} {SENTENCES[shown]}".strip()
+        return f"{self.cause} {SENTENCES[shown]}".strip()
 
     def require_settled(self, now: float) -> None:
         """Refuses as long as a stop may still be confirmed in time.

@@ -121,11 +121,13 @@ class VirtualBridge:
 
     def stop(self, by: str = "Ada") -> None:
         """Does what `RobotBridge.stop` does."""
+        is_sent = True
         try:
             self.gate.stop()
         except RobotError as error:
+            is_sent = False
             self.session.hung_up(error.sentence, self.now)
-        self.session.stop(by, self.now)
+        self.session.stop(by, self.now, is_sent=is_sent)
 
     def open(self) -> None:
         """Plugs the cable in and opens the line."""

@@ -21,6 +21,9 @@ STILL_TIME = 0.3
 FRESH_TIME = 0.5
 """Standing still is believed after 0.3 s of equal readings, the last at most 0.5 s old."""
 
+STALE_TIME = 1.0
+"""A robot that idles tells its strokes every 32 ms at least; older ones are not where it stands, s."""
+
 
 class Watch:
     """Follows the lines of one connection.
@@ -35,6 +38,7 @@ class Watch:
         unknown_lines: lines of no known kind.
         longest_scan: longest error scan, s, or None.
         last_line: last line that tells more than that the robot is alive.
+        last_reading: time of the last telemetry line, s.
         readings: telemetry lines so far.
         talks: whether anything at all has come.
     """
@@ -50,7 +54,7 @@ class Watch:
         self.talks = False
         self._still_from: tuple[float, ...] | None = None
         self._still_since = now
-        self._last_reading = now
+        self.last_reading = now
         self._scan_began: float | None = None
 
     def heard(self, now: float) -> None:
@@ -60,8 +64,8 @@ class Watch:
 
     def stands_still(self, now: float) -> bool:
         """Whether every motor has been where it is for 0.3 s, by readings that are still coming in."""
-        fresh = now - self._last_reading <= FRESH_TIME
-        return self._still_from is not None and fresh and self._last_reading - self._still_since >= STILL_TIME
+        fresh = now - self.last_reading <= FRESH_TIME
+        return self._still_from is not None and fresh and self.last_reading - self._still_since >= STILL_TIME
 
     def see(self, line: Line, now: float) -> None:
         """Takes the next line."""
@@ -86,7 +90,7 @@ class Watch:
         self.strokes_mm = strokes_mm
         self.readings += 1
         self.idle_lines += 1
-        self._last_reading = now
+        self.last_reading = now
         still = self._still_from is not None and all(
             abs(a - b) <= STILL_MM for a, b in zip(self._still_from, strokes_mm, strict=True)
         )

@@ -18,7 +18,7 @@ SENTENCES: dict[RobotState, str] = {
     RobotState.STOPPING: "Stop was sent. It takes effect when the running ramp is over.",
     RobotState.STOPPED: "The robot stands still and stays so. Clear it, then arm it again.",
     RobotState.DONE: "The plan is done. Arm the robot for another run.",
-    RobotState.FAULT: "The run ended with a fault. Clear it, then arm the robot again.",
+    RobotState.FAULT: "The robot stands still after a fault. Clear it, then arm the robot again.",
 }
 
 NOT_CONNECTED = "No robot is connected."
@@ -28,6 +28,7 @@ CONNECTING = (
 )
 RESTARTED = "The robot restarted by itself and moves its motors to 0.5 mm."
 NOT_STOPPED = "NOT STOPPED: the robot has not confirmed the stop. Use the power switch."
+NOT_SENT = "NOT STOPPED: the line did not take the stop. Use the power switch."
 
 
 def clearing_sentence(
@@ -41,6 +42,12 @@ def clearing_sentence(
     ]
     doubt = "" if confirmed else "The robot has not confirmed the stop. "
     return f"{doubt}Clearing the stop; {'; '.join(moves) or 'no motor moves'}."
+
+
+def without_remedy(sentence: str) -> str:
+    """What happened, without what was to be done about it: for when that has been done."""
+    happened, _, _ = sentence.partition(". ")
+    return f"{happened.removesuffix('.')}."
 
 
 def silent_sentence(silence: float, limit: float, place: str) -> str:

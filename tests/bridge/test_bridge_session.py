@@ -1,5 +1,6 @@
 """The session on an emulated robot in virtual time: runs, stops, faults, refusals."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -181,6 +182,36 @@ def test_a_robot_that_is_not_armed_refuses_with_a_sentence(robot: VirtualRobot, 
 def test_a_robot_that_is_not_connected_refuses_with_a_sentence(robot: VirtualRobot, verb: str) -> None:
     with pytest.raises(StateError, match="Connect it"):
         getattr(robot.session, verb)("Ada", robot.now)
+
+
+UNREADABLE = b"j,99.0000,"
+"""The beginning of a telemetry line that no motor can have sent."""
+
+
+@pytest.mark.parametrize("verb", ["send", "reset"])
+def test_what_moves_the_robot_needs_to_know_where_it_stands_now(robot: VirtualRobot, verb: str) -> None:
+    robot.arm()
+    robot.from_robot = lambda data: re.sub(rb"j,[\d.]+,", UNREADABLE, data)
+    robot.wait(1.5)
+    wish = getattr(robot.session, verb)
+    with pytest.raises(StateError, match="not told its strokes for 1"):
+        wish(make_plan(SHORT), "Ada", robot.now) if verb == "send" else wish("Ada", robot.now)
+    assert robot.snapshot.robot is RobotState.ARMED
+    assert robot.sent == [encode_flush()]
+
+
+def test_a_pause_does_not_end_before_it_is_known_where_the_robot_stands(robot: VirtualRobot) -> None:
+    robot.begin(make_plan(SHORT))
+    robot.session.pause("Ada", robot.now)
+    robot.until_robot(RobotState.PAUSED)
+    robot.from_robot = lambda data: re.sub(rb"j,[\d.]+,", UNREADABLE, data)
+    robot.wait(1.5)
+    with pytest.raises(StateError, match="not told its strokes"):
+        robot.session.resume("Ada", robot.now)
+    robot.from_robot = bytes
+    robot.wait(0.2)
+    robot.session.resume("Ada", robot.now)
+    assert robot.snapshot.robot is RobotState.MOVING
 
 
 def test_a_robot_that_was_disarmed_needs_arming_again(robot: VirtualRobot) -> None:

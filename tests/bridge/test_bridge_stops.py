@@ -6,9 +6,10 @@ from collections.abc import Callable
 
 import pytest
 
+from app.bridge.faults import Fault
 from app.bridge.gate import Gate
 from app.bridge.states import LinkState, RobotState
-from app.bridge.words import NOT_STOPPED, clearing_sentence
+from app.bridge.words import NOT_SENT, NOT_STOPPED, clearing_sentence
 from core.errors import RobotError, StateError
 from core.wire import encode_flush
 from tests.bridge.virtual_robot import VirtualRobot, make_plan, random_plan
@@ -298,13 +299,16 @@ def test_a_stop_after_a_loss_is_repeated_when_the_line_is_back(robot: VirtualRob
 def test_a_stop_that_a_broken_line_took_away_is_sent_on_the_next_line(robot: VirtualRobot) -> None:
     robot.begin(random_plan(13, 20))
     robot.wait(2.0)
-    robot.session.hung_up("virtual has hung up.", robot.now)
+    robot.session.hung_up("virtual has hung up. Check the cable, then connect again.", robot.now)
+    assert "connect again" in robot.snapshot.sentence
     robot.wait(7.0)
     assert "NOT STOPPED" in robot.snapshot.sentence
     assert STOP not in robot.sent
     robot.connect()
     snapshot = robot.until(lambda s: "Clear it" in s.sentence, 5.0)
     assert snapshot.robot is RobotState.FAULT
+    assert "virtual has hung up" in snapshot.sentence
+    assert "connect again" not in snapshot.sentence  # it has been
     assert robot.firmware.messages[-1].payload == "s,1"
 
 
@@ -319,6 +323,27 @@ def test_a_stop_that_was_not_confirmed_is_not_called_stopped_after_reconnecting(
     assert robot.snapshot.robot is RobotState.STOPPING
     robot.until_robot(RobotState.STOPPED)
     assert robot.firmware.messages[-1].payload == "s,1"
+
+
+def test_a_stop_that_the_line_did_not_take_is_not_called_sent(robot: VirtualRobot) -> None:
+    robot.begin(random_plan(15, 20))
+    robot.wait(2.0)
+    robot.troubles.strike(Fault.UNPLUG)
+    robot.stop("Grace")
+    assert robot.snapshot.robot is RobotState.STOPPING
+    assert robot.snapshot.sentence == f"virtual has hung up. {NOT_SENT}"
+    robot.connect()
+    assert robot.until_robot(RobotState.STOPPED).stop_text == "stopped by Grace"
+
+
+def test_a_persons_stop_after_a_fault_leaves_the_faults_sentence(robot: VirtualRobot) -> None:
+    jammed_on_the_way(robot)
+    robot.until_robot(RobotState.FAULT)
+    robot.stop("Grace")
+    assert "motor 5" in robot.snapshot.sentence
+    stopped = robot.until_robot(RobotState.STOPPED)
+    assert "motor 5" in stopped.sentence
+    assert stopped.stop_text == "stopped by Grace"
 
 
 # Lost stops

@@ -88,7 +88,9 @@ export function sendControl({ prepare, send }) {
     allow(why) {
       reason = why;
       setAllowed(button, why, "Hold for a second, or click for a countdown that can be cancelled");
-      if (why) cancel();
+      if (!why) return;
+      cancel();
+      letGo();
     },
   };
 }

@@ -20,6 +20,7 @@ from app.bridge.words import (
     restless_sentence,
     silent_sentence,
     stranger_sentence,
+    without_remedy,
 )
 from core.errors import RobotError
 from core.wire_lines import Line, LineReader, SetupFinished, SetupMoving
@@ -180,7 +181,7 @@ class RobotLink(Ledger, ABC):
             robot = RobotState.UNKNOWN
         begun = robot is RobotState.FAULT is not self.robot
         if begun:
-            self._stop.begin(now, cause=sentence)
+            self._stop.begin(now, cause=without_remedy(sentence))
         self._drop_run(now)
         self.watch.idle_lines = 0
         self.last_error = sentence

@@ -6,12 +6,10 @@ from collections.abc import Callable
 from typing import Any
 
 from app.plans import Plan
-from app.simulations import physics_content, report_from_content, simulation_key, simulation_problem
+from app.simulations import report_from_content, simulation_key, simulation_problem
 from app.store.simulation_log import SimulationLog, SimulationRow
-from app.version import VERSION
 from core.errors import InputError
 from core.physics.parameters import physics_set, physics_sets
-from core.physics.report import SimulationReport
 from core.simulation_check import Simulated
 
 
@@ -78,28 +76,7 @@ class KeptSimulations:
                 return Simulated(report_from_content(content["report"]), problem)
         return None
 
-    def report_for(self, waypoints_hash: str) -> SimulationReport | None:
-        """The newest report for exactly these waypoints; None where there is none.
-
-        Only what this version of the program computed, with physics parameters as they are now, counts.
-
-        Args:
-            waypoints_hash: their content hash.
-        """
-        for row in self._log.of_waypoints(waypoints_hash):
-            content = self._log.content(row.key)
-            if content is not None and _is_of_today(content, row.physics):
-                return report_from_content(content["report"])
-        return None
-
 
 def keys_of(plan: Plan) -> frozenset[str]:
     """What simulations of a plan are kept under, with each physics set."""
     return frozenset(simulation_key(plan, physics) for physics in physics_sets().values())
-
-
-def _is_of_today(content: dict[str, Any], name: str) -> bool:
-    if content["program"] != VERSION or name not in physics_sets():
-        return False
-    is_same: bool = content["physics"] == physics_content(physics_set(name))
-    return is_same

@@ -9,7 +9,7 @@ import numpy as np
 
 from app.finite import finite
 from core.arrays import Floats
-from core.physics.findings import TILT_LIMIT
+from core.physics.findings import SWING_LIMIT, TILT_LIMIT
 from core.physics.motion import SimulatedMotion
 from core.physics.plan_axis import plan_times
 from core.physics.problem import SimulationProblem
@@ -94,6 +94,8 @@ def report_sentence(figures: dict[str, Any]) -> str:
     way = f"goes {figures['distance'] * 1000:.1f} of {figures['planned_distance'] * 1000:.1f} mm"
     if figures["max_tilt"] > TILT_LIMIT:
         return f"The robot tips: it leans by {tilt:.1f}° at {figures['max_tilt_time']:.1f} s, and {way}."
+    if max(figures["swing_load"]) > SWING_LIMIT:
+        return f"The robot rocks onto feet that should be in the air, and {way}."
     return f"The robot stays on its feet, leans by {tilt:.1f}° at most and {way}."
 
 
@@ -109,6 +111,7 @@ def variations_content(runs: Sequence[VariedRun]) -> dict[str, Any]:
                     "walks": run.walks,
                     "fell": run.fell,
                     "max_tilt": run.max_tilt,
+                    "swing_load": run.swing_load,
                     "distance": run.distance,
                     "feet_error": run.feet_error,
                     "ended_early": run.ended_early,

@@ -21,6 +21,9 @@ from core.physics.report import SimulationReport
 from core.robot import RobotModel
 from core.trajectory import Trajectory
 
+FORM = 2
+"""Of what is kept of a simulation; grows with a change of the physics or its report between versions."""
+
 
 def simulation_problem(plan: Plan, physics: PhysicsSet) -> SimulationProblem:
     """What the physics is asked of a plan: exactly the waypoints that would be sent.
@@ -66,7 +69,7 @@ def simulation_key(plan: Plan, physics: PhysicsSet) -> str:
     """Hash of everything that a simulation of a plan depends on, this program's version included."""
     waypoints = "" if plan.waypoints is None else plan.waypoints.content_hash
     robot, parameters = plan.model.parameters_hash, json.dumps(physics_content(physics), sort_keys=True)
-    parts = [VERSION, robot, plan.hash, waypoints, parameters]
+    parts = [VERSION, str(FORM), robot, plan.hash, waypoints, parameters]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
@@ -107,6 +110,7 @@ def report_figures(report: SimulationReport) -> dict[str, Any]:
             "fell": report.fell,
             "fell_time": report.fell_time,
             "slip": report.slip.tolist(),
+            "swing_load": report.swing_load.tolist(),
             "distance": report.distance,
             "planned_distance": report.planned_distance,
             "heading": report.heading,

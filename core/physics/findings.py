@@ -14,6 +14,9 @@ from core.wire_timing import ARRIVAL_THRESHOLD
 
 TILT_LIMIT = float(np.radians(2.0))
 """A body that leans further rocks onto a foot that should be in the air, rad."""
+SWING_LIMIT = 0.5
+"""A foot that carries load for a larger part of a swing bears the robot that rocks onto it, or stays down;
+feet that are in the air have at most 0.13 by measurement, those that bear a robot 0.87 and more."""
 SLIP_LIMIT = 0.001
 """A sole that slides further during one stance gets a warning, m."""
 BALANCE_LIMIT = 0.0
@@ -34,14 +37,15 @@ SATURATION_LIMIT = 0.01
 def physics_outcomes(report: SimulationReport, problem: SimulationProblem) -> tuple[Outcome, ...]:
     """What the rules say of a simulated run.
 
-    Falling, tilting and ending early are errors; slip, lost balance, a missed goal, motors that fall behind
-    and motors at their force's limit are warnings. Samples are the plan's knots, times the simulated robot's.
+    Falling, tilting, load on a swinging foot and ending early are errors; slip, lost balance, a missed goal,
+    motors that fall behind and motors at their force's limit are warnings. Samples are the plan's knots, times
+    the simulated robot's.
 
     Args:
         report: of the run.
         problem: what was asked.
     """
-    rules = (_fall, _end, _tilt, _slip, _balance, _travel, _heading, _tracking, _saturation)
+    rules = (_fall, _end, _tilt, _swing, _slip, _balance, _travel, _heading, _tracking, _saturation)
     return tuple(rule(report, problem) for rule in rules)
 
 
@@ -86,6 +90,22 @@ def _tilt(report: SimulationReport, problem: SimulationProblem) -> Outcome:
     place = _place(report, problem, report.max_tilt_time)
     finding = found(margin.rule, Severity.ERROR, words, remedy, report.max_tilt, TILT_LIMIT, **place)
     return Outcome(margin, (finding,))
+
+
+def _swing(report: SimulationReport, problem: SimulationProblem) -> Outcome:
+    foot, share = int(report.swing_load.argmax()), float(report.swing_load.max())
+    margin = RuleMargin("simulated_swing", SWING_LIMIT - share, "")
+    if share <= SWING_LIMIT or report.fell or report.max_tilt > TILT_LIMIT:
+        return Outcome(margin)
+    time = float(report.swing_load_times[foot])
+    words = (
+        f"In the simulation foot {foot + 1} carries load for {share * 100:.0f} % of its swing about "
+        f"{time:.1f} s; more than {SWING_LIMIT * 100:.0f} % means that the robot rocks onto it, or that it "
+        "does not leave the ground."
+    )
+    remedy = "Ask for a larger stability margin, or for more clearance."
+    place = _place(report, problem, time, foot)
+    return Outcome(margin, (found(margin.rule, Severity.ERROR, words, remedy, share, SWING_LIMIT, **place),))
 
 
 def longest_slides(report: SimulationReport, problem: SimulationProblem) -> tuple[Floats, list[int]]:

@@ -27,6 +27,9 @@ class SimulationReport:
         fell_time: when, simulated s; None where it did not.
         slip: (legs,) way that each foot slid while it should have stood, m.
         slip_samples: (count, legs) the same by move, m.
+        swing_load: (legs,) largest share of a swing's time in which a foot carries load; 0 of one that never
+            swings.
+        swing_load_times: (legs,) the middle of that swing, simulated s.
         min_margin: smallest distance of the centre of mass to the edge of the support of the feet that
             carry load (within 0.1 s), m; None where fewer than three ever do.
         min_margin_time: when, simulated s.
@@ -55,6 +58,8 @@ class SimulationReport:
     fell_time: float | None
     slip: Floats
     slip_samples: Floats
+    swing_load: Floats
+    swing_load_times: Floats
     min_margin: float | None
     min_margin_time: float | None
     motor_error: Floats

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Bools, Floats
+from core.arrays import Bools, Floats, stretches
 from core.physics.motion import SimulatedMotion
 from core.physics.motors import motor_force_limits
 from core.physics.problem import Rig, SimulationProblem
@@ -22,6 +22,8 @@ LOAD = 0.05
 """A foot carries load where the ground pushes it up by more than this, N; a fifth of a foot's own weight."""
 HANDING_OVER = 0.1
 """Time within which a foot that loses its load still counts as bearing, s."""
+SWING_REST = 0.2
+"""Motors rest at least so long before and after each arrival, s; so a swing of one waypoint lasts too."""
 AT_LIMIT = 0.98
 """A motor's force is at its limit from this share of it on."""
 
@@ -44,6 +46,7 @@ def report(problem: SimulationProblem, motion: SimulatedMotion) -> SimulationRep
     worst = int(tilt.argmax())
     down = _fallen(problem, motion, tilt)
     slips = _slips(problem, motion, rotation, arrivals)
+    swing_load, swing_load_times = _swing_loads(problem, motion, arrivals)
     margin, margin_time = _smallest_margin(motion)
     planned = _planned_at(problem, len(arrivals))
     track = np.abs(motion.strokes - motion.targets)
@@ -66,6 +69,8 @@ def report(problem: SimulationProblem, motion: SimulatedMotion) -> SimulationRep
         fell_time=float(motion.times[int(down.argmax())]) if down.any() else None,
         slip=slips.sum(axis=0),
         slip_samples=slips,
+        swing_load=swing_load,
+        swing_load_times=swing_load_times,
         min_margin=margin,
         min_margin_time=margin_time,
         motor_error=track.max(axis=0),
@@ -174,6 +179,25 @@ def _slips(
     slips = np.zeros(problem.standing.shape)
     slips[1 : len(arrivals)] = np.diff(way[arrivals], axis=0)
     return np.asarray(np.where(problem.standing, slips, 0.0))
+
+
+def _swing_loads(
+    problem: SimulationProblem, motion: SimulatedMotion, arrivals: NDArray[np.int64]
+) -> tuple[Floats, Floats]:
+    """(legs,) largest share of a swing in which a foot carries load, and (legs,) the middle of that swing, s.
+
+    A swing lasts from its first waypoint in the air to its last one, with the rest of the motors at both.
+    """
+    carries, legs = carrying(motion), problem.model.leg_count
+    shares, middles = np.zeros(legs), np.zeros(legs)
+    for foot in range(legs):
+        for first, last in stretches(~problem.contact[: len(arrivals), foot]):
+            ends = motion.times[arrivals[[first, last]]]
+            begin, end = np.searchsorted(motion.times, ends + [-SWING_REST, SWING_REST])
+            share = float(carries[begin:end, foot].mean())
+            if share > shares[foot]:
+                shares[foot], middles[foot] = share, ends.mean()
+    return shares, middles
 
 
 def _smallest_margin(motion: SimulatedMotion) -> tuple[float | None, float | None]:

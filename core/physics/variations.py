@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.errors import InputError
-from core.physics.findings import TILT_LIMIT
+from core.physics.findings import SWING_LIMIT, TILT_LIMIT
 from core.physics.motors import LEAST_SHARE
 from core.physics.parameters import PhysicsSet
 from core.physics.problem import SimulationProblem
@@ -49,6 +49,7 @@ class VariedRun:
         variation: the parameters.
         fell: whether it tipped over.
         max_tilt: largest angle between the body's axis and the vertical, rad.
+        swing_load: largest share of any swing in which its foot carries load.
         distance: horizontal way of the body, m.
         feet_error: mean of the feet's errors against the plan, m.
         ended_early: why it ended before the last waypoint, or "".
@@ -57,14 +58,16 @@ class VariedRun:
     variation: Variation
     fell: bool
     max_tilt: float
+    swing_load: float
     distance: float
     feet_error: float
     ended_early: str
 
     @property
     def walks(self) -> bool:
-        """Whether it neither fell nor leaned onto a foot that should be in the air (`TILT_LIMIT`)."""
-        return not self.fell and not self.ended_early and self.max_tilt <= TILT_LIMIT
+        """Whether it neither fell nor rocked onto a foot that should be in the air."""
+        is_upright = self.max_tilt <= TILT_LIMIT and self.swing_load <= SWING_LIMIT
+        return is_upright and not self.fell and not self.ended_early
 
 
 def variations(physics: PhysicsSet, count: int, seed: int, motors: int) -> tuple[Variation, ...]:
@@ -93,6 +96,7 @@ def varied_run(variation: Variation, report: SimulationReport) -> VariedRun:
         variation=variation,
         fell=report.fell,
         max_tilt=report.max_tilt,
+        swing_load=float(report.swing_load.max()),
         distance=report.distance,
         feet_error=report.feet_mean_error,
         ended_early=report.ended_early,

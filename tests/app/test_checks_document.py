@@ -68,6 +68,7 @@ def test_every_rule_that_the_code_names_stands_in_the_table_and_no_other() -> No
         ("path_ground", [f"{path_check.GROUND_LIMIT * 1000:.1f} mm"]),
         ("path_clearance", [f"{path_check.RISE_LIMIT * 1000:.1f} mm"]),
         ("simulated_tilt", [f"{np.degrees(physics.TILT_LIMIT):.0f}°"]),
+        ("simulated_swing", [f"{physics.SWING_LIMIT * 100:.0f} %"]),
         ("simulated_slip", [f"{physics.SLIP_LIMIT * 1000:.1f} mm"]),
         ("simulated_balance", [f"{physics.BALANCE_LIMIT * 1000:.0f} mm"]),
         (

@@ -73,25 +73,27 @@ def test_going_back_to_a_simulated_plan_finds_its_simulation_again(kept: KeptSim
     assert [one and one["key"] for one in standing] == [first, second]
 
 
-def test_the_report_is_found_by_waypoints_and_comes_back_as_it_was(kept: KeptSimulations) -> None:
+def test_the_report_of_a_plan_comes_back_as_it_was(kept: KeptSimulations) -> None:
     slip = np.array([0.001, 0.0, 0.002, 1 / 3])
     put(kept, walk_plan(), report=report_content(walk_report(slip=slip, fell=True, fell_time=3.5)))
-    waypoints = walk_plan().waypoints
-    assert waypoints is not None
-    found = kept.report_for(waypoints.content_hash)
+    found = kept.simulated(walk_plan())
     assert found is not None
-    assert (found.fell, found.fell_time) == (True, 3.5)
-    assert (found.slip == slip).all()
-    assert kept.report_for("other") is None
+    assert (found.report.fell, found.report.fell_time) == (True, 3.5)
+    assert (found.report.slip == slip).all()
+    assert kept.simulated(shorter_plan()) is None
 
 
-def test_what_an_older_program_or_other_parameters_computed_is_no_report(kept: KeptSimulations) -> None:
-    waypoints = walk_plan().waypoints
-    assert waypoints is not None
-    put(kept, walk_plan(), program="0.0.1")
-    assert kept.report_for(waypoints.content_hash) is None
-    put(kept, walk_plan(), physics=physics_content(replace(physics_set(), friction=0.1)))
-    assert kept.report_for(waypoints.content_hash) is None
+@pytest.mark.parametrize(("name", "other"), [("VERSION", "0.0.1"), ("FORM", 1)])
+def test_what_another_program_computed_is_no_simulation_of_today(
+    kept: KeptSimulations, monkeypatch: pytest.MonkeyPatch, name: str, other: object
+) -> None:
+    with monkeypatch.context() as before:
+        before.setattr(f"app.simulations.{name}", other)
+        put(kept, walk_plan())
+    assert kept.simulated(walk_plan()) is None
+    standing = kept.standing(GAIT, walk_plan())
+    assert standing is not None
+    assert not standing["fresh"]
 
 
 def test_variations_stay_where_the_same_is_simulated_without_them(kept: KeptSimulations) -> None:

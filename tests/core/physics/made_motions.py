@@ -79,6 +79,14 @@ def leaning(motion: SimulatedMotion, angle: Floats) -> SimulatedMotion:
     return replace(motion, attitude=attitude, feet_world=feet)
 
 
+def swinging(problem: SimulationProblem, foot: int, first: int, last: int) -> SimulationProblem:
+    """The same question of a foot that should be in the air at some waypoints."""
+    contact, standing = problem.contact.copy(), problem.standing.copy()
+    contact[first : last + 1, foot] = False
+    standing[first : last + 2, foot] = False
+    return replace(problem, contact=contact, standing=standing)
+
+
 def turned(motion: SimulatedMotion, angle: Floats) -> SimulatedMotion:
     """The body turned about its axis by angles (n,)."""
     zero = np.zeros_like(angle)

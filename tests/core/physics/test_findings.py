@@ -19,6 +19,7 @@ from tests.core.physics.made_motions import (
     leaning,
     problem_of,
     sliding,
+    swinging,
     turned,
     walking_plan,
 )
@@ -64,6 +65,19 @@ def test_leaning_beyond_the_limit_is_an_error_and_within_it_none() -> None:
     assert "leans by 2.0° at 1.0 s" in finding.sentence
     angle[20] = 0.99 * TILT_LIMIT
     assert findings(leaning(PLANNED, angle)) == []
+
+
+def test_load_on_a_foot_that_should_swing_is_an_error_also_where_the_body_hardly_leans() -> None:
+    lifted = swinging(PROBLEM, 2, 1, 2)
+    finding = only(PLANNED, lifted)
+    assert (finding.rule, finding.severity) == ("simulated_swing", Severity.ERROR)
+    assert (finding.foot, finding.sample) == (2, 2)
+    assert finding.time == pytest.approx(0.75)
+    assert "foot 3 carries load for 100 % of its swing about 0.8 s" in finding.sentence
+    assert only(leaning(PLANNED, np.full(len(PLANNED.times), 0.05)), lifted).rule == "simulated_tilt"
+    forces = PLANNED.ground_forces.copy()
+    forces[: 2 * EACH + 5, 2, 2] = 0.0
+    assert findings(replace(PLANNED, ground_forces=forces), lifted) == []
 
 
 def test_a_run_that_broke_off_is_an_error() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from tests.core.physics.made_motions import (
     leaning,
     problem_of,
     sliding,
+    swinging,
     turned,
     walking_plan,
 )
@@ -146,6 +148,25 @@ def test_a_foot_in_swing_or_without_load_does_not_slip() -> None:
     assert report(PROBLEM, replace(slid, ground_forces=forces)).slip[1] == 0.0
 
 
+@pytest.mark.parametrize(("first", "last"), [(1, 3), (2, 2)])
+def test_a_foot_s_load_in_its_swing_is_a_share_of_that_swing(first: int, last: int) -> None:
+    lifted = swinging(PROBLEM, 1, first, last)
+    assert report(lifted, PLANNED).swing_load.tolist() == [0.0, 1.0, 0.0, 0.0]
+    middle = (first + last) * EACH // 2
+    forces = PLANNED.ground_forces.copy()
+    forces[:middle, 1, 2] = LOAD / 2
+    loads = report(lifted, replace(PLANNED, ground_forces=forces))
+    assert loads.swing_load[1] == pytest.approx(0.5, abs=0.07)
+    assert loads.swing_load_times[1] == pytest.approx(PLANNED.times[middle])
+    forces[middle:, 1, 2] = LOAD / 2
+    assert report(lifted, replace(PLANNED, ground_forces=forces)).swing_load[1] == 0.0
+
+
+def test_a_swing_that_was_not_reached_carries_nothing() -> None:
+    short = replace(PLANNED, arrivals=PLANNED.arrivals[:2], ended_early="it fell")
+    assert report(swinging(PROBLEM, 1, 2, 3), short).swing_load[1] == 0.0
+
+
 def test_the_margin_is_to_the_edge_of_the_feet_that_carry_load() -> None:
     forces = PLANNED.ground_forces.copy()
     forces[25:, 2] = 0.0
@@ -198,7 +219,9 @@ def test_a_weak_motor_is_at_its_own_limit() -> None:
 
 
 def test_a_run_that_fell_at_its_first_sample_has_figures_too() -> None:
-    rows = {name: value[:1] for name, value in vars(PLANNED).items() if isinstance(value, np.ndarray)}
+    rows: dict[str, Any] = {
+        name: value[:1] for name, value in vars(PLANNED).items() if isinstance(value, np.ndarray)
+    }
     first = replace(PLANNED, ended_early="it fell", **rows)
     figures = report(PROBLEM, first)
     assert (figures.distance, figures.slip.tolist()) == (0.0, [0.0] * 4)

@@ -9,6 +9,7 @@ from app.plans import Plan
 from app.simulations import report_from_content, simulation_key, simulation_problem
 from app.store.simulation_log import SimulationLog, SimulationRow
 from core.errors import InputError
+from core.physics.masses import default_physics
 from core.physics.parameters import physics_set, physics_sets
 from core.simulation_check import Simulated
 
@@ -65,12 +66,17 @@ class KeptSimulations:
         return key in keys_of(plan) and any(row.key == key for row in self._log.of_gait(gait_id))
 
     def simulated(self, plan: Plan) -> Simulated | None:
-        """The newest simulation of a plan as it is now, for its verdict; None where there is none."""
+        """A simulation of a plan as it is now, for its verdict; None where there is none.
+
+        One with the robot's usual parameters goes before the newest one, so that what they find stands
+        whatever else is tried.
+        """
         if plan.waypoints is None:
             return None
-        now = keys_of(plan)
-        for row in self._log.of_waypoints(plan.waypoints.content_hash):
-            content = self._log.content(row.key) if row.key in now else None
+        now, usual = keys_of(plan), default_physics(plan.model).name
+        rows = [row for row in self._log.of_waypoints(plan.waypoints.content_hash) if row.key in now]
+        for row in sorted(rows, key=lambda row: row.physics != usual):
+            content = self._log.content(row.key)
             if content is not None:
                 problem = simulation_problem(plan, physics_set(row.physics))
                 return Simulated(report_from_content(content["report"]), problem)

@@ -38,8 +38,8 @@ def physics_outcomes(report: SimulationReport, problem: SimulationProblem) -> tu
     """What the rules say of a simulated run.
 
     Falling, tilting, load on a swinging foot and ending early are errors; slip, lost balance, a missed goal,
-    motors that fall behind and motors at their force's limit are warnings. Samples are the plan's knots, times
-    the simulated robot's.
+    motors that fall behind and motors at their force's limit are warnings. Samples are the plan's knots,
+    times the simulated robot's.
 
     Args:
         report: of the run.

@@ -83,6 +83,16 @@ def test_the_report_of_a_plan_comes_back_as_it_was(kept: KeptSimulations) -> Non
     assert kept.simulated(shorter_plan()) is None
 
 
+def test_what_the_robots_usual_parameters_find_stands_whatever_else_is_tried(kept: KeptSimulations) -> None:
+    put(kept, walk_plan(), "published", made=1.0)
+    put(kept, walk_plan(), "model", made=2.0)
+    newest = kept.simulated(walk_plan())
+    put(kept, walk_plan(), "scales", made=3.0)
+    put(kept, walk_plan(), "model", made=4.0)
+    usual = kept.simulated(walk_plan())
+    assert [one and one.problem.physics.name for one in (newest, usual)] == ["model", "scales"]
+
+
 @pytest.mark.parametrize(("name", "other"), [("VERSION", "0.0.1"), ("FORM", 1)])
 def test_what_another_program_computed_is_no_simulation_of_today(
     kept: KeptSimulations, monkeypatch: pytest.MonkeyPatch, name: str, other: object

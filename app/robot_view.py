@@ -151,7 +151,7 @@ def allowed(snapshot: RobotSnapshot) -> dict[str, str | None]:
         "resume": only({RobotState.PAUSED}, "No run is paused."),
         "clear": only({RobotState.STOPPED, RobotState.FAULT, RobotState.STOPPING}, "Nothing is stopped."),
         "reset": only({RobotState.ARMED}, "Arm the robot first."),
-        "jog": only({RobotState.ARMED}, "It moves." if robot in RUNNING else "Arm the robot first."),
+        "jog": only({RobotState.ARMED}, _why_not_jog(robot)),
     }
 
 
@@ -164,6 +164,12 @@ def _why_not_disconnect(link: LinkState, robot: RobotState) -> str | None:
 def _why_not_pause(robot: RobotState) -> str:
     """Of a robot on which no run moves; a reset or a jog ends by itself."""
     return "Only a run can be paused; Stop ends this." if robot is RobotState.MOVING else "Nothing is moving."
+
+
+def _why_not_jog(robot: RobotState) -> str:
+    if robot is RobotState.PAUSED:
+        return "A run is paused: resume it, or stop it and arm the robot again."
+    return "It moves." if robot in RUNNING else "Arm the robot first."
 
 
 def _why_not_arm(robot: RobotState) -> str:

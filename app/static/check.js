@@ -6,6 +6,7 @@ import { byId, h, onPress, setAllowed } from "./dom.js";
 import { clockTime, fixed, readable, ruleName, shortHash } from "./format.js";
 import { needOperator } from "./operator.js";
 import { costTable, sendingFields } from "./sending.js";
+import { checkGone } from "./store.js";
 import { attempt, toast } from "./toasts.js";
 
 function findingItem(finding, goTo) {
@@ -33,8 +34,8 @@ const warningsOf = (verdict) => (verdict?.findings ?? []).filter(({ severity }) 
 function summary(view, before) {
   const { verdict } = view;
   if (!verdict) {
-    const text = view.revoked ? `Not checked: ${lowered(view.revoked)} Check it again.` : before === "approved" ? "Not checked: the gait changed, and its approval is gone. Check it again."
-      : before ? "Not checked: the gait changed since the last check. Check it again." : "Not checked yet. Check tries every rule on the waypoints that would be sent.";
+    const text = view.revoked ? `Not checked: ${lowered(view.revoked)} Check it again.` : before?.word === "approved" ? "Not checked: the gait changed, and its approval is gone. Check it again."
+      : before ? `Not checked: ${checkGone(view, before)}. Check it again.` : "Not checked yet. Check tries every rule on the waypoints that would be sent.";
     return h("p", { class: "box-note", data: { tone: before || view.revoked ? "caution" : "plain" }, text });
   }
   const warnings = warningsOf(verdict).length;
@@ -94,7 +95,7 @@ async function approve(store) {
   }
   const approval = await api.approve(selected, by, view.verdict.hash, store.state.seenWarnings === view.verdict.hash);
   if (store.state.selected !== selected || store.state.view.revision !== view.revision) return;
-  store.set({ view: { ...store.state.view, approval, revoked: null }, checked: { ...store.state.checked, [selected]: "approved" } });
+  store.set({ view: { ...store.state.view, approval, revoked: null }, checked: { ...store.state.checked, [selected]: { word: "approved", revision: store.state.view.revision } } });
 }
 
 async function check(store) {
@@ -102,7 +103,7 @@ async function check(store) {
   const verdict = await api.check(selected);
   if (store.state.selected !== selected || store.state.view.revision !== view.revision) return;
   const seen = store.state.checked[selected];
-  store.set({ view: { ...store.state.view, verdict }, checked: { ...store.state.checked, [selected]: seen === "approved" && store.state.view.approval ? seen : "checked" } });
+  store.set({ view: { ...store.state.view, verdict }, checked: { ...store.state.checked, [selected]: { word: seen?.word === "approved" && store.state.view.approval ? seen.word : "checked", revision: view.revision } } });
 }
 
 /** Builds the section; `goTo` shows a finding's place. */

@@ -17,7 +17,7 @@ import { mountPatternEntry } from "./pattern_entry.js";
 import { mountPlots } from "./plots.js";
 import { Playback } from "./preview/playback.js";
 import { robotTime } from "./samples.js";
-import { runIsOn, shownPlan } from "./store.js";
+import { planIsOn, shownPlan } from "./store.js";
 import { mountTabs, openTab } from "./tabs.js";
 import { mountTimeline } from "./timeline.js";
 import { mountTools } from "./timeline_tools.js";
@@ -79,11 +79,14 @@ export function start(store) {
   const patterns = mountPatternEntry(store, { edits, playback, show: (id) => selectGait(store, id) });
   mountKeys({ store, edits, playback, timeline, actions, zoom, escapes: [patterns.cancel, () => panels.segments?.(), timeline.cancelGesture, () => panels.sequence?.(), tools.close, optimise.cancel, () => panels.countdown?.(), () => panels.runs?.(), timeline.clearSelection] });
 
-  // During a run the preview stands where the robot is, unless somebody plays the plan.
-  store.watch(({ robot, view }) => [robot?.run?.plan_time, view?.plan], ({ robot, view }) => {
-    const time = runIsOn(robot) && robot.run?.phase === "streaming" ? robotTime(robot, view) : null;
+  // During a run the preview stands where the robot is, to the end, unless somebody plays the plan.
+  let followed = null;
+  store.watch(({ robot, view }) => [robot?.run?.plan_time, robot?.run?.phase, view?.plan], ({ robot, view }) => {
+    const run = robot?.run;
+    const time = run && (run.phase === "streaming" || run.id === followed) ? robotTime(robot, view) : null;
+    followed = run?.phase === "streaming" ? run.id : null;
     if (time !== null && !playback.playing) playback.setTime(time);
   });
   store.watch(({ selected, view }) => [selected, view?.revision], () => clearRefusals());
-  store.watch(({ robot }) => [runIsOn(robot)], ({ robot }) => { if (runIsOn(robot)) openTab("robot"); });
+  store.watch(({ robot }) => [planIsOn(robot)], ({ robot }) => { if (planIsOn(robot)) openTab("robot"); });
 }

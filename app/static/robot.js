@@ -13,7 +13,7 @@ import { robotLog } from "./robot_log.js";
 import { courseOf, coursePart, isOfCourse } from "./run_course.js";
 import { commandedStrokes } from "./samples.js";
 import { sendControl } from "./send.js";
-import { acceptRobot, runIsOn, stopLimit } from "./store.js";
+import { acceptRobot, planIsOn, runIsOn, stopLimit } from "./store.js";
 import { strokeBars } from "./strokes.js";
 import { attempt, report, toast } from "./toasts.js";
 import { robotTone } from "./topbar.js";
@@ -125,7 +125,7 @@ function showRobot(parts, ways, robot) {
   parts.pause.button.hidden = paused;
   parts.resume.button.hidden = !paused;
   setText(parts.connectNote, ready ? (robot.link === "connecting" ? CONNECT_WARNING : "") : CONNECT_WARNING);
-  setText(parts.armNote, ready && !on ? (whyNotHeld(robot) ?? robot.allowed?.arm ?? "") : "");
+  setText(parts.armNote, ready && !on ? (whyNotHeld(robot) ?? (robot.robot === "armed" ? "" : robot.allowed?.arm ?? "")) : "");
   const progress = progressOf(robot?.run);
   parts.bar.style.transform = `scaleX(${progress?.fraction ?? 0})`;
   setText(parts.progress, progress?.text ?? (before ? `Last run: ${before.gait_name}, ${before.state}.` : "No run yet."));
@@ -188,7 +188,7 @@ export function mountRobot(store, edits, playback) {
     setText(parts.sendNote, reason ?? "Hold for a second, or click for a countdown.");
     parts.summary.replaceChildren(...summaryRows(state));
     setText(parts.stopText, stopSentence(stopLimit(state)));
-    ways.start.hidden = runIsOn(state.robot);
+    ways.start.hidden = planIsOn(state.robot);
     parts.summary.hidden = parts.summary.childElementCount === 0;
   });
   store.watch(({ selected, view, robot, runCourse }) => [selected, runCourse, view?.plan?.waypoints_hash, view?.approval?.waypoints_hash, robot?.link, robot?.robot], () => fetchSummary(store));

@@ -13,7 +13,7 @@ function facts(run) {
   const rows = [
     ["By", run.by], ["Started", clockTime(run.started)], ["Duration", durationWords(run)],
     ["Reached", run.count === null ? "–" : `${run.reached} of ${run.count}`],
-    ["Largest error", run.errors ? `${fixed(run.errors.largest_mm, 2)} mm` : "–"],
+    ["Motors, largest", run.errors ? `${fixed(run.errors.largest_mm, 2)} mm` : "–"],
     ["Body, largest", run.errors ? `${fixed(run.errors.body_largest_mm, 2)} mm` : "–"],
     ["Stop bound", run.stop_bound === null ? "none" : `${seconds(run.stop_bound)} s`],
     ["Approved by", run.approval?.by ?? "–"], ["Hash", shortHash(run.waypoints_hash), run.waypoints_hash],

@@ -10,7 +10,7 @@ const PAGE = 30;
 
 export const runTone = ({ state }) => TONES[state] ?? "quiet";
 
-const durationOf = (run) => run.seconds ?? run.errors?.seconds ?? null;
+const durationOf = (run) => run.errors?.seconds ?? run.seconds ?? null;
 const figures = (run) => [
   durationOf(run) === null ? null : `${seconds(durationOf(run))} s`,
   Number.isFinite(run.errors?.largest_mm) ? `error ${fixed(run.errors.largest_mm, 2)} mm` : null,
@@ -31,6 +31,12 @@ function choice(name, help) {
   return h("select", { "aria-label": name, title: help });
 }
 
+/** A day with its word beside it. */
+function dayField(text, name, help) {
+  const input = h("input", { type: "date", "aria-label": name, title: help });
+  return { input, element: h("label", { class: "run-day quiet", title: help }, h("span", { text }), input) };
+}
+
 function fill(select, all, options) {
   const kept = select.value;
   select.replaceChildren(h("option", { value: "", text: all }), ...options.map(({ value, text }) => h("option", { value, text })));
@@ -46,12 +52,12 @@ const plain = (values) => values.map((value) => ({ value, text: value }));
  */
 export function runList(open) {
   const [gait, state, operator] = [choice("Gait of the runs", "Only runs of this gait"), choice("Result of the runs", "Only runs that ended so"), choice("Operator of the runs", "Only runs that this person sent")];
-  const [since, until] = [h("input", { type: "date", "aria-label": "Runs since", title: "Started on this day or later" }), h("input", { type: "date", "aria-label": "Runs until", title: "Started on this day or earlier" })];
+  const [since, until] = [dayField("Since", "Runs since", "Started on this day or later"), dayField("Until", "Runs until", "Started on this day or earlier")];
   const [count, list] = [h("p", { class: "quiet", role: "status" }), h("ul", { class: "run-list", role: "list", "aria-label": "Runs" })];
   const more = h("button", { class: "link", text: "Older runs", hidden: true });
   let [shown, turn] = [[], 0];
 
-  const wanted = (offset) => ({ gait: gait.value, state: state.value, operator: operator.value, since: since.value, until: until.value, offset, most: PAGE });
+  const wanted = (offset) => ({ gait: gait.value, state: state.value, operator: operator.value, since: since.input.value, until: until.input.value, offset, most: PAGE });
 
   const load = attempt(async (offset) => {
     const mine = (turn += 1);
@@ -66,10 +72,10 @@ export function runList(open) {
     setAttribute(more, "hidden", shown.length >= answer.total);
   });
 
-  for (const field of [gait, state, operator, since, until]) field.addEventListener("change", () => load(0));
+  for (const field of [gait, state, operator, since.input, until.input]) field.addEventListener("change", () => load(0));
   more.addEventListener("click", () => load(shown.length));
   return {
-    element: h("div", { class: "run-all" }, h("div", { class: "run-filter", role: "group", "aria-label": "Filter" }, gait, state, operator, since, until), count, list, more),
+    element: h("div", { class: "run-all" }, h("div", { class: "run-filter", role: "group", "aria-label": "Filter" }, gait, state, operator, since.element, until.element), count, list, more),
     refresh: () => load(0),
   };
 }

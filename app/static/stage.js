@@ -13,7 +13,7 @@ import { measured, painted } from "./live.js";
 import { Preview } from "./preview/preview.js";
 import { extremes } from "./samples.js";
 import { mountTools } from "./stage_tools.js";
-import { shownPlan } from "./store.js";
+import { checkGone, shownPlan } from "./store.js";
 
 function message(text) {
   byId("stage-message").hidden = !text;
@@ -33,8 +33,8 @@ function verdictWords(view, before) {
   if (view.approval) return ["approved", "good"];
   if (view.verdict) return view.verdict.passed ? ["checked", "good"] : ["check failed", "bad"];
   if (view.revoked && !view.revoked.startsWith("The gait changed")) return ["approval gone", "caution"];
-  if (view.revoked || before === "approved") return ["approval gone: the gait changed", "caution"];
-  return [before ? "check gone: the gait changed" : "not checked", before ? "caution" : "quiet"];
+  if (view.revoked || before?.word === "approved") return ["approval gone: the gait changed", "caution"];
+  return [before ? `check gone: ${checkGone(view, before)}` : "not checked", before ? "caution" : "quiet"];
 }
 
 /** What the check says of the plan, unless what is shown is not the plan. */

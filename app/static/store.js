@@ -99,12 +99,18 @@ export function shownPlan({ iterate, live, view }) {
   return iterate?.plan ?? live?.plan ?? view?.plan ?? null;
 }
 
+/** Why the check that was seen of a gait no longer counts. */
+export function checkGone(view, { revision }) {
+  if (view.revision !== revision) return "the gait changed";
+  return view.simulation?.fresh ? "simulated since" : "the plan was made anew";
+}
+
 /** Takes over a view unless it is of another gait or older than what is shown. */
 export function acceptView(store, view) {
   const { selected, view: current, checked } = store.state;
   if (view.id !== selected) return;
   if (current && current.id === view.id && view.stamp < current.stamp) return;
-  const seen = view.approval ? "approved" : view.verdict ? (checked[view.id] ?? "checked") : checked[view.id];
+  const seen = view.verdict || view.approval ? { word: view.approval ? "approved" : (checked[view.id]?.word ?? "checked"), revision: view.revision } : checked[view.id];
   store.set({ view, checked: seen ? { ...checked, [view.id]: seen } : checked });
 }
 
@@ -145,6 +151,9 @@ export function runIsOn(robot) {
   if (!robot) return false;
   return ["moving", "pausing", "paused", "stopping"].includes(robot.robot) || Boolean(robot.run && robot.run.phase !== "ended");
 }
+
+/** True while an approved plan is carried out; not while the robot is jogged or reset. */
+export const planIsOn = (robot) => Boolean(robot?.run && robot.run.phase !== "ended");
 
 /** The longest time of a stop: of the run that is on, else of the one that would be sent, else of the last one, s. */
 export function stopLimit({ robot, runSummary }) {

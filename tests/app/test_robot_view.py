@@ -79,3 +79,5 @@ def test_the_stop_time_of_a_jog_is_that_of_its_longest_move_and_it_is_not_paused
     assert view["stop_seconds"] == pytest.approx(LONGEST_SCAN + ramp_time(0.004) + OVERRUN)
     assert view["allowed"]["pause"] == "Only a run can be paused; Stop ends this."
     assert robot_view(MOVING, "robot", None)["allowed"]["pause"] is None
+    paused = replace(MOVING, robot=RobotState.PAUSED)
+    assert "A run is paused" in robot_view(paused, "robot", None)["allowed"]["jog"]

@@ -15,6 +15,9 @@ from tests.page.test_accessibility import serious_findings
 from tests.page.test_robot_lease import LONG_MS, look, name
 from tests.studio_process import StudioProcess, running_studio, wait_for
 
+SCROLLED = "() => document.getElementById('sections').scrollTop"
+"""How far the panel is scrolled, px."""
+
 
 @pytest.fixture(scope="module")
 def robot() -> Iterator[EmulatedRobot]:
@@ -71,9 +74,14 @@ def test_the_body_is_raised_by_a_target_that_is_seen_first(page: Page, studio: S
 
     expect(move).not_to_have_attribute("aria-disabled", "true")
     move.click()
+    scrolled = page.evaluate(SCROLLED)
+    assert scrolled > 0
     wait_for(lambda: min(studio.robot()["strokes_mm"]) > 6.0, "the body is raised", 60.0)
     expect(jog.get_by_text("From where the motors stand.")).to_be_visible(timeout=LONG_MS)
     wait_for(lambda: studio.robot()["robot"] == "armed", "the jog is done", 60.0)
+    expect(page.get_by_role("status", name="Robot")).to_contain_text("armed", timeout=LONG_MS)
+    assert page.evaluate(SCROLLED) == scrolled  # the buttons stay where they are
+    expect(page.get_by_role("button", name="Send to robot")).to_be_visible()
 
 
 def test_letters_and_the_target_alone_move_nothing(page: Page, studio: StudioProcess) -> None:

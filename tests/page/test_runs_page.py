@@ -106,9 +106,10 @@ TRACE = """async () => {
   const { createStore } = await import("/static/store.js");
   const store = createStore();
   mountTrace(store);
-  const tell = async (robot, reached, plan_time, phase = "streaming") => {
-    const run = { id: "r", gait: "walk", phase, reached, plan_time };
-    store.set({ robot: { link: "ready", robot, run, strokes_mm: [reached] } });
+  const tell = async (robot, reached, plan_time, phase = "streaming", id = "r", hash = "h") => {
+    const run = { id, gait: "walk", phase, reached, plan_time, waypoints_hash: "h" };
+    const view = { plan: { waypoints_hash: hash } };
+    store.set({ robot: { link: "ready", robot, run, strokes_mm: [reached] }, view });
     await Promise.resolve();
     await Promise.resolve();
     return store.state.trace && { ...store.state.trace };
@@ -117,15 +118,20 @@ TRACE = """async () => {
   for (const [reached, time] of [[1, 0], [1, 0], [2, 0.4], [3, 0]]) {
     seen.push(await tell("moving", reached, time));
   }
-  seen.push(await tell("done", 3, 0, "ended"));
+  seen.push(await tell("done", 4, 0.4, "ended"));
+  seen.push(await tell("moving", 0, 0, "start pose", "another"));
+  seen.push(await tell("moving", 1, 0, "streaming", "another"));
+  seen.push(await tell("stopped", 1, 0, "ended", "another"));
+  seen.push(await tell("stopped", 1, 0, "ended", "another", "edited"));
   return seen;
 }"""
 
 
-def test_strokes_grow_with_each_waypoint_and_a_new_iteration_begins_anew(page: Page) -> None:
-    first, *grown, last = page.evaluate(TRACE)
-    assert first is None
+def test_strokes_grow_with_each_waypoint_and_stay_until_an_edit_or_another_run(page: Page) -> None:
+    first, *grown, done, another, begun, stopped, edited = page.evaluate(TRACE)
+    assert [first, another, edited] == [None] * 3
     assert [trace["plan_times"] for trace in grown] == [[0], [0], [0, 0.4], [0, 0.4, 0]]
     assert grown[-1]["laps"] == [0, 0, 1]
     assert grown[-1]["measured_mm"] == [[1], [2], [3]]
-    assert last is None
+    assert done["plan_times"] == [0, 0.4, 0, 0.4]  # the last arrival comes with the end
+    assert begun["plan_times"] == stopped["plan_times"] == [0]

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from app.cli.commands_plan import NOT_FIT, ROBOT, trajectory_of
-from app.cli.report import Interrupted, end_on_sigterm, note, show
+from app.cli.report import Interrupted, end_on_sigterm, note, show, tally
 from app.documents import parse_gait
 from app.simulation_content import variations_content
 from app.simulations import report_figures, way_problem
@@ -143,7 +143,7 @@ def _outcome(problem: SimulationProblem, figures: SimulationReport, findings: Se
     errors = sum(found.severity is Severity.ERROR for found in findings)
     warnings = len(findings) - errors
     fit = "Walks" if problem.rig is Rig.WALKING else "Done"
-    return f"{'Not fit' if errors else fit}: {errors} errors, {warnings} warnings."
+    return f"{'Not fit' if errors else fit}: {tally(errors, warnings)}."
 
 
 def _variation_lines(runs: Sequence[VariedRun]) -> list[str]:

@@ -48,11 +48,17 @@ def note(text: str) -> None:
     sys.stderr.write(text + "\n")
 
 
+def tally(errors: int, warnings: int) -> str:
+    """How many findings of each kind, in words."""
+    counts = ((errors, "error"), (warnings, "warning"))
+    return ", ".join(f"{count} {name}{'' if count == 1 else 's'}" for count, name in counts)
+
+
 def verdict_lines(verdict: Verdict) -> list[str]:
     """A verdict for people: findings, then margins."""
     errors = sum(f.severity is Severity.ERROR for f in verdict.findings)
     warnings = len(verdict.findings) - errors
-    lines = [f"{'Passed' if verdict.passed else 'Not fit'}: {errors} errors, {warnings} warnings."]
+    lines = [f"{'Passed' if verdict.passed else 'Not fit'}: {tally(errors, warnings)}."]
     lines += [f"  {f.severity.value}: {f.rule}: {f.sentence}" for f in verdict.findings]
     lines += [f"  margin {m.rule:<12} {_in_unit(m.margin, m.unit)}" for m in verdict.margins]
     lines += [_cost_line(cost) for cost in verdict.costs]

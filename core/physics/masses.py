@@ -49,7 +49,7 @@ def part_masses(model: RobotModel, physics: PhysicsSet) -> PartMasses:
         raise InputError(
             f"{model.title} has no masses “{name}”; choose physics whose masses are one of: "
             f"{', '.join(sets)}.",
-            "masses",
+            "physics",
         )
     if name == "model":
         masses = PartMasses(model.masses.body, 0.0, model.masses.foot)

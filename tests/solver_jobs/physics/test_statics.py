@@ -132,8 +132,9 @@ def test_a_robot_s_own_physics_are_by_the_scales_where_it_was_weighed() -> None:
 
 def test_a_robot_that_was_never_weighed_is_refused_under_the_scales_masses() -> None:
     model = load_robot("hexapod")
-    with pytest.raises(InputError, match="model"):
+    with pytest.raises(InputError, match="model") as refused:
         simulate(problem_of_strokes(resting(model=model), model=model, physics=SCALES))
+    assert refused.value.where == "physics"
 
 
 def test_strokes_whose_rods_do_not_meet_are_refused() -> None:

@@ -22,6 +22,8 @@ GROUND_LIMIT = ARRIVAL_THRESHOLD
 """How far a standing foot may leave the plane of the others on the path, and a swing sink into it, m."""
 RISE_LIMIT = 0.001
 """A swing that rises less on the path drags, m."""
+TIME_SLACK = 1e-9
+"""Times this near are one, s."""
 SMALLER = (0.75, 0.5, 0.25, 0.0)
 """Parts of a merging tolerance that are tried as a remedy."""
 USUAL_MERGE = ARRIVAL_THRESHOLD
@@ -112,7 +114,7 @@ def _outcome(
         return Outcome(margin)
     unmerged = rule(every)
     is_own = unmerged is not None and unmerged.margin < -slack
-    plan = asked[2]
+    _, trajectory, plan = asked
     times = plan.times[[worst.move - 1, worst.move]]
     place = f"Between waypoints {worst.move} and {worst.move + 1} ({times[0]:.1f} to {times[1]:.1f} s)"
     if is_own:
@@ -123,7 +125,8 @@ def _outcome(
         fits = _fitting(rule, slack, asked)
         way_out = f"With one waypoint a knot it is not so: merge within {fits * 1000:.2g} mm at most."
     severity = Severity.WARNING if is_own and not worst.is_sure else Severity.ERROR
-    where = {"sample": plan.kept[worst.move], "foot": worst.foot, "time": float(times[1])}
+    knot = min(int(np.searchsorted(trajectory.times, times[1] - TIME_SLACK)), plan.kept[worst.move])
+    where = {"sample": knot, "foot": worst.foot, "time": float(times[1])}
     finding = found(name, severity, f"{place} {worst.words}.", way_out, margin.margin, 0.0, **where)
     return Outcome(margin, (finding,))
 

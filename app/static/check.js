@@ -14,7 +14,7 @@ function findingItem(finding, goTo) {
     finding.sample !== null && `sample ${finding.sample + 1}`].filter(Boolean).join(", ");
   return h("li", { class: "finding" }, h("span", { class: "dot", data: { tone: finding.severity === "error" ? "bad" : "caution" } }),
     h("span", {}, h("b", { text: finding.severity === "error" ? "Error: " : "Warning: " }), finding.sentence),
-    h("span", { class: "where" }, place && h("span", { text: place }), finding.time !== null && h("span", { text: `${fixed(finding.time)} s` }),
+    h("span", { class: "where" }, place && h("span", { text: place }), finding.time !== null && h("span", { text: `${fixed(finding.time)} s${finding.rule.startsWith("simulated_") ? " of the robot" : ""}` }),
       finding.sample !== null && h("button", { class: "link", text: "go to", "aria-label": `Go to ${place}`, on: { click: () => goTo(finding) } })));
 }
 

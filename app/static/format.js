@@ -36,8 +36,9 @@ export function clockTime(moment) {
   return `${date.toLocaleDateString([], { day: "numeric", month: "short" })} ${time}`;
 }
 
-/** Value and unit of a margin given in SI: metres become millimetres, radians degrees. */
+/** Value and unit of a margin given in SI: metres become millimetres, radians degrees; no value has no unit. */
 export function readable(value, unit) {
+  if (value === null) return { value: fixed(value), unit: "" };
   if (unit === "m") return { value: mm(value, 2), unit: "mm" };
   if (unit === "m/s") return { value: mm(value, 2), unit: "mm/s" };
   if (unit === "m/s²") return { value: mm(value, 2), unit: "mm/s²" };

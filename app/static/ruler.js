@@ -32,8 +32,10 @@ function ticks(axis, width) {
   return marks;
 }
 
+/** Marks of findings; where several fall on one sample the errors lie on top. */
 function findingMarks(axis, verdict) {
-  return (verdict?.findings ?? []).filter(({ sample, foot }) => sample !== null && foot === null)
+  const placeable = (verdict?.findings ?? []).filter(({ sample, foot }) => sample !== null && foot === null);
+  return placeable.sort((a, b) => (a.severity === "error") - (b.severity === "error"))
     .map((finding) => placed(h("b", { class: "mark", title: finding.sentence, data: { severity: finding.severity } }), fractionAt(axis, finding.sample * axis.step)));
 }
 

@@ -7,10 +7,10 @@ import { planTimeOf } from "./simulation.js";
 const MOTORS = 3;
 const degrees = (radians, decimals = 1) => fixed((radians * 180) / Math.PI, decimals);
 
-/** A button to a moment of the simulated robot. */
-function goTo(simulation, moment, goToTime, what) {
+/** A button to a moment of the simulated robot; `after` stands behind its time. */
+function goTo(simulation, moment, goToTime, what, after = "") {
   const time = planTimeOf(simulation, moment);
-  return h("button", { class: "link", text: `${fixed(time)} s`, "aria-label": `Go to ${what}, ${fixed(time)} s`, title: `On the plan's axis; ${fixed(moment)} s by the robot's own clock`, on: { click: () => goToTime(time) } });
+  return h("button", { class: "link", text: `${fixed(time)} s${after}`, "aria-label": `Go to ${what}, ${fixed(time)} s`, title: `On the plan's axis; ${fixed(moment)} s by the robot's own clock`, on: { click: () => goToTime(time) } });
 }
 
 /** Foot, motor and value of the greatest of a value a motor. */
@@ -56,7 +56,7 @@ function feetTable({ report }) {
 function findingItem(simulation, finding, goToTime) {
   const [tone, word] = finding.severity === "error" ? ["bad", "Error: "] : ["caution", "Warning: "];
   return h("li", { class: "finding" }, h("span", { class: "dot", data: { tone } }), h("span", {}, h("b", { text: word }), finding.sentence),
-    h("span", { class: "where" }, finding.time !== null && goTo(simulation, finding.time, goToTime, finding.rule.replaceAll("_", " "))));
+    h("span", { class: "where" }, finding.time !== null && goTo(simulation, finding.time, goToTime, finding.rule.replaceAll("_", " "), " of the plan")));
 }
 
 /** Word and tone of a simulation. */
@@ -78,7 +78,7 @@ export function reportParts(simulation, goToTime) {
   const [word, tone] = simulatedWords(simulation);
   return [
     h("div", { class: "simulated-line", role: "status", "aria-label": "Simulated" }, h("span", { class: "dot", data: { tone } }), h("b", { text: word }),
-      h("span", { class: "quiet number", text: `${fixed(report.realtime_factor, 0)} × real time`, title: `${physics.title}; friction ${fixed(physics.friction, 2)}` })),
+      h("span", { class: "quiet number", text: physics.title, title: `Friction ${fixed(physics.friction, 2)}; ran ${fixed(report.realtime_factor, 0)} × as fast as the robot` })),
     ...(report.ended_early ? [h("p", { class: "why", text: report.ended_early })] : []),
     wholeTable(simulation, goToTime), feetTable(simulation),
     ...(findings.length ? [h("ul", { class: "findings", role: "list", "aria-label": "Found in the simulation" }, ...findings.map((finding) => findingItem(simulation, finding, goToTime)))] : []),

@@ -46,6 +46,7 @@ def test_a_gait_is_simulated_shown_over_its_plan_and_stale_after_an_edit(page: P
     expect(jobs.get_by_role("listitem")).to_contain_text("Walk 10 mm")
     words = panel(page).get_by_role("status", name="Simulated")
     expect(words).to_contain_text(re.compile("^Walks"))
+    expect(words).to_contain_text("Robot on the scales, 0.570 kg")
     row = panel(page).get_by_role("row", name=re.compile("^Largest tilt"))
     expect(row).to_contain_text("°")
     row.get_by_role("button").click()
@@ -101,6 +102,15 @@ def test_the_map_tells_walking_tipping_and_falling_apart_without_colour(page: Pa
     assert shown["signs"] == ["", "×", "!", "×"]
     assert shown["titles"][0].startswith("Variation 1: a. It walks: leans by 5.7°")
     assert shown["titles"][3] == "Variation 4: d. It ends early: It fell."
+
+
+def test_a_rule_without_a_value_has_no_room_of_zero(page: Page) -> None:
+    shown = page.evaluate("""async () => {
+      const { readable } = await import("/static/format.js");
+      const shown = [readable(null, "rad"), readable(null, "m"), readable(0, "rad")];
+      return shown.map(({ value, unit }) => value + unit);
+    }""")
+    assert shown == ["–", "–", "0.00°"]
 
 
 OVERS = """async () => {

@@ -55,7 +55,8 @@ def see_the_sample_gait_walk(page: Page) -> None:
     page.get_by_role("button", name="Play", exact=True).click()
     expect(page.locator("#clock")).not_to_contain_text(re.compile(r"^0\.[0-9] "), timeout=LONG_MS)
     page.get_by_role("button", name="Pause", exact=True).click()
-    assert page.get_by_role("region", name="3D preview").screenshot() != standing
+    preview = page.get_by_role("region", name="3D preview")
+    wait_for(lambda: preview.screenshot() != standing, "the preview shows another picture", 60)
 
 
 def change_a_footfall_and_take_it_back(page: Page) -> None:

@@ -20,7 +20,7 @@ function movementTable(caption, help, figures, plan, columns) {
   const rows = figures.feet.map((foot, index) => [{ text: `foot ${index + 1}`, foot: index + 1 }, ...columns(foot)]);
   rows.push([{ text: "mean" }, ...columns(figures)]);
   if (plan) rows.push([{ text: "planned" }, ...columns(plan.figures)]);
-  return table(caption, help, ["", "cm", "angle", "error %"], rows);
+  return table(caption, help, ["", "cm", "angle °", "error %"], rows);
 }
 
 function iterationTable({ parts }) {

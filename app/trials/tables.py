@@ -17,7 +17,7 @@ COLUMNS = {
     "angle_deg": "Angle (deg)",
     "error_percent": "Error (%)",
     "net_distance": "First to last (cm)",
-    "net_angle_deg": "Its angle (deg)",
+    "net_angle_deg": "First to last angle (deg)",
     "speed_mm_s": "Speed (mm/s)",
     "slip_cm": "Largest slip (cm)",
 }

@@ -29,7 +29,9 @@ def put(folder: Path, gait_id: str, text: str) -> None:
 def test_a_job_of_a_gait_whose_file_is_damaged_is_shown_as_out_of_date(tmp_path: Path) -> None:
     put(tmp_path, "mine", "{ damaged")
     database = Database(tmp_path / "studio.sqlite3")
-    database.put_job({"id": "one", "created": 1.0, "gait": "mine", "motion": "0" * 64, "state": "done"})
+    database.put_job(
+        {"kind": "optimise", "id": "one", "created": 1.0, "gait": "mine", "motion": "0" * 64, "state": "done"}
+    )
     database.close()
     studio = Studio(tmp_path, "emulator")
     try:
@@ -43,7 +45,9 @@ def test_a_job_of_a_gait_whose_file_is_damaged_is_shown_as_out_of_date(tmp_path:
 def test_a_greeting_opens_no_gait_for_its_jobs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     database = Database(tmp_path / "studio.sqlite3")
     walk = motion_hash(library()["walk"].gait)
-    database.put_job({"id": "one", "created": 1.0, "gait": "walk", "motion": walk, "state": "done"})
+    database.put_job(
+        {"kind": "optimise", "id": "one", "created": 1.0, "gait": "walk", "motion": walk, "state": "done"}
+    )
     database.close()
     studio = Studio(tmp_path, "emulator")
     monkeypatch.delattr(GaitDesk, "open_gait")

@@ -193,16 +193,16 @@ def test_versions_over_http(studio: StudioProcess) -> None:
     document["options"]["margin"] = 0.002
     studio.ask("PUT", "/api/gaits/amble?label=Margin", document)
     told = studio.ask("GET", f"{here}/1/difference").content
-    assert told["groups"] == [{"title": "Options", "sentences": ["Stability margin 3.0 mm → 2.0 mm"]}]
+    assert told["groups"] == [{"title": "Options", "sentences": ["Stability margin 6.0 mm → 2.0 mm"]}]
     assert studio.ask("GET", f"{here}/1/difference?to=1").content["groups"] == []
     line = studio.ask("GET", f"{here}/1").content
     assert (line["present"], line["same_motion"], line["document"]["options"]["margin"]) == (
         False,
         False,
-        0.003,
+        0.006,
     )
     restored = studio.ask("POST", f"{here}/1/restore", headers=headers).content
-    assert (restored["undo"], restored["document"]["options"]["margin"]) == ("Restore version 1", 0.003)
+    assert (restored["undo"], restored["document"]["options"]["margin"]) == ("Restore version 1", 0.006)
     lines = studio.ask("GET", here).content["versions"]
     assert [(one["kind"], one["present"]) for one in lines] == [("before restore", False), ("named", True)]
 

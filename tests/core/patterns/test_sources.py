@@ -194,5 +194,5 @@ def test_groups_swing_in_turn_for_equal_times() -> None:
 def test_swings_are_long_enough_for_the_step(step: float, swing: int) -> None:
     rules = walking_rules(WALK, replace(AMBLE, step=(step, 0.0, 0.0)))
     assert (rules.shortest_swing, rules.least_swing) == (swing, swing)
-    assert rules.balance == 0.003
+    assert rules.balance == max(WALK.options.margin, AMBLE.options.margin)
     assert replace(rules, shortest_swing=2, least_swing=2, balance=None) == PatternRules()

@@ -16,6 +16,9 @@ GAITS = ("walk", "amble", "s-gait", "c-gait")
 PHASE_KNOTS = (4, 5, 6, 8)
 """Knots a phase: with few of them long intervals flatter, because balance holds at knots."""
 
+MARGIN = 0.003
+"""Of every gait here, m."""
+
 
 def bench_timing(gaits: Sequence[str] = GAITS, phase_knots: Sequence[int] = PHASE_KNOTS) -> list[Row]:
     """10 mm steps with 3 mm margin and clearance, with the motors' limits and without."""
@@ -52,6 +55,7 @@ def _asked(gait: Gait, model: RobotModel, knots: int, limited: bool) -> Gait:
     limits = (model.stroke.speed, model.stroke.acceleration) if limited else (None, None)
     options = replace(
         gait.options,
+        margin=MARGIN,
         phase_knots=knots,
         closing_knots=knots,
         motor_speed=limits[0],

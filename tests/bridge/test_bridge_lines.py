@@ -34,6 +34,7 @@ class Lockstep:
         self.traffic: list[tuple[Direction, bytes, float]] = []
         self._ahead = 0
         self._connected = False
+        self._is_connecting = False
         self._change = threading.Condition()
 
     @property
@@ -42,6 +43,7 @@ class Lockstep:
 
     def write(self, data: bytes) -> int:
         with self._change:
+            self._let_connect()
             count = self.port.write(data) if self._connected else 0
             self._ahead += count
         return count
@@ -56,6 +58,7 @@ class Lockstep:
     def pace(self, now: float, interrupt: threading.Event) -> None:
         deadline = time.monotonic() + PATIENCE
         with self._change:
+            self._let_connect()
             if not self._connected:
                 self._change.wait(0.002)
             while self._ahead > 0 and not interrupt.is_set() and time.monotonic() < deadline:
@@ -71,10 +74,19 @@ class Lockstep:
             self._change.notify_all()
 
     def connect(self, bridge: RobotBridge) -> None:
+        # The robot waits meanwhile, the bridge does not: it may still be at what an earlier line left.
         with self._change:
+            self._is_connecting = True
+        try:
             bridge.connect(self.device)
-            self._ahead = 0
-            self._connected = True
+        finally:
+            with self._change:
+                self._ahead, self._connected, self._is_connecting = 0, True, False
+                self._change.notify_all()
+
+    def _let_connect(self) -> None:
+        while self._is_connecting:
+            self._change.wait(0.02)
 
     def disconnect(self, bridge: RobotBridge) -> None:
         bridge.disconnect()

@@ -9,7 +9,7 @@ import pytest
 
 from core.draft import initial_motion, problem_swings
 from core.footholds import way_shares
-from core.gait import Gait, motion_problem
+from core.gait import motion_problem
 from core.held_feet import HeldFeet
 from core.library import Group, group_ids, library, library_patterns
 from core.motion_problem import MotionProblem
@@ -21,7 +21,8 @@ WALK = library()["walk"].gait
 
 
 def drawn(*rows: str, held: HeldFeet | None = None) -> MotionProblem:
-    gait: Gait = replace(WALK, timeline=timeline_from_rows(rows, 0.4), held=held or HeldFeet())
+    timeline = timeline_from_rows(rows, 0.4)
+    gait = replace(WALK.with_options(margin=0.003), timeline=timeline, held=held or HeldFeet())
     return motion_problem(gait, load_robot("deltawalker"))
 
 

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from app.routes.module_page import LATER
+
 STATIC = Path(__file__).resolve().parents[2] / "app" / "static"
 MODULES = sorted(STATIC.rglob("*.js"))
 PAGE_MODULES = sorted(STATIC.glob("*.js"))
@@ -41,7 +43,8 @@ def test_every_file_that_the_html_names_exists() -> None:
 def test_every_id_that_a_module_looks_up_stands_in_the_html() -> None:
     wanted = set(re.findall(r'byId\("([^"]+)"\)', SCRIPT))
     present = set(re.findall(r'\bid="([^"]+)"', HTML))
-    assert wanted - present == set()
+    # The server adds the template of the modules that come later.
+    assert wanted - present == {LATER}
 
 
 def test_html_keeps_to_the_strict_content_security_policy() -> None:

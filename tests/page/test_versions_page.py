@@ -41,7 +41,7 @@ def test_states_are_named_compared_and_restored_by_keyboard_alone(page: Page, st
     expect(page.get_by_role("listbox", name="Versions")).to_be_focused()
     difference = page.get_by_role("region", name="Difference")
     expect(difference).to_contain_text("Since version 1")
-    expect(difference).to_contain_text("Stability margin 3.0 mm → 2.0 mm")
+    expect(difference).to_contain_text("Stability margin 6.0 mm → 2.0 mm")
 
     field = page.get_by_label("Name of this state")
     field.fill("Two millimetres")
@@ -62,7 +62,7 @@ def test_states_are_named_compared_and_restored_by_keyboard_alone(page: Page, st
     expect(restore).not_to_have_attribute("aria-disabled", "true")
     restore.press("Enter")
     expect(page.get_by_role("spinbutton", name="Stability margin", exact=True)).to_have_value(
-        "3", timeout=LONG_MS
+        "6", timeout=LONG_MS
     )
     expect(page.locator("#undo")).to_have_attribute("title", re.compile("Restore version 1"))
     expect(options(page)).to_have_count(3)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.checked_plan import CheckedPlan
+from core.checked_plan import Asked, CheckedPlan
 from core.checks import check_plan
 from core.gait import Gait, motion_problem, travel_world
 from core.held_feet import HeldFeet
@@ -83,7 +83,8 @@ def test_the_live_tier_solves_it_and_every_rule_passes(name: str) -> None:
     require_held(problem, result.trajectory)
     waypoints = waypoints_from_trajectory(problem.model, result.trajectory)
     travel = travel_world(gait, problem.model)
-    verdict = check_plan(CheckedPlan(problem.model, result.trajectory, waypoints, travel))
+    asked = Asked(held=gait.held)
+    verdict = check_plan(CheckedPlan(problem.model, result.trajectory, waypoints, travel, asked=asked))
     rules = {finding.rule for finding in verdict.findings} - {"move_size"}
     assert rules <= ({"balance", "deafness"} if gait.options.margin == 0.0 else {"deafness"})
     assert verdict.passed

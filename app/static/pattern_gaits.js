@@ -27,6 +27,8 @@ export function mountPatternGaits(store, question, isOpen) {
   function choose() {
     const { selected } = store.state;
     if (!isOpen() || !selected) return;
+    // A gait just made is open before it is in the list: the cursors stay where they are until then.
+    if (!store.state.gaits.some(({ id }) => id === selected)) return;
     const ids = transitionGaits(store.state).map(({ id }) => id);
     const { from, to } = question.state;
     const first = ids.includes(from.gait) ? from.gait : ids.includes(selected) ? selected : (ids[0] ?? null);

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
 
 import pytest
-from playwright.sync_api import Browser, Locator, Page, Request, expect
+from playwright.sync_api import Browser, Locator, Page, Request, WebSocketRoute, expect
 
 from tests.page.opened import leave_scene_out, opened_page
 from tests.page.test_accessibility import serious_findings
@@ -108,6 +109,46 @@ def test_a_transition_follows_its_cursors_and_becomes_a_gait(search: Page, studi
     wait_for(lambda: [row[6:26] for row in made["timeline"]["feet"]] == rows(search), "it is the shown one")
     search.get_by_role("button", name="Delete", exact=True).click()
     expect(search.locator("#toasts")).to_contain_text("is deleted")
+
+
+def test_cursors_stay_while_a_new_gait_is_not_yet_in_the_list(
+    browser: Browser, studio: StudioProcess
+) -> None:
+    late: list[Callable[[], None]] = []
+
+    def hold_the_list_back(socket: WebSocketRoute) -> None:
+        server = socket.connect_to_server()
+
+        def from_the_studio(message: str | bytes) -> None:
+            if json.loads(message)["type"] == "gaits":
+                late.append(partial(socket.send, message))
+            else:
+                socket.send(message)
+
+        server.on_message(from_the_studio)
+
+    with opened_page(browser, f"{studio.url}static/icon.svg", 1280, 800) as other:
+        leave_scene_out(other)
+        other.route_web_socket("**/api/events*", hold_the_list_back)
+        other.goto(studio.url)
+        choose_gait(other, "Walk 10 mm")
+        other.get_by_role("tab", name="Patterns").click()
+        solved(other)
+        cursor(other, "A").focus()
+        press(other, *["ArrowRight"] * 6)
+        solved(other)
+        shown = rows(other)
+        other.get_by_role("button", name="Make gait").click()
+        expect(other.get_by_label("Gait name")).to_have_value("Walk 10 mm to Amble 10 mm", timeout=LONG_MS)
+        expect(cursor(other, "A")).to_have_attribute("aria-valuenow", "7")
+        assert late, "the list was held back"
+        for send in late:
+            send()
+        expect(other.get_by_role("list", name="Gaits")).to_contain_text("Walk 10 mm to Amble 10 mm")
+        expect(cursor(other, "A")).to_have_attribute("aria-valuenow", "7")
+        assert rows(other) == shown
+        other.get_by_role("button", name="Delete", exact=True).click()
+        expect(other.locator("#toasts")).to_contain_text("is deleted")
 
 
 def test_what_is_drawn_stays_and_is_freed_again(search: Page) -> None:

@@ -11,11 +11,9 @@ from starlette.concurrency import run_in_threadpool
 
 from app.routes.edge import TheAuthor, on_planned, studio_of
 from app.studio import Studio
-from app.trials.desk import PlannedFeet, TrialWords, compared
+from app.trials.desk import TrialWords, compared
+from app.trials.planned import PlannedFeet, planned_of_gait, planned_of_run
 from app.trials.tables import table_csv, table_latex
-from core.errors import StateError
-from core.trajectory import Trajectory
-from core.trials.alignment import repeated_motion
 from core.trials.track_csv import FRAME_RATE, PixelScale, parse_track_csv
 
 router = APIRouter(prefix="/api/trials", tags=["trials"])
@@ -87,27 +85,16 @@ async def _planned(studio: Studio, trial: NewTrial) -> tuple[str, str, PlannedFe
     """Id and name of the gait, and where its feet were to be."""
     if trial.run:
         record = await _answer(lambda: studio.runs.record(trial.run))
-        laps = 1 + max((command.lap for command in record.series.streamed), default=0)
-        return record.content["gait"], record.content["gait_name"], _feet(record.plan.trajectory, laps)
+        planned = await _answer(lambda: planned_of_run(record))
+        return record.content["gait"], record.content["gait_name"], planned
     if not trial.gait:
         return "", "", None
 
     def of_gait() -> tuple[str, str, PlannedFeet | None]:
-        gait = studio.gaits.open_gait(trial.gait).gait
-        plan = studio.gaits.plan(trial.gait)
-        if plan.trajectory is None:
-            raise StateError(
-                "This gait has no motion yet, so there is nothing to lay the trial over.", "gait"
-            )
-        laps, rest = divmod(trial.iterations, gait.iterations)
-        return trial.gait, gait.name, _feet(plan.trajectory, 1 if rest else laps)
+        gait, plan = studio.gaits.open_gait(trial.gait).gait, studio.gaits.plan(trial.gait)
+        return trial.gait, gait.name, planned_of_gait(gait, plan, trial.iterations)
 
     return await on_planned(studio, trial.gait, of_gait)
-
-
-def _feet(trajectory: Trajectory, laps: int) -> PlannedFeet:
-    """The plan's feet, as often as it is walked."""
-    return PlannedFeet(*repeated_motion(trajectory.times, trajectory.feet_world[..., :2], max(laps, 1)))
 
 
 @router.get("")

@@ -34,10 +34,8 @@ def run_plan_content(plan: Plan, way: WaypointPlan, approval: Approval) -> dict[
     """
     if plan.trajectory is None:
         raise StateError("A plan without a motion cannot be sent.", "plan")
-    return _content(plan.model, way.waypoints, way.times, plan.trajectory, approval) | {
-        "merge": way.merge,
-        "stop_bound": way.stop_bound,
-    }
+    sent = sent_content(plan.model, way.waypoints, way.times, plan.trajectory)
+    return sent | {"approval": asdict(approval), "merge": way.merge, "stop_bound": way.stop_bound}
 
 
 def file_plan_content(model: RobotModel, plan: RunPlan) -> dict[str, Any] | None:
@@ -51,24 +49,32 @@ def file_plan_content(model: RobotModel, plan: RunPlan) -> dict[str, Any] | None
         trajectory = motion_of_waypoints(model, plan.waypoints).trajectory
     except InputError:  # a single pose, say: it is sent, and there is nothing to lay it over
         return None
-    return _content(model, plan.waypoints, trajectory.times, trajectory, plan.approval)
+    sent = sent_content(model, plan.waypoints, trajectory.times, trajectory)
+    return sent | {"approval": asdict(plan.approval)}
 
 
-def _content(
-    model: RobotModel, waypoints: Waypoints, times: Floats, trajectory: Trajectory, approval: Approval
+def sent_content(
+    model: RobotModel, waypoints: Waypoints, times: Floats, trajectory: Trajectory
 ) -> dict[str, Any]:
+    """Waypoints with the motion that they were made from.
+
+    Args:
+        model: the robot.
+        waypoints: exactly what is sent.
+        times: (count,) the motion's time of each waypoint, s.
+        trajectory: the motion.
+    """
     return {
         "robot": model.name,
         "durations": waypoints.durations.tolist(),
         "strokes_mm": waypoints.strokes_mm.tolist(),
         "times": times.tolist(),
-        "approval": asdict(approval),
         "trajectory": trajectory_content(trajectory),
     }
 
 
 def ran_plan(content: dict[str, Any]) -> RanPlan:
-    """Inverse of `run_plan_content`, for comparing a run with its plan."""
+    """Inverse of `sent_content`, for comparing what was done with the plan."""
     model = load_robot(content["robot"])
     rows_mm = np.array(content["strokes_mm"])
     waypoints = Waypoints(rows_mm.reshape(len(rows_mm), model.leg_count, 3) / 1000.0, content["durations"])

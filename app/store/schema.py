@@ -118,9 +118,21 @@ def _add_trials(connection: sqlite3.Connection) -> None:
     )
 
 
+def _add_beside_trials(connection: sqlite3.Connection) -> None:
+    """What stands beside a trial: what the robot was sent, physics' feet of it, and photos."""
+    for statement in (
+        "CREATE TABLE trial_sent(trial TEXT PRIMARY KEY, content TEXT)",
+        "CREATE TABLE trial_simulated(trial TEXT PRIMARY KEY, key TEXT, content TEXT)",
+        "CREATE TABLE trial_photo(id TEXT PRIMARY KEY, trial TEXT, made REAL, deleted REAL, content TEXT)",
+        "CREATE INDEX photo_of_trial ON trial_photo(trial)",
+    ):
+        connection.execute(statement)
+
+
 _MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     _add_authors_and_versions,
     _add_to_runs,
     _add_simulations,
     _add_trials,
+    _add_beside_trials,
 )

@@ -11,8 +11,10 @@ from typing import Any
 import numpy as np
 
 from app.store.database import Database
+from app.store.trial_beside import TrialBesideLog
 from app.store.trial_log import TrialLog, TrialRow
 from app.trials.figures import path_content, plan_content, track_content
+from app.trials.planned import PlannedFeet
 from core.arrays import Floats
 from core.errors import InputError
 from core.robot import load_robot
@@ -29,19 +31,6 @@ ROBOT = "deltawalker"
 
 class UnknownTrialError(InputError):
     """There is no such trial."""
-
-
-@dataclass(frozen=True, eq=False)
-class PlannedFeet:
-    """Where a motion's feet were to be, kept with the trial, since gaits change.
-
-    Args:
-        times: (n,) s.
-        feet: (n, feet, 2) x, y, m.
-    """
-
-    times: Floats
-    feet: Floats
 
 
 @dataclass(frozen=True)
@@ -78,6 +67,7 @@ class TrialDesk:
 
     def __init__(self, database: Database) -> None:
         self._log = TrialLog(database)
+        self._beside = TrialBesideLog(database)
         self._lines: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {}
 
     def add(self, track: FootTrack, words: TrialWords, planned: PlannedFeet | None) -> dict[str, Any]:
@@ -96,6 +86,8 @@ class TrialDesk:
             "plan": None if planned is None else _kept_plan(planned),
         }
         self._log.add(content, format_track_csv(track))
+        if planned is not None and planned.sent is not None:
+            self._beside.put_sent(content["id"], dict(planned.sent))
         return self.summary(content["id"])
 
     def lines(self) -> list[dict[str, Any]]:
@@ -169,7 +161,7 @@ def _track(row: TrialRow) -> FootTrack:
 
 def _kept_plan(planned: PlannedFeet) -> dict[str, Any]:
     feet = np.round(planned.feet, 6)
-    return {"times": planned.times.tolist(), "feet": feet.tolist()}
+    return {"times": planned.times.tolist(), "feet": feet.tolist(), "laps": planned.laps}
 
 
 def _plan_arrays(plan: dict[str, Any]) -> tuple[Floats, Floats]:

@@ -1,0 +1,68 @@
+"""Where the feet of a trial were to be, and what the robot was sent: of a run, or of a gait as it is now."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from app.plans import Plan
+from app.runs.plan_content import sent_content
+from app.runs.record import RunRecord
+from core.arrays import Floats
+from core.errors import StateError
+from core.gait import Gait
+from core.trajectory import Trajectory
+from core.trials.alignment import repeated_motion
+
+
+@dataclass(frozen=True, eq=False)
+class PlannedFeet:
+    """Where a motion's feet were to be, kept with the trial, since gaits change.
+
+    Args:
+        times: (n,) s.
+        feet: (n, feet, 2) x, y, m.
+        laps: how often the motion is done in them.
+        sent: the waypoints of one lap with their motion (`app.runs.plan_content.sent_content`); None where
+            they are not known.
+    """
+
+    times: Floats
+    feet: Floats
+    laps: int = 1
+    sent: Mapping[str, Any] | None = None
+
+
+def planned_of_run(record: RunRecord) -> PlannedFeet:
+    """What a run was to do, as often as it did it."""
+    plan = record.plan
+    laps = 1 + max((command.lap for command in record.series.streamed), default=0)
+    return _planned(
+        plan.trajectory, laps, sent_content(plan.model, plan.waypoints, plan.times, plan.trajectory)
+    )
+
+
+def planned_of_gait(gait: Gait, plan: Plan, iterations: int) -> PlannedFeet:
+    """What a gait is planned to do now, walked as often as it fits a trial.
+
+    Args:
+        gait: the document.
+        plan: what it amounts to.
+        iterations: of the trial.
+
+    Raises:
+        StateError: the gait has no motion.
+    """
+    if plan.trajectory is None:
+        raise StateError("This gait has no motion yet, so there is nothing to lay the trial over.", "gait")
+    laps, rest = divmod(iterations, gait.iterations)
+    sent = None
+    if plan.way is not None:
+        sent = sent_content(plan.model, plan.way.waypoints, plan.way.times, plan.trajectory)
+    return _planned(plan.trajectory, 1 if rest else laps, sent)
+
+
+def _planned(trajectory: Trajectory, laps: int, sent: Mapping[str, Any] | None) -> PlannedFeet:
+    count = max(laps, 1)
+    return PlannedFeet(*repeated_motion(trajectory.times, trajectory.feet_world[..., :2], count), count, sent)

@@ -6,7 +6,6 @@ the worker leaves.
 
 from __future__ import annotations
 
-import signal
 import traceback
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
@@ -48,7 +47,6 @@ def run_live_worker(pipe: Connection, warm_up: MotionProblem | None) -> None:
         pipe: the worker's end.
         warm_up: solved before anything is asked, so that everything is loaded.
     """
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
     from core.robot import load_robot
     from solver_jobs.live.solve import solve_live
     from solver_jobs.remedies import find_remedies

@@ -1,21 +1,29 @@
-"""The simulator's own process: one problem after the other.
-
-MuJoCo is imported here and not in the parent. When the parent ends, its end of the pipe closes and the worker
-leaves at its next look.
-"""
+"""The simulator's own process; MuJoCo is imported here and not in the parent."""
 
 from __future__ import annotations
 
-import signal
-import traceback
-from collections.abc import Callable
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 
-from core.errors import FootfallError
 from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
 from core.physics.variations import VariedRun
+from solver_jobs.question_worker import Report, answer_questions
+
+
+@dataclass(frozen=True, eq=False)
+class Simulate:
+    """What is run.
+
+    Args:
+        problem: the waypoints and their parameters.
+        variations: how many variations of the parameters are run as well.
+        seed: of the variations.
+    """
+
+    problem: SimulationProblem
+    variations: int
+    seed: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,41 +39,6 @@ class Simulated:
     runs: tuple[VariedRun, ...] = ()
 
 
-@dataclass(frozen=True, eq=False)
-class Simulate:
-    """To the worker: run this."""
-
-    number: int
-    problem: SimulationProblem
-    variations: int
-    seed: int
-
-
-@dataclass(frozen=True)
-class Halt:
-    """To the worker: end this run."""
-
-    number: int
-
-
-@dataclass(frozen=True)
-class Share:
-    """From the worker: how much is done."""
-
-    number: int
-    share: float
-
-
-@dataclass(frozen=True, eq=False)
-class Answer:
-    """From the worker: the result, or a refusal's sentence, or the text of a bug."""
-
-    number: int
-    result: Simulated | None
-    refusal: FootfallError | None = None
-    error: str = ""
-
-
 def run_simulation_worker(pipe: Connection, warm_up: SimulationProblem | None) -> None:
     """Body of the process.
 
@@ -73,31 +46,14 @@ def run_simulation_worker(pipe: Connection, warm_up: SimulationProblem | None) -
         pipe: the worker's end.
         warm_up: run before anything is asked; None for nothing.
     """
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
     from solver_jobs.physics.simulate import simulate
 
     if warm_up is not None:
         simulate(warm_up)
-    try:
-        while True:
-            message = pipe.recv()
-            if isinstance(message, Simulate):
-                pipe.send(_answer(pipe, message))
-    except (EOFError, ConnectionError):
-        return
+    answer_questions(pipe, _simulated)
 
 
-def _answer(pipe: Connection, asked: Simulate) -> Answer:
-    try:
-        return Answer(asked.number, _simulated(asked, _reporter(pipe, asked.number)))
-    except FootfallError as refusal:
-        return Answer(asked.number, None, refusal)
-    except Exception as error:
-        # A bug in one run must not end the process; the parent logs it and says so.
-        return Answer(asked.number, None, error=f"{error!r}\n{traceback.format_exc()}")
-
-
-def _simulated(asked: Simulate, report: Callable[[float], bool]) -> Simulated:
+def _simulated(asked: Simulate, report: Report) -> Simulated:
     """The run itself and its variations, which count alike in what is told."""
     from solver_jobs.physics.simulate import simulate, simulate_variations
 
@@ -110,20 +66,3 @@ def _simulated(asked: Simulate, report: Callable[[float], bool]) -> Simulated:
         return report((1 + share * asked.variations) / total)
 
     return Simulated(motion, simulate_variations(asked.problem, asked.variations, asked.seed, varied))
-
-
-def _reporter(pipe: Connection, number: int) -> Callable[[float], bool]:
-    """Sends the share and looks for an end; the parent sends nothing else in the middle of a run."""
-
-    def report(share: float) -> bool:
-        try:
-            pipe.send(Share(number, share))
-            while pipe.poll():
-                message = pipe.recv()
-                if isinstance(message, Halt) and message.number == number:
-                    return False
-        except (EOFError, OSError):
-            return False
-        return True
-
-    return report

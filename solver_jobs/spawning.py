@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
 from collections.abc import Callable
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
@@ -35,6 +36,8 @@ def start_process(
 
 
 def _stand_back(body: Callable[[Connection, Any], None], pipe: Connection, warm_up: Any) -> None:
+    # Ctrl-C in a terminal reaches the whole group; the parent decides when a worker ends.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(os, "nice"):
         os.nice(NICENESS)
     body(pipe, warm_up)

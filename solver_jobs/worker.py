@@ -6,7 +6,6 @@ whatever way, its end of the pipe closes and the worker leaves at its next look.
 
 from __future__ import annotations
 
-import signal
 import traceback
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -66,8 +65,6 @@ def run_worker(pipe: Connection, warm_up: MotionProblem | None) -> None:
         pipe: the worker's end.
         warm_up: solved once before any work, so that the first job finds everything loaded and built.
     """
-    # Ctrl-C in a terminal reaches the whole group; the parent decides when a worker ends.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
     from solver_jobs.tiers import solve_exact
 
     try:

@@ -1,4 +1,7 @@
-"""The pattern solver's process: answers, progress, an end when asked, and a new one where it dies."""
+"""The pattern solver's process: answers, progress, an end when asked, and a new one where it dies.
+
+What every process does that answers questions is in `test_questions`.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,6 @@ from collections.abc import Iterator
 
 import pytest
 
-from core.errors import StateError
 from core.patterns.check import check_pattern
 from core.patterns.problem import PatternProgress, PatternStatus
 from solver_jobs import PatternSolver
@@ -85,42 +87,6 @@ def test_a_process_that_dies_in_the_middle_is_replaced(solver: PatternSolver) ->
     assert search.result(PATIENCE).status is PatternStatus.FEASIBLE
 
 
-def test_one_that_dies_twice_is_told_and_the_next_search_works(solver: PatternSolver) -> None:
-    told = heard()
-    search = solver.submit(hard_problem(), seconds=600.0, progress=told.put)
-    killed: set[int] = set()
-    while not search.is_done and len(killed) < 2:
-        told.get(timeout=PATIENCE)
-        now = solver.process_id
-        if now is not None and now not in killed:
-            os.kill(now, signal.SIGKILL)
-            killed.add(now)
-    with pytest.raises(StateError, match="ended twice"):
-        search.result(PATIENCE)
-    assert solver.submit(EASY).result(PATIENCE).status is PatternStatus.OPTIMAL
-
-
-def test_a_listener_that_fails_ends_its_own_search_only(solver: PatternSolver) -> None:
-    def fails(known: PatternProgress) -> None:
-        raise ValueError("not heard")
-
-    search = solver.submit(hard_problem(), seconds=600.0, progress=fails)
-    with pytest.raises(StateError, match="not heard"):
-        search.result(PATIENCE)
-    assert solver.submit(EASY).result(PATIENCE).status is PatternStatus.OPTIMAL
-
-
 def test_a_time_limit_ends_a_search(solver: PatternSolver) -> None:
     result = solver.submit(hard_problem(), seconds=2.0).result(PATIENCE)
     assert result.status is PatternStatus.FEASIBLE
-
-
-def test_a_closed_solver_says_so() -> None:
-    patterns = PatternSolver()
-    search = patterns.submit(hard_problem(), seconds=600.0)
-    patterns.close()
-    with pytest.raises(StateError, match="closing"):
-        search.result(PATIENCE)
-    with pytest.raises(StateError, match="closing"):
-        patterns.submit(EASY).result(PATIENCE)
-    assert patterns.process_id is None

@@ -1,17 +1,17 @@
-"""The simulator's process: answers, progress, an end when asked, and a new one where it dies."""
+"""The simulator's process: answers, progress, refusals, and an end when asked.
+
+What every process does that answers questions is in `test_questions`.
+"""
 
 from __future__ import annotations
 
-import os
 import queue
-import signal
 from collections.abc import Iterator
 from functools import cache
 
-import numpy as np
 import pytest
 
-from core.errors import InputError, SimulationCancelledError, StateError
+from core.errors import InputError, SimulationCancelledError
 from core.physics.problem import SimulationProblem
 from core.robot import load_robot
 from solver_jobs import Simulator, simulate, simulate_variations
@@ -70,37 +70,3 @@ def test_a_cancelled_simulation_makes_room_for_the_next(simulator: Simulator) ->
         with pytest.raises(SimulationCancelledError):
             cancelled.result(PATIENCE)
     assert last.result(PATIENCE).motion.ended_early == ""
-
-
-def test_one_that_dies_twice_is_told_and_the_next_one_works(simulator: Simulator) -> None:
-    told = heard()
-    simulation = simulator.submit(long(), progress=told.put)
-    killed: set[int] = set()
-    while not simulation.is_done and len(killed) < 2:
-        told.get(timeout=PATIENCE)
-        now = simulator.process_id
-        if now is not None and now not in killed:
-            os.kill(now, signal.SIGKILL)
-            killed.add(now)
-    with pytest.raises(StateError, match="ended twice"):
-        simulation.result(PATIENCE)
-    assert np.isfinite(simulator.submit(SHORT).result(PATIENCE).motion.body_world).all()
-
-
-def test_a_listener_that_fails_ends_its_own_simulation_only(simulator: Simulator) -> None:
-    def fails(share: float) -> None:
-        raise ValueError("not heard")
-
-    with pytest.raises(StateError, match="not heard"):
-        simulator.submit(long(), progress=fails).result(PATIENCE)
-    assert simulator.submit(SHORT).result(PATIENCE).runs == ()
-
-
-def test_a_closed_simulator_says_so() -> None:
-    made = Simulator()
-    simulation = made.submit(long())
-    made.close()
-    for refused in (simulation, made.submit(SHORT)):
-        with pytest.raises(StateError, match="closing"):
-            refused.result(PATIENCE)
-    assert made.process_id is None

@@ -25,6 +25,8 @@ _log = logging.getLogger(__name__)
 
 JOIN_SECONDS = 5.0
 """How long a killed process may take to be gone."""
+LOAD_SECONDS = 20.0
+"""How long a process may take for its answer that was started in the place of one that had ended."""
 
 
 class LiveSolverError(Exception):
@@ -105,10 +107,12 @@ class LiveSolver:
         """Asks once more where the process had ended while it stood by, or ends in the middle."""
         try:
             return self._ask_once(message, timeout)
+        except FutureTimeout:
+            raise
         except (OSError, CancelledError):
             if self._closed:
                 raise
-            return self._ask_once(message, timeout)
+            return self._ask_once(message, max(timeout, LOAD_SECONDS))
 
     def _ask_once(self, message: Callable[[int], SolveLive | FindRemedies], timeout: float) -> Any:
         number = next(self._numbers)
@@ -117,7 +121,7 @@ class LiveSolver:
             with self._lock:
                 pipe = self._ensure_started()
                 self._waiting[number] = future
-                pipe.send(message(number))
+                self._send(pipe, message(number))
             return future.result(timeout)
         except FutureTimeout:
             with self._lock:
@@ -126,6 +130,15 @@ class LiveSolver:
             raise
         finally:
             self._waiting.pop(number, None)
+
+    def _send(self, pipe: Connection, message: SolveLive | FindRemedies) -> None:
+        """Sends a question; the lock is held."""
+        try:
+            pipe.send(message)
+        except OSError:
+            # A process that was killed seems to live for a moment after its pipe broke.
+            self._end()
+            raise
 
     def _ensure_started(self) -> Connection:
         """The open pipe of a living process; the lock is held."""

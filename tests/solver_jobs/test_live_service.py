@@ -16,9 +16,10 @@ from core.library import library
 from core.motion_check import check_motion
 from core.motion_problem import Workspace
 from core.robot import load_robot
-from solver_jobs import LiveSolver, SolveStatus
+from solver_jobs import LiveSolver, SolveStatus, live_service
 from solver_jobs.live.solve import solve_live
 from solver_jobs.remedies import find_remedies
+from solver_jobs.spawning import start_process
 from tests.solver_jobs.cases import gait_problem
 
 MODEL = load_robot("deltawalker")
@@ -56,11 +57,19 @@ def test_a_process_that_is_killed_is_replaced(solver: LiveSolver) -> None:
     assert solver.process_id not in (None, first)
 
 
-def test_no_answer_in_time_is_failed_with_a_sentence() -> None:
+def test_no_answer_in_time_is_failed_with_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    started: list[str] = []
+
+    def start(body: Any, warm_up: None, name: str) -> Any:
+        started.append(name)
+        return start_process(body, warm_up, name)
+
+    monkeypatch.setattr(live_service, "start_process", start)
     live = LiveSolver()
     result = live.solve(PROBLEM, 0.001)
     live.close()
     assert result.status is SolveStatus.FAILED
+    assert started == ["footfall-live"], "it is not asked twice, and waited for twice as long"
     assert "gave no answer" in result.explanation[0]
 
 

@@ -28,6 +28,7 @@ from app.routes import (
     sequences,
     simulations,
     tables,
+    trial_beside,
     trials,
     versions,
 )
@@ -74,6 +75,7 @@ def make_app(studio: Studio, scenes: Scenes, access: Access) -> FastAPI:
         runs.router,
         simulations.router,
         tables.router,
+        trial_beside.router,
         trials.router,
         robots.router,
         scene.router,

@@ -35,7 +35,10 @@ from app.simulation_desk import SimulationDesk
 from app.store.database import Database
 from app.store.files import GaitFiles
 from app.store.simulation_log import SimulationLog
+from app.store.trial_beside import TrialBesideLog
+from app.trials.beside import TrialsBeside
 from app.trials.desk import TrialDesk
+from app.trials.simulated import TrialSimulations
 from app.version import VERSION
 from app.views import gait_view, steps_view
 from core.errors import FootfallError, StateError
@@ -95,6 +98,8 @@ class Studio:
         self.jog = JogDesk(self.robot.bridge)
         self.runs = RunDesk(self._database)
         self.trials = TrialDesk(self._database)
+        self._trial_simulations = TrialSimulations(TrialBesideLog(self._database), self._simulator)
+        self.beside = TrialsBeside(self.trials, self._trial_simulations)
         self._told_sources: dict[str, tuple[int, list[str]]] = {}
         self.stop_lane = ThreadPoolExecutor(max_workers=2, thread_name_prefix="stop")
         self._closed = threading.Event()
@@ -111,6 +116,7 @@ class Studio:
             solver.close()
         self._simulator.close()
         self._simulating.close()
+        self._trial_simulations.close()
         self._plans.close()
         self.session.close()
         self.hub.close()

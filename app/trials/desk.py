@@ -15,6 +15,7 @@ from app.store.trial_beside import TrialBesideLog
 from app.store.trial_log import TrialLog, TrialRow
 from app.trials.figures import path_content, plan_content, track_content
 from app.trials.planned import PlannedFeet
+from app.trials.record import ROBOT, TrialRecord, trial_record
 from core.arrays import Floats
 from core.errors import InputError
 from core.robot import load_robot
@@ -25,8 +26,6 @@ from core.trials.track_csv import format_track_csv, parse_track_csv
 
 MOST_PLACES = 600
 """Places of a foot's way in a plot."""
-ROBOT = "deltawalker"
-"""The one robot that stands on a platform (its cable's robot)."""
 
 
 class UnknownTrialError(InputError):
@@ -143,6 +142,10 @@ class TrialDesk:
         self._known(trial)
         self._log.put_deleted(trial, None)
         return self.summary(trial)
+
+    def record(self, trial: str) -> TrialRecord:
+        """A trial as it was kept, for what is laid over it."""
+        return trial_record(self._known(trial))
 
     def track(self, trial: str) -> str:
         """The track as a file in centimetres; what was not seen is empty."""

@@ -6,12 +6,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from app.plans import Plan
-from app.runs.plan_content import sent_content
+from app.runs.plan_content import ran_plan, sent_content
 from app.runs.record import RunRecord
 from core.arrays import Floats
 from core.errors import StateError
 from core.gait import Gait
+from core.physics.masses import default_physics
+from core.physics.problem import SimulationProblem
 from core.trajectory import Trajectory
 from core.trials.alignment import repeated_motion
 
@@ -66,3 +70,34 @@ def planned_of_gait(gait: Gait, plan: Plan, iterations: int) -> PlannedFeet:
 def _planned(trajectory: Trajectory, laps: int, sent: Mapping[str, Any] | None) -> PlannedFeet:
     count = max(laps, 1)
     return PlannedFeet(*repeated_motion(trajectory.times, trajectory.feet_world[..., :2], count), count, sent)
+
+
+SAME_TIME = 1e-6
+"""Times nearer to each other are one, s."""
+
+
+def sent_problem(content: dict[str, Any]) -> SimulationProblem:
+    """What physics is asked of waypoints that were sent, with the robot's usual parameters.
+
+    A foot counts as standing at a waypoint where it stands by the plan at the knots on both sides of it, and
+    along a move where it stands at all knots from the one's to the other's. The motion depends on neither.
+
+    Args:
+        content: as `PlannedFeet.sent`.
+    """
+    plan = ran_plan(dict(content))
+    trajectory, knots = plan.trajectory, plan.trajectory.times
+    first = np.maximum(np.searchsorted(knots, plan.times + SAME_TIME, side="right") - 1, 0)
+    last = np.minimum(np.searchsorted(knots, plan.times - SAME_TIME, side="left"), knots.size - 1)
+    contact = [trajectory.contact[a : b + 1].all(axis=0) for a, b in zip(first, last, strict=True)]
+    begins = [int(first[0]), *first[:-1].tolist()]
+    standing = [trajectory.contact[a : b + 1].all(axis=0) for a, b in zip(begins, last, strict=True)]
+    return SimulationProblem(
+        plan.model,
+        plan.waypoints,
+        trajectory,
+        plan.times,
+        np.array(contact),
+        np.array(standing),
+        default_physics(plan.model),
+    )

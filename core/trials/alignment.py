@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,6 +34,14 @@ class Alignment:
             feet: (..., 2) x, y in the motion's frame, m.
         """
         return np.asarray(feet @ _turning(self.turn).T + self.shift)
+
+    def taken_back(self, feet: Floats) -> Floats:
+        """Positions of the track in the motion's frame; inverse of `placed`.
+
+        Args:
+            feet: (..., 2) x, y in the track's frame, m.
+        """
+        return np.asarray((feet - self.shift) @ _turning(self.turn))
 
 
 def align(track: FootTrack, motion_feet: Floats) -> Alignment:
@@ -95,6 +104,36 @@ def placed_motion(times: Floats, feet_world: Floats, alignment: Alignment) -> Fo
     """
     seen = np.zeros(feet_world.shape[:2], dtype=np.bool_)
     return FootTrack(times, alignment.placed(feet_world[..., :2]), seen)
+
+
+def track_of_motion(track: FootTrack, alignment: Alignment) -> FootTrack:
+    """A recorded track in the frame of the motion that it is laid over."""
+    return FootTrack(track.times, alignment.taken_back(track.feet), track.filled)
+
+
+def foot_gaps(track: FootTrack, ends: Sequence[int], motion: FootTrack) -> Floats:
+    """(feet,) mean distance of each foot from where a motion has it at the same share of the walk, m.
+
+    The robot walks by its own clock: its k-th of n iterations, between their ends, stands beside the k-th
+    n-th of the motion's time. Frames in which a foot was not seen don't count, unless it was seen in none.
+
+    Args:
+        track: recorded.
+        ends: last frame of each of its iterations.
+        motion: planned or simulated, placed in the track's frame.
+
+    Raises:
+        InputError: the two have not the same number of feet.
+    """
+    if motion.foot_count != track.foot_count:
+        raise InputError(f"The motion has {motion.foot_count} feet, the track {track.foot_count}.", "motion")
+    shares = np.interp(np.arange(track.times.size), [0, *ends], np.linspace(0.0, 1.0, len(ends) + 1))
+    wanted = motion.times[0] + shares * (motion.times[-1] - motion.times[0])
+    flat = motion.feet.reshape(motion.times.size, -1).T
+    places = np.stack([np.interp(wanted, motion.times, column) for column in flat], axis=-1)
+    gaps = np.linalg.norm(places.reshape(track.feet.shape) - track.feet, axis=-1)
+    counted = np.where(track.filled.all(axis=0), True, ~track.filled)
+    return np.asarray((gaps * counted).sum(axis=0) / counted.sum(axis=0))
 
 
 def _turning(angle: float) -> Floats:

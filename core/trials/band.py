@@ -18,22 +18,47 @@ class TrialBand:
 
     Args:
         iterations: (m,) how far the walk is, in iterations; 1.5 is half way through the second.
-        mean: (m, feet, 2) mean place of each foot, less its own first, m.
-        low: (m, feet, 2) smallest of the trials, m.
-        high: (m, feet, 2) largest of the trials, m.
+        ways: (trials, m, feet, 2) place of each foot, less its own first, m.
     """
 
     iterations: Floats
-    mean: Floats
-    low: Floats
-    high: Floats
+    ways: Floats
+
+    @property
+    def mean(self) -> Floats:
+        """(m, feet, 2) mean of the trials, m."""
+        return np.asarray(self.ways.mean(axis=0))
+
+    @property
+    def low(self) -> Floats:
+        """(m, feet, 2) smallest of the trials, m."""
+        return np.asarray(self.ways.min(axis=0))
+
+    @property
+    def high(self) -> Floats:
+        """(m, feet, 2) largest of the trials, m."""
+        return np.asarray(self.ways.max(axis=0))
+
+    @property
+    def end_spread(self) -> Floats:
+        """(feet,) how far the ends of the trials lie from their mean, root of the mean square, m."""
+        apart = self.ways[:, -1] - self.ways[:, -1].mean(axis=0)
+        return np.asarray(np.sqrt((apart**2).sum(axis=-1).mean(axis=0)))
+
+    def along(self, direction: Floats) -> Floats:
+        """(trials, m, feet) how far each foot is along a direction, m.
+
+        Args:
+            direction: (2,) of any length but 0.
+        """
+        return np.asarray(self.ways @ (direction / np.hypot(*direction)))
 
 
 def trial_band(tracks: Sequence[FootTrack], ends: Sequence[Sequence[int]], places: int = 50) -> TrialBand:
     """Lays trials over each other, iteration by iteration, since none takes the same time.
 
     Args:
-        tracks: of as many feet each.
+        tracks: of as many feet each, in one frame.
         ends: last frame of each iteration of each track, as many for all.
         places: samples an iteration.
 
@@ -47,11 +72,7 @@ def trial_band(tracks: Sequence[FootTrack], ends: Sequence[Sequence[int]], place
     moved = []
     for track, last in zip(tracks, ends, strict=True):
         frames = np.interp(iterations, np.arange(count + 1), [0, *last])
-        ways = track.feet - track.feet[0]
-        rows = [
-            [np.interp(frames, np.arange(len(ways)), ways[:, foot, axis]) for axis in range(2)]
-            for foot in range(track.foot_count)
-        ]
-        moved.append(np.moveaxis(np.array(rows), -1, 0))
-    together = np.array(moved)
-    return TrialBand(iterations, together.mean(axis=0), together.min(axis=0), together.max(axis=0))
+        ways = (track.feet - track.feet[0]).reshape(track.times.size, -1).T
+        columns = [np.interp(frames, np.arange(track.times.size), way) for way in ways]
+        moved.append(np.stack(columns, axis=-1).reshape(len(frames), track.foot_count, 2))
+    return TrialBand(iterations, np.array(moved))

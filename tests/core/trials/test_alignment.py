@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from core.errors import InputError
 from core.robot import load_robot
-from core.trials.alignment import align, placed_motion, repeated_motion
+from core.trials.alignment import align, foot_gaps, placed_motion, repeated_motion, track_of_motion
 from core.trials.band import trial_band
 from core.trials.track import FootTrack
 from core.trials.track_csv import parse_track_csv
@@ -28,6 +28,7 @@ def test_a_turned_and_moved_robot_is_found_again(turn: float, x: float, y: float
     assert found.turn == pytest.approx(turn, abs=1e-9)
     assert found.gaps.max() == pytest.approx(0.0, abs=1e-9)
     np.testing.assert_allclose(found.placed(motion), track.feet[0], atol=1e-9)
+    np.testing.assert_allclose(found.taken_back(found.placed(motion)), motion, atol=1e-12)
 
 
 @pytest.mark.parametrize(("letter", "turn"), [("A", -45.0), ("B", -45.0), ("C", 0.0), ("D", 0.0)])
@@ -57,6 +58,15 @@ def test_a_band_holds_every_trial_and_ends_at_their_iterations() -> None:
     assert (band.mean <= band.high + 1e-12).all()
 
 
+def test_a_bands_ends_lie_apart_by_the_spread_of_the_trials() -> None:
+    tracks = [stepping_track((step, 0.0), 2) for step in (0.010, 0.014)]
+    band = trial_band(tracks, [(415, 831), (415, 831)])
+    np.testing.assert_allclose(band.end_spread, 0.004, atol=1e-9)
+    np.testing.assert_allclose(
+        band.along(np.array([-2.0, 0.0]))[:, -1], [[-0.020] * 4, [-0.028] * 4], atol=1e-9
+    )
+
+
 def test_trials_of_other_iterations_are_not_laid_over_each_other() -> None:
     track = stepping_track((0.01, 0.0), 2)
     with pytest.raises(InputError, match="as many feet and iterations"):
@@ -78,3 +88,35 @@ def test_a_repeated_motion_goes_on_from_where_it_ended(turn: float) -> None:
     for lap in range(3):
         whole = whole @ turning.T + [0.01, 0.0]
         np.testing.assert_allclose(places[2 * (lap + 1)], whole, atol=1e-12)
+
+
+def test_a_foot_lies_as_far_from_a_motion_as_it_is_moved_aside_at_whatever_pace() -> None:
+    track = stepping_track((0.01, 0.0), 2)
+    slower = FootTrack(track.times * 1.7 + 3.0, track.feet + [0.003, 0.004], track.filled)
+    np.testing.assert_allclose(foot_gaps(track, (415, 831), slower), 0.005, atol=1e-5)
+
+
+def test_frames_without_sight_of_a_foot_do_not_count() -> None:
+    track = stepping_track((0.01, 0.0), 1)
+    feet, filled = track.feet.copy(), track.filled.copy()
+    feet[:200, 0, 0] += 0.05
+    filled[:200, 0] = True
+    seen = FootTrack(track.times, feet, filled)
+    np.testing.assert_allclose(foot_gaps(seen, (415,), track), 0.0, atol=1e-9)
+    hidden = FootTrack(track.times, feet, np.ones_like(filled))
+    assert foot_gaps(hidden, (415,), track)[0] == pytest.approx(0.05 * 200 / 416)
+
+
+def test_a_motion_of_other_feet_is_not_compared() -> None:
+    track = stepping_track((0.01, 0.0), 1)
+    three = FootTrack(track.times, track.feet[:, :3], track.filled[:, :3])
+    with pytest.raises(InputError, match="3 feet, the track 4"):
+        foot_gaps(track, (415,), three)
+
+
+def test_a_track_in_the_motions_frame_begins_where_the_motion_does() -> None:
+    track = stepping_track((0.01, 0.0), 1)
+    quarter = STANCE @ np.array([[0.0, -1.0], [1.0, 0.0]]) + 0.02
+    moved = track_of_motion(track, align(track, quarter))
+    np.testing.assert_allclose(moved.feet[0], quarter, atol=1e-9)
+    assert np.hypot(*(moved.feet[-1] - moved.feet[0]).T) == pytest.approx([0.01] * 4)

@@ -1,0 +1,72 @@
+"""A trial as it was kept, read once for everything that is laid over it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from app.store.trial_log import TrialRow
+from app.trials.planned import PlannedFeet
+from core.robot import load_robot
+from core.trials.alignment import Alignment, align, placed_motion
+from core.trials.iterations import find_iterations
+from core.trials.track import FootTrack
+from core.trials.track_csv import parse_track_csv
+
+ROBOT = "deltawalker"
+"""The one robot that stands on a platform (its cable's robot)."""
+
+
+@dataclass(frozen=True, eq=False)
+class TrialRecord:
+    """Everything of a trial.
+
+    Args:
+        content: what is known of it.
+        track: all frames.
+        planned: where the feet were to be; None where nothing was planned. What was sent is not read.
+    """
+
+    content: dict[str, Any]
+    track: FootTrack
+    planned: PlannedFeet | None
+
+    @cached_property
+    def ends(self) -> tuple[int, ...]:
+        """Last frame of each iteration, as set by hand or else as found."""
+        if self.content["ends"] is not None:
+            return tuple(self.content["ends"])
+        return find_iterations(self.track, self.content["iterations"]).ends
+
+    @property
+    def expected(self) -> float:
+        """Wanted distance of the whole walk, m."""
+        return float(self.content["expected_cm"]) / 100.0
+
+    @cached_property
+    def alignment(self) -> Alignment:
+        """How the plan's frame lies in the track's; without a plan that of a standing robot."""
+        if self.planned is not None:
+            return align(self.track, self.planned.feet[0])
+        return align(self.track, load_robot(ROBOT).module_centres_robot[:, :2])
+
+    @property
+    def placed_plan(self) -> FootTrack | None:
+        """The plan in the track's frame."""
+        if self.planned is None:
+            return None
+        return placed_motion(self.planned.times, self.planned.feet, self.alignment)
+
+
+def trial_record(row: TrialRow) -> TrialRecord:
+    """Reads a trial."""
+    content = row.content
+    track = parse_track_csv(row.track, content["name"], frame_rate=content["frame_rate"])
+    plan = content["plan"]
+    planned = None
+    if plan is not None:
+        planned = PlannedFeet(np.array(plan["times"]), np.array(plan["feet"]), plan.get("laps", 1))
+    return TrialRecord(content, track, planned)

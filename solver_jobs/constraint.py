@@ -5,9 +5,10 @@ The contact sequence enters only through bounds, so that one structure serves ev
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 import numpy as np
 from casadi import SX
@@ -126,35 +127,42 @@ class BoundConstraint(Protocol):
         """Narrows the box, SI."""
 
 
-class RowConstraint(Protocol):
+class RowConstraint(ABC):
     """A demand on functions of the unknowns; a row of numbers a knot."""
 
-    @property
-    def family(self) -> Family:
-        """Which demand it is."""
+    family: ClassVar[Family]
+    """Which demand it is."""
 
-    @property
-    def unit(self) -> str:
-        """Unit of `excess`."""
+    unit: ClassVar[str] = "mm"
+    """Unit of `excess`."""
 
-    @property
-    def per_unit(self) -> float:
-        """About how much the rows change where `excess` changes by 1, near the bound."""
+    per_unit: ClassVar[float] = 1.0
+    """About how much the rows change where `excess` changes by 1, near the bound."""
 
-    @property
-    def rows_per_foot(self) -> int:
-        """How many rows of a knot belong to each foot, foot after foot; 0 where they are the body's."""
+    rows_per_foot: ClassVar[int] = 0
+    """How many rows of a knot belong to each foot, foot after foot; 0 where they are the body's."""
 
+    @abstractmethod
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """(rows a knot, knots) in the solver's scale; knots count from the first."""
 
+    @abstractmethod
     def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
         """Lower and upper bounds, each broadcasting to (knots, rows a knot)."""
 
     def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
         """How far values (knots, rows a knot) lie outside their bounds, in `unit`."""
+        return outside(values, lower, upper)
 
 
-def outside(values: Floats, lower: Floats, upper: Floats) -> Floats:
+class SquaredRows(RowConstraint):
+    """Rows that are the square of what is bounded from above, which has no root without a derivative."""
+
+    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
+        """How far the roots of the values lie above the roots of their bounds, in `unit`."""
+        return outside(np.sqrt(np.maximum(values, 0.0)), -np.inf, np.sqrt(upper))
+
+
+def outside(values: Floats, lower: Floats | float, upper: Floats) -> Floats:
     """Distance of values to the interval between their bounds, 0 inside."""
     return np.asarray(np.maximum(np.maximum(lower - values, values - upper), 0.0))

@@ -2,29 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from casadi import SX, vertcat
 
 from core.arrays import Floats
 from core.robot import RobotModel
 from core.support import GRAVITY
-from solver_jobs.constraint import Family, Situation, outside
+from solver_jobs.constraint import Family, RowConstraint, Situation, outside
 from solver_jobs.variables import Symbols, axes_of
 
 
-@dataclass(frozen=True)
-class BodyTorque:
+class BodyTorque(RowConstraint):
     """No torque about the body's point, (3.15): Σ λ^(i) × (p^(i) − p^(b)) = 0 at every knot but the last.
 
     The rows are divided by the robot's weight: mm by which the centre of pressure is off.
     """
 
-    family: Family = Family.BODY_TORQUE
-    unit: str = "mm"
-    per_unit: float = 1.0
-    rows_per_foot: int = 0
+    family = Family.BODY_TORQUE
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """Three rows an interval, mm."""
@@ -40,23 +34,17 @@ class BodyTorque:
         """Equality."""
         return np.zeros(1), np.zeros(1)
 
-    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
-        """How far off the centre of pressure is, mm."""
-        return outside(values, lower, upper)
 
-
-@dataclass(frozen=True)
-class Friction:
+class Friction(RowConstraint):
     """Friction cone of every foot: ‖s‖² ≤ μ² for the slopes s = λ_xy/λ_z; λ_z ≥ 0 is a bound.
 
     With forces as unknowns, ‖λ_xy‖² ≤ μ² λ_z², the cone's tip has no derivative; feet that carry nothing
     stand there, and IPOPT needed 35 to 200 iterations or failed.
     """
 
-    family: Family = Family.FRICTION
-    unit: str = "of the foot's load"
-    per_unit: float = 1.0
-    rows_per_foot: int = 1
+    family = Family.FRICTION
+    unit = "of the foot's load"
+    rows_per_foot = 1
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """A row a foot and interval."""

@@ -2,29 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from casadi import SX, repmat, vertcat
 
 from core.arrays import Floats
 from core.robot import RobotModel
 from core.support import GRAVITY
-from solver_jobs.constraint import Family, Situation, outside
+from solver_jobs.constraint import Family, RowConstraint, Situation, SquaredRows
 from solver_jobs.variables import MM, Symbols, axes_of, change_between_knots, per_interval
 
 
-@dataclass(frozen=True)
-class Integration:
+class Integration(RowConstraint):
     """Exact double integrator, accelerations constant between knots, (3.7).
 
     p_{k+1} = p_k + dt·(v_k + v_{k+1})/2; the acceleration a_k = (v_{k+1} − v_k)/dt is no unknown.
     """
 
-    family: Family = Family.DYNAMICS
-    unit: str = "mm"
-    per_unit: float = 1.0
-    rows_per_foot: int = 0
+    family = Family.DYNAMICS
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """Three rows a point and interval, mm."""
@@ -38,19 +32,12 @@ class Integration:
         """Equality."""
         return np.zeros(1), np.zeros(1)
 
-    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
-        """The gap between two knots, mm."""
-        return outside(values, lower, upper)
 
-
-@dataclass(frozen=True)
-class ForceBalance:
+class ForceBalance(RowConstraint):
     """The sum of (3.2) over body and feet, internal forces gone: Σ m_i (a_i + g) = Σ λ_i."""
 
-    family: Family = Family.DYNAMICS
-    unit: str = "N"
-    per_unit: float = 1.0
-    rows_per_foot: int = 0
+    family = Family.DYNAMICS
+    unit = "N"
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """Three rows an interval, N."""
@@ -67,19 +54,11 @@ class ForceBalance:
         weight = np.array([0.0, 0.0, situation.problem.model.total_model_mass * GRAVITY])
         return -weight, -weight
 
-    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
-        """The force that is missing, N."""
-        return outside(values, lower, upper)
 
-
-@dataclass(frozen=True)
-class ClosedCycle:
+class ClosedCycle(RowConstraint):
     """The last knot is the first, moved on: x_N − x_1 = x_g − x_ic, the velocities equal."""
 
-    family: Family = Family.BOUNDARY
-    unit: str = "mm"
-    per_unit: float = 1.0
-    rows_per_foot: int = 0
+    family = Family.BOUNDARY
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """Positions and velocities of the last knot less those of the first, one column."""
@@ -95,19 +74,14 @@ class ClosedCycle:
         values = np.concatenate([ways.reshape(-1) * MM, np.zeros(ways.size)])
         return values, values
 
-    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
-        """How far the last knot is off, mm or mm/s."""
-        return outside(values, lower, upper)
 
-
-@dataclass(frozen=True)
-class FootSpeed:
+class FootSpeed(SquaredRows):
     """Speed of every foot, (3.10), squared: ‖v‖² ≤ v_max²."""
 
-    family: Family = Family.FOOT_SPEED
-    unit: str = "mm/s"
-    per_unit: float = 30.0
-    rows_per_foot: int = 1
+    family = Family.FOOT_SPEED
+    unit = "mm/s"
+    per_unit = 30.0
+    rows_per_foot = 1
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """A row a foot and knot, mm²/s²."""
@@ -117,19 +91,13 @@ class FootSpeed:
         """At most the limit squared."""
         return _squared_limit(situation.problem.limits.foot_speed)
 
-    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
-        """Speed above the limit, mm/s."""
-        return _speed_excess(values, upper)
 
-
-@dataclass(frozen=True)
-class BodySpeed:
+class BodySpeed(SquaredRows):
     """Speed of the body, squared; without it the optimum throws the body about."""
 
-    family: Family = Family.BODY_SPEED
-    unit: str = "mm/s"
-    per_unit: float = 30.0
-    rows_per_foot: int = 0
+    family = Family.BODY_SPEED
+    unit = "mm/s"
+    per_unit = 30.0
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """A row a knot, mm²/s²."""
@@ -139,10 +107,6 @@ class BodySpeed:
         """At most the limit squared."""
         return _squared_limit(situation.problem.limits.body_speed)
 
-    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
-        """Speed above the limit, mm/s."""
-        return _speed_excess(values, upper)
-
 
 def _squared(vectors: SX) -> SX:
     x, y, z = axes_of(vectors)
@@ -151,7 +115,3 @@ def _squared(vectors: SX) -> SX:
 
 def _squared_limit(speed: float) -> tuple[Floats, Floats]:
     return np.array([-np.inf]), np.array([(speed * MM) ** 2])
-
-
-def _speed_excess(values: Floats, upper: Floats) -> Floats:
-    return np.asarray(np.maximum(np.sqrt(np.maximum(values, 0.0)) - np.sqrt(upper), 0.0))

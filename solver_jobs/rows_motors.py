@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from casadi import SX, vertcat
 
 from core.arrays import Floats
 from core.robot import RobotModel
-from solver_jobs.constraint import Family, Situation, outside
+from solver_jobs.constraint import Family, RowConstraint, Situation
 from solver_jobs.leg_equations import stroke_rates
 from solver_jobs.rows_reach import feet_from_body, motor_arms_world
 from solver_jobs.variables import MM, Symbols, change_between_knots, per_interval
@@ -28,14 +26,12 @@ def motor_rates(symbols: Symbols, model: RobotModel) -> SX:
     return vertcat(*rows)
 
 
-@dataclass(frozen=True)
-class MotorSpeed:
+class MotorSpeed(RowConstraint):
     """No motor faster than its limit: |ḣ| ≤ v."""
 
-    family: Family = Family.MOTOR_SPEED
-    unit: str = "mm/s"
-    per_unit: float = 1.0
-    rows_per_foot: int = 3
+    family = Family.MOTOR_SPEED
+    unit = "mm/s"
+    rows_per_foot = 3
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """Three rows a foot and knot, mm/s."""
@@ -45,19 +41,13 @@ class MotorSpeed:
         """The limit both ways."""
         return _both_ways(situation.problem.limits.motor_speed)
 
-    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
-        """Speed beyond the limit, mm/s."""
-        return outside(values, lower, upper)
 
-
-@dataclass(frozen=True)
-class MotorAcceleration:
+class MotorAcceleration(RowConstraint):
     """No motor's speed changes faster than its limit from knot to knot: |ḣ_{k+1} − ḣ_k| / dt ≤ a."""
 
-    family: Family = Family.MOTOR_ACCELERATION
-    unit: str = "mm/s²"
-    per_unit: float = 1.0
-    rows_per_foot: int = 3
+    family = Family.MOTOR_ACCELERATION
+    unit = "mm/s²"
+    rows_per_foot = 3
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """Three rows a foot and interval, mm/s²."""
@@ -66,10 +56,6 @@ class MotorAcceleration:
     def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
         """The limit both ways."""
         return _both_ways(situation.problem.limits.motor_acceleration)
-
-    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
-        """Acceleration beyond the limit, mm/s²."""
-        return outside(values, lower, upper)
 
 
 def _both_ways(limit: float | None) -> tuple[Floats, Floats]:

@@ -11,7 +11,7 @@ from core.arrays import Floats
 from core.motion_problem import CYLINDER, CylinderWorkspace
 from core.robot import RobotModel
 from core.support import GRAVITY
-from solver_jobs.constraint import Family, Situation, outside
+from solver_jobs.constraint import Family, RowConstraint, Situation, SquaredRows, outside
 from solver_jobs.leg_equations import VERTICES, Arms, squared_offsets
 from solver_jobs.variables import MM, Symbols
 
@@ -49,14 +49,13 @@ def motor_arms_world(symbols: Symbols, model: RobotModel) -> list[Arms]:
 
 
 @dataclass(frozen=True)
-class CylinderDisc:
+class CylinderDisc(SquaredRows):
     """Horizontal part of the cylinder, (3.16): squared distance to the module's centre ≤ radius²."""
 
     cylinder: CylinderWorkspace = CYLINDER
-    family: Family = Family.WORKSPACE
-    unit: str = "mm"
-    per_unit: float = 27.0
-    rows_per_foot: int = 1
+    family = Family.WORKSPACE
+    per_unit = 27.0
+    rows_per_foot = 1
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """A row a foot and knot, mm²."""
@@ -70,20 +69,14 @@ class CylinderDisc:
         """At most the radius squared."""
         return np.array([-np.inf]), np.array([(self.cylinder.radius * MM) ** 2])
 
-    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
-        """Distance outside the cylinder, mm."""
-        return np.asarray(np.maximum(np.sqrt(np.maximum(values, 0.0)) - np.sqrt(upper), 0.0))
-
 
 @dataclass(frozen=True)
-class CylinderHeight:
+class CylinderHeight(RowConstraint):
     """Vertical part of the cylinder, P (13) and (14): −below ≤ z + depth ≤ above under the plane."""
 
     cylinder: CylinderWorkspace = CYLINDER
-    family: Family = Family.WORKSPACE
-    unit: str = "mm"
-    per_unit: float = 1.0
-    rows_per_foot: int = 1
+    family = Family.WORKSPACE
+    rows_per_foot = 1
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """A row a foot and knot, mm."""
@@ -95,19 +88,21 @@ class CylinderHeight:
         low, high = middle - self.cylinder.below, middle + self.cylinder.above
         return np.array([low * MM]), np.array([high * MM])
 
+
+class _StrokeRows(RowConstraint):
+    """Rows of d_i + (z + h)² − l², 0 where motor i has the stroke h."""
+
+    family = Family.WORKSPACE
+    per_unit = _ROD_SLOPE
+    rows_per_foot = 3
+
     def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
-        """Distance outside the cylinder, mm."""
-        return outside(values, lower, upper)
+        """About how far the motor is out of its stroke, mm."""
+        return outside(values, lower, upper) / _ROD_SLOPE
 
 
-@dataclass(frozen=True)
-class StrokeUpper:
+class StrokeUpper(_StrokeRows):
     """No motor beyond its upper stroke: d_i + (z + upper)² ≤ l², the form of h_i ≤ upper without a root."""
-
-    family: Family = Family.WORKSPACE
-    unit: str = "mm"
-    per_unit: float = _ROD_SLOPE
-    rows_per_foot: int = 3
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """Three rows a foot and knot, mm²."""
@@ -117,19 +112,9 @@ class StrokeUpper:
         """At most 0 after l² was taken off."""
         return np.array([-np.inf]), np.zeros(1)
 
-    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
-        """About how far the motor is out of its stroke, mm."""
-        return outside(values, lower, upper) / _ROD_SLOPE
 
-
-@dataclass(frozen=True)
-class StrokeLower:
+class StrokeLower(_StrokeRows):
     """No motor below its lower stroke: d_i + (z + lower)² ≥ l², the form of h_i ≥ lower without a root."""
-
-    family: Family = Family.WORKSPACE
-    unit: str = "mm"
-    per_unit: float = _ROD_SLOPE
-    rows_per_foot: int = 3
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """Three rows a foot and knot, mm²."""
@@ -138,10 +123,6 @@ class StrokeLower:
     def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
         """At least 0 after l² was taken off."""
         return np.zeros(1), np.array([np.inf])
-
-    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
-        """About how far the motor is out of its stroke, mm."""
-        return outside(values, lower, upper) / _ROD_SLOPE
 
 
 def _stroke_rows(symbols: Symbols, model: RobotModel, stroke: float) -> SX:
@@ -153,8 +134,7 @@ def _stroke_rows(symbols: Symbols, model: RobotModel, stroke: float) -> SX:
     return vertcat(*rows)
 
 
-@dataclass(frozen=True)
-class StabilityMargin:
+class StabilityMargin(RowConstraint):
     """Centre of pressure inside every edge of the support polygon by the margin.
 
     The centre of pressure is that of flat ground at z = 0, `core.support.centre_of_pressure`, with the forces
@@ -165,10 +145,8 @@ class StabilityMargin:
     not know the timeline.
     """
 
-    family: Family = Family.MARGIN
-    unit: str = "mm"
-    per_unit: float = 1.0
-    rows_per_foot: int = 1
+    family = Family.MARGIN
+    rows_per_foot = 1
 
     def rows(self, symbols: Symbols, model: RobotModel) -> SX:
         """A row a foot and interval, mm."""
@@ -189,7 +167,3 @@ class StabilityMargin:
     def bounds(self, situation: Situation) -> tuple[Floats, Floats]:
         """At least 0 where the edge's first foot stands."""
         return np.where(situation.contact[:-1], 0.0, -np.inf), np.array([np.inf])
-
-    def excess(self, values: Floats, lower: Floats, upper: Floats) -> Floats:
-        """By how much the margin is missed, mm."""
-        return outside(values, lower, upper)

@@ -14,9 +14,12 @@ from core.physics.problem import SimulationProblem
 from core.physics.variations import VariedRun
 from core.trajectory import Trajectory
 from solver_jobs.frontier import Frontier, FrontierSearch
+from solver_jobs.handle import WorkerEndedError, WorkerHandle
 from solver_jobs.jobs import OPEN_STATES, Job, JobKind, JobState, result_sentence
 from solver_jobs.live_service import LiveSolver
 from solver_jobs.pattern_service import PatternSearch, PatternSolver
+from solver_jobs.question_worker import Report, answer_questions
+from solver_jobs.questions import Question, QuestionService
 from solver_jobs.remedies import Remedy, RemedySearch
 from solver_jobs.results import Evidence, Iterate, Lack, MotionResult, SolveStatus
 from solver_jobs.runner import JobRunner
@@ -41,13 +44,19 @@ __all__ = [
     "MotionResult",
     "PatternSearch",
     "PatternSolver",
+    "Question",
+    "QuestionService",
     "Remedy",
     "RemedySearch",
+    "Report",
     "Simulated",
     "Simulation",
     "Simulator",
     "SolveStatus",
     "TimingResult",
+    "WorkerEndedError",
+    "WorkerHandle",
+    "answer_questions",
     "fastest_timing",
     "result_sentence",
     "shortest_problem",

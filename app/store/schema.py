@@ -129,10 +129,24 @@ def _add_beside_trials(connection: sqlite3.Connection) -> None:
         connection.execute(statement)
 
 
+def _add_videos(connection: sqlite3.Connection) -> None:
+    """Videos, how cameras see the platform (every revision), and what each camera is for."""
+    for statement in (
+        "CREATE TABLE video(id TEXT PRIMARY KEY, made REAL, deleted REAL, run TEXT, content TEXT)",
+        "CREATE INDEX video_of_run ON video(run)",
+        "CREATE TABLE camera_setup(id TEXT, revision INTEGER, made REAL, content TEXT, "
+        "PRIMARY KEY(id, revision))",
+        "CREATE TABLE camera_setup_deleted(id TEXT PRIMARY KEY, deleted REAL)",
+        "CREATE TABLE camera(id TEXT PRIMARY KEY, content TEXT)",
+    ):
+        connection.execute(statement)
+
+
 _MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     _add_authors_and_versions,
     _add_to_runs,
     _add_simulations,
     _add_trials,
     _add_beside_trials,
+    _add_videos,
 )

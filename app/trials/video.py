@@ -1,224 +1,127 @@
-"""Foot tracks out of a video: the only place that knows OpenCV."""
+"""Pictures and video files, as OpenCV reads and writes them."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator
 from pathlib import Path
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Bools, Floats
+from app.trials.footage import Facts
 from core.errors import InputError
-from core.trials.camera import FOOT_COLOURS, ColourRange, Lens, PlatformView, SpotLimits
-from core.trials.false_sights import false_sights
-from core.trials.track import FootTrack, filled_track
 
 Picture = NDArray[np.uint8]
 """(height, width, 3) blue, green, red."""
 
-Mask = NDArray[np.uint8]
-"""(height, width), 255 where something is, else 0."""
+NEAR = 40
+"""Pictures ahead that are sooner read one after the other than sought."""
 
-SPOTS = SpotLimits()
-"""Limits where nothing else is said."""
-
-LEAST_BOARDS = 3
-"""Pictures of the checkerboard that a lens needs."""
-
-HUES = 180
-"""Hues of 8-bit pictures go up to here."""
+QUALITY = 85
+"""Of JPEG files, of 100."""
 
 
-@dataclass(frozen=True)
-class TrackingSetup:
-    """How feet are found in a video.
-
-    Args:
-        view: the platform in the undistorted picture.
-        lens: of the camera; None where the video has no distortion.
-        colours: of feet 1, 2, ….
-        limits: which spots may be a foot.
-    """
-
-    view: PlatformView
-    lens: Lens | None = None
-    colours: tuple[ColourRange, ...] = FOOT_COLOURS
-    limits: SpotLimits = SPOTS
+def use_one_thread() -> None:
+    """Keeps OpenCV in this process to one core, so that a robot's stop finds another one free."""
+    cv2.setNumThreads(1)
 
 
-@dataclass(frozen=True, eq=False)
-class VideoTrack:
-    """A track, and what was wrong on the way.
-
-    Args:
-        track: with its gaps filled and marked.
-        unseen: (n, feet) no spot of the foot's colour was fit.
-        false: (n, feet) a spot was found where the foot cannot have been.
-        frame_rate: of the video, 1/s.
-    """
-
-    track: FootTrack
-    unseen: Bools
-    false: Bools
-    frame_rate: float
-
-
-def track_video(
-    path: Path, setup: TrackingSetup, progress: Callable[[float], bool] = lambda share: True
-) -> VideoTrack | None:
-    """Follows the feet through a video file.
+class VideoFile:
+    """A video file whose pictures are read one after the other, or sought; for one thread.
 
     Args:
         path: of the file.
-        setup: lens, platform, colours.
-        progress: told the share that is done, 0 to 1; false ends it.
-
-    Returns:
-        The track; None where it was ended.
-
-    Raises:
-        InputError: the file is no video, or a foot is never seen.
-    """
-    frame_rate, count = video_facts(path)
-    pixels: list[Floats] = []
-    for frame in frames_of(path):
-        pixels.append(find_feet(frame, setup.colours, setup.limits))
-        if len(pixels) % 20 == 0 and not progress(min(1.0, len(pixels) / max(count, 1))):
-            return None
-    if len(pixels) < 2:
-        raise InputError(f"{path.name} holds {len(pixels)} pictures; a track needs at least two.", path.name)
-    feet = setup.view.places(_undistorted(np.array(pixels), setup.lens))
-    times = np.arange(len(pixels)) / frame_rate
-    unseen = np.asarray(np.isnan(feet).any(axis=2))
-    false = false_sights(times, feet)
-    feet[false] = math.nan
-    return VideoTrack(filled_track(times, feet, path.name), unseen, false, frame_rate)
-
-
-def video_facts(path: Path) -> tuple[float, int]:
-    """Frame rate in 1/s and number of pictures, as the file says.
 
     Raises:
         InputError: the file is no video, or tells no frame rate.
     """
-    capture = _opened(path)
-    try:
-        rate, count = capture.get(cv2.CAP_PROP_FPS), int(capture.get(cv2.CAP_PROP_FRAME_COUNT))
-    finally:
-        capture.release()
-    if not (math.isfinite(rate) and rate > 0):
-        raise InputError(f"{path.name} tells no frame rate; save it again with one.", path.name)
-    return rate, count
+
+    def __init__(self, path: Path) -> None:
+        self._name = path.name
+        # Other readers of OpenCV's take a file name with digits for a row of pictures.
+        self._capture = cv2.VideoCapture(str(path), cv2.CAP_FFMPEG)
+        if not self._capture.isOpened():
+            raise InputError(f"{path.name} cannot be read as a video.", path.name)
+        rate = self._capture.get(cv2.CAP_PROP_FPS)
+        if not (math.isfinite(rate) and rate > 0):
+            self.close()
+            raise InputError(f"{path.name} tells no frame rate; save it again with one.", path.name)
+        wide, high = (
+            int(self._capture.get(p)) for p in (cv2.CAP_PROP_FRAME_WIDTH, cv2.CAP_PROP_FRAME_HEIGHT)
+        )
+        self.facts = Facts(rate, max(int(self._capture.get(cv2.CAP_PROP_FRAME_COUNT)), 0), (wide, high))
+        self._next = 0
+
+    def close(self) -> None:
+        """Closes the file."""
+        self._capture.release()
+
+    def read(self) -> Picture | None:
+        """The next picture; None at the end."""
+        there, frame = self._capture.read()
+        if not there:
+            return None
+        self._next += 1
+        return np.asarray(frame, dtype=np.uint8)
+
+    def skip(self) -> bool:
+        """Leaves the next picture out; false at the end."""
+        there = bool(self._capture.grab())
+        self._next += there
+        return there
+
+    def picture(self, number: int) -> Picture:
+        """One picture.
+
+        Raises:
+            InputError: the file ends before it.
+        """
+        if not self._next <= number <= self._next + NEAR:
+            self._capture.set(cv2.CAP_PROP_POS_FRAMES, number)
+            self._next = number
+        while self._next < number and self.skip():
+            pass
+        frame = self.read() if self._next == number else None
+        if frame is None:
+            raise InputError(f"{self._name} ends before picture {number}.", "frame")
+        return frame
+
+    def pictures(self) -> Iterator[tuple[float, Picture]]:
+        """Every picture with its time, s."""
+        number = 0
+        while (frame := self.read()) is not None:
+            yield number / self.facts.rate, frame
+            number += 1
 
 
-def frames_of(path: Path) -> Iterator[Picture]:
-    """The pictures of a video file, one after the other."""
-    capture = _opened(path)
-    try:
-        while True:
-            there, frame = capture.read()
-            if not there:
-                return
-            yield np.asarray(frame, dtype=np.uint8)
-    finally:
-        capture.release()
-
-
-def find_feet(frame: Picture, colours: tuple[ColourRange, ...], limits: SpotLimits) -> Floats:
-    """(feet, 2) pixel of each foot in one picture, nan where no spot is fit; the largest counts."""
-    hsv = np.asarray(cv2.cvtColor(frame, cv2.COLOR_BGR2HSV), dtype=np.uint8)
-    return np.array([_largest_spot(mask_of(hsv, colour), limits) for colour in colours])
-
-
-def mask_of(hsv: Picture, colour: ColourRange) -> Mask:
-    """255 where a picture in hue, saturation and value has a colour, else 0."""
-    low, high = (round(hue * HUES) for hue in colour.hue)
-    least = (round(colour.saturation * 255), round(colour.value * 255))
-    parts = [(low, high)] if low <= high else [(low, HUES), (0, high)]
-    masks = [cv2.inRange(hsv, np.array([a, *least]), np.array([b, 255, 255])) for a, b in parts]
-    return np.asarray(masks[0] if len(masks) == 1 else cv2.bitwise_or(*masks), dtype=np.uint8)
-
-
-def _largest_spot(mask: Mask, limits: SpotLimits) -> tuple[float, float]:
-    contours, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
-    best, place = 0.0, (math.nan, math.nan)
-    for contour in contours:
-        area = cv2.contourArea(contour)
-        if not max(best, limits.least_area) <= area <= limits.most_area:
-            continue
-        _, radius = cv2.minEnclosingCircle(contour)
-        if area < limits.least_fill * math.pi * radius**2:
-            continue
-        sums = cv2.moments(contour)
-        best, place = area, (sums["m10"] / sums["m00"], sums["m01"] / sums["m00"])
-    return place
-
-
-def _undistorted(pixels: Floats, lens: Lens | None) -> Floats:
-    """(n, feet, 2) pixels as a lens without distortion would have them."""
-    if lens is None:
-        return pixels
-    seen = ~np.isnan(pixels).any(axis=2)
-    straight = np.full(pixels.shape, math.nan)
-    points = pixels[seen].reshape(-1, 1, 2)
-    if len(points):
-        moved = cv2.undistortPoints(points, lens.matrix, lens.distortion, P=lens.matrix)
-        straight[seen] = np.asarray(moved).reshape(-1, 2)
-    return straight
-
-
-def _opened(path: Path) -> cv2.VideoCapture:
-    capture = cv2.VideoCapture(str(path))
-    if not capture.isOpened():
-        capture.release()
-        raise InputError(f"{path.name} cannot be read as a video.", path.name)
-    return capture
-
-
-def lens_of_checkerboards(
-    pictures: Sequence[Picture], corners: tuple[int, int]
-) -> tuple[Lens, float, tuple[bool, ...]]:
-    """A camera's lens from pictures of a checkerboard.
+class Device:
+    """A camera of this computer; for one thread.
 
     Args:
-        pictures: of the board in different places and slopes, all of one size.
-        corners: inner corners along the board's two sides.
-
-    Returns:
-        The lens; the root mean square of what it leaves unexplained, px; which pictures show the board.
+        path: `/dev/video0`, say.
 
     Raises:
-        InputError: fewer than three pictures show the board, or they are of different sizes.
+        InputError: it is not there, or another program uses it.
     """
-    sizes = {picture.shape[:2] for picture in pictures}
-    if len(sizes) > 1:
-        raise InputError("The pictures have different sizes; take all with one camera.", "pictures")
-    found = [_board_corners(picture, corners) for picture in pictures]
-    seen = [points for points in found if points is not None]
-    if len(seen) < LEAST_BOARDS:
-        raise InputError(
-            f"The board with {corners[0]} × {corners[1]} inner corners is found in {len(seen)} of "
-            f"{len(pictures)} pictures; at least {LEAST_BOARDS} are needed, flat, whole and sharp.",
-            "pictures",
-        )
-    board = np.zeros((corners[0] * corners[1], 3), dtype=np.float32)
-    board[:, :2] = np.mgrid[: corners[0], : corners[1]].T.reshape(-1, 2)
-    ((height, width),) = sizes
-    unexplained, matrix, distortion, _, _ = cv2.calibrateCamera(
-        [board] * len(seen), seen, (width, height), np.eye(3), np.zeros(5)
-    )
-    lens = Lens(np.asarray(matrix, dtype=np.float64), np.asarray(distortion, dtype=np.float64).ravel()[:5])
-    return lens, float(unexplained), tuple(points is not None for points in found)
 
+    def __init__(self, path: str) -> None:
+        self._capture = cv2.VideoCapture(path, cv2.CAP_V4L2)
+        if not self._capture.isOpened():
+            raise InputError(f"{path} gives no pictures; is another program using it?", path)
+        self._capture.set(cv2.CAP_PROP_FOURCC, cv2.VideoWriter.fourcc(*"MJPG"))
+        self._capture.set(cv2.CAP_PROP_BUFFERSIZE, 1)
+        self.rate = self._capture.get(cv2.CAP_PROP_FPS) or None
 
-def _board_corners(picture: Picture, corners: tuple[int, int]) -> NDArray[np.float32] | None:
-    grey = cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY)
-    there, points = cv2.findChessboardCornersSB(grey, corners)
-    return np.asarray(points, dtype=np.float32) if there else None
+    def close(self) -> None:
+        """Leaves the camera to others."""
+        self._capture.release()
+
+    def read(self) -> Picture | None:
+        """The next picture, as soon as it is there; None where the camera is gone."""
+        there, frame = self._capture.read()
+        return np.asarray(frame, dtype=np.uint8) if there else None
 
 
 def read_picture(content: bytes, name: str) -> Picture:
@@ -236,5 +139,14 @@ def read_picture(content: bytes, name: str) -> Picture:
 
 def jpeg(picture: Picture) -> bytes:
     """A picture as a JPEG file."""
-    _, content = cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, 85])
+    _, content = cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, QUALITY])
     return content.tobytes()
+
+
+def scaled(picture: Picture, most: int | None) -> Picture:
+    """A picture no wider than so many pixels; None leaves it as it is."""
+    height, width = picture.shape[:2]
+    if most is None or width <= most:
+        return picture
+    size = (most, max(1, round(height * most / width)))
+    return np.asarray(cv2.resize(picture, size, interpolation=cv2.INTER_AREA), dtype=np.uint8)

@@ -31,6 +31,15 @@ class ColourRange:
             raise InputError("Hue, saturation and value must lie between 0 and 1.", "colours")
 
 
+SUBSTITUTIONS = 40
+"""Steps towards the inverse of a lens; each leaves a share of the error that grows with the distortion."""
+
+INVERSE_PX = 0.01
+"""The inverse of a lens is known where it leads back this near, px."""
+
+FARTHEST_RAY = 4.0
+"""Farthest ray from the middle, in focal lengths: it keeps a search that fails finite."""
+
 FOOT_COLOURS = (
     ColourRange((0.28, 0.45)),
     ColourRange((0.95, 0.03)),
@@ -54,6 +63,27 @@ class SpotLimits:
     most_area: float = 20_000.0
     least_fill: float = 0.5
 
+    def __post_init__(self) -> None:
+        if not 0.0 < self.least_area <= self.most_area < math.inf:
+            raise InputError("A spot's least area must be above 0 and at most its largest.", "limits")
+        if not 0.0 <= self.least_fill <= 1.0:
+            raise InputError(f"The fill is a share from 0 to 1, and not {self.least_fill:g}.", "limits")
+
+    def refusal(self, area: float, fill: float) -> str | None:
+        """Why a spot cannot be the foot; None where it can.
+
+        Args:
+            area: of its contour, px².
+            fill: that as a share of its smallest enclosing circle's.
+        """
+        if area < self.least_area:
+            return f"Its area of {area:.0f} px² is below {self.least_area:g} px²."
+        if area > self.most_area:
+            return f"Its area of {area:.0f} px² is above {self.most_area:g} px²."
+        if fill < self.least_fill:
+            return f"It fills {fill:.0%} of its circle, less than {self.least_fill:.0%}."
+        return None
+
 
 @dataclass(frozen=True, eq=False)
 class Lens:
@@ -72,6 +102,47 @@ class Lens:
         object.__setattr__(self, "distortion", frozen_floats(self.distortion, (5,), "distortion"))
         if self.matrix[0, 0] <= 0 or self.matrix[1, 1] <= 0:
             raise InputError("The camera matrix needs focal lengths of more than 0 px.", "lens")
+
+    def bent(self, pixels: Floats) -> Floats:
+        """Where the lens shows what a lens without distortion has at some pixels.
+
+        With x, y over the focal lengths from the middle and r² = x² + y²,
+        x' = x (1 + k1 r² + k2 r⁴ + k3 r⁶) + 2 p1 x y + p2 (r² + 2 x²), and y' likewise (Brown's model).
+
+        Args:
+            pixels: (..., 2) px.
+        """
+        return self._pixels(self._bent(self._rays(pixels)))
+
+    def straight(self, pixels: Floats) -> Floats:
+        """Inverse of `bent`, by repeated substitution.
+
+        Args:
+            pixels: (..., 2) px.
+
+        Returns:
+            (..., 2) px; nan where the lens has no inverse, far outside where it was calibrated.
+        """
+        seen = self._rays(pixels)
+        rays = seen
+        for _ in range(SUBSTITUTIONS):
+            rays = np.clip(rays + (seen - self._bent(rays)), -FARTHEST_RAY, FARTHEST_RAY)
+        lost = np.linalg.norm(self._bent(rays) - seen, axis=-1) * self.matrix[0, 0] > INVERSE_PX
+        return np.where(lost[..., None], np.nan, self._pixels(rays))
+
+    def _bent(self, rays: Floats) -> Floats:
+        k1, k2, p1, p2, k3 = self.distortion
+        x, y = rays[..., 0], rays[..., 1]
+        square = x * x + y * y
+        along = 1.0 + square * (k1 + square * (k2 + square * k3))
+        sideways = [2 * p1 * x * y + p2 * (square + 2 * x * x), p1 * (square + 2 * y * y) + 2 * p2 * x * y]
+        return np.asarray(rays * along[..., None] + np.stack(sideways, axis=-1))
+
+    def _rays(self, pixels: Floats) -> Floats:
+        return np.asarray((pixels - self.matrix[:2, 2]) / self.matrix[[0, 1], [0, 1]])
+
+    def _pixels(self, rays: Floats) -> Floats:
+        return np.asarray(rays * self.matrix[[0, 1], [0, 1]] + self.matrix[:2, 2])
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,6 +171,11 @@ class PlatformView:
         turned = np.concatenate([pixels, ones], axis=-1) @ self.H_platform_pixel.T
         return np.asarray(turned[..., :2] / turned[..., 2:])
 
+    def pixels(self, places: Floats) -> Floats:
+        """Inverse of `places`: (..., 2) undistorted pixels of (..., 2) places in m."""
+        inverse = np.linalg.inv(self.H_platform_pixel)
+        return PlatformView(inverse / inverse[2, 2]).places(places)
+
 
 def view_of_points(pixels: Floats, places: Floats) -> PlatformView:
     """The platform's view from points whose places are known, such as corners of its etched grid.
@@ -127,6 +203,11 @@ def view_of_points(pixels: Floats, places: Floats) -> PlatformView:
             "The points lie on a line or upon each other; click the corners of a square.", "points"
         )
     homography = np.linalg.inv(T_unit_place) @ turned[-1].reshape(3, 3) @ T_unit_pixel
+    depths = seen @ homography[2, :2] + homography[2, 2]
+    if depths.min() * depths.max() <= 0.0:
+        raise InputError(
+            "Some points seem to lie behind the camera: two of them have their places exchanged.", "points"
+        )
     return PlatformView(homography / homography[2, 2])
 
 

@@ -8,9 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.trials.video import TrackingSetup, VideoTrack, track_video
+from app.trials.tracking import VideoTrack, track_of_pixels, track_video
 from core.errors import InputError
 from core.trials.camera import FOOT_COLOURS
+from core.trials.setup import TrackingSetup
 from tests.app.trials.rendered import LENS, VIEW, Hidden, write_video
 from tests.core.trials.tracks import RATE, stepping_track
 
@@ -56,6 +57,19 @@ def test_without_the_lens_places_are_wrong(video: Path) -> None:
     bent = track_video(video, replace(SETUP, lens=None))
     assert bent is not None
     assert np.median(np.linalg.norm(bent.track.feet - TRACK.feet, axis=2)) > 0.0005
+
+
+def test_pictures_of_another_size_than_the_setups_are_refused(video: Path) -> None:
+    with pytest.raises(InputError, match=r"1280 × 720 px; these have 640 × 480"):
+        track_video(video, replace(SETUP, size=(1280, 720)))
+
+
+def test_pictures_that_are_missing_are_a_gap_of_every_foot() -> None:
+    pixels = np.full((20, 4, 2), 100.0)
+    times = np.delete(np.arange(26) / RATE, np.s_[8:14])
+    found = track_of_pixels(times, pixels, replace(SETUP, lens=None), "camera")
+    assert found.track.gaps == tuple((foot, 8, 13) for foot in range(4))
+    np.testing.assert_allclose(found.track.times, np.arange(26) / RATE, atol=1e-9)
 
 
 def test_tracking_ends_when_it_is_told_to(video: Path) -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.trials.camera import ColourRange, Lens, view_of_points
+from core.trials.camera import ColourRange, Lens, SpotLimits, view_of_points
 from core.trials.false_sights import false_sights
 from tests.core.trials.tracks import stepping_track
 
@@ -61,3 +61,48 @@ def test_only_what_lies_far_from_its_neighbours_is_false() -> None:
     feet[200, 1] += 0.03
     feet[100:110, 3] = np.nan
     assert [tuple(place) for place in np.argwhere(false_sights(track.times, feet))] == [(200, 1)]
+
+
+LENS = Lens(
+    np.array([[620.0, 0.0, 320.0], [0.0, 610.0, 240.0], [0.0, 0.0, 1.0]]),
+    np.array([-0.35, 0.08, 1e-3, -8e-4, 0.0]),
+)
+
+
+def test_a_lens_undoes_what_it_bends() -> None:
+    pixels = np.random.default_rng(3).uniform([0, 0], [640, 480], (50, 2))
+    np.testing.assert_allclose(LENS.bent(LENS.straight(pixels)), pixels, atol=0.01)
+
+
+def test_where_a_lens_has_no_inverse_there_is_no_pixel() -> None:
+    assert np.isnan(LENS.straight(np.array([[2000.0, 1500.0]]))).all()
+
+
+def test_places_and_pixels_are_each_others_inverse() -> None:
+    view = view_of_points(pixels_of(CORNERS), CORNERS)
+    np.testing.assert_allclose(view.pixels(CORNERS), pixels_of(CORNERS), atol=1e-6)
+
+
+def test_two_points_whose_places_are_exchanged_are_refused() -> None:
+    with pytest.raises(InputError, match="exchanged"):
+        view_of_points(pixels_of(CORNERS), CORNERS[[1, 0, 2, 3]])
+
+
+@pytest.mark.parametrize(
+    ("area", "fill", "words"),
+    [
+        (10.0, 1.0, "below 60"),
+        (30_000.0, 1.0, "above 20000"),
+        (100.0, 0.2, "20% of its circle"),
+        (100.0, 0.9, None),
+    ],
+)
+def test_a_spot_is_refused_with_its_number(area: float, fill: float, words: str | None) -> None:
+    refusal = SpotLimits().refusal(area, fill)
+    assert refusal is None if words is None else words in str(refusal)
+
+
+@pytest.mark.parametrize("limits", [(0.0, 10.0, 0.5), (20.0, 10.0, 0.5), (1.0, 10.0, 1.5)])
+def test_limits_that_no_spot_can_keep_are_refused(limits: tuple[float, float, float]) -> None:
+    with pytest.raises(InputError):
+        SpotLimits(*limits)

@@ -1,0 +1,60 @@
+"""Videos in the database; the files themselves are in the data folder."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from app.store.database import Database
+
+
+class VideoLog:
+    """What is known of each video.
+
+    Args:
+        database: where it is kept.
+    """
+
+    def __init__(self, database: Database) -> None:
+        self._database = database
+
+    def found(self, run: str = "", *, is_deleted: bool = False) -> list[dict[str, Any]]:
+        """Videos, the newest first.
+
+        Args:
+            run: those of one run; empty for all.
+            is_deleted: the deleted ones instead.
+        """
+        which = "NOT NULL" if is_deleted else "NULL"
+        rows = self._database.rows(
+            f"SELECT content, deleted FROM video WHERE deleted IS {which} AND (?='' OR run=?) "
+            "ORDER BY made DESC, id",
+            run,
+            run,
+        )
+        return [_content(*row) for row in rows]
+
+    def get(self, video: str) -> dict[str, Any] | None:
+        """One video, also a deleted one; None where there is none."""
+        rows = self._database.rows("SELECT content, deleted FROM video WHERE id=?", video)
+        return _content(*rows[0]) if rows else None
+
+    def put(self, content: dict[str, Any]) -> None:
+        """Stores what is known of a video now; whether it is deleted stays as it is."""
+        kept = {key: value for key, value in content.items() if key != "deleted"}
+        text = json.dumps(kept, allow_nan=False)
+        with self._database.writing() as connection:
+            connection.execute(
+                "INSERT INTO video(id, made, run, content) VALUES(?,?,?,?) "
+                "ON CONFLICT(id) DO UPDATE SET content=excluded.content",
+                (content["id"], content["made"], content["run"], text),
+            )
+
+    def put_deleted(self, video: str, deleted: float | None) -> None:
+        """Takes a video out of every list, or brings it back with None; its file stays."""
+        with self._database.writing() as connection:
+            connection.execute("UPDATE video SET deleted=? WHERE id=?", (deleted, video))
+
+
+def _content(content: str, deleted: float | None) -> dict[str, Any]:
+    return {**json.loads(content), "deleted": deleted is not None}

@@ -1,0 +1,72 @@
+"""The processes that look at pictures, and how to ask them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from app.trials.picture_tasks import Task, run_picture_worker
+from core.errors import FootfallError, StateError
+from solver_jobs import Question, QuestionService
+
+
+class Look(Question[Task, float, Any]):
+    """A question about pictures.
+
+    Args:
+        task: what is asked.
+        progress: told the share that is done.
+        done: told the answer, from a thread of the service's; None where somebody waits for it.
+        failed: told why there is none.
+    """
+
+    def __init__(
+        self,
+        task: Task,
+        progress: Callable[[float], object] = lambda share: None,
+        done: Callable[[Any], object] = lambda answer: None,
+        failed: Callable[[FootfallError], object] = lambda error: None,
+    ) -> None:
+        super().__init__(task, progress)
+        self._done, self._failed = done, failed
+
+    def unanswered(self, seconds: float) -> Any:
+        """Nothing comes of a look that was ended."""
+        raise StateError("It was cancelled." if self.is_ending else "The pictures could not be read in time.")
+
+    def answer(self, result: Any) -> None:
+        """Ends the wait."""
+        super().answer(result)
+        self._done(result)
+
+    def fail(self, error: FootfallError) -> None:
+        """Ends the wait with a sentence."""
+        super().fail(error)
+        self._failed(error)
+
+
+@dataclass(frozen=True)
+class Eyes:
+    """The processes: a process each for looks that a person waits for, for checkerboards, and for tracking.
+
+    Each is started by its first question.
+    """
+
+    near: QuestionService[Look]
+    boards: QuestionService[Look]
+    tracker: QuestionService[Look]
+
+    def close(self) -> None:
+        """Ends the processes and whatever waits for them."""
+        for service in (self.near, self.boards, self.tracker):
+            service.close()
+
+
+def open_eyes() -> Eyes:
+    """The processes, none started yet."""
+    return Eyes(
+        QuestionService("picture reader", run_picture_worker),
+        QuestionService("checkerboard finder", run_picture_worker),
+        QuestionService("video tracker", run_picture_worker),
+    )

@@ -1,0 +1,42 @@
+"""Something that has pictures one after the other: a video file, or the recording of a camera."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What a video says of itself.
+
+    Args:
+        rate: frames a second.
+        count: how many pictures; a file may hold a few less.
+        size: width and height, px.
+    """
+
+    rate: float
+    count: int
+    size: tuple[int, int]
+
+    @property
+    def seconds(self) -> float:
+        """How long it lasts."""
+        return self.count / self.rate
+
+
+class Footage(Protocol):
+    """Pictures with their times; for one thread."""
+
+    facts: Facts
+
+    def close(self) -> None:
+        """Closes the file."""
+
+    def picture(self, number: int) -> Any:
+        """One picture, (height, width, 3) blue, green, red."""
+
+    def pictures(self) -> Iterator[tuple[float, Any]]:
+        """Every picture with its time, s."""

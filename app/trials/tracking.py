@@ -1,0 +1,122 @@
+"""Foot tracks out of pictures: each foot found, laid on the platform, its gaps and false sights marked."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from app.trials.footage import Footage
+from app.trials.recording_file import Recording
+from app.trials.spots import find_feet
+from app.trials.video import VideoFile
+from core.arrays import Bools, Floats
+from core.errors import InputError
+from core.trials.false_sights import false_sights
+from core.trials.setup import TrackingSetup
+from core.trials.track import FootTrack, filled_track
+
+MISSED = 2.5
+"""Pictures that are farther apart than so many usual intervals have others missing between them."""
+
+TELL_EVERY = 20
+"""Pictures between two reports of progress."""
+
+
+@dataclass(frozen=True, eq=False)
+class VideoTrack:
+    """A track, and what was wrong on the way.
+
+    Args:
+        track: with its gaps filled and marked.
+        unseen: (n, feet) no spot of the foot's colour was fit, or there was no picture.
+        false: (n, feet) a spot was found where the foot cannot have been.
+        frame_rate: of the video, 1/s.
+    """
+
+    track: FootTrack
+    unseen: Bools
+    false: Bools
+    frame_rate: float
+
+
+def open_footage(path: Path) -> Footage:
+    """A recording's folder or a video file.
+
+    Raises:
+        InputError: it is neither.
+    """
+    return Recording(path) if path.is_dir() else VideoFile(path)
+
+
+def track_video(
+    path: Path, setup: TrackingSetup, progress: Callable[[float], bool] = lambda share: True
+) -> VideoTrack | None:
+    """Follows the feet through a video file or a recording.
+
+    Args:
+        path: of the file, or the recording's folder.
+        setup: lens, platform, colours.
+        progress: told the share that is done, 0 to 1; false ends it.
+
+    Returns:
+        The track; None where it was ended.
+
+    Raises:
+        InputError: it is no video, of another size than the setup's, or a foot is never seen.
+    """
+    footage = open_footage(path)
+    times: list[float] = []
+    pixels: list[Floats] = []
+    try:
+        setup.require_size(footage.facts.size)
+        for time, frame in footage.pictures():
+            times.append(time)
+            pixels.append(find_feet(frame, setup.colours, setup.limits))
+            done = min(1.0, len(pixels) / max(footage.facts.count, 1))
+            if len(pixels) % TELL_EVERY == 0 and not progress(done):
+                return None
+    finally:
+        footage.close()
+    return track_of_pixels(np.array(times), np.array(pixels), setup, path.name)
+
+
+def track_of_pixels(times: Floats, pixels: Floats, setup: TrackingSetup, name: str) -> VideoTrack:
+    """A track out of where each foot was found in each picture.
+
+    Where pictures are missing, frames are put in that saw no foot, so that the time without pictures is a gap
+    like any other.
+
+    Args:
+        times: (n,) of the pictures, s, increasing.
+        pixels: (n, feet, 2) px, nan where a foot was not found.
+        setup: lens and platform.
+        name: of the video, for messages.
+
+    Raises:
+        InputError: there are fewer than two pictures, or a foot is never seen.
+    """
+    if len(times) < 2:
+        raise InputError(f"{name} holds {len(times)} pictures; a track needs at least two.", name)
+    every, seen = _with_missing(times, pixels)
+    feet = setup.places(seen)
+    unseen = np.asarray(np.isnan(feet).any(axis=2))
+    false = false_sights(every, feet)
+    feet[false] = math.nan
+    rate = float(1.0 / np.median(np.diff(times)))
+    return VideoTrack(filled_track(every, feet, name), unseen, false, rate)
+
+
+def _with_missing(times: Floats, pixels: Floats) -> tuple[Floats, Floats]:
+    gaps = np.diff(times)
+    usual = float(np.median(gaps))
+    holes = np.flatnonzero(gaps > MISSED * usual)
+    for hole in holes[::-1]:
+        count = round(float(gaps[hole]) / usual) - 1
+        between = np.linspace(times[hole], times[hole + 1], count + 2)[1:-1]
+        times = np.insert(times, hole + 1, between)
+        pixels = np.insert(pixels, hole + 1, np.full((count, *pixels.shape[1:]), math.nan), axis=0)
+    return times, pixels

@@ -26,15 +26,27 @@ export function mountTrials(store) {
   const panel = h("section", { class: "runs-panel", "aria-label": "Trials", hidden: true }, h("header", {}, h("h2", { text: "Trials" }), close), body);
   document.querySelector("aside.right").append(panel);
 
-  function show(...content) {
+  let left = () => {};
+
+  function leaveContent() {
+    const act = left;
+    left = () => {};
+    act();
+  }
+
+  /** `whenLeft` is called when other content comes, or the panel closes. */
+  function show(content, whenLeft = () => {}) {
+    leaveContent();
+    left = whenLeft;
     panel.hidden = false;
     document.body.toggleAttribute("data-runs", true);
-    body.replaceChildren(...content);
+    body.replaceChildren(content);
     body.scrollTop = 0;
   }
 
   function leave() {
     if (panel.hidden) return false;
+    leaveContent();
     panel.hidden = true;
     document.body.toggleAttribute("data-runs", false);
     return true;
@@ -44,8 +56,7 @@ export function mountTrials(store) {
   const one = attempt(async (id) => show(await trialDetail(id, { all, remove })));
 
   function add() {
-    const { view } = store.state;
-    show(trialForm({ view, all, done: (added) => (added.length === 1 ? one(added[0].id) : all()) }));
+    show(trialForm({ store, all, done: (added) => (added.length === 1 ? one(added[0].id) : all()) }));
   }
 
   const remove = attempt(async ({ id, name }) => {

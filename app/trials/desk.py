@@ -15,14 +15,15 @@ from app.store.trial_beside import TrialBesideLog
 from app.store.trial_log import TrialLog, TrialRow
 from app.trials.figures import path_content, plan_content, track_content
 from app.trials.planned import PlannedFeet
-from app.trials.record import ROBOT, TrialRecord, trial_record
+from app.trials.record import ROBOT, TrialRecord, kept_track, told_ends, trial_record
+from app.trials.sight import Sight, fit_content
 from core.arrays import Floats
 from core.errors import InputError
 from core.robot import load_robot
 from core.trials.alignment import align, placed_motion
 from core.trials.iterations import find_iterations
 from core.trials.track import FootTrack
-from core.trials.track_csv import format_track_csv, parse_track_csv
+from core.trials.track_csv import format_track_csv
 
 MOST_PLACES = 600
 """Places of a foot's way in a plot."""
@@ -69,8 +70,16 @@ class TrialDesk:
         self._beside = TrialBesideLog(database)
         self._lines: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {}
 
-    def add(self, track: FootTrack, words: TrialWords, planned: PlannedFeet | None) -> dict[str, Any]:
+    def add(
+        self, track: FootTrack, words: TrialWords, planned: PlannedFeet | None, sight: Sight | None = None
+    ) -> dict[str, Any]:
         """Keeps a new trial and tells its figures.
+
+        Args:
+            track: where the feet were.
+            words: what a person says of it.
+            planned: where the feet were to be; None where that is not known.
+            sight: how a camera saw the track; None where it came as a file.
 
         Raises:
             InputError: the track is too short for its iterations.
@@ -83,6 +92,7 @@ class TrialDesk:
             "frame_rate": float(1.0 / np.median(np.diff(track.times))),
             "ends": None,
             "plan": None if planned is None else _kept_plan(planned),
+            "sight": None if sight is None else sight.content(),
         }
         self._log.add(content, format_track_csv(track))
         if planned is not None and planned.sent is not None:
@@ -108,7 +118,7 @@ class TrialDesk:
     def paths(self, trial: str) -> dict[str, Any]:
         """The feet's ways, tracked and planned, for a plot; cm in the track's frame."""
         row = self._known(trial)
-        track, plan = _track(row), row.content["plan"]
+        track, plan = kept_track(row), row.content["plan"]
         content: dict[str, Any] = {"id": trial, "track": path_content(track, MOST_PLACES), "plan": None}
         if plan is not None:
             times, feet = _plan_arrays(plan)
@@ -158,10 +168,6 @@ class TrialDesk:
         return row
 
 
-def _track(row: TrialRow) -> FootTrack:
-    return parse_track_csv(row.track, row.content["name"], frame_rate=row.content["frame_rate"])
-
-
 def _kept_plan(planned: PlannedFeet) -> dict[str, Any]:
     feet = np.round(planned.feet, 6)
     return {"times": planned.times.tolist(), "feet": feet.tolist(), "laps": planned.laps}
@@ -175,10 +181,11 @@ _WORDS = ("id", "made", "name", "by", "note", "gait", "gait_name", "run", "expec
 
 
 def _summary(row: TrialRow) -> dict[str, Any]:
-    content, track = row.content, _track(row)
+    content, track = row.content, kept_track(row)
     expected = content["expected_cm"] / 100.0
     found = find_iterations(track, content["iterations"])
-    ends = found.ends if content["ends"] is None else tuple(content["ends"])
+    told, ends_from = told_ends(content)
+    ends = found.ends if told is None else told
     if len(ends) != content["iterations"]:
         raise InputError(f"{content['iterations']} iterations need as many ends.", "ends")
     length = load_robot(ROBOT).shape.plate_across
@@ -187,13 +194,25 @@ def _summary(row: TrialRow) -> dict[str, Any]:
         "frame_rate": content["frame_rate"],
         "deleted": row.is_deleted,
         "ends_by_hand": content["ends"] is not None,
+        "ends_from": ends_from,
+        **_sight_content(content.get("sight")),
         **track_content(track, expected, found, ends, length),
         "plan": None,
     }
     if content["plan"] is not None:
         times, feet = _plan_arrays(content["plan"])
-        summary["plan"] = plan_content(times, feet, align(track, feet[0]), expected)
+        plan = plan_content(times, feet, align(track, feet[0]), expected)
+        summary["plan"] = {**plan, **fit_content(plan["gaps_cm"])}
     return summary
+
+
+def _sight_content(sight: dict[str, Any] | None) -> dict[str, Any]:
+    if sight is None:
+        return {"source": None, "unseen": [], "false": [], "remarks": [], "first_seconds": 0.0}
+    return {
+        **{key: sight[key] for key in ("source", "unseen", "false", "remarks")},
+        "first_seconds": sight["times"][0],
+    }
 
 
 def _line(row: TrialRow) -> dict[str, Any]:

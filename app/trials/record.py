@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -36,9 +37,10 @@ class TrialRecord:
 
     @cached_property
     def ends(self) -> tuple[int, ...]:
-        """Last frame of each iteration, as set by hand or else as found."""
-        if self.content["ends"] is not None:
-            return tuple(self.content["ends"])
+        """Last frame of each iteration, as set by hand, as the run's log tells, or else as found."""
+        told, _ = told_ends(self.content)
+        if told is not None:
+            return told
         return find_iterations(self.track, self.content["iterations"]).ends
 
     @property
@@ -61,10 +63,27 @@ class TrialRecord:
         return placed_motion(self.planned.times, self.planned.feet, self.alignment)
 
 
-def trial_record(row: TrialRow) -> TrialRecord:
-    """Reads a trial."""
+def told_ends(content: Mapping[str, Any]) -> tuple[tuple[int, ...] | None, str]:
+    """Last frame of each iteration as a hand or the run's log tells, and who does; None for the "tracks"."""
+    if content["ends"] is not None:
+        return tuple(content["ends"]), "hand"
+    ends = (content.get("sight") or {}).get("run_ends")
+    if ends is not None and len(ends) == content["iterations"]:
+        return tuple(ends), "run"
+    return None, "tracks"
+
+
+def kept_track(row: TrialRow) -> FootTrack:
+    """The track with the times at which it was seen."""
     content = row.content
     track = parse_track_csv(row.track, content["name"], frame_rate=content["frame_rate"])
+    sight = content.get("sight")
+    return track if sight is None else replace(track, times=np.array(sight["times"]))
+
+
+def trial_record(row: TrialRow) -> TrialRecord:
+    """Reads a trial."""
+    content, track = row.content, kept_track(row)
     plan = content["plan"]
     planned = None
     if plan is not None:

@@ -1,0 +1,179 @@
+"""Tracking videos as jobs in the list: asked for by video, done in a process of its own, then kept as trials.
+
+Only the session's thread calls this.
+"""
+
+from __future__ import annotations
+
+import time
+import uuid
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from app.job_book import ENDED, JobBook
+from app.trials.desk import TrialDesk, TrialWords
+from app.trials.eyes import Eyes, Look
+from app.trials.picture_tasks import TrackIn
+from app.trials.planned import PlannedFeet
+from app.trials.setup_desk import SetupDesk
+from app.trials.sight import Sight, SightSource
+from app.trials.tracking import VideoTrack
+from app.trials.video_desk import VideoDesk
+from core.errors import FootfallError
+
+Content = dict[str, Any]
+
+KIND = "track"
+"""What pages and scripts call these jobs."""
+
+TELL_SECONDS = 0.2
+"""Between two reports of a job's progress."""
+
+
+@dataclass(frozen=True, eq=False)
+class TrackOrder:
+    """What is to be tracked.
+
+    Args:
+        video: id of the video.
+        setup: id of the setup.
+        words: what a person says of the trial.
+        planned: where the feet were to be; None where that is not known.
+    """
+
+    video: str
+    setup: str
+    words: TrialWords
+    planned: PlannedFeet | None
+
+
+class TrackDesk:
+    """Videos that are tracked.
+
+    Args:
+        eyes: what looks at pictures.
+        book: the list of jobs.
+        videos: which videos there are.
+        setups: which setups there are.
+        trials: where tracks go.
+        later: does something on the session's thread.
+        shown: told of a job that changed, on the session's thread.
+    """
+
+    def __init__(
+        self,
+        eyes: Eyes,
+        book: JobBook,
+        videos: VideoDesk,
+        setups: SetupDesk,
+        trials: TrialDesk,
+        later: Callable[[Callable[[], object]], None],
+        shown: Callable[[Content], object],
+    ) -> None:
+        self._eyes, self._book = eyes, book
+        self._videos, self._setups, self._trials = videos, setups, trials
+        self._later, self._shown = later, shown
+        self._on: dict[str, Look] = {}
+
+    def submit(self, order: TrackOrder) -> Content:
+        """Starts tracking.
+
+        Raises:
+            UnknownVideoError: there is no such video.
+            InputError: the setup is not complete, or for pictures of another size.
+            StateError: the video's file is gone.
+        """
+        video, path = self._videos.view(order.video), self._videos.path(order.video)
+        setup, revision = self._setups.complete(order.setup)
+        tracking = setup.tracking()
+        tracking.require_size((video["size"][0], video["size"][1]))
+        source = SightSource(order.video, video["camera"], order.setup, setup.name, revision)
+        job_id = uuid.uuid4().hex[:12]
+        words = order.words
+        name = words.gait_name or video["name"]
+        job = self._book.begin(job_id, KIND, words.gait, name, "", video=order.video, share=0.0)
+        look = Look(
+            TrackIn(path, tracking),
+            self._teller(job_id),
+            lambda found: self._tracked(job_id, order, source, found),
+            lambda error: self._end(job_id, {"state": "failed", "sentence": error.sentence}),
+        )
+        self._on[job_id] = look
+        self._eyes.tracker.ask(look)
+        return job
+
+    def cancel(self, job_id: str) -> Content:
+        """Asks a job to end; one that ended already stays as it is."""
+        job, look = self._book.content(job_id), self._on.get(job_id)
+        if look is not None and job["state"] not in ENDED:
+            job |= {"state": "cancelling", "sentence": "It ends in a moment."}
+            look.cancel()
+        return job
+
+    def _teller(self, job_id: str) -> Callable[[float], object]:
+        """What hears of a job's progress, and passes on what is not too soon after the last."""
+        told_at = 0.0
+
+        def tell(share: float) -> None:
+            nonlocal told_at
+            now = time.monotonic()
+            if now - told_at >= TELL_SECONDS:
+                told_at = now
+                self._later(lambda: self._progressed(job_id, share))
+
+        return tell
+
+    def _progressed(self, job_id: str, share: float) -> None:
+        job = self._book.content(job_id)
+        if job_id in self._on and job["state"] in ("queued", "running"):
+            started = job["started"] or time.time()
+            job |= {"state": "running", "started": started, "share": share, "sentence": "Follows the feet."}
+            self._shown(job)
+
+    def _tracked(self, job_id: str, order: TrackOrder, source: SightSource, found: VideoTrack | None) -> None:
+        """Keeps a track as a trial; on the tracker's thread."""
+        if found is None:
+            self._end(job_id, {"state": "cancelled", "sentence": "Cancelled."})
+            return
+        try:
+            trial = self._trials.add(found.track, order.words, order.planned, Sight(found, source))
+        except FootfallError as error:
+            self._end(job_id, {"state": "failed", "sentence": error.sentence})
+            return
+        result = track_figures(trial["id"], found)
+        self._end(
+            job_id, {"state": "done", "sentence": track_sentence(found), "share": 1.0, "result": result}
+        )
+
+    def _end(self, job_id: str, end: Content) -> None:
+        self._later(lambda: self._ended(job_id, end))
+
+    def _ended(self, job_id: str, end: Content) -> None:
+        del self._on[job_id]
+        job = self._book.content(job_id)
+        if job["state"] == "cancelling" and end["state"] != "done":
+            end = {"state": "cancelled", "sentence": "Cancelled."}
+        job |= {**end, "ended": time.time()}
+        self._book.keep(job)
+        self._shown(job)
+
+
+def track_figures(trial: str, found: VideoTrack) -> Content:
+    """What a track amounts to, for the list of jobs."""
+    return {
+        "trial": trial,
+        "frames": int(found.track.times.size),
+        "seconds": float(found.track.times[-1] - found.track.times[0]),
+        "unseen": int(found.unseen.sum()),
+        "false": int(found.false.sum()),
+    }
+
+
+def track_sentence(found: VideoTrack) -> str:
+    """A track in one sentence."""
+    frames = found.track.times.size
+    return (
+        f"{frames} frames at {found.frame_rate:.1f} a second; {int(found.unseen.sum())} foot positions were "
+        f"not seen and {int(found.false.sum())} were false, all filled by straight lines and marked."
+    )

@@ -1,0 +1,230 @@
+"""Videos for the page and scripts: uploads and recordings, their facts and pictures."""
+
+from __future__ import annotations
+
+import threading
+import time
+import uuid
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from app.store.database import Database
+from app.store.video_log import VideoLog
+from app.trials.eyes import Eyes, Look
+from app.trials.footage import Facts
+from app.trials.picture_tasks import FactsOf, PictureOf, Source
+from app.trials.video_files import MOST_RECORDED, Upload, VideoFiles
+from core.errors import FootfallError, InputError, StateError
+
+LOOK_SECONDS = 30.0
+"""Longest wait for a picture."""
+
+Content = dict[str, Any]
+
+
+class UnknownVideoError(InputError):
+    """There is no such video."""
+
+
+class VideoDesk:
+    """Videos in the data folder; every method may be called from any thread.
+
+    Args:
+        data: the data folder.
+        database: where is kept what is known of them.
+        eyes: what reads pictures.
+        changed: told of a video that is new or another.
+    """
+
+    def __init__(
+        self,
+        data: Path,
+        database: Database,
+        eyes: Eyes,
+        changed: Callable[[Content], None] = lambda view: None,
+    ) -> None:
+        self.files = VideoFiles(data)
+        self._log = VideoLog(database)
+        self._eyes = eyes
+        self._changed = changed
+        self._lock = threading.Lock()
+
+    def views(self, run: str = "", *, is_deleted: bool = False) -> list[Content]:
+        """Videos, the newest first, of one run or all."""
+        return [_view(content) for content in self._log.found(run, is_deleted=is_deleted)]
+
+    def view(self, video: str) -> Content:
+        """One video."""
+        return _view(self._known(video))
+
+    def begin(self, name: str, size: int | None) -> Upload:
+        """Starts an upload; `keep` or `Upload.discard` ends it.
+
+        Raises:
+            InputError: it is too large.
+            StateError: there is no room for it.
+        """
+        return self.files.begin(uuid.uuid4().hex[:12], name, size)
+
+    def keep(self, upload: Upload) -> Content:
+        """Keeps an upload that has come whole.
+
+        Raises:
+            InputError: it is no video; nothing is left of it.
+        """
+        try:
+            upload.finish()
+            facts = self._facts(upload.partial, upload.name)
+        except FootfallError:
+            upload.discard()
+            raise
+        file = upload.partial.name.removeprefix(".").removesuffix(".partial")
+        upload.partial.replace(self.files.path(file))
+        content = {
+            **_new(file.partition(".")[0], upload.name, "upload", file),
+            **facts_content(facts),
+            "bytes": upload.size,
+        }
+        return self.put(content)
+
+    def _facts(self, path: Path, name: str) -> Facts:
+        try:
+            facts: Facts = self._eyes.near.ask(Look(FactsOf(path))).result(LOOK_SECONDS)
+        except InputError as refusal:
+            raise InputError(refusal.sentence.replace(path.name, name), "file") from None
+        return facts
+
+    def begin_recording(self, name: str, run: str, camera: str) -> Content:
+        """Keeps a recording that begins; its folder is made by whoever writes it."""
+        video = uuid.uuid4().hex[:12]
+        content = {
+            **_new(video, name, "recording", video),
+            "run": run,
+            "camera": camera,
+            "state": "recording",
+        }
+        return self.put(content)
+
+    def put(self, content: Content) -> Content:
+        """Keeps what is known of a video now, and tells of it."""
+        self._log.put(content)
+        view = self.view(content["id"])
+        self._changed(view)
+        return view
+
+    def change(self, video: str, **changes: Any) -> Content:
+        """Changes what is known of a video."""
+        with self._lock:
+            return self.put({**self._known(video), **changes})
+
+    def end_abandoned(self) -> None:
+        """Says of recordings that a killed program left what became of them."""
+        for content in self._log.found():
+            if content["state"] == "recording":
+                sentence = "The studio ended while this was recorded; what was recorded until then is kept."
+                self.change(content["id"], state="kept", sentence=sentence)
+
+    def make_room(self) -> None:
+        """Takes the oldest recordings' pictures away where all together are too many; trials stay."""
+        total = 0
+        for content in self._log.found() + self._log.found(is_deleted=True):
+            if content["kind"] != "recording" or content["state"] != "kept":
+                continue
+            total += content["bytes"]
+            if total > MOST_RECORDED:
+                self.files.remove(content["file"])
+                sentence = (
+                    f"Its pictures made room for newer ones (recordings keep {MOST_RECORDED / 1e9:g} GB)."
+                )
+                self.change(content["id"], state="removed", sentence=sentence)
+
+    def delete(self, video: str) -> None:
+        """Takes a video out of the list; `restore` brings it back."""
+        if self._known(video)["state"] == "recording":
+            raise StateError("This video is being recorded. Wait for the end of its run.", "video")
+        self._log.put_deleted(video, time.time())
+        self._changed(self.view(video))
+
+    def restore(self, video: str) -> Content:
+        """Brings a deleted video back."""
+        self._known(video)
+        self._log.put_deleted(video, None)
+        view = self.view(video)
+        self._changed(view)
+        return view
+
+    def path(self, video: str) -> Path:
+        """Where a video's pictures are.
+
+        Raises:
+            StateError: they were taken away.
+        """
+        content = self._known(video)
+        path = self.files.path(content["file"])
+        if content["state"] == "removed" or not path.exists():
+            raise StateError(content["sentence"] or "The video's file is not on the disk any more.", "video")
+        return path
+
+    def source(self, video: str, frame: int | None, seconds: float | None = None) -> Source:
+        """A picture of a video, by number or by time.
+
+        Raises:
+            InputError: the video ends before it.
+        """
+        content, path = self._known(video), self.path(video)
+        number = frame or 0
+        if seconds is not None:
+            number = round(seconds * content["rate"])
+        if content["frames"] and not 0 <= number < content["frames"]:
+            raise InputError(
+                f"“{content['name']}” has {content['frames']} pictures, 0 to {content['frames'] - 1}; there "
+                f"is no picture {number}.",
+                "frame",
+            )
+        return Source(path, number, name=f"picture {number}")
+
+    def picture(self, source: Source, most: int | None) -> bytes:
+        """A picture as a JPEG file, no wider than so many pixels."""
+        answer: bytes = self._eyes.near.ask(Look(PictureOf(source, most))).result(LOOK_SECONDS)
+        return answer
+
+    def _known(self, video: str) -> Content:
+        content = self._log.get(video)
+        if content is None:
+            raise UnknownVideoError(f"There is no video {video}.", "video")
+        return content
+
+
+def _new(video: str, name: str, kind: str, file: str) -> Content:
+    return {
+        "id": video,
+        "name": name,
+        "kind": kind,
+        "made": time.time(),
+        "file": file,
+        "bytes": 0,
+        "frames": 0,
+        "rate": 0.0,
+        "size": [0, 0],
+        "seconds": 0.0,
+        "run": "",
+        "camera": "",
+        "trial": "",
+        "state": "kept",
+        "sentence": "",
+    }
+
+
+def facts_content(facts: Facts) -> Content:
+    """Facts as content."""
+    return {
+        "frames": facts.count,
+        "rate": facts.rate,
+        "size": list(facts.size),
+        "seconds": facts.seconds,
+    }
+
+
+def _view(content: Content) -> Content:
+    return {key: value for key, value in content.items() if key != "file"}

@@ -27,6 +27,7 @@ from solver_jobs.simulation_service import Simulation, Simulator
 from solver_jobs.simulation_worker import Simulated
 from solver_jobs.spawning import NICENESS
 from solver_jobs.timing import TimingResult, fastest_timing
+from solver_jobs.travel_service import TravelQuestion, TravelSimulator
 
 __all__ = [
     "NICENESS",
@@ -54,6 +55,8 @@ __all__ = [
     "Simulator",
     "SolveStatus",
     "TimingResult",
+    "TravelQuestion",
+    "TravelSimulator",
     "WorkerEndedError",
     "WorkerHandle",
     "answer_questions",

@@ -26,6 +26,9 @@ class PhysicsSet:
         weak_share: see `weak_motor`.
         ground_tilt: (about x, about y) slope of the ground, rad.
         body_mass_factor: on the body's mass.
+        centre_offset: (x, y) of the body's own centre of mass from its axis, in the robot's axes, m.
+        cable_drag: force with which the cable holds a body that moves along the ground back, N.
+        backlash: play between a motor and its knee; a motor that turns round moves so far without it, m.
         gravity: m/s².
     """
 
@@ -40,6 +43,9 @@ class PhysicsSet:
     weak_share: float = 1.0
     ground_tilt: tuple[float, float] = (0.0, 0.0)
     body_mass_factor: float = 1.0
+    centre_offset: tuple[float, float] = (0.0, 0.0)
+    cable_drag: float = 0.0
+    backlash: float = 0.0
     gravity: float = 9.81
 
 

@@ -126,7 +126,8 @@ def _add_body(world: Element, model: RobotModel, physics: PhysicsSet, rig: Rig, 
     mass = part_masses(model, physics).body
     radius, height = model.shape.plate_across / 2, model.shape.motor_length
     across = mass * (3 * radius**2 + height**2) / 12
-    _add_inertia(body, mass, (0.0, 0.0, model.com_height), (across, across, mass * radius**2 / 2))
+    centre = (*physics.centre_offset, model.com_height)
+    _add_inertia(body, mass, centre, (across, across, mass * radius**2 / 2))
     return body
 
 

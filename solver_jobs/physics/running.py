@@ -14,6 +14,7 @@ from core.errors import CheckError, InfeasibleError
 from core.kinematics import BodyPose
 from core.path_merging import robot_feet
 from core.physics.motors import motor_speeds
+from core.physics.play import with_play
 from core.physics.problem import Rig, SimulationProblem
 from core.physics.ramp import TURN, MotorCourse, motor_course
 from core.physics.reporting import FALL_TILT, rotations, tilts
@@ -52,14 +53,15 @@ class SimulatedRun:
         pose, feet_robot = _start(problem)
         text = mjcf_text(problem.model, problem.physics, problem.rig, pose, time_step)
         self.model = mujoco.MjModel.from_xml_string(text)
+        if problem.rig is Rig.WALKING:
+            self.model.dof_frictionloss[:2] = problem.physics.cable_drag
         self.layout = Layout(self.model, problem.model.leg_count)
         self.loop_error = 0.0
         self.ended_early = ""
         self._steps = round(TURN / time_step)
         still = np.repeat(self.course.strokes[:1], SETTLING + 1, 0)
-        self._strokes = np.concatenate([still, self.course.strokes[1:]]).reshape(
-            -1, problem.model.motor_count
-        )
+        rows = np.concatenate([still, self.course.strokes[1:]]).reshape(-1, problem.model.motor_count)
+        self._strokes = with_play(rows, problem.physics.backlash)
         self._row = 0
         self._state = self._first_state(pose, feet_robot)
         self._positions: list[Floats] = []

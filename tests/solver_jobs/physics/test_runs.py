@@ -19,7 +19,7 @@ from core.trajectory import quarter_turn, turn_trajectory
 from core.waypoints import Waypoints
 from core.wire_timing import RAMP_SPEED, ramp_time
 from solver_jobs import simulate, simulate_variations
-from solver_jobs.physics.running import TIME_STEP
+from solver_jobs.physics.running import TIME_STEP, VARIED_STEP
 from solver_jobs.physics.simulate import simulate as simulate_at
 from solver_jobs.physics.simulate import simulate_together
 from tests.solver_jobs.physics.rigs import (
@@ -184,3 +184,13 @@ def test_variations_are_reported_one_by_one_with_progress() -> None:
 def test_a_refused_progress_cancels() -> None:
     with pytest.raises(SimulationCancelledError):
         simulate(problem_of_strokes(resting()), lambda share: False)
+
+
+def test_a_robot_whose_cable_drags_and_whose_mass_lies_aside_walks_otherwise() -> None:
+    usual = part_of(walk(), 0, 12)
+    plain = simulate_at(usual, time_step=VARIED_STEP)
+    for change in ({"cable_drag": 1.0}, {"centre_offset": (0.004, 0.0)}, {"backlash": 0.001}):
+        changed = replace(usual, physics=replace(SCALES, **change))
+        moved = simulate_at(changed, time_step=VARIED_STEP)
+        rows = min(len(plain.times), len(moved.times))
+        assert np.abs(plain.feet_world[:rows] - moved.feet_world[:rows]).max() > 1e-5

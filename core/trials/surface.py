@@ -1,0 +1,80 @@
+"""How a simulated figure depends on parameters, from simulations at points that fill their box."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Bools, Floats
+from core.errors import CheckError
+
+LINEAR_RIDGE, SQUARE_RIDGE = 0.002, 0.02
+"""Weights of the coefficients' squares beside the mean squared misfit. Robots that rock go by jumps, which
+the surface is to smooth and not to follow; what bends it counts more than what slopes it."""
+LEAST_SHARE = 0.6
+"""Of the points that must have an answer."""
+
+
+@dataclass(frozen=True, eq=False)
+class Surfaces:
+    """Quadratic response surfaces over a box, one a figure; x goes from −1 to 1 along each side of it.
+
+    y_j(x) = c_j0 + Σ c_ja x_a + Σ c_jab x_a x_b for a < b + Σ c_jaa (x_a² − 1/3).
+
+    Args:
+        low: (parameters,) one corner of the box.
+        high: (parameters,) the other.
+        coefficients: (terms, figures).
+        misfit: (figures,) root of the mean squared distance of simulations from their surface.
+    """
+
+    low: Floats
+    high: Floats
+    coefficients: Floats
+    misfit: Floats
+
+    def at(self, z: Floats) -> Floats:
+        """(n, figures) values at points (n, parameters)."""
+        return np.asarray(_terms(self.low, self.high, z) @ self.coefficients)
+
+
+def fitted_surfaces(low: Floats, high: Floats, z: Floats, values: Floats) -> Surfaces:
+    """The surfaces of least squares, with a little ridge on all but the constant term.
+
+    Args:
+        low: (parameters,) one corner of the box.
+        high: (parameters,) the other.
+        z: (n, parameters) where it was simulated.
+        values: (n, figures) what came of it; nan where there is no answer.
+
+    Raises:
+        CheckError: too few simulations have an answer.
+    """
+    terms = _terms(low, high, z)
+    known = np.isfinite(values)
+    least = float(known.mean(axis=0).min())
+    if least < LEAST_SHARE:
+        raise CheckError(
+            f"Only {least * 100:.0f} % of a gait's simulations came to their end, where "
+            f"{LEAST_SHARE * 100:.0f} % are needed: it falls. Leave it out.",
+            "trials",
+        )
+    columns = [_coefficients(terms, values[:, j], known[:, j], len(low)) for j in range(values.shape[1])]
+    coefficients = np.stack(columns, axis=1)
+    off = np.where(known, values - terms @ coefficients, np.nan)
+    return Surfaces(low, high, coefficients, np.sqrt(np.nanmean(off**2, axis=0)))
+
+
+def _terms(low: Floats, high: Floats, z: Floats) -> Floats:
+    """(n, terms) 1, each x, each product of two, and each square less its mean over the box."""
+    x = (2.0 * z - low - high) / (high - low)
+    first, second = np.triu_indices(len(low), 1)
+    return np.concatenate([np.ones((len(x), 1)), x, x[:, first] * x[:, second], x**2 - 1.0 / 3.0], axis=1)
+
+
+def _coefficients(terms: Floats, values: Floats, known: Bools, parameters: int) -> Floats:
+    rows = terms[known]
+    ridge = np.full(terms.shape[1], SQUARE_RIDGE)
+    ridge[0], ridge[1 : 1 + parameters] = 0.0, LINEAR_RIDGE
+    return np.asarray(np.linalg.solve(rows.T @ rows + len(rows) * np.diag(ridge), rows.T @ values[known]))

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+import cv2
 import numpy as np
 import pytest
 from playwright.sync_api import Browser, Page
@@ -11,6 +12,17 @@ from tests.scene.preview_page import preview_application, walk
 from tests.scene.serving import serving, stop_under_clients
 
 START_MS = 60_000
+
+PLAIN_LINES = """(name, pieces) => {
+  let lines = null;
+  preview.client.node(name)?.traverse(({ geometry }) => {
+    if (geometry?.attributes?.instanceStart) lines ??= geometry;
+  });
+  if (!lines || lines.isInstancedBufferGeometry || lines.index.count !== pieces * 18) return null;
+  const starts = lines.attributes.instanceStart;
+  return Array.from({ length: starts.count }, (_, at) => [starts.getX(at), starts.getY(at), starts.getZ(at)]);
+}"""
+"""Where the pieces of a line begin, at each of their corners; null while they are drawn as instances."""
 
 
 @pytest.fixture(scope="module")
@@ -111,6 +123,47 @@ def test_polygon_is_drawn_on_the_floor_in_the_colour_of_its_margin(page: Page) -
             arg=colour,
             timeout=START_MS,
         )
+
+
+def test_without_a_gpu_lines_are_drawn_in_one_go_where_they_are_told_to_be(page: Page) -> None:
+    if not page.evaluate("preview.client.drawsInSoftware"):
+        pytest.skip("this browser draws with a GPU")
+    page.evaluate("""() => preview.setOverlay({
+      times: [0], com: [[0, 0, 0.07]], margins: [0.01], contact: [[true, true, true, false]],
+      feet: [[[0.04, 0, 0], [0, 0.04, 0], [-0.04, 0, 0], [0, -0.04, 0.005]]] })""")
+    page.wait_for_function(f"({PLAIN_LINES})('/overlay/polygon_edge', 3)", timeout=START_MS)
+    moved = [[0.01 * value for value in range(6)] for _ in range(3)]
+    told = page.evaluate(
+        "points => preview.client.moveSegments('/overlay/polygon_edge', Float32Array.from(points.flat()))",
+        moved,
+    )
+    assert told == []
+    starts = page.evaluate(f"({PLAIN_LINES})('/overlay/polygon_edge', 3)")
+    np.testing.assert_allclose(starts, np.tile([0.0, 0.01, 0.02], (len(starts), 1)), atol=1e-7)
+    another = page.evaluate("preview.client.moveSegments('/overlay/polygon_edge', new Float32Array(12))")
+    assert [message["type"] for message in another] == ["SceneNodeUpdateMessage"]
+
+
+def test_without_a_gpu_the_feet_keep_their_colours(page: Page) -> None:
+    if not page.evaluate("preview.client.drawsInSoftware"):
+        pytest.skip("this browser draws with a GPU")
+    page.wait_for_function(
+        """() => { let key = null;
+          preview.client.node("/robot/leg1_foot")?.traverse(({ material }) => {
+            key ??= material?.customProgramCacheKey();
+          });
+          return key === "plain surface"; }""",
+        timeout=START_MS,
+    )
+    picture = cv2.imdecode(np.frombuffer(page.screenshot(), np.uint8), cv2.IMREAD_COLOR).astype(int)
+    blue, green, red = np.moveaxis(picture, 2, 0)
+    for name, seen in (
+        ("green", (green > red + 60) & (green > blue + 60)),
+        ("red", (red > green + 90) & (red > blue + 60)),
+        ("orange", (red > blue + 90) & (green > blue + 40)),
+        ("blue", (blue > red + 60) & (blue > green + 40)),
+    ):
+        assert seen.sum() > 200, name
 
 
 def test_the_scene_comes_back_with_the_present_pose_after_a_lost_connection(

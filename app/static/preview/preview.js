@@ -22,6 +22,7 @@
  *                                 { floor: m, times: [n] s, com: [n][3] m, cop: [n][2] m or null, feet: [n][legs][3] m, contact: [n][legs] bool,
  *                                   margins: [n] m }   null takes it away
  *   setGhost(kind, buffer | null) another version of the gait as a quiet second robot: "before", "saved", "measured", "simulated" or "jog"
+ *   setTracks(tracks)             where feet were in trials, lines over the gait: list of `GET /api/trials/{id}/scene`, none takes them away
  *   setReach(reach | null)        where the feet can be, of the poses that are shown (`GET …/reach`)
  *   show(part, visible)           part: "polygon", "com", "cop", "traces", "footholds", "trouble", "robot", "reach"
  *   setCaution(metres)            margin below which the polygon is amber (0.003 by default; below 0 it is red)
@@ -45,6 +46,7 @@ import { floorOf } from "./overlay.js";
 import { PoseTable, VALUES_A_NODE } from "./poses.js";
 import { ServerRoute } from "./server_route.js";
 import { Sharpness } from "./sharpness.js";
+import { Tracks } from "./tracks.js";
 import { ViserClient, cameraMessages, poseMessages, visibleMessage } from "./viser_client.js";
 
 const FIRST_ROBOT = "deltawalker";
@@ -72,6 +74,7 @@ export class Preview extends EventTarget {
   #robot;
   #marks;
   #ghosts;
+  #tracks;
   #dark = false;
   #time = 0;
   #load = 0;
@@ -94,6 +97,7 @@ export class Preview extends EventTarget {
     this.#client = new ViserClient(frame);
     this.#marks = new Marks(this.#client);
     this.#ghosts = new Ghosts(this.#client);
+    this.#tracks = new Tracks(this.#client);
     this.#sharpness = new Sharpness(this.#client);
     this.#watch = setInterval(() => this.#look(), WATCH_MS);
     this.#open(robot);
@@ -152,6 +156,11 @@ export class Preview extends EventTarget {
 
   setGhost(kind, buffer) {
     this.#ghosts.set(kind, buffer);
+    this.#request();
+  }
+
+  setTracks(tracks) {
+    this.#tracks.set(tracks);
     this.#request();
   }
 
@@ -281,23 +290,24 @@ export class Preview extends EventTarget {
     }
     if (!this.#bodyNode) return;
     const isNew = this.#marks.isNew;
-    const before = this.#ghosts.moves;
+    const before = this.#ghosts.moves + this.#tracks.moves;
     const messages = this.#extras();
     this.#table.nodes.forEach((name, index) => {
       const at = index * VALUES_A_NODE;
       if (this.#moved(at) && this.#client.node(name)) messages.push(...poseMessages(name, this.#pose, at));
     });
     this.#shown = Float32Array.from(this.#pose);
-    if (messages.length === 0 && this.#ghosts.moves === before) return;
+    if (messages.length === 0 && this.#ghosts.moves + this.#tracks.moves === before) return;
     this.#sharpness.moved();
     this.#client.push(messages, isNew);
     if (inFrame) this.#client.drawNow();
     this.posesShown += 1;
   }
 
-  /** Marks and ghosts at the present time. */
+  /** Marks, ghosts and tracks at the present time. */
   #extras() {
-    return [...this.#marks.messages(this.#time), ...this.#ghosts.messages(this.#time)];
+    const tracks = this.#tracks.messages(this.#time, this.#table?.duration ?? 0, floorOf(this.#marks.overlay));
+    return [...this.#marks.messages(this.#time), ...this.#ghosts.messages(this.#time), ...tracks];
   }
 
   #moved(at) {
@@ -312,6 +322,7 @@ export class Preview extends EventTarget {
     this.#shown = null;
     this.#marks.forget();
     this.#ghosts.forget();
+    this.#tracks.forget();
     this.#pushTheme();
     this.#request();
   }

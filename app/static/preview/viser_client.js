@@ -8,6 +8,8 @@
  */
 
 import { groundView } from "./ground.js";
+import { drawLinePlainly, moveEnds } from "./plain_lines.js";
+import { drawSurfacePlainly } from "./plain_surfaces.js";
 
 const SETTLE_MS = 250;
 
@@ -101,8 +103,17 @@ export class ViserClient {
         this.#lateFrame = setTimeout(invalidate, SETTLE_MS);
       };
       inside.requestRender = this.#leanRequest;
+      this.#drawPlainly(inside.scene.__r3f.root.getState().scene);
     }
     inside.requestRender();
+  }
+
+  /** Looks before each frame for what the client has made anew since the last one. */
+  #drawPlainly(scene) {
+    scene.onBeforeRender = () => scene.traverseVisible((part) => {
+      drawLinePlainly(part);
+      drawSurfacePlainly(part);
+    });
   }
 
   /** A message that sets properties of a node; arrays become arrays of the client's own window. */
@@ -114,19 +125,14 @@ export class ViserClient {
   }
 
   /**
-   * Moves the ends of a node's line pieces: in the buffer that is drawn from, since a message makes a new one each time.
+   * Moves the ends of a node's line pieces without a message, which would make a new buffer each time.
    * @param {Float32Array} points n × 2 × 3 values
    * @returns {object[]} the message to be pushed where the buffer is not known, or has another size
    */
   moveSegments(name, points) {
-    let ends = null;
-    this.node(name)?.traverse((part) => { ends ??= part.geometry?.attributes?.instanceStart?.data ?? null; });
-    if (ends?.array?.length !== points.length) return [this.updateMessage(name, { points: points.slice() })];
-    ends.array.set(points);
-    ends.needsUpdate = true;
-    this.node(name).traverse((part) => {
-      if (part.geometry) part.geometry.boundingSphere = part.geometry.boundingBox = null;
-    });
+    let lines = null;
+    this.node(name)?.traverse(({ geometry }) => { if (geometry?.attributes?.instanceStart) lines ??= geometry; });
+    if (!lines || !moveEnds(lines, points)) return [this.updateMessage(name, { points: points.slice() })];
     return [];
   }
 

@@ -1,0 +1,77 @@
+/**
+ * Lines drawn as plain triangles where there is no GPU. Viser draws a line's pieces as instances of one piece, and
+ * software drawing takes as long for each instance as for a whole part of the robot. The client lives in a window of its
+ * own, so arrays and classes are made of those that its objects have.
+ */
+
+const ends = ["instanceStart", "instanceEnd"];
+const colours = ["instanceColorStart", "instanceColorEnd"];
+const parentOf = (type) => Object.getPrototypeOf(type);
+
+/** Writes both ends of each piece, six values, once for each corner of the piece. */
+function writePieces(values, points, corners) {
+  for (let piece = 0; piece < points.length; piece += 6) {
+    const value = points.subarray(piece, piece + 6);
+    for (let corner = 0; corner < corners; corner += 1) values.set(value, piece * corners + corner * 6);
+  }
+}
+
+/**
+ * Moves the ends of a line's pieces in the buffer that is drawn from.
+ * @param {object} geometry as the client made it, or a plain one
+ * @param {Float32Array} points pieces × 2 × 3 values
+ * @returns {boolean} false where it has another number of pieces; then nothing is moved
+ */
+export function moveEnds(geometry, points) {
+  const { data } = geometry.attributes.instanceStart;
+  const corners = geometry.userData.corners ?? 1;
+  if (data.array.length !== points.length * corners) return false;
+  writePieces(data.array, points, corners);
+  data.needsUpdate = true;
+  geometry.boundingSphere = geometry.boundingBox = null;
+  return true;
+}
+
+/** An attribute of the one piece, again for every piece. */
+function repeated({ array, itemSize, constructor }, pieces) {
+  const values = new array.constructor(pieces * array.length);
+  for (let piece = 0; piece < pieces; piece += 1) values.set(array, piece * array.length);
+  return new constructor(values, itemSize);
+}
+
+/** Both ends' attributes, which share one buffer of six values a piece, with a copy for each corner. */
+function spread(plain, { attributes }, [start, end], corners) {
+  const from = attributes[start];
+  if (!from) return;
+  const { array } = from.data;
+  const buffer = new (parentOf(from.data.constructor))(new array.constructor(array.length * corners), 6);
+  writePieces(buffer.array, array, corners);
+  plain.setAttribute(start, new from.constructor(buffer, 3, 0));
+  plain.setAttribute(end, new from.constructor(buffer, 3, 3));
+}
+
+/** The class of geometries without instances that a class of lines comes from. */
+const plainType = (type) => (new type().isInstancedBufferGeometry ? plainType(parentOf(type)) : type);
+
+/** The same lines as one geometry without instances; the client's line shader draws both alike. */
+function plainGeometry(lines) {
+  const { position, uv, instanceStart } = lines.attributes;
+  const [corners, pieces] = [position.count, instanceStart.count];
+  const plain = new (plainType(lines.constructor))();
+  plain.setAttribute("position", repeated(position, pieces));
+  plain.setAttribute("uv", repeated(uv, pieces));
+  spread(plain, lines, ends, corners);
+  spread(plain, lines, colours, corners);
+  plain.setIndex(Array.from({ length: pieces }, (_, piece) => Array.from(lines.index.array, (corner) => corner + piece * corners)).flat());
+  plain.userData.corners = corners;
+  lines.addEventListener("dispose", () => plain.dispose());
+  return plain;
+}
+
+/** Makes a line plain that the client draws as instances; anything else is left alone. */
+export function drawLinePlainly(part) {
+  if (!part.isLineSegments2 || !part.geometry.isInstancedBufferGeometry) return;
+  part.geometry = plainGeometry(part.geometry);
+  // What is seen of a geometry is told by its positions, which are those of the one piece here.
+  part.frustumCulled = false;
+}

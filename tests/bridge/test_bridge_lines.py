@@ -1,16 +1,14 @@
 """One suite for bridge and emulated robot over a pseudo-terminal and over TCP, on real threads."""
 
-import os
 import threading
 import time
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from app.bridge.emulated import EmulatedRobot, start_emulator
+from app.bridge.emulated import EmulatedRobot
 from app.bridge.faults import Fault
 from app.bridge.firmware import Firmware
 from app.bridge.ports import Port, PtyPort, TcpPort
@@ -18,12 +16,12 @@ from app.bridge.profiles import PROFILES, ProfileName
 from app.bridge.robot import RobotBridge
 from app.bridge.states import Direction, LinkState, RobotSnapshot, RobotState
 from app.bridge.transport import Transport
-from core.errors import InputError, RobotError, StateError
+from core.errors import RobotError, StateError
 from core.wire import encode_waypoint
 from tests.bridge.virtual_robot import make_plan, random_plan
 
 SHORT = [[4.0] * 12, [6.0] * 12, [3.0, 8.0] * 6]
-PATIENCE = 20.0
+PATIENCE = 60.0
 
 
 class Lockstep:
@@ -347,60 +345,3 @@ def test_a_line_in_use_is_refused_with_a_sentence(bridge: RobotBridge, lockstep:
     lockstep.connect(bridge)
     with pytest.raises(RobotError, match="in use by another program"):
         Transport(lockstep.device, lambda _: None, lambda _: None)
-
-
-@pytest.mark.parametrize(
-    "device", ["/dev/no-robot-here", "socket://127.0.0.1:9", os.devnull, "socket://nowhere"]
-)
-def test_a_device_that_is_no_line_is_refused_by_name(device: str) -> None:
-    bridge = RobotBridge()
-    with pytest.raises(RobotError, match=device):
-        bridge.connect(device)
-    assert bridge.snapshot.link is LinkState.DISCONNECTED
-    assert bridge.snapshot.last_error is not None
-    bridge.stop("Ada")
-    bridge.close()
-
-
-def test_an_address_that_is_no_line_is_refused_before_anything_is_opened(tmp_path: Path) -> None:
-    written = tmp_path / "written"
-    for device in (f"spy:///dev/null?file={written}", "loop://", "rfc2217://127.0.0.1:9"):
-        with pytest.raises(RobotError, match="is no robot's line"):
-            Transport(device, lambda _: None, lambda _: None)
-    assert not written.exists()
-
-
-def test_a_line_that_takes_nothing_more_is_said_to() -> None:
-    port = PtyPort()
-    line = Transport(port.device, lambda _: None, lambda _: None)
-    with pytest.raises(RobotError, match=r"took no message for 0\.5 s"):
-        line.write(b"x" * 1_000_000)
-    line.close()
-    port.close()
-
-
-def listen_once(device: str) -> Transport:
-    heard = threading.Event()
-
-    def hear(data: bytes) -> None:
-        if b"\nj," in data:
-            heard.set()
-
-    line = Transport(device, hear, lambda _: None)
-    assert heard.wait(PATIENCE)
-    return line
-
-
-@pytest.mark.parametrize("tcp", [None, 0])
-def test_a_robot_in_real_time_drops_what_nobody_reads_and_talks_to_the_next_host(tcp: int | None) -> None:
-    robot = start_emulator("nominal", 50.0, tcp=tcp, booted=True)
-    for _ in range(2):
-        listen_once(robot.device).close()
-    robot.close()
-
-
-def test_a_taken_tcp_port_is_refused() -> None:
-    robot = start_emulator(tcp=0)
-    with pytest.raises(InputError, match="cannot be used"):
-        start_emulator(tcp=int(robot.device.rpartition(":")[2]))
-    robot.close()

@@ -21,11 +21,6 @@ from tests.bridge.virtual_robot import VirtualRobot, make_plan, random_plan
 SHORT = [[4.0] * 12, [6.0] * 12, [3.0, 8.0] * 6, [5.0] * 12]
 
 
-@pytest.fixture
-def robot() -> VirtualRobot:
-    return VirtualRobot()
-
-
 def waypoints_taken(robot: VirtualRobot) -> list[tuple[float, ...]]:
     return [m.strokes_mm for m in robot.firmware.messages if m.strokes_mm is not None]
 

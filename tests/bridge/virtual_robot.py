@@ -46,3 +46,8 @@ class VirtualRobot(VirtualBridge):
     def begin(self, plan: RunPlan) -> None:
         self.arm()
         self.session.send(plan, "Ada", self.now)
+
+
+def payloads(robot: VirtualRobot) -> list[str]:
+    """What the robot took of all messages, in their order."""
+    return [m.payload for m in robot.firmware.messages]

@@ -49,9 +49,14 @@ class Subscriber:
 
 
 class EventHub:
-    """All subscribers; publishing is safe from any thread."""
+    """All subscribers; publishing is safe from any thread.
+
+    Attributes:
+        is_closed: whether the studio ends.
+    """
 
     def __init__(self) -> None:
+        self.is_closed = False
         self._lock = threading.Lock()
         self._subscribers: set[Subscriber] = set()
 
@@ -87,6 +92,7 @@ class EventHub:
 
     def close(self) -> None:
         """Ends every subscription."""
+        self.is_closed = True
         with self._lock:
             subscribers = tuple(self._subscribers)
         for subscriber in subscribers:

@@ -15,7 +15,7 @@ ENDED = frozenset({"done", "infeasible", "failed", "cancelled", "interrupted"})
 MOST_SHOWN = 20
 """Jobs in the page's list."""
 
-AGAIN = {"simulate": "Simulate again."}
+AGAIN = {"simulate": "Simulate again.", "track": "Track the video again."}
 """What to do about a job that was interrupted, by kind."""
 
 

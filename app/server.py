@@ -27,11 +27,13 @@ from app.routes import (
     scene,
     sequences,
     simulations,
+    setups,
     tables,
     trial_beside,
     trials,
     versions,
 )
+    videos,
 from app.routes.assets import REVALIDATED, Assets
 from app.routes.edge import install_error_handlers
 from app.routes.module_page import ModulePage
@@ -78,6 +80,9 @@ def make_app(studio: Studio, scenes: Scenes, access: Access) -> FastAPI:
         trial_beside.router,
         trials.router,
         robots.router,
+        learning.router,
+        setups.router,
+        videos.router,
         scene.router,
         events.router,
         make_viser_router(scenes.of),

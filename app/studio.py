@@ -39,7 +39,10 @@ from app.store.trial_beside import TrialBesideLog
 from app.trials.beside import TrialsBeside
 from app.trials.desk import TrialDesk
 from app.trials.simulated import TrialSimulations
+from app.trials.seeing import Seeing
 from app.version import VERSION
+from app.trials.track_desk import KIND as TRACK
+from app.trials.track_desk import TrackOrder
 from app.views import gait_view, steps_view
 from core.errors import FootfallError, StateError
 from core.gait import Gait, motion_problem
@@ -106,6 +109,15 @@ class Studio:
 
     def close(self) -> None:
         """Stops a run, ends workers and threads; doing it twice does no harm."""
+        self.seeing = Seeing(
+            data,
+            self._database,
+            self.book,
+            self.trials,
+            self.session.tell,
+            self._show_tracking,
+            self.hub.publish,
+        )
         if self._closed.is_set():
             return
         self._closed.set()
@@ -122,6 +134,10 @@ class Studio:
         self.hub.close()
         self.stop_lane.shutdown()
         self._database.close()
+        for traveller in self._travellers:
+            traveller.close()
+        self.learning.close()
+        self.seeing.close()
 
     def stop_run(self, by: str) -> None:
         """Stops the robot where a run is on; returns at once."""
@@ -206,6 +222,8 @@ class Studio:
         try:
             gait = self._glanced(content["gait"])
             fresh = content["motion"] in (run_motions(gait) if gait.sequence else {asked_hash(gait)})
+        if content["kind"] == TRACK:
+            return {**content, "fresh": None}
         except FootfallError:  # it is gone, or its file is damaged
             fresh = False
         return {**content, "fresh": fresh}
@@ -284,8 +302,8 @@ class Studio:
 
     def cancel_job(self, job_id: str) -> dict[str, Any]:
         """Asks a job to end; one that ended already stays as it is."""
-        desk = self._simulating if self.book.content(job_id)["kind"] == SIMULATE else self.jobs
-        view = self.job_view(desk.cancel(job_id))
+        cancels = {SIMULATE: self._simulating.cancel, TRACK: self.seeing.tracks.cancel}
+        view = self.job_view(cancels.get(self.book.content(job_id)["kind"], self.jobs.cancel)(job_id))
         self.hub.publish({"type": "job", "job": view})
         return view
 
@@ -297,6 +315,15 @@ class Studio:
 
     def submit_parts(self, gait_id: str) -> list[dict[str, Any]]:
         """Starts an optimisation of each part of a sequence that can have an exact motion and has none yet.
+    def submit_tracking(self, order: TrackOrder) -> dict[str, Any]:
+        """Starts following the feet in a video."""
+        view = self.job_view(self.seeing.tracks.submit(order))
+        self._show_tracking(view)
+        return view
+
+    def _show_tracking(self, content: dict[str, Any]) -> None:
+        self.hub.publish({"type": "job", "job": self.job_view(content)})
+
 
         Raises:
             StateError: there is none, or the gait is no sequence.

@@ -25,6 +25,8 @@ from app.studio import Studio
 from app.trials.desk import UnknownTrialError
 from app.versions import UnknownVersionError
 from core.arrays import Floats
+from app.trials.setup_desk import UnknownSetupError
+from app.trials.video_desk import UnknownVideoError
 from core.errors import CheckError, FootfallError, InfeasibleError, InputError, RobotError, StateError
 from core.robot import RobotModel
 
@@ -52,6 +54,10 @@ _STATUS: tuple[tuple[type[FootfallError], int], ...] = (
     (UnknownTrialError, 404),
     (StateError, 409),
     (CheckError, 409),
+    (UnknownLearningError, 404),
+    (UnknownSetError, 404),
+    (UnknownSetupError, 404),
+    (UnknownVideoError, 404),
     (RobotError, 503),
     (InputError, 422),
     (InfeasibleError, 422),

@@ -74,27 +74,29 @@ async def add_trial(trial: NewTrial, studio: TheStudio, author: TheAuthor) -> di
         return parse_track_csv(trial.csv, trial.name, frame_rate=trial.frame_rate, pixels=scale)
 
     track = await _answer(read)
-    gait, gait_name, planned = await _planned(studio, trial)
+    gait, gait_name, planned = await planned_for(studio, trial.run, trial.gait, trial.iterations)
     words = TrialWords(
         trial.name, author.name, trial.expected_cm, trial.iterations, trial.note, gait, gait_name, trial.run
     )
     return await _answer(lambda: studio.trials.add(track, words, planned))
 
 
-async def _planned(studio: Studio, trial: NewTrial) -> tuple[str, str, PlannedFeet | None]:
-    """Id and name of the gait, and where its feet were to be."""
-    if trial.run:
-        record = await _answer(lambda: studio.runs.record(trial.run))
+async def planned_for(
+    studio: Studio, run: str, gait_id: str, iterations: int
+) -> tuple[str, str, PlannedFeet | None]:
+    """Id and name of the gait of a trial, and where its feet were to be: by its run, or else by its gait."""
+    if run:
+        record = await _answer(lambda: studio.runs.record(run))
         planned = await _answer(lambda: planned_of_run(record))
         return record.content["gait"], record.content["gait_name"], planned
-    if not trial.gait:
+    if not gait_id:
         return "", "", None
 
     def of_gait() -> tuple[str, str, PlannedFeet | None]:
-        gait, plan = studio.gaits.open_gait(trial.gait).gait, studio.gaits.plan(trial.gait)
-        return trial.gait, gait.name, planned_of_gait(gait, plan, trial.iterations)
+        gait, plan = studio.gaits.open_gait(gait_id).gait, studio.gaits.plan(gait_id)
+        return gait_id, gait.name, planned_of_gait(gait, plan, iterations)
 
-    return await on_planned(studio, trial.gait, of_gait)
+    return await on_planned(studio, gait_id, of_gait)
 
 
 @router.get("")

@@ -79,6 +79,11 @@ def lens_of_corners(boards: Sequence[Corners], size: tuple[int, int], corners: t
     return FoundLens(lens, float(unexplained), tuple(each))
 
 
+def straightened(picture: Picture, lens: Lens) -> Picture:
+    """A picture as a lens without distortion would have it."""
+    return np.asarray(cv2.undistort(picture, lens.matrix, lens.distortion), dtype=np.uint8)
+
+
 def _no_lens() -> InputError:
     return InputError(
         "These boards tell no lens. Take pictures with the board in other places and slopes, also near the "

@@ -12,14 +12,14 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from app.trials.boards import board_corners, lens_of_corners
+from app.trials.boards import board_corners, lens_of_corners, straightened
 from app.trials.footage import Facts, Footage
-from app.trials.spots import find_feet, in_colours, mask_of, shown_mask, spots_of
+from app.trials.spots import Mask, Spot, find_feet, in_colours, mask_of, shown_mask, spots_of
 from app.trials.tracking import VideoTrack, open_footage, track_video
 from app.trials.video import Picture, jpeg, read_picture, scaled, use_one_thread
 from core.arrays import Floats
 from core.errors import InputError
-from core.trials.camera import ColourRange, SpotLimits
+from core.trials.camera import ColourRange, Lens, SpotLimits
 from core.trials.setup import TrackingSetup
 from solver_jobs import Report, answer_questions
 
@@ -122,7 +122,7 @@ class LookAt:
 
     Args:
         source: of the picture.
-        foot: whose colour is looked at, 0-based.
+        foot: whose colour is looked at, 0-based; None for no foot's.
         colours: of all feet.
         limits: which spots may be a foot.
         setup: for places on the platform; None where it is not known yet.
@@ -131,7 +131,7 @@ class LookAt:
     """
 
     source: Source
-    foot: int
+    foot: int | None
     colours: tuple[ColourRange, ...]
     limits: SpotLimits
     setup: TrackingSetup | None
@@ -145,23 +145,27 @@ class LookAt:
         height, width = picture.shape[:2]
         if self.setup is not None:
             self.setup.require_size((width, height))
+        feet = _feet(find_feet(picture, self.colours, self.limits), self.setup)
+        whole = {"size": [width, height], "feet": feet}
+        if self.foot is None:
+            return {**whole, "picture": self._shown(picture), "spots": [], "more": 0, "chosen": None}
         mask = mask_of(in_colours(picture), self.colours[self.foot])
         spots, more = spots_of(mask, self.limits)
         fit = [index for index, spot in enumerate(spots) if spot.refusal is None]
-        shown = ""
-        if self.most is not None:
-            small = (
-                shown_mask(picture, mask, spots, self.most) if self.shows_mask else scaled(picture, self.most)
-            )
-            shown = data_url(jpeg(small))
+        masked = (mask, spots) if self.shows_mask else None
         return {
-            "picture": shown,
-            "size": [width, height],
+            **whole,
+            "picture": self._shown(picture, masked),
             "spots": [{**_spot(asdict(spot)), "fit": spot.refusal is None} for spot in spots],
             "more": more,
             "chosen": fit[0] if fit else None,
-            "feet": _feet(find_feet(picture, self.colours, self.limits), self.setup),
         }
+
+    def _shown(self, picture: Picture, masked: tuple[Mask, tuple[Spot, ...]] | None = None) -> str:
+        if self.most is None:
+            return ""
+        small = scaled(picture, self.most) if masked is None else shown_mask(picture, *masked, self.most)
+        return data_url(jpeg(small))
 
 
 def _spot(values: dict[str, Any]) -> dict[str, Any]:
@@ -238,6 +242,19 @@ class LensOf:
             "rms_px": found.unexplained,
             "each": list(found.each),
         }
+
+
+@dataclass(frozen=True, eq=False)
+class Straighten:
+    """A picture as a lens without distortion would have it, as a JPEG file."""
+
+    source: Source
+    lens: Lens
+
+    def answer(self, shelf: Shelf, report: Report) -> bytes:
+        """Bends it."""
+        del report
+        return jpeg(straightened(self.source.picture(shelf), self.lens))
 
 
 @dataclass(frozen=True, eq=False)

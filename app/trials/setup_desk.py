@@ -137,5 +137,10 @@ def _platform(setup: CameraSetup) -> dict[str, Any]:
         "worst_mm": float(off_mm.max()),
         "mm_per_pixel": float(100.0 / across),
         "outline": np.round(outline, 2).tolist(),
+        "seen": np.round(setup.seen(setup.places), 2).tolist(),
+        "grid": [
+            {"axis": line.axis, "at_cm": round(line.at * 100.0, 6), "line": np.round(line.pixels, 1).tolist()}
+            for line in setup.grid
+        ],
         "doubt": setup.doubt,
     }

@@ -27,6 +27,28 @@ OUTLINE = 0.05
 """Half the side of the square that shows how the platform lies, m."""
 
 
+LINE_DISTANCE = 0.01
+"""Between two lines of the etched grid, m."""
+
+LINE_POINTS, MOST_LINES = 13, 60
+"""Points of a line that a lens may bend, and lines of one direction."""
+
+
+@dataclass(frozen=True, eq=False)
+class GridLine:
+    """A line of the etched grid in the picture as it is.
+
+    Args:
+        axis: x or y, which has one value along it.
+        at: that value, m.
+        pixels: (n, 2) along it, px.
+    """
+
+    axis: str
+    at: float
+    pixels: Floats
+
+
 @dataclass(frozen=True)
 class TrackingSetup:
     """How feet are found in a video.
@@ -165,5 +187,27 @@ class CameraSetup:
     def outline(self) -> Floats:
         """(4, 2) pixels, as they are in the picture, of a square of 10 cm about the middle of the places."""
         corners = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]) * OUTLINE
-        straight = self.view.pixels(corners + self.places.mean(axis=0))
+        return self.seen(corners + self.places.mean(axis=0))
+
+    def seen(self, places: Floats) -> Floats:
+        """(..., 2) pixels, as they are in the picture, of (..., 2) places in m."""
+        straight = self.view.pixels(places)
         return straight if self.lens is None else self.lens.bent(straight)
+
+    @property
+    def grid(self) -> tuple[GridLine, ...]:
+        """Lines a centimetre apart over all clicked places, and over the square of `outline`."""
+        middle = self.places.mean(axis=0)
+        low = np.minimum(self.places.min(axis=0) - LINE_DISTANCE, middle - OUTLINE)
+        high = np.maximum(self.places.max(axis=0) + LINE_DISTANCE, middle + OUTLINE)
+        first, last = np.ceil(low / LINE_DISTANCE - 1e-9), np.floor(high / LINE_DISTANCE + 1e-9)
+        lines = []
+        for axis in range(2):
+            count = min(int(last[axis] - first[axis]) + 1, MOST_LINES)
+            along = np.linspace(low[1 - axis], high[1 - axis], LINE_POINTS)
+            for number in range(count):
+                at = (first[axis] + number) * LINE_DISTANCE
+                places = np.full((LINE_POINTS, 2), at)
+                places[:, 1 - axis] = along
+                lines.append(GridLine("xy"[axis], float(at), self.seen(places)))
+        return tuple(lines)

@@ -35,6 +35,9 @@ GHOST_NODES = ("/ghost/before", "/ghost/saved", "/ghost/measured", "/ghost/simul
 CONTACT_NODE, SLIP_NODE = "/ghost/contact", "/ghost/slip"
 """Scene paths of what the simulated robot's feet do to the ground."""
 
+TRACK_NODES = ("/tracks/ways", "/tracks/marks")
+"""Scene paths of a trial's foot tracks on the ground, and of the marks that follow the playhead."""
+
 FLOOR_THEMES: dict[str, tuple[Colour, Colour]] = {
     "light": ((212, 219, 228), (246, 248, 250)),
     "dark": ((84, 96, 114), (38, 44, 54)),
@@ -122,7 +125,10 @@ def add_overlay(server: viser.ViserServer, model: RobotModel) -> None:
     _add_lines(server, "/overlay/cop_trace", ACCENT, 1.5)
     _add_lines(server, "/overlay/trouble", BAD, 3.5)
     # A colour for each end from the first: the client makes no lines of many colours of lines of one.
-    _add_lines(server, REACH_NODE, np.full((1, 2, 3), INK, dtype=np.uint8), 1.5)
+    many_colours = np.full((1, 2, 3), INK, dtype=np.uint8)
+    _add_lines(server, REACH_NODE, many_colours, 1.5)
+    for node in TRACK_NODES:
+        _add_lines(server, node, many_colours, 2.5)
     for node in GHOST_NODES:
         _add_lines(server, node, INK, 1.25)
     _add_lines(server, CONTACT_NODE, GOOD, 2.5)

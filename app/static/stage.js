@@ -138,6 +138,7 @@ export async function mountStage(store, edits, playback) {
   mountTools(store, preview);
   mountGhosts(store, preview);
   mountJogGhost(store, preview, playback);
+  store.watch(({ tracks, view }) => [tracks, view?.document.robot], ({ tracks, view }) => preview.setTracks(tracks.filter(({ robot }) => robot === view?.document.robot)));
   playback.addEventListener("time", ({ detail }) => preview.setTime(detail.time, detail.cause === "clock"));
   followPlan(store, playback, preview);
   mountGoal(store, edits, preview);

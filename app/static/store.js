@@ -3,7 +3,7 @@
  *
  * Everything that several tabs must agree on comes from the server; the rest (`selected`, `shownJob`, `pending`,
  * `gesture`, `tool`, `selection`, `preview`, `zoom`, `live`, `remedies`,
- * `iterate`, `tableDrafts`, `runCourse`, `jog`, `simulation`) belongs to this tab alone.
+ * `iterate`, `tableDrafts`, `runCourse`, `jog`, `simulation`, `tracks`) belongs to this tab alone.
  */
 
 const INITIAL = Object.freeze({
@@ -35,6 +35,7 @@ const INITIAL = Object.freeze({
   trace: null,
   runCourse: null,
   simulation: null,
+  tracks: Object.freeze([]),
   jog: null,
   operator: "",
 });

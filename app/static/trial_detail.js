@@ -4,7 +4,9 @@ import { h, onPress } from "./dom.js";
 import { clockTime, fixed } from "./format.js";
 import { announce, attempt } from "./toasts.js";
 import { trialApi } from "./trial_api.js";
-import { pathPlot, wayPlot } from "./trial_plot.js";
+import { besidePart } from "./trial_beside.js";
+import { pathPlot } from "./trial_plot.js";
+import { wayPlot } from "./trial_way.js";
 
 function table(caption, help, head, rows) {
   return h("table", { class: "run-table", title: help }, h("caption", { text: caption }),
@@ -59,31 +61,51 @@ function endsLine(trial, redraw) {
   return h("p", { class: trial.is_clear ? "quiet" : "why", text: trial.is_clear ? "The ends of iterations were found from the feet's steps." : "The feet's steps overlap between iterations: look at their ends." });
 }
 
+/** Redraws the plots; the mark that had the focus has it again. */
+function keepingMark(plots, redraw) {
+  const label = document.activeElement?.getAttribute?.("aria-label");
+  redraw();
+  if (label?.startsWith("End of iteration")) [...plots.querySelectorAll(".end-handle")].find((one) => one.getAttribute("aria-label") === label)?.focus();
+}
+
 /**
  * Builds a trial's page in the panel.
  * @param {string} id
- * @param {{all: () => void, remove: (trial: object) => void}} acts
+ * @param {{all: () => void, remove: (trial: object) => void, tracks: Function}} acts `tracks` makes the switch of the 3D scene
+ * @returns {Promise<{element: HTMLElement, leave: () => void}>}
  */
-export async function trialDetail(id, { all, remove }) {
+export async function trialDetail(id, { all, remove, tracks }) {
   const [trial, paths] = await Promise.all([trialApi.read(id), trialApi.paths(id)]);
+  const sources = { tracked: paths.track, planned: paths.plan, simulated: null };
   const element = h("div", { class: "run-detail" });
+  const plots = h("div", { class: "trial-plots" });
+  const beside = besidePart(id, (simulated) => { sources.simulated = simulated; drawPlots(); });
+  const scene = tracks([id]);
+  let shown = trial;
+
+  function drawPlots() {
+    const moved = attempt(async (part, frame) => draw(await trialApi.change(id, { ends: shown.parts.map(({ end }, index) => (index === part ? frame : end)) })));
+    keepingMark(plots, () => plots.replaceChildren(pathPlot(sources), wayPlot(sources, shown, moved)));
+  }
 
   function draw(now) {
-    const moved = attempt(async (part, frame) => draw(await trialApi.change(id, { ends: now.parts.map(({ end }, index) => (index === part ? frame : end)) })));
-    const focused = document.activeElement?.getAttribute?.("aria-label");
+    shown = now;
     const erase = h("button", { class: "link", text: "Delete", title: "Takes this trial out of the list; it can be brought back", on: { click: () => remove(now) } });
-    element.replaceChildren(
+    const parts = [
       h("button", { class: "link", text: "All trials", on: { click: all } }),
       h("div", { class: "run-line run-title" }, h("b", { text: now.name })),
-      facts(now), noteField(now), pathPlot(paths), wayPlot(paths.track, now, moved), endsLine(now, draw) ?? "",
+      facts(now), noteField(now), scene.element, plots, endsLine(now, draw) ?? "", beside.element,
       iterationTable(now),
       movementTable("Movement as published", "Largest excursions from the first frame; never negative. The planned motion by the same definition", now.figures, now.plan, published),
       movementTable("Movement, first to last", "Last minus first frame", now.figures, now.plan, net),
       slipTable(now),
-      h("div", { class: "run-files" }, h("a", { href: `/api/trials/${encodeURIComponent(id)}/track.csv`, download: "", text: "Track as CSV", title: "cm; what was not seen is empty" }), erase));
-    if (focused?.startsWith("End of iteration")) [...element.querySelectorAll(".end-handle")].find((one) => one.getAttribute("aria-label") === focused)?.focus();
+      h("div", { class: "run-files" }, h("a", { href: `/api/trials/${encodeURIComponent(id)}/track.csv`, download: "", text: "Track as CSV", title: "cm; what was not seen is empty" }), erase),
+    ];
+    keepingMark(plots, () => { element.replaceChildren(...parts); drawPlots(); });
+    attempt(beside.refresh)();
+    scene.refresh();
   }
 
   draw(trial);
-  return element;
+  return { element, leave() { beside.leave(); scene.leave(); } };
 }

@@ -28,10 +28,12 @@ function sparkline({ distances, expected_cm: wanted }) {
 
 const spread = (value, by, decimals) => (by === null ? fixed(value, decimals) : `${fixed(value, decimals)} ± ${fixed(by, decimals)}`);
 
-function compareRow(group) {
+function compareRow(group, band) {
+  const name = `${group.gait_name}, ${fixed(group.step_cm, 1)} cm`;
+  const show = h("button", { class: "link", text: "Show band", "aria-label": `Show band of ${name}`, title: "The trials over each other: their mean way, how far they lie apart, and the plan", on: { click: () => band(group) } });
   return h("tr", {},
-    h("th", { scope: "row" }, h("span", { text: `${group.gait_name}, ${fixed(group.step_cm, 1)} cm` }), h("span", { class: "quiet", text: ` × ${group.trials.length}` })),
-    h("td", {}, sparkline(group), spread(group.distance, group.distance_spread, 1)),
+    h("th", { scope: "row" }, h("span", { text: name }), h("span", { class: "more quiet" }, `× ${group.trials.length}`, sparkline(group), show)),
+    h("td", { text: spread(group.distance, group.distance_spread, 1) }),
     ...[group.error_percent, group.angle_deg].map((value) => h("td", { text: fixed(value, 0) })), h("td", { text: fixed(group.speed_mm_s, 2) }));
 }
 
@@ -41,7 +43,7 @@ function sorted(groups) {
   return [...groups].sort((a, b) => way * (typeof value(a) === "string" ? value(a).localeCompare(value(b)) || a.step_cm - b.step_cm : value(a) - value(b)));
 }
 
-function comparedTable(groups) {
+function comparedTable(groups, band) {
   const rows = h("tbody");
   const heads = COLUMNS.map(({ key, text, help }) => {
     const button = h("button", { class: "plain", text, title: `${help}. Press to sort` });
@@ -52,7 +54,7 @@ function comparedTable(groups) {
     return { key, cell: h("th", { scope: "col" }, button) };
   });
   function fill() {
-    rows.replaceChildren(...sorted(groups).map(compareRow));
+    rows.replaceChildren(...sorted(groups).map((group) => compareRow(group, band)));
     for (const { key, cell } of heads) cell.setAttribute("aria-sort", key !== order.key ? "none" : order.up ? "ascending" : "descending");
   }
   fill();
@@ -69,14 +71,14 @@ function trialRow(trial, open) {
 
 /**
  * Builds the list.
- * @param {{open: (id: string) => void, add: () => void}} acts
+ * @param {{open: (id: string) => void, add: () => void, band: (group: object) => void}} acts
  */
-export async function trialList({ open, add }) {
+export async function trialList({ open, add, band }) {
   const { trials, compared } = await trialApi.list();
   const file = (form, text, help) => h("a", { href: `/api/trials/table?form=${form}`, download: "", text, title: help });
   return h("div", { class: "run-all" },
     h("button", { class: "primary", text: "Add trials…", on: { click: add } }),
-    trials.length ? comparedTable(compared) : h("p", { class: "teach", text: "No trial yet. Add the foot tracks of a recording: how far each foot went, which way, how fast, and how that compares with the plan." }),
+    trials.length ? comparedTable(compared, band) : h("p", { class: "teach", text: "No trial yet. Add the foot tracks of a recording: how far each foot went, which way, how fast, and how that compares with the plan." }),
     trials.length ? h("div", { class: "run-files" }, file("csv", "CSV", "The table of gaits"), file("latex", "LaTeX", "The table of gaits for a paper")) : null,
     h("ul", { class: "run-list", role: "list", "aria-label": "Trials" }, ...trials.map((trial) => trialRow(trial, open))));
 }

@@ -1,17 +1,20 @@
 /** Trials of the real robot in a panel: the list with gaits compared, adding tracks, and one trial beside its plan. */
 
 import { h, icon } from "./dom.js";
+import { selectGait } from "./gaits.js";
 import { runIsOn } from "./store.js";
 import { openTab } from "./tabs.js";
 import { attempt, toast } from "./toasts.js";
+import { trialBand } from "./trial_band.js";
 import { trialDetail } from "./trial_detail.js";
 import { trialForm } from "./trial_form.js";
 import { trialList } from "./trial_list.js";
 import { trialApi } from "./trial_api.js";
+import { tracksParts } from "./trial_tracks.js";
 
 function addStyles() {
-  const styles = h("link", { rel: "stylesheet", href: new URL("./trials.css", import.meta.url).pathname });
-  document.head.append(styles);
+  const sheet = (name) => h("link", { rel: "stylesheet", href: new URL(name, import.meta.url).pathname });
+  document.head.append(sheet("./trials.css"), sheet("./trial_beside.css"));
 }
 
 /**
@@ -52,8 +55,18 @@ export function mountTrials(store) {
     return true;
   }
 
-  const all = attempt(async () => show(await trialList({ open: one, add })));
-  const one = attempt(async (id) => show(await trialDetail(id, { all, remove })));
+  const tracks = tracksParts(store, attempt((gait) => selectGait(store, gait)));
+  const all = attempt(async () => show(await trialList({ open: one, add, band })));
+
+  const one = attempt(async (id) => {
+    const { element, leave: gone } = await trialDetail(id, { all, remove, tracks });
+    show(element, gone);
+  });
+
+  const band = attempt(async (group) => {
+    const { element, leave: gone } = await trialBand(group, { all, open: one, tracks });
+    show(element, gone);
+  });
 
   function add() {
     show(trialForm({ store, all, done: (added) => (added.length === 1 ? one(added[0].id) : all()) }));

@@ -97,11 +97,12 @@ def plan_content(times: Floats, feet_world: Floats, alignment: Alignment, expect
 
 
 def path_content(track: FootTrack, most: int) -> dict[str, Any]:
-    """Each foot's way for a plot, thinned to about `most` places, cm, and the frames that are left."""
+    """Each foot's way for a plot, thinned to about `most` places, cm; frames, and their shares of time."""
     every = max(1, -(-track.times.size // most))
     kept = np.unique(np.append(np.arange(0, track.times.size, every), track.times.size - 1))
     ways = np.round(track.feet[kept] * CM, 3)
     feet = [
         {"x": ways[:, foot, 0].tolist(), "y": ways[:, foot, 1].tolist()} for foot in range(track.foot_count)
     ]
-    return {"frames": kept.tolist(), "feet": feet}
+    shares = (track.times[kept] - track.times[0]) / (track.times[-1] - track.times[0])
+    return {"frames": kept.tolist(), "shares": np.round(shares, 5).tolist(), "feet": feet}

@@ -5,28 +5,28 @@ Only the session's thread calls this.
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable
-from dataclasses import asdict, replace
+from dataclasses import replace
 from typing import Any
 
 from app.approvals import Approvals, Word, approval_record, approved, is_confirmed
-from app.deleted_gaits import ROUTE, DeletedGait, deleted_gaits
+from app.deleted_gaits import DeletedGait
 from app.documents import parse_gait
-from app.history import Author, History, Step
-from app.open_gait import OpenGait, fresh_gait, gait_of, gait_text
+from app.gait_shelf import GaitShelf
+from app.history import Author, Step
+from app.open_gait import OpenGait, gait_text
 from app.plan_cache import AskedPlan, PlanCache
 from app.plans import Plan, Solve, verdict_of
 from app.provenance import with_result
 from app.sequence_plans import run_motions
 from app.settling import in_agreement, settled
 from app.store.database import Database
-from app.store.files import GaitFiles, free_id
-from app.store.gait_log import EditingRow, GaitLog, VersionRow
+from app.store.files import GaitFiles
+from app.store.gait_log import GaitLog, VersionRow
 from app.undoing import merged_gait
 from app.versions import VersionKind, Versions, is_said_already
-from core.errors import InputError, StateError
+from core.errors import StateError
 from core.findings import Verdict
 from core.gait import Gait, drawn_timeline
 from core.library import library
@@ -34,10 +34,6 @@ from core.sequence import derived
 from core.simulation_check import Simulated
 
 _SCRIPT = Author()
-
-
-class UnknownGaitError(InputError):
-    """There is no gait of that id."""
 
 
 class GaitDesk:
@@ -61,21 +57,20 @@ class GaitDesk:
         clock: Callable[[], float] = time.time,
         simulated_for: Callable[[Plan], Simulated | None] = lambda plan: None,
     ) -> None:
-        self._files = files
         self._database = database
         self._simulated_for = simulated_for
         self._plans = PlanCache(database, solve_for, self._verdict_of)
         self._connected = connected
-        self._log = GaitLog(database)
-        self.versions = Versions(self._log, clock)
-        self.approvals = Approvals(self._log)
-        self._stored: dict[str, History] = {}
+        log = GaitLog(database)
+        self.versions = Versions(log, clock)
+        self.approvals = Approvals(log)
+        self._shelf = GaitShelf(files, log)
         self._open: dict[str, OpenGait] = {}
 
     def marks(self) -> dict[str, tuple[object, ...]]:
         """Built-in gaits first, then saved ones; each with what changes whenever its line in a list may."""
-        stamps = self._files.stamps()
-        ids = dict.fromkeys((*library(), *sorted(stamps), *self._open))
+        stamps = self._shelf.stamps()
+        ids = dict.fromkeys((*stamps, *self._open))
         # A result's provenance is saved with the gait and is no edit, so that it makes no revision.
         return {
             gait_id: (stamps.get(gait_id), (there.revision, there.gait.provenance) if there else None)
@@ -87,10 +82,7 @@ class GaitDesk:
         open_gait = self._open.get(gait_id)
         if open_gait is not None:
             return open_gait.gait, open_gait.builtin, open_gait.edited
-        saved, builtin, _ = self._saved(gait_id)
-        text = self._log.present_document(gait_id)
-        gait = saved if text is None else parse_gait(text)
-        return gait, builtin, gait != saved
+        return self._shelf.glance(gait_id)
 
     def open_gait(self, gait_id: str) -> OpenGait:
         """The gait's present state.
@@ -99,29 +91,8 @@ class GaitDesk:
             UnknownGaitError: there is none of that id.
         """
         if gait_id not in self._open:
-            self._open[gait_id] = self._load(gait_id)
+            self._open[gait_id] = self._shelf.gait(gait_id)
         return self._open[gait_id]
-
-    def _load(self, gait_id: str) -> OpenGait:
-        saved, builtin, saved_at = self._saved(gait_id)
-        row = self._log.editing(gait_id)
-        if row is None:
-            return fresh_gait(gait_id, saved, builtin, saved_at)
-        self._stored[gait_id] = row.history
-        present = gait_of(row.history.present)
-        opened = OpenGait(gait_id, builtin, row.history, present, row.revision, saved, saved_at, row.notice)
-        return replace(opened, kept_approval=row.approval)
-
-    def _saved(self, gait_id: str) -> tuple[Gait, bool, float | None]:
-        """The document as saved or built in, whether it is built in, and when it was saved."""
-        if not self._files.is_id(gait_id):
-            raise UnknownGaitError(f"There is no gait “{gait_id}”.", gait_id)
-        builtin, saved_at = library().get(gait_id), self._files.saved_at(gait_id)
-        if saved_at is not None:
-            return self._files.read(gait_id), builtin is not None, saved_at
-        if builtin is None:
-            raise UnknownGaitError(f"There is no gait “{gait_id}”.", gait_id)
-        return builtin.gait, True, None
 
     def touched_by(self, page: str) -> tuple[OpenGait, ...]:
         """The gaits in memory that a page edited."""
@@ -257,11 +228,9 @@ class GaitDesk:
         plan = self._plans.known(open_gait)
         if plan is not None and plan.provenance is not None:
             open_gait = self._restated(open_gait, replace(open_gait.gait, provenance=plan.provenance))
-        self._files.write(gait_id, open_gait.gait)
+        self._open[gait_id] = self._shelf.write(open_gait)
         self.versions.keep(open_gait, VersionKind.SAVED, author)
-        saved = replace(open_gait, saved=open_gait.gait, saved_at=self._files.saved_at(gait_id))
-        self._open[gait_id] = saved
-        return saved
+        return self._open[gait_id]
 
     def restore_version(self, gait_id: str, number: int, author: Author = _SCRIPT) -> OpenGait:
         """Puts the document of a version on the desk again, as an edit that can be undone.
@@ -279,12 +248,9 @@ class GaitDesk:
     def create(self, gait: Gait) -> OpenGait:
         """Adds a gait under a new id made from its name, and saves it."""
         gait, notice = in_agreement(derived(gait) if gait.sequence else gait)
-        gait_id = free_id(gait.name, {ROUTE, *self.marks(), *self._files.deleted_ids(), *self._log.ids()})
-        self._files.write(gait_id, gait)
-        created = fresh_gait(gait_id, gait, False, self._files.saved_at(gait_id))
-        created = replace(created, notice=notice)
+        created = replace(self._shelf.add(gait, frozenset(self._open)), notice=notice)
         self.versions.keep(created, VersionKind.SAVED)
-        self._open[gait_id] = created
+        self._open[created.id] = created
         return created
 
     def delete(self, gait_id: str) -> OpenGait | None:
@@ -304,17 +270,17 @@ class GaitDesk:
                 gait_id,
             )
         self.versions.keep(open_gait, VersionKind.BEFORE_DELETE)
-        self._files.remove(gait_id)
+        self._shelf.remove(gait_id)
         self._close(gait_id)
         return self._return(gait_id, "Delete what was saved") if open_gait.builtin else None
 
     def deleted(self) -> tuple[DeletedGait, ...]:
         """What `restore` can bring back, the last deleted first."""
-        return deleted_gaits(self._files, self._log)
+        return self._shelf.deleted()
 
     def restore(self, gait_id: str) -> OpenGait:
         """Brings a deleted gait back as it was, unsaved edits and what can be undone included."""
-        self._files.restore(gait_id)
+        self._shelf.restore(gait_id)
         self._close(gait_id)
         return (
             self._return(gait_id, "Bring back what was saved")
@@ -332,7 +298,6 @@ class GaitDesk:
 
     def _close(self, gait_id: str) -> None:
         self._open.pop(gait_id, None)
-        self._stored.pop(gait_id, None)
         self._plans.drop(gait_id)
 
     def check(self, gait_id: str) -> OpenGait:
@@ -389,11 +354,7 @@ class GaitDesk:
     def _put(
         self, open_gait: OpenGait, version: VersionRow | None = None, record: dict[str, Any] | None = None
     ) -> OpenGait:
-        """Keeps a changed gait in memory and in the database, with version and approval record."""
-        kept = open_gait.kept_approval
-        approval = kept if open_gait.approval is None else json.dumps(asdict(open_gait.approval))
-        row = EditingRow(open_gait.revision, open_gait.history, open_gait.notice, approval)
-        self._log.put(open_gait.id, row, self._stored.get(open_gait.id), version, record)
-        self._stored[open_gait.id] = open_gait.history
+        """Keeps a changed gait open and on the shelf, with version and approval record."""
+        self._shelf.put(open_gait, version, record)
         self._open[open_gait.id] = open_gait
         return open_gait

@@ -14,19 +14,21 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 
 from app.approvals import UnknownApprovalError
-from app.gait_desk import UnknownGaitError
+from app.gait_shelf import UnknownGaitError
 from app.history import Author
 from app.job_book import UnknownJobError
 from app.kept_simulations import UnknownSimulationError
+from app.learning.desk import UnknownLearningError
+from app.learning.sets import UnknownSetError
 from app.open_gait import OpenGait
 from app.pattern_desk import UnknownSearchError
 from app.runs.record import UnknownRunError
 from app.studio import Studio
 from app.trials.desk import UnknownTrialError
-from app.versions import UnknownVersionError
-from core.arrays import Floats
 from app.trials.setup_desk import UnknownSetupError
 from app.trials.video_desk import UnknownVideoError
+from app.versions import UnknownVersionError
+from core.arrays import Floats
 from core.errors import CheckError, FootfallError, InfeasibleError, InputError, RobotError, StateError
 from core.robot import RobotModel
 
@@ -52,12 +54,12 @@ _STATUS: tuple[tuple[type[FootfallError], int], ...] = (
     (UnknownRunError, 404),
     (UnknownSimulationError, 404),
     (UnknownTrialError, 404),
-    (StateError, 409),
-    (CheckError, 409),
     (UnknownLearningError, 404),
     (UnknownSetError, 404),
     (UnknownSetupError, 404),
     (UnknownVideoError, 404),
+    (StateError, 409),
+    (CheckError, 409),
     (RobotError, 503),
     (InputError, 422),
     (InfeasibleError, 422),

@@ -6,7 +6,7 @@ import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
-from app.gait_desk import UnknownGaitError
+from app.gait_shelf import UnknownGaitError
 from app.routes.edge import install_error_handlers
 from core.errors import FootfallError, InputError, RobotError, StateError
 

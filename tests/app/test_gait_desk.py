@@ -10,8 +10,9 @@ import pytest
 
 from app.approvals import Word
 from app.documents import motion_hash
-from app.gait_desk import GaitDesk, UnknownGaitError
+from app.gait_desk import GaitDesk
 from app.gait_list import GaitList
+from app.gait_shelf import UnknownGaitError
 from app.live_desk import FAILED_SECONDS, LiveDesk
 from app.plans import PlanSource
 from app.store.database import Database

@@ -7,6 +7,9 @@ import shutil
 
 from app.bench.page import CHROMIUM_NAMES
 
+LONG_MS = 60_000
+"""How long the page may take for anything: a deadline for loaded machines, which no test waits out."""
+
 
 def chromium_path() -> str | None:
     """The browser's program, or None where there is none."""

@@ -21,7 +21,7 @@ PROJECT = Path(__file__).resolve().parents[1]
 START_SECONDS = 30.0
 
 
-def wait_for(condition: Callable[[], bool], what: str, seconds: float = 20.0) -> None:
+def wait_for(condition: Callable[[], bool], what: str, seconds: float = 60.0) -> None:
     """Looks again and again until a condition holds, at most some seconds."""
     deadline = time.monotonic() + seconds
     while not condition():
@@ -63,7 +63,7 @@ class StudioProcess:
             headers={"content-type": "application/json", **(headers or {})},
         )
         try:
-            with urllib.request.urlopen(request, timeout=20) as answer:
+            with urllib.request.urlopen(request, timeout=60) as answer:
                 return Answer(answer.status, json.loads(answer.read() or b"null"))
         except urllib.error.HTTPError as error:
             with error:
@@ -71,7 +71,7 @@ class StudioProcess:
 
     def blob(self, path: str) -> bytes:
         """The bytes at a path."""
-        with urllib.request.urlopen(self.url + path.lstrip("/"), timeout=20) as answer:
+        with urllib.request.urlopen(self.url + path.lstrip("/"), timeout=60) as answer:
             content: bytes = answer.read()
             return content
 
@@ -122,7 +122,7 @@ def running_studio(
             raise AssertionError(f"no address in {line!r}; exit status {process.wait(START_SECONDS)}")
         yield StudioProcess(process, found.group())
         process.send_signal(signal.SIGTERM)
-        if process.wait(20) != 0:
+        if process.wait(60) != 0:
             raise AssertionError(f"serve ended with status {process.returncode}")
     finally:
         process.kill()

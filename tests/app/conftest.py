@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from app.bridge.emulated import EmulatedRobot, start_emulator
+from app.bridge.emulated import EmulatedRobot
 from app.store.database import Database
 from tests.studio_process import StudioProcess, running_studio
 
@@ -18,14 +18,6 @@ def database(tmp_path: Path) -> Iterator[Database]:
     opened = Database(tmp_path / "studio.sqlite3")
     yield opened
     opened.close()
-
-
-@pytest.fixture(scope="module")
-def robot(request: pytest.FixtureRequest) -> Iterator[EmulatedRobot]:
-    """An emulated robot, as fast as the file's `SPEED` says: its seconds in one of ours."""
-    emulated = start_emulator("nominal", request.module.SPEED)
-    yield emulated
-    emulated.close()
 
 
 @pytest.fixture(scope="module")

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 from playwright.sync_api import Browser, BrowserContext, Page
 
 from app.bench.page import CHROMIUM_WORDS
-from tests.chromium import chromium_path
+from tests.chromium import LONG_MS, chromium_path
 
 _FLAT: dict[Browser, Browser] = {}
 """Beside each browser one that draws without a GPU, real or emulated; it ends with its Playwright."""
@@ -24,6 +25,7 @@ def opened_page(
     """
     drawing = browser if has_scene else flat_browser(browser)
     page = drawing.new_page(viewport={"width": width, "height": height})
+    page.set_default_timeout(LONG_MS)
     if not has_scene:
         leave_scene_out(page)
     problems: list[str] = []
@@ -45,3 +47,10 @@ def flat_browser(browser: Browser) -> Browser:
 def leave_scene_out(where: Page | BrowserContext) -> None:
     """An empty frame instead of the 3D scene, in a page or in all of a window's."""
     where.route("**/viser/**", lambda route: route.fulfill(body="<html></html>", content_type="text/html"))
+
+
+def look(page: Page, name: str) -> None:
+    """Keeps a screenshot where somebody asked for them."""
+    folder = os.environ.get("FOOTFALL_SCREENSHOTS")
+    if folder:
+        page.screenshot(path=f"{folder}/{name}.png")

@@ -13,7 +13,6 @@ from app.bench.gait_list import fill
 from tests.page.opened import opened_page
 from tests.studio_process import StudioProcess, running_studio
 
-LONG_MS = 60_000
 COUNT = 40
 
 
@@ -28,7 +27,7 @@ def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess]:
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     with opened_page(browser, studio.url, 1280, 800, has_scene=False) as opened:
-        expect(opened.get_by_label("Gait name")).not_to_have_value("", timeout=LONG_MS)
+        expect(opened.get_by_label("Gait name")).not_to_have_value("")
         yield opened
 
 
@@ -54,9 +53,9 @@ def test_the_list_stands_before_the_studio_has_greeted(browser: Browser, studio:
     page.route_web_socket("**/api/events**", lambda socket: None)
     page.goto(studio.url)
     gaits = page.get_by_role("list", name="Gaits")
-    expect(gaits.get_by_role("button", name="Trial 40")).to_be_visible(timeout=LONG_MS)
+    expect(gaits.get_by_role("button", name="Trial 40")).to_be_visible()
     gaits.get_by_role("button", name="Trial 40").click()
-    expect(page.get_by_label("Gait name")).to_have_value("Trial 40", timeout=LONG_MS)
+    expect(page.get_by_label("Gait name")).to_have_value("Trial 40")
     page.close()
 
 
@@ -64,14 +63,14 @@ def test_a_list_that_does_not_come_with_the_page_comes_with_the_greeting(page: P
     page.route("**/api/gaits", lambda route: route.abort())
     page.reload()
     gaits = page.get_by_role("list", name="Gaits")
-    expect(gaits.get_by_role("button", name="Trial 40")).to_be_visible(timeout=LONG_MS)
+    expect(gaits.get_by_role("button", name="Trial 40")).to_be_visible()
 
 
 def test_a_line_of_the_list_follows_an_edit_elsewhere(page: Page, studio: StudioProcess) -> None:
     document = studio.ask("GET", "/api/gaits/trial-0007").content
     studio.ask("PUT", "/api/gaits/trial-0007?label=Name", {**document, "name": "Seventh heaven"})
     line = page.get_by_role("list", name="Gaits").get_by_role("button", name=re.compile("^Seventh heaven"))
-    expect(line).to_have_attribute("title", re.compile("unsaved changes"), timeout=LONG_MS)
+    expect(line).to_have_attribute("title", re.compile("unsaved changes"))
 
 
 def test_a_short_list_has_no_search(browser: Browser, tmp_path: Path) -> None:
@@ -79,5 +78,5 @@ def test_a_short_list_has_no_search(browser: Browser, tmp_path: Path) -> None:
         running_studio(tmp_path) as studio,
         opened_page(browser, studio.url, 1024, 768, has_scene=False) as opened,
     ):
-        expect(opened.get_by_label("Gait name")).not_to_have_value("", timeout=LONG_MS)
+        expect(opened.get_by_label("Gait name")).not_to_have_value("")
         expect(opened.get_by_role("searchbox", name="Find a gait")).to_be_hidden()

@@ -15,7 +15,6 @@ from tests.held_gaits import lifting, wave
 from tests.page.opened import opened_page
 from tests.studio_process import StudioProcess, wait_for
 
-LONG_MS = 60_000
 LIFTED = replace(lifting("hexapod", (1, 4)), name="Lifted", held=HeldFeet())
 FOUR = replace(wave("hexapod", (1, 4), phase_knots=3, closing_knots=3), name="On four feet")
 
@@ -30,13 +29,13 @@ def made(studio: StudioProcess) -> dict[str, str]:
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess, made: dict[str, str]) -> Iterator[Page]:
     with opened_page(browser, studio.url, 1280, 720, has_scene=False) as opened:
-        expect(opened.get_by_label("Gait name")).not_to_have_value("", timeout=LONG_MS)
+        expect(opened.get_by_label("Gait name")).not_to_have_value("")
         yield opened
 
 
 def opened_gait(page: Page, name: str) -> None:
     page.get_by_role("list", name="Gaits").get_by_role("button", name=name).click()
-    expect(page.get_by_label("Gait name")).to_have_value(name, timeout=LONG_MS)
+    expect(page.get_by_label("Gait name")).to_have_value(name)
 
 
 def held(studio: StudioProcess, gait_id: str) -> Any:
@@ -47,7 +46,7 @@ def test_holding_feet_up_makes_a_motion_of_a_gait_that_ends_in_the_air(
     page: Page, studio: StudioProcess, made: dict[str, str]
 ) -> None:
     opened_gait(page, "Lifted")
-    expect(page.get_by_text("or hold it up").first).to_be_visible(timeout=LONG_MS)
+    expect(page.get_by_text("or hold it up").first).to_be_visible()
     page.get_by_text("More", exact=True).click()
     field = page.get_by_label("Held up at end")
     field.fill("1 9")
@@ -58,7 +57,7 @@ def test_holding_feet_up_makes_a_motion_of_a_gait_that_ends_in_the_air(
     wait_for(lambda: held(studio, made["Lifted"]) == {"start": [], "end": [1, 4]}, "held up", 60)
     field.press("Tab")
     expect(field).to_have_value("1 4")
-    expect(page.get_by_text("Feasible, checked")).to_be_visible(timeout=LONG_MS)
+    expect(page.get_by_text("Feasible, checked")).to_be_visible()
     expect(page.get_by_text("Feet 1 and 4 are held up at the end.").first).to_be_attached()
 
 
@@ -66,9 +65,9 @@ def test_a_drawn_gait_keeps_its_phases_and_its_held_feet_when_it_is_turned(
     page: Page, studio: StudioProcess, made: dict[str, str]
 ) -> None:
     opened_gait(page, "On four feet")
-    expect(page.get_by_label("Phase knots", exact=True)).to_have_value("3", timeout=LONG_MS)
+    expect(page.get_by_label("Phase knots", exact=True)).to_have_value("3")
     page.get_by_text("More: ").first.click()
     page.get_by_label("Direction", exact=True).select_option("2")
     wait_for(lambda: held(studio, made["On four feet"]) == {"start": [2, 5], "end": [2, 5]}, "turned", 60)
-    expect(page.get_by_label("Held up at start")).to_have_value("2 5", timeout=LONG_MS)
+    expect(page.get_by_label("Held up at start")).to_have_value("2 5")
     expect(page.get_by_label("Phase knots", exact=True)).to_have_value("3")

@@ -4,70 +4,55 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from contextlib import closing
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from app.bridge.emulated import EmulatedRobot, start_emulator
-from tests.page.opened import opened_page
+from tests.page.opened import look, opened_page
+from tests.page.robot_panel import name
 from tests.page.test_accessibility import serious_findings
-from tests.page.test_robot_lease import LONG_MS, look, name
-from tests.studio_process import StudioProcess, running_studio, wait_for
+from tests.studio_process import StudioProcess, wait_for
+
+SPEED = 20.0
 
 SCROLLED = "() => document.getElementById('sections').scrollTop"
 """How far the panel is scrolled, px."""
 
 
-@pytest.fixture(scope="module")
-def robot() -> Iterator[EmulatedRobot]:
-    with closing(start_emulator("nominal", 20.0)) as emulated:
-        yield emulated
-
-
-@pytest.fixture(scope="module")
-def studio(tmp_path_factory: pytest.TempPathFactory, robot: EmulatedRobot) -> Iterator[StudioProcess]:
-    with running_studio(tmp_path_factory.mktemp("data"), "--robot", robot.device) as running:
-        yield running
-
-
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     with opened_page(browser, studio.url, 1280, 900, has_scene=False) as opened:
-        opened.set_default_timeout(LONG_MS)
         name(opened, "Ada")
-        opened.get_by_text("Jog: move a motor").click(timeout=LONG_MS)
+        opened.get_by_text("Jog: move a motor").click()
         yield opened
 
 
 def test_the_body_is_raised_by_a_target_that_is_seen_first(page: Page, studio: StudioProcess) -> None:
     jog = page.get_by_role("group", name="Jog", exact=True)
     move = jog.get_by_role("button", name="Move", exact=True)
-    expect(move).to_have_attribute("title", "Connect the robot first.", timeout=LONG_MS)
+    expect(move).to_have_attribute("title", "Connect the robot first.")
     page.get_by_role("button", name="Connect", exact=True).click()
     arm = page.get_by_role("button", name="Arm", exact=True)
-    expect(arm).not_to_have_attribute("aria-disabled", "true", timeout=LONG_MS)
+    expect(arm).not_to_have_attribute("aria-disabled", "true")
     arm.click()
-    expect(move).to_have_attribute("title", re.compile("Choose a step"), timeout=LONG_MS)
+    expect(move).to_have_attribute("title", re.compile("Choose a step"))
 
     jog.get_by_role("button", name="Body", exact=True).click()
     lower = jog.get_by_role("button", name="Body, height minus")
-    expect(lower).to_have_attribute("title", re.compile("Choose a shorter step"), timeout=LONG_MS)
+    expect(lower).to_have_attribute("title", re.compile("Choose a shorter step"))
     jog.get_by_role("spinbutton", name="Jog step").fill("0.4")
     jog.get_by_role("spinbutton", name="Jog step").press("Enter")
     higher = jog.get_by_role("button", name="Body, height plus")
     higher.focus()
     page.keyboard.press("Enter")
-    expect(jog.get_by_role("status", name="Jog findings")).to_contain_text(
-        "No motor would move", timeout=LONG_MS
-    )
+    expect(jog.get_by_role("status", name="Jog findings")).to_contain_text("No motor would move")
     expect(move).to_have_attribute("aria-disabled", "true")
     assert serious_findings(page, {"include": [["#robot"]]}) == []
     jog.get_by_role("spinbutton", name="Jog step").fill("3")
     jog.get_by_role("spinbutton", name="Jog step").press("Enter")
     higher.click()
     higher.click()
-    expect(jog.get_by_text(re.compile(r"3 moves, about .* Stop acts within"))).to_be_visible(timeout=LONG_MS)
+    expect(jog.get_by_text(re.compile(r"3 moves, about .* Stop acts within"))).to_be_visible()
     before = studio.robot()["strokes_mm"]
     assert max(before) < 1.0
     look(page, "jog")
@@ -77,9 +62,9 @@ def test_the_body_is_raised_by_a_target_that_is_seen_first(page: Page, studio: S
     scrolled = page.evaluate(SCROLLED)
     assert scrolled > 0
     wait_for(lambda: min(studio.robot()["strokes_mm"]) > 6.0, "the body is raised", 60.0)
-    expect(jog.get_by_text("From where the motors stand.")).to_be_visible(timeout=LONG_MS)
+    expect(jog.get_by_text("From where the motors stand.")).to_be_visible()
     wait_for(lambda: studio.robot()["robot"] == "armed", "the jog is done", 60.0)
-    expect(page.get_by_role("status", name="Robot")).to_contain_text("armed", timeout=LONG_MS)
+    expect(page.get_by_role("status", name="Robot")).to_contain_text("armed")
     assert page.evaluate(SCROLLED) == scrolled  # the buttons stay where they are
     expect(page.get_by_role("button", name="Send to robot")).to_be_visible()
 
@@ -92,7 +77,7 @@ def test_letters_and_the_target_alone_move_nothing(page: Page, studio: StudioPro
     stands = studio.robot()["strokes_mm"]
     jog.get_by_role("button", name="Motor", exact=True).click()
     plus = jog.get_by_role("button", name="Motor 2 of foot 1 plus")
-    expect(plus).not_to_have_attribute("aria-disabled", "true", timeout=LONG_MS)
+    expect(plus).not_to_have_attribute("aria-disabled", "true")
     plus.click()
     expect(jog.get_by_role("img", name=re.compile("Motor 2 of foot 1"))).to_be_visible()
     page.keyboard.press("m")
@@ -106,10 +91,10 @@ def test_letters_and_the_target_alone_move_nothing(page: Page, studio: StudioPro
 def test_a_pose_is_taken_into_the_segment_table_and_undone(page: Page, studio: StudioProcess) -> None:
     jog = page.get_by_role("group", name="Jog", exact=True)
     take = jog.get_by_role("button", name="Take this pose as a waypoint")
-    expect(take).to_have_attribute("title", re.compile("has no segment table"), timeout=LONG_MS)
+    expect(take).to_have_attribute("title", re.compile("has no segment table"))
     page.get_by_text("By hand (9)").click()
     page.get_by_text("Manual walk, v0", exact=True).click()
-    expect(take).not_to_have_attribute("aria-disabled", "true", timeout=LONG_MS)
+    expect(take).not_to_have_attribute("aria-disabled", "true")
 
     def segments() -> int:
         view = studio.ask("GET", "/api/gaits/walk-manual-0/view").content
@@ -118,12 +103,10 @@ def test_a_pose_is_taken_into_the_segment_table_and_undone(page: Page, studio: S
     before = segments()
     jog.get_by_role("button", name="Body", exact=True).click()
     higher = jog.get_by_role("button", name="Body, height plus")
-    expect(higher).not_to_have_attribute("aria-disabled", "true", timeout=LONG_MS)
+    expect(higher).not_to_have_attribute("aria-disabled", "true")
     higher.click()
     take.click()
-    expect(page.get_by_text(f"Pose 1 is segment {before + 1} of the segment table.")).to_be_visible(
-        timeout=LONG_MS
-    )
+    expect(page.get_by_text(f"Pose 1 is segment {before + 1} of the segment table.")).to_be_visible()
     wait_for(lambda: segments() == before + 1, "the table is longer", 60.0)
     page.keyboard.press("Control+z")
     wait_for(lambda: segments() == before, "the pose is undone", 60.0)

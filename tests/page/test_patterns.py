@@ -14,8 +14,6 @@ from tests.page.opened import leave_scene_out, opened_page
 from tests.page.test_accessibility import serious_findings
 from tests.studio_process import StudioProcess, wait_for
 
-LONG_MS = 60_000
-
 SEARCH = {"include": [[".pattern-panel"], [".pattern-view"], [".right .tabs"]]}
 """What belongs to the search; the scene is left out."""
 
@@ -26,7 +24,7 @@ def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     with opened_page(browser, f"{studio.url}static/icon.svg", 1280, 800) as opened:
         leave_scene_out(opened)
         opened.goto(studio.url)
-        expect(opened.get_by_label("Gait name")).not_to_have_value("", timeout=LONG_MS)
+        expect(opened.get_by_label("Gait name")).not_to_have_value("")
         yield opened
 
 
@@ -39,14 +37,14 @@ def search(page: Page) -> Page:
     page.reload()
     choose_gait(page, "Walk 10 mm")
     page.get_by_role("tab", name="Patterns").click()
-    expect(page.get_by_role("tabpanel", name="Patterns")).to_be_visible(timeout=LONG_MS)
+    expect(page.get_by_role("tabpanel", name="Patterns")).to_be_visible()
     return page
 
 
 def choose_gait(page: Page, name: str) -> None:
     exact = page.locator(".name", has_text=re.compile(f"^{re.escape(name)}$"))
     page.get_by_role("list", name="Gaits").get_by_role("button").filter(has=exact).click()
-    expect(page.get_by_label("Gait name")).to_have_value(name, timeout=LONG_MS)
+    expect(page.get_by_label("Gait name")).to_have_value(name)
 
 
 def cursor(page: Page, gait: str) -> Locator:
@@ -76,8 +74,8 @@ def status(page: Page) -> Locator:
 
 def solved(page: Page, word: str = "Optimal") -> None:
     """Waits until the newest question is answered."""
-    expect(page.locator(".pattern-grid[data-stale]")).to_have_count(0, timeout=LONG_MS)
-    expect(status(page)).to_contain_text(word, timeout=LONG_MS)
+    expect(page.locator(".pattern-grid[data-stale]")).to_have_count(0)
+    expect(status(page)).to_contain_text(word)
     wait_for(
         lambda: rows(page) != [] and (word != "Optimal" or "." not in "".join(rows(page))), "its cells", 60
     )
@@ -102,9 +100,9 @@ def test_a_transition_follows_its_cursors_and_becomes_a_gait(search: Page, studi
     assert all(set(row) <= {"0", "1"} for row in rows(search))
     expect(cell(search, 3, 1)).to_have_accessible_name("foot 3, sample 1: swing, given by a gait")
     make = search.get_by_role("button", name="Make gait")
-    expect(make).not_to_have_attribute("aria-disabled", "true", timeout=LONG_MS)
+    expect(make).not_to_have_attribute("aria-disabled", "true")
     make.click()
-    expect(search.get_by_label("Gait name")).to_have_value("Walk 10 mm to Amble 10 mm", timeout=LONG_MS)
+    expect(search.get_by_label("Gait name")).to_have_value("Walk 10 mm to Amble 10 mm")
     made = studio.ask("GET", "/api/gaits/walk-10-mm-to-amble-10-mm").content
     wait_for(lambda: [row[6:26] for row in made["timeline"]["feet"]] == rows(search), "it is the shown one")
     search.get_by_role("button", name="Delete", exact=True).click()
@@ -139,7 +137,7 @@ def test_cursors_stay_while_a_new_gait_is_not_yet_in_the_list(
         solved(other)
         shown = rows(other)
         other.get_by_role("button", name="Make gait").click()
-        expect(other.get_by_label("Gait name")).to_have_value("Walk 10 mm to Amble 10 mm", timeout=LONG_MS)
+        expect(other.get_by_label("Gait name")).to_have_value("Walk 10 mm to Amble 10 mm")
         expect(cursor(other, "A")).to_have_attribute("aria-valuenow", "7")
         assert late, "the list was held back"
         for send in late:
@@ -199,7 +197,7 @@ def test_a_length_too_short_for_what_a_cursor_cuts_is_mended_by_a_button(search:
 def test_the_best_patterns_are_looked_through_by_keys(search: Page) -> None:
     solved(search)
     best = search.get_by_role("listbox", name="Best patterns")
-    expect(best.get_by_role("option")).to_have_count(5, timeout=LONG_MS)
+    expect(best.get_by_role("option")).to_have_count(5)
     pictures = best.locator("svg").evaluate_all("(pictures) => pictures.map(({ innerHTML }) => innerHTML)")
     assert len(set(pictures)) == 5
     first = rows(search)
@@ -214,18 +212,18 @@ def test_the_best_patterns_are_looked_through_by_keys(search: Page) -> None:
 def test_what_walks_has_a_playhead_and_the_chosen_pattern_outlasts_its_gait(search: Page) -> None:
     solved(search)
     best = search.get_by_role("listbox", name="Best patterns")
-    expect(best.get_by_role("option")).to_have_count(5, timeout=LONG_MS)
+    expect(best.get_by_role("option")).to_have_count(5)
     best.focus()
     press(search, "ArrowDown", "ArrowDown")
     chosen = rows(search)
     search.get_by_role("button", name="Walk it").click()
     sought = search.locator(".pattern-sought .pattern-playhead")
-    expect(sought).to_be_visible(timeout=LONG_MS)
-    expect(search.locator(".pattern-playhead:not(.pattern-sought *)")).to_be_visible(timeout=LONG_MS)
+    expect(sought).to_be_visible()
+    expect(search.locator(".pattern-playhead:not(.pattern-sought *)")).to_be_visible()
     search.get_by_role("button", name="Stop walking").click()
     expect(search.locator(".pattern-playhead")).to_be_hidden()
     search.get_by_role("button", name="Make gait").click()
-    expect(search.get_by_label("Gait name")).to_have_value("Walk 10 mm to Amble 10 mm", timeout=LONG_MS)
+    expect(search.get_by_label("Gait name")).to_have_value("Walk 10 mm to Amble 10 mm")
     for tab in ("Optimise", "Patterns"):
         search.get_by_role("tab", name=tab).click()
     expect(best.get_by_role("option").nth(2)).to_have_attribute("aria-selected", "true")
@@ -244,20 +242,20 @@ def test_a_gait_for_some_limbs_walks_and_is_made(search: Page, studio: StudioPro
     wait_for(lambda: rows(search)[2] == "0" * 20 and "." not in "".join(rows(search)), "limb 3 is up", 60)
     solved(search)
     search.get_by_role("button", name="Walk it").click()
-    expect(search.get_by_role("button", name="Stop walking")).to_be_visible(timeout=LONG_MS)
+    expect(search.get_by_role("button", name="Stop walking")).to_be_visible()
     expect(search.get_by_role("button", name="Pause")).to_be_visible()
-    expect(search.get_by_role("status", name="Plan")).to_contain_text("Feasible", timeout=LONG_MS)
+    expect(search.get_by_role("status", name="Plan")).to_contain_text("Feasible")
     search.get_by_role("button", name="Stop walking").click()
     second = search.get_by_role("listbox", name="Best patterns").get_by_role("option").nth(1)
-    second.click(timeout=LONG_MS)
+    second.click()
     chosen = rows(search)
     search.get_by_role("button", name="Make gait").click()
-    expect(search.get_by_label("Gait name")).to_have_value("4 limbs of 6", timeout=LONG_MS)
+    expect(search.get_by_label("Gait name")).to_have_value("4 limbs of 6")
     expect(second).to_have_attribute("aria-selected", "true")
     assert rows(search) == chosen
     made = studio.ask("GET", "/api/gaits/4-limbs-of-6").content
     assert made["held"] == {"start": [3, 6], "end": [3, 6]}
-    expect(search.get_by_role("status", name="Plan")).to_contain_text("Feasible", timeout=LONG_MS)
+    expect(search.get_by_role("status", name="Plan")).to_contain_text("Feasible")
 
 
 def test_a_drawing_is_completed_by_one_edit(search: Page, studio: StudioProcess) -> None:
@@ -274,11 +272,11 @@ def test_a_drawing_is_completed_by_one_edit(search: Page, studio: StudioProcess)
     assert done[3][6:10] == "0000"
     search.get_by_role("button", name="Complete the drawing").click()
     undo = search.get_by_role("button", name=re.compile("^Undo"))
-    expect(undo).to_have_attribute("title", re.compile("Undo: Complete the drawing"), timeout=LONG_MS)
+    expect(undo).to_have_attribute("title", re.compile("Undo: Complete the drawing"))
     assert studio.ask("GET", "/api/gaits/half-drawn").content["timeline"]["feet"] == done
     nothing = re.compile("^Nothing to complete")
     complete = search.get_by_role("button", name="Complete the drawing")
-    expect(complete).to_have_attribute("title", nothing, timeout=LONG_MS)
+    expect(complete).to_have_attribute("title", nothing)
     undo.click()
     wait_for(lambda: studio.ask("GET", "/api/gaits/half-drawn").content["timeline"]["feet"] == feet, "undone")
 
@@ -321,7 +319,7 @@ def test_a_long_search_shows_bound_and_gap_and_can_be_ended(search: Page) -> Non
 def test_a_reload_keeps_gaits_cursors_and_rules(search: Page) -> None:
     solved(search)
     search.get_by_label("Gait B", exact=True).select_option("quadruped-wave-1")
-    expect(cursor(search, "B")).to_have_attribute("aria-valuemax", "42", timeout=LONG_MS)
+    expect(cursor(search, "B")).to_have_attribute("aria-valuemax", "42")
     cursor(search, "B").focus()
     press(search, "End", "ArrowLeft")
     expect(cursor(search, "B")).to_have_attribute("aria-valuenow", "41")
@@ -330,10 +328,8 @@ def test_a_reload_keeps_gaits_cursors_and_rules(search: Page) -> None:
     search.get_by_label("Length", exact=True).fill("24")
     solved(search)
     search.reload()
-    expect(search.get_by_role("tab", name="Patterns")).to_have_attribute(
-        "aria-selected", "true", timeout=LONG_MS
-    )
-    expect(cursor(search, "B")).to_have_attribute("aria-valuetext", text or "", timeout=LONG_MS)
+    expect(search.get_by_role("tab", name="Patterns")).to_have_attribute("aria-selected", "true")
+    expect(cursor(search, "B")).to_have_attribute("aria-valuetext", text or "")
     expect(search.get_by_label("Gait B", exact=True)).to_have_value("quadruped-wave-1")
     expect(search.get_by_role("switch", name="Workloads differ by: on")).not_to_be_checked()
     expect(search.get_by_label("Length", exact=True)).to_have_value("24")

@@ -3,8 +3,8 @@
 import pytest
 from playwright.sync_api import Browser, expect
 
-from tests.page.opened import opened_page
-from tests.page.test_robot_lease import LONG_MS, look, name
+from tests.page.opened import look, opened_page
+from tests.page.robot_panel import name
 from tests.studio_process import running_studio
 
 
@@ -16,15 +16,15 @@ def test_a_fault_is_chosen_and_its_effect_is_shown(
         opened_page(browser, studio.url, 1280, 720, has_scene=False) as page,
     ):
         name(page, "Ada")
-        page.get_by_text("Faults of the emulated robot").click(timeout=LONG_MS)
+        page.get_by_text("Faults of the emulated robot").click()
         strike = page.get_by_role("button", name="Make it happen")
         expect(strike).to_have_attribute("title", "Connect the emulated robot first.")
         page.get_by_role("button", name="Connect", exact=True).click()
         expect(page.get_by_role("button", name="Arm", exact=True)).not_to_have_attribute(
-            "aria-disabled", "true", timeout=LONG_MS
+            "aria-disabled", "true"
         )
         page.get_by_role("combobox", name="Fault", exact=True).select_option("unplug")
         strike.scroll_into_view_if_needed()
         look(page, "faults")
         strike.click()
-        expect(page.get_by_role("status", name="Robot")).to_contain_text("hung up", timeout=LONG_MS)
+        expect(page.get_by_role("status", name="Robot")).to_contain_text("hung up")

@@ -2,31 +2,18 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterator
-from contextlib import closing
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from app.bridge.emulated import EmulatedRobot, start_emulator
-from tests.page.opened import opened_page
-from tests.studio_process import StudioProcess, running_studio, wait_for
+from app.bridge.emulated import EmulatedRobot
+from tests.page.opened import look, opened_page
+from tests.page.robot_panel import name
+from tests.studio_process import StudioProcess, wait_for
 
-LONG_MS = 60_000
-
-
-@pytest.fixture(scope="module")
-def robot() -> Iterator[EmulatedRobot]:
-    with closing(start_emulator("nominal", 20.0)) as emulated:
-        yield emulated
-
-
-@pytest.fixture(scope="module")
-def studio(tmp_path_factory: pytest.TempPathFactory, robot: EmulatedRobot) -> Iterator[StudioProcess]:
-    with running_studio(tmp_path_factory.mktemp("data"), "--robot", robot.device) as running:
-        yield running
+SPEED = 20.0
 
 
 @pytest.fixture
@@ -43,33 +30,19 @@ def grace(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
         yield page
 
 
-def name(page: Page, person: str) -> None:
-    page.get_by_role("button", name=re.compile("Operator")).click(timeout=LONG_MS)
-    page.get_by_role("textbox", name="Your name").fill(person)
-    page.keyboard.press("Enter")
-    page.get_by_role("tab", name="Robot").click()
-
-
-def look(page: Page, picture: str) -> None:
-    """Keeps a screenshot where somebody asked for them."""
-    folder = os.environ.get("FOOTFALL_SCREENSHOTS")
-    if folder:
-        page.screenshot(path=f"{folder}/{picture}.png")
-
-
 def press(page: Page, button: str | re.Pattern[str]) -> None:
     found = page.get_by_role("button", name=button, exact=isinstance(button, str))
-    expect(found).to_be_visible(timeout=LONG_MS)
+    expect(found).to_be_visible()
     found.press("Enter")
 
 
 def says_who_holds(page: Page, words: str) -> None:
     held = page.get_by_role("group", name="Who holds the robot")
-    expect(held).to_contain_text(words, timeout=LONG_MS)
+    expect(held).to_contain_text(words)
 
 
 def is_state(page: Page, state: str) -> None:
-    expect(page.get_by_role("status", name="Robot")).to_contain_text(re.compile(state), timeout=LONG_MS)
+    expect(page.get_by_role("status", name="Robot")).to_contain_text(re.compile(state))
 
 
 def test_a_second_tab_looks_on_is_given_the_robot_and_the_first_can_still_stop(
@@ -92,7 +65,7 @@ def test_a_second_tab_looks_on_is_given_the_robot_and_the_first_can_still_stop(
     press(grace, "Arm")
     is_state(ada, "\\barmed")
     grace.reload()
-    grace.get_by_role("tab", name="Robot").click(timeout=LONG_MS)
+    grace.get_by_role("tab", name="Robot").click()
     says_who_holds(grace, "You hold the robot.")
     press(ada, "Stop")
     is_state(grace, "stopp(ed|ing)")
@@ -128,7 +101,7 @@ def test_a_stop_goes_out_on_two_ways_of_which_each_is_enough(
     wait_for(lambda: held_still.robot()["robot"] == "stopped", "the robot is stopped")
     assert held_still.robot()["stop_text"] == "stopped by Ada"
     is_state(ada, "stopped")
-    expect(ada.locator("#stop")).not_to_have_attribute("data-busy", "", timeout=LONG_MS)
+    expect(ada.locator("#stop")).not_to_have_attribute("data-busy", "")
     assert ada.get_by_text("did not reach the studio").count() == 0
 
 
@@ -166,7 +139,7 @@ def test_a_run_is_begun_at_a_later_pose_and_repeated(ada: Page, studio: StudioPr
     count = studio.ask("GET", f"/api/gaits/walk/run?from={places[-2]['waypoint']}&iterations=2").content[
         "waypoints"
     ]
-    expect(ada.locator("#robot .summary")).to_contain_text(f"Waypoints{count}", timeout=LONG_MS)
+    expect(ada.locator("#robot .summary")).to_contain_text(f"Waypoints{count}")
     look(ada, "robot-course")
     press(ada, "Send to robot")
     wait_for(lambda: studio.robot()["robot"] in ("done", "fault"), "the run ended", 60)
@@ -174,7 +147,7 @@ def test_a_run_is_begun_at_a_later_pose_and_repeated(ada: Page, studio: StudioPr
     is_state(ada, "done")
     ada.get_by_text("What happened").click()
     log = ada.get_by_role("list", name="What happened")
-    expect(log).to_contain_text("The last waypoint was reached.", timeout=LONG_MS)
+    expect(log).to_contain_text("The last waypoint was reached.")
     expect(log).to_contain_text("Armed by Ada.")
     log.scroll_into_view_if_needed()
     look(ada, "robot-log")
@@ -195,7 +168,7 @@ def test_a_board_that_hung_up_is_offered_where_it_is_now_and_not_connected_by_it
     expect(offer).to_be_hidden()
     robot.close()
     wait_for(lambda: studio.robot()["link"] == "lost", "the cable is out")
-    expect(offer).to_contain_text(sentence, timeout=LONG_MS)
+    expect(offer).to_contain_text(sentence)
     expect(ada.get_by_label("Device")).to_contain_text("ttyACM1 · Feather M0 · no. F00D")
     look(ada, "robot-found-again")
     with ada.expect_request("**/api/robot/connect") as asked:

@@ -10,13 +10,11 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from tests.page.opened import opened_page
 from tests.studio_process import StudioProcess, wait_for
 
-LONG_MS = 60_000
-
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     with opened_page(browser, studio.url, 1280, 800, has_scene=False) as opened:
-        expect(opened.get_by_label("Gait name")).not_to_have_value("", timeout=LONG_MS)
+        expect(opened.get_by_label("Gait name")).not_to_have_value("")
         yield opened
 
 
@@ -42,7 +40,7 @@ def test_reason_and_ways_out_are_seen_without_scrolling(page: Page, size: tuple[
     step.press("Enter")
     why = page.get_by_role("region", name="Why it is infeasible")
     ways = why.get_by_role("group", name="Ways out")
-    expect(ways.get_by_role("button").first).to_be_visible(timeout=LONG_MS)
+    expect(ways.get_by_role("button").first).to_be_visible()
     panel = page.locator("#sections").bounding_box()
     assert panel is not None
     assert page.locator("#sections").evaluate("panel => panel.scrollTop") == 0
@@ -61,7 +59,7 @@ def test_in_a_low_panel_the_answer_stays_at_its_lower_edge(page: Page) -> None:
     step.fill("30")
     step.press("Enter")
     ways = page.get_by_role("group", name="Ways out")
-    expect(ways.get_by_role("button").first).to_be_in_viewport(ratio=1, timeout=LONG_MS)
+    expect(ways.get_by_role("button").first).to_be_in_viewport(ratio=1)
     page.get_by_role("spinbutton", name="Stability margin").focus()
     expect(page.get_by_role("spinbutton", name="Stability margin")).to_be_in_viewport(ratio=1)
     expect(ways.get_by_role("button").first).to_be_in_viewport(ratio=1)

@@ -15,7 +15,6 @@ from tests.page.opened import opened_page
 from tests.ran_robot import keep_run
 from tests.studio_process import StudioProcess, running_studio
 
-LONG_MS = 60_000
 GAIT = "walk-manual-0"
 
 
@@ -34,7 +33,7 @@ def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess]:
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     with opened_page(browser, studio.url, 1280, 800, has_scene=False) as opened:
-        expect(newest(opened)).to_have_count(3, timeout=LONG_MS)
+        expect(newest(opened)).to_have_count(3)
         yield opened
 
 
@@ -65,8 +64,8 @@ def test_a_run_is_found_by_who_sent_it(page: Page) -> None:
 
 def test_a_run_lies_over_the_plan_with_its_errors_and_its_note(page: Page, studio: StudioProcess) -> None:
     newest(page).nth(1).get_by_role("button").click()
-    expect(page.get_by_label("Gait name")).to_have_value("Manual walk, v0", timeout=LONG_MS)
-    expect(page.locator(".measured-key")).to_have_count(2, timeout=LONG_MS)  # strokes and foot heights
+    expect(page.get_by_label("Gait name")).to_have_value("Manual walk, v0")
+    expect(page.locator(".measured-key")).to_have_count(2)  # strokes and foot heights
     expect(panel(page)).to_contain_text("Bob")
     feet = panel(page).get_by_role("table", name="Feet, mm").get_by_role("row")
     expect(feet).to_have_count(5)

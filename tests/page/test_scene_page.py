@@ -12,7 +12,6 @@ from core.robot import load_robot
 from tests.page.opened import opened_page
 from tests.studio_process import StudioProcess
 
-LONG_MS = 60_000
 INSIDE = "document.querySelector('#viser').contentWindow?.__viserMutable"
 
 
@@ -24,14 +23,12 @@ def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
 
 
 def wait_for_scene(page: Page) -> None:
-    page.wait_for_function(
-        f"() => {INSIDE}?.nodeRefFromName['/overlay/com']?.visible === true", timeout=LONG_MS
-    )
+    page.wait_for_function(f"() => {INSIDE}?.nodeRefFromName['/overlay/com']?.visible === true")
 
 
 def wait_until_visible(page: Page, node: str, visible: bool) -> None:
     script = f"(node) => ({INSIDE}?.nodeRefFromName[node]?.visible ?? false) === {str(visible).lower()}"
-    page.wait_for_function(script, arg=node, timeout=LONG_MS)
+    page.wait_for_function(script, arg=node)
 
 
 def choose(page: Page, menu: str, entry: str) -> None:
@@ -71,7 +68,7 @@ def test_a_ghost_says_why_there_is_none_and_stands_where_the_gait_was_before(
     expect(before).to_have_attribute("title", "This gait was not changed yet.")
     page.keyboard.press("Escape")
     move_higher(studio, "walk", 0.056)
-    expect(page.locator("#undo-label")).to_contain_text("higher", timeout=LONG_MS)
+    expect(page.locator("#undo-label")).to_contain_text("higher")
     choose(page, "Ghosts", "Before the last edit")
     wait_until_visible(page, "/ghost/before", True)
     page.wait_for_function(
@@ -85,8 +82,7 @@ def test_a_ghost_says_why_there_is_none_and_stands_where_the_gait_was_before(
           const tops = [...ends].filter((_, at) => at % 3 === 2);
           window.gap = [height, Math.max(...tops)];
           return Math.abs(height - 0.056) < 1e-4;
-        }}""",
-        timeout=LONG_MS,
+        }}"""
     )
     model = load_robot("deltawalker")
     height, top = page.evaluate("window.gap")
@@ -106,9 +102,7 @@ def test_the_view_is_fitted_again_by_a_button(page: Page) -> None:
     )
     page.get_by_role("button", name="Fit the view").click()
     page.wait_for_function(
-        f"(fitted) => Math.hypot(...{place}.map((at, i) => at - fitted[i])) < 0.02",
-        arg=fitted,
-        timeout=LONG_MS,
+        f"(fitted) => Math.hypot(...{place}.map((at, i) => at - fitted[i])) < 0.02", arg=fitted
     )
 
 
@@ -126,8 +120,7 @@ def test_two_pages_on_different_robots_each_see_their_own(
         other.get_by_role("list", name="Gaits").get_by_role("button", name="Amble 10 mm").first.click()
         other.wait_for_function(
             f"""() => {INSIDE}?.nodeRefFromName['/robot/leg4_foot']
-            && !{INSIDE}.nodeRefFromName['/robot/leg6_foot']""",
-            timeout=LONG_MS,
+            && !{INSIDE}.nodeRefFromName['/robot/leg6_foot']"""
         )
 
 
@@ -144,7 +137,6 @@ def test_with_a_gpu_the_robot_throws_a_shadow(browser: Browser, studio: StudioPr
           let casts = 0;
           {INSIDE}.nodeRefFromName["/robot"].traverse((part) => {{ casts += part.castShadow ? 1 : 0; }});
           return casts > 30;
-        }}""",
-        timeout=LONG_MS,
+        }}"""
     )
     page.close()

@@ -13,13 +13,11 @@ from tests.page.opened import opened_page
 from tests.page.test_accessibility import serious_findings
 from tests.studio_process import StudioProcess, wait_for
 
-LONG_MS = 60_000
-
 
 @pytest.fixture(scope="module")
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     with opened_page(browser, studio.url, 1280, 800, has_scene=False) as opened:
-        expect(opened.get_by_label("Gait name")).not_to_have_value("", timeout=LONG_MS)
+        expect(opened.get_by_label("Gait name")).not_to_have_value("")
         yield opened
 
 
@@ -30,9 +28,9 @@ def tour(page: Page, studio: StudioProcess, request: pytest.FixtureRequest) -> s
     parts = [{"gait": "walk", "times": 3}, {"gait": "rotate", "times": 3}, {"gait": "s-gait", "times": 2}]
     made = studio.ask("POST", "/api/sequences", {"name": name, "parts": parts}).content
     page.get_by_role("list", name="Gaits").get_by_role("button", name=re.compile(f"^{name}")).click()
-    expect(rows(page)).to_have_count(3, timeout=LONG_MS)
+    expect(rows(page)).to_have_count(3)
     expect(page.get_by_label("Gait name")).to_have_value(name)
-    expect(rows(page).nth(2)).to_contain_text("20.0 mm", timeout=LONG_MS)
+    expect(rows(page).nth(2)).to_contain_text("20.0 mm")
     return str(made["id"])
 
 
@@ -78,16 +76,16 @@ def test_a_sequence_is_made_from_the_shown_gait_and_grows(page: Page, studio: St
     expect(page.get_by_label("Gait name")).to_have_value("Rotate 15°")
     page.get_by_role("button", name="New", exact=True).click()
     page.get_by_role("menuitem", name="New sequence").click()
-    expect(rows(page)).to_have_count(1, timeout=LONG_MS)
+    expect(rows(page)).to_have_count(1)
     page.get_by_label("Times of part 1").fill("3")
     page.get_by_label("Times of part 1").press("Enter")
-    expect(undo(page)).to_contain_text("rotate 15°: 3×", timeout=LONG_MS, ignore_case=True)
+    expect(undo(page)).to_contain_text("rotate 15°: 3×", ignore_case=True)
     page.get_by_label("Gait to add").select_option("walk")
     place = page.get_by_role("button", name="Add", exact=True).bounding_box()
     page.get_by_role("button", name="Add", exact=True).click()
-    expect(rows(page)).to_have_count(2, timeout=LONG_MS)
+    expect(rows(page)).to_have_count(2)
     whole = page.get_by_label("The whole sequence")
-    expect(whole).to_contain_text(re.compile("Turn45°"), timeout=LONG_MS)
+    expect(whole).to_contain_text(re.compile("Turn45°"))
     expect(whole).to_contain_text("10.0 mm")
     expect(page.locator("#parts .stretch")).to_have_text(["Rotate 15° 3×", "Walk 10 mm"])
     assert page.get_by_role("button", name="Add", exact=True).bounding_box() == place
@@ -149,18 +147,18 @@ def test_delete_takes_a_part_out_and_the_last_one_stays(page: Page, studio: Stud
 
 
 def test_enter_shows_where_a_part_begins(page: Page, tour: str) -> None:
-    expect(page.locator("#parts .stretch")).to_have_count(3, timeout=LONG_MS)
+    expect(page.locator("#parts .stretch")).to_have_count(3)
     part(page, 2).focus()
     page.keyboard.press("Enter")
-    expect(page.get_by_label("Time", exact=True)).to_contain_text("49.6", timeout=LONG_MS)
+    expect(page.get_by_label("Time", exact=True)).to_contain_text("49.6")
 
 
 def test_a_changed_source_is_said_and_taken_over(page: Page, studio: StudioProcess, tour: str) -> None:
     walk = studio.ask("GET", "/api/gaits/walk").content
     studio.ask("PUT", "/api/gaits/walk?label=Step", {**walk, "step": [0.004, 0.004, 0.0]})
-    expect(rows(page).first).to_contain_text("source changed", timeout=LONG_MS)
+    expect(rows(page).first).to_contain_text("source changed")
     rows(page).first.get_by_role("button", name="take over").click()
-    expect(rows(page).first).to_contain_text("live", timeout=LONG_MS)
+    expect(rows(page).first).to_contain_text("live")
     expect(rows(page).first).to_contain_text("17.0 mm")
     studio.ask("POST", "/api/gaits/walk/undo")
 
@@ -178,9 +176,7 @@ def test_what_is_asked_between_parts_is_one_edit(page: Page, studio: StudioProce
     speed = page.get_by_role("spinbutton", name="Body speed between parts")
     speed.fill("8")
     speed.press("Enter")
-    expect(undo(page)).to_contain_text(
-        "body speed between parts to 8 mm/s", ignore_case=True, timeout=LONG_MS
-    )
+    expect(undo(page)).to_contain_text("body speed between parts to 8 mm/s", ignore_case=True)
     assert studio.ask("GET", f"/api/gaits/{tour}").content["options"]["body_speed"] == 0.008
     assert serious_findings(page) == []
 
@@ -188,7 +184,7 @@ def test_what_is_asked_between_parts_is_one_edit(page: Page, studio: StudioProce
 def test_one_check_is_for_the_whole_sequence(page: Page, tour: str) -> None:
     page.get_by_role("tab", name="Check").click()
     page.get_by_role("button", name="Check", exact=True).click()
-    expect(page.locator("#check")).to_contain_text("Passed", timeout=LONG_MS)
+    expect(page.locator("#check")).to_contain_text("Passed")
 
 
 def test_a_part_without_a_motion_is_named_on_the_page(page: Page, studio: StudioProcess) -> None:
@@ -199,7 +195,7 @@ def test_a_part_without_a_motion_is_named_on_the_page(page: Page, studio: Studio
     parts = [{"gait": "rotate"}, {"gait": far}]
     studio.ask("POST", "/api/sequences", {"name": "Too far", "parts": parts})
     page.get_by_role("list", name="Gaits").get_by_role("button", name=re.compile("^Too far")).click()
-    expect(rows(page).nth(1)).to_contain_text("no motion", timeout=LONG_MS)
+    expect(rows(page).nth(1)).to_contain_text("no motion")
     expect(page.locator("#sequence").get_by_role("alert")).to_contain_text(
         "Part 2, “Far walk”, has no motion"
     )
@@ -213,6 +209,6 @@ def test_a_part_without_a_motion_is_named_on_the_page(page: Page, studio: Studio
 def test_other_gaits_have_their_segment_table_again(page: Page, tour: str) -> None:
     expect(page.get_by_role("tab", name="Sequence")).to_be_visible()
     page.get_by_role("list", name="Gaits").get_by_role("button", name=re.compile("^Amble 10 mm(?!,)")).click()
-    expect(page.get_by_role("tab", name="Segments")).to_be_visible(timeout=LONG_MS)
+    expect(page.get_by_role("tab", name="Segments")).to_be_visible()
     expect(page.locator("#sequence")).to_be_hidden()
     expect(page.locator("#parts")).to_be_hidden()

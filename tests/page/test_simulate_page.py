@@ -12,7 +12,6 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from tests.page.opened import opened_page
 from tests.studio_process import StudioProcess
 
-LONG_MS = 120_000
 GHOST = """() => {
   const scene = document.getElementById("viser").contentWindow.__viserMutable?.nodeRefFromName ?? {};
   const isDrawn = (name) => {
@@ -28,11 +27,8 @@ GHOST = """() => {
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     with opened_page(browser, studio.url, 1280, 800) as opened:
-        opened.set_default_timeout(LONG_MS)
-        expect.set_options(timeout=LONG_MS)
         opened.get_by_role("tab", name="Simulate").click()
         yield opened
-        expect.set_options(timeout=5000)
 
 
 def panel(page: Page) -> Locator:

@@ -13,7 +13,6 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from tests.page.opened import opened_page
 from tests.studio_process import StudioProcess, wait_for
 
-LONG_MS = 60_000
 ROOM_FOR_PLACEHOLDER = """field => {
   const style = getComputedStyle(field);
   const pen = document.createElement("canvas").getContext("2d");
@@ -34,8 +33,8 @@ def page(browser: Browser, studio: StudioProcess, request: pytest.FixtureRequest
 def choose(page: Page, name: str) -> None:
     alone = re.compile(f"^{re.escape(name)}(?!,)")  # and not one of its other foot orders
     page.get_by_role("list", name="Gaits").get_by_role("button", name=alone).click()
-    expect(page.get_by_label("Gait name")).to_have_value(name, timeout=LONG_MS)
-    expect(page.get_by_role("status", name="Live answer")).to_contain_text("Feasible", timeout=LONG_MS)
+    expect(page.get_by_label("Gait name")).to_have_value(name)
+    expect(page.get_by_role("status", name="Live answer")).to_contain_text("Feasible")
 
 
 def document(studio: StudioProcess, gait: str) -> dict[str, Any]:
@@ -79,7 +78,7 @@ def test_the_reason_covers_no_field_and_is_not_cut(page: Page) -> None:
     number(page, "Step").fill("28")
     number(page, "Step").press("Enter")
     why = page.get_by_role("region", name="Why it is infeasible")
-    expect(why).to_be_visible(timeout=LONG_MS)
+    expect(why).to_be_visible()
     box = why.bounding_box()
     assert box is not None
     for field in page.locator("#optimise .fields input:visible, #optimise .fields select:visible").all():
@@ -179,7 +178,7 @@ def test_what_was_refused_stays_with_the_reason_until_it_is_repaired_or_escape(p
     expect(refusal).to_contain_text("Step needs a number between 0 and 60 mm")
     number(page, "Stability margin").fill("2")
     number(page, "Stability margin").press("Enter")
-    expect(undo(page)).to_contain_text("margin to 2 mm", timeout=LONG_MS)
+    expect(undo(page)).to_contain_text("margin to 2 mm")
     expect(refusal).to_be_visible()
     expect(step).to_have_attribute("aria-invalid", "true")
     step.press("Escape")
@@ -254,7 +253,7 @@ def test_a_decimal_comma_is_a_point(page: Page) -> None:
     margin.press_sequentially("1,5")
     expect(margin).to_have_value("1.5")
     margin.press("Enter")
-    expect(undo(page)).to_contain_text("margin to 1.5 mm", timeout=LONG_MS)
+    expect(undo(page)).to_contain_text("margin to 1.5 mm")
     undo(page).click()
 
 
@@ -297,7 +296,7 @@ def test_undo_in_a_number_is_the_pages_and_the_focused_number_follows(
 def test_the_turn_grows_to_the_right_and_the_greyed_button_says_why(page: Page) -> None:
     choose(page, "Walk 10 mm")
     turn = page.get_by_role("slider", name="Goal turn")
-    expect(turn).to_have_attribute("aria-valuetext", "turn 0.0°", timeout=LONG_MS)
+    expect(turn).to_have_attribute("aria-valuetext", "turn 0.0°")
     turn.press("ArrowRight")
     turn.press("ArrowUp")
     expect(turn).to_have_attribute("aria-valuetext", "turn 2.0°")
@@ -312,7 +311,7 @@ def test_the_legend_is_of_the_iteration_looked_at_and_escape_leaves(page: Page) 
     choose(page, "S-Gait 10 mm")
     page.get_by_role("button", name="Optimise", exact=True).click()
     slider = page.get_by_role("slider", name="Iteration")
-    slider.wait_for(timeout=LONG_MS)
+    slider.wait_for()
     legend = page.locator(".curve-key")
     last = legend.text_content() or ""
     assert "violation" in last

@@ -24,7 +24,6 @@ def test_a_track_is_added_compared_moved_deleted_and_brought_back(
     browser: Browser, studio: StudioProcess, track: Path
 ) -> None:
     with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
-        page.set_default_timeout(60_000)
         page.get_by_role("button", name="All trials").click()
         panel = page.get_by_role("region", name="Trials")
         expect(panel.get_by_text("No trial yet.")).to_be_visible()

@@ -8,10 +8,9 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
 
+from tests.chromium import LONG_MS
 from tests.page.opened import flat_browser, leave_scene_out
 from tests.studio_process import StudioProcess, wait_for
-
-LONG_MS = 60_000
 
 
 @pytest.fixture
@@ -23,6 +22,7 @@ def gait(studio: StudioProcess) -> str:
 @pytest.fixture
 def context(browser: Browser) -> Iterator[BrowserContext]:
     opened = flat_browser(browser).new_context(viewport={"width": 1100, "height": 740})
+    opened.set_default_timeout(LONG_MS)
     leave_scene_out(opened)
     yield opened
     opened.close()
@@ -34,7 +34,7 @@ def tab(context: BrowserContext, studio: StudioProcess, gait: str, operator: str
     if operator:
         page.add_init_script(f"localStorage.setItem('footfall.operator', '{operator}')")
     page.goto(studio.url)
-    expect(page.get_by_label("Gait name")).to_have_value("Shared", timeout=LONG_MS)
+    expect(page.get_by_label("Gait name")).to_have_value("Shared")
     return page
 
 
@@ -50,7 +50,7 @@ def shown(page: Page, foot: int, sample: int) -> Locator:
 
 def is_(page: Page, foot: int, sample: int, state: str) -> None:
     expect(shown(page, foot, sample)).to_have_accessible_name(
-        re.compile(f"^foot {foot}, sample {sample}: {state}"), timeout=LONG_MS
+        re.compile(f"^foot {foot}, sample {sample}: {state}")
     )
 
 
@@ -59,7 +59,7 @@ def undo(page: Page) -> Locator:
 
 
 def says(button: Locator, words: str) -> None:
-    expect(button).to_have_attribute("title", re.compile(words), timeout=LONG_MS)
+    expect(button).to_have_attribute("title", re.compile(words))
 
 
 def test_each_tab_undoes_its_own_edit_and_keeps_the_others(
@@ -103,12 +103,12 @@ def test_edits_at_the_same_moment_are_both_there(
         feet = studio.ask("GET", f"/api/gaits/{gait}").content["timeline"]["feet"]
         return bool(feet[1][29:33] == "0000" and feet[2][29:33] == "0000")
 
-    wait_for(both, "both people's cells are swing", LONG_MS / 1000)
+    wait_for(both, "both people's cells are swing")
     for _ in range(4):
         says(undo(bob), "Foot 3")
         before = undo(bob).get_attribute("title")
         undo(bob).click()
-        expect(undo(bob)).not_to_have_attribute("title", before or "", timeout=LONG_MS)
+        expect(undo(bob)).not_to_have_attribute("title", before or "")
     feet = studio.ask("GET", f"/api/gaits/{gait}").content["timeline"]["feet"]
     assert feet[1][29:33] == "0000"
     assert feet[2][29:33] == "1111"
@@ -124,10 +124,10 @@ def test_undo_says_who_changed_the_same_and_leaves_it(
     margin = [page.get_by_role("spinbutton", name="Stability margin", exact=True) for page in (ada, grace)]
     margin[0].fill("1")
     margin[0].press("Enter")
-    expect(margin[1]).to_have_value("1", timeout=LONG_MS)
+    expect(margin[1]).to_have_value("1")
     margin[1].fill("2")
     margin[1].press("Enter")
-    expect(margin[0]).to_have_value("2", timeout=LONG_MS)
+    expect(margin[0]).to_have_value("2")
     undo(ada).click()
     alert = ada.get_by_role("alert").filter(has_text="Grace changed the stability margin since")
     expect(alert).to_be_visible()
@@ -144,7 +144,7 @@ def test_a_tab_that_the_browser_copied_is_another_author(
     copy = context.new_page()
     copy.add_init_script(f"if (!sessionStorage.length) sessionStorage.setItem('footfall.page', '{own}')")
     copy.goto(studio.url)
-    expect(copy.get_by_label("Gait name")).to_have_value("Shared", timeout=LONG_MS)
+    expect(copy.get_by_label("Gait name")).to_have_value("Shared")
     copy.wait_for_function("own => sessionStorage.getItem('footfall.page') !== own", arg=own)
     assert ada.evaluate("sessionStorage.getItem('footfall.page')") == own
     paint(copy, 2, 31)

@@ -12,13 +12,11 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from tests.page.opened import opened_page
 from tests.studio_process import StudioProcess
 
-LONG_MS = 60_000
-
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     with opened_page(browser, studio.url, 1280, 800, has_scene=False) as opened:
-        expect(opened.get_by_label("Gait name")).to_have_value("Walk 10 mm", timeout=LONG_MS)
+        expect(opened.get_by_label("Gait name")).to_have_value("Walk 10 mm")
         yield opened
 
 
@@ -34,7 +32,7 @@ def options(page: Page) -> Locator:
 
 def test_states_are_named_compared_and_restored_by_keyboard_alone(page: Page, studio: StudioProcess) -> None:
     change(studio, 0.002)
-    expect(page.locator("#saved-state")).to_have_text("· edited, kept", timeout=LONG_MS)
+    expect(page.locator("#saved-state")).to_have_text("· edited, kept")
     button = page.get_by_role("button", name="Versions")
     button.press("Enter")
     expect(options(page)).to_have_count(1)
@@ -51,7 +49,7 @@ def test_states_are_named_compared_and_restored_by_keyboard_alone(page: Page, st
     expect(page.get_by_role("button", name="Restore")).to_have_attribute("aria-disabled", "true")
 
     change(studio, 0.001)  # the panel follows what happens meanwhile
-    expect(difference).to_contain_text("Stability margin 2.0 mm → 1.0 mm", timeout=LONG_MS)
+    expect(difference).to_contain_text("Stability margin 2.0 mm → 1.0 mm")
     versions = page.get_by_role("listbox", name="Versions")
     versions.focus()
     versions.press("End")
@@ -61,9 +59,7 @@ def test_states_are_named_compared_and_restored_by_keyboard_alone(page: Page, st
     restore = page.get_by_role("button", name="Restore")
     expect(restore).not_to_have_attribute("aria-disabled", "true")
     restore.press("Enter")
-    expect(page.get_by_role("spinbutton", name="Stability margin", exact=True)).to_have_value(
-        "6", timeout=LONG_MS
-    )
+    expect(page.get_by_role("spinbutton", name="Stability margin", exact=True)).to_have_value("6")
     expect(page.locator("#undo")).to_have_attribute("title", re.compile("Restore version 1"))
     expect(options(page)).to_have_count(3)
     found = Axe().run(page, context={"include": [[".dialog"]]}).response["violations"]
@@ -72,16 +68,14 @@ def test_states_are_named_compared_and_restored_by_keyboard_alone(page: Page, st
     expect(page.get_by_role("dialog")).to_have_count(0)
     expect(button).to_be_focused()
     page.keyboard.press("Control+z")
-    expect(page.get_by_role("spinbutton", name="Stability margin", exact=True)).to_have_value(
-        "1", timeout=LONG_MS
-    )
+    expect(page.get_by_role("spinbutton", name="Stability margin", exact=True)).to_have_value("1")
 
 
 def test_a_gait_without_versions_says_what_makes_them(page: Page) -> None:
     page.get_by_role("list", name="Gaits").get_by_role(
         "button", name=re.compile("^C-Gait 10 mm(?!,)")
     ).click()
-    expect(page.get_by_label("Gait name")).to_have_value("C-Gait 10 mm", timeout=LONG_MS)
+    expect(page.get_by_label("Gait name")).to_have_value("C-Gait 10 mm")
     page.get_by_role("button", name="Versions").click()
     expect(page.get_by_role("region", name="Difference")).to_contain_text("There is no version yet")
     expect(page.get_by_role("button", name="Restore")).to_have_attribute("title", "There is no version yet.")

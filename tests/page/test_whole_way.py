@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,12 +11,11 @@ from playwright.sync_api import Browser, Page, expect
 
 from app.bridge.delivery import ARRIVAL_MM
 from app.bridge.emulated import EmulatedRobot, start_emulator
-from tests.page.opened import opened_page
+from tests.page.opened import look, opened_page
 from tests.studio_process import StudioProcess, running_studio, wait_for
 
 SPEED = 5.0
 """Seconds of the emulated robot in a second: fast, yet slow enough to look on."""
-LONG_MS = 60_000
 
 
 @pytest.fixture
@@ -39,21 +37,14 @@ def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
         yield opened
 
 
-def look(page: Page, name: str) -> None:
-    """Keeps a screenshot where somebody asked for them."""
-    folder = os.environ.get("FOOTFALL_SCREENSHOTS")
-    if folder:
-        page.screenshot(path=f"{folder}/{name}.png")
-
-
 def see_the_sample_gait_walk(page: Page) -> None:
     expect(page.get_by_role("list", name="Gaits").get_by_text("Walk 10 mm", exact=True)).to_be_visible()
     expect(page.get_by_role("region", name="3D preview")).to_be_visible()
     frame = page.frame_locator("iframe").locator("canvas").first
-    frame.wait_for(timeout=LONG_MS)
+    frame.wait_for()
     standing = page.get_by_role("region", name="3D preview").screenshot()
     page.get_by_role("button", name="Play", exact=True).click()
-    expect(page.locator("#clock")).not_to_contain_text(re.compile(r"^0\.[0-9] "), timeout=LONG_MS)
+    expect(page.locator("#clock")).not_to_contain_text(re.compile(r"^0\.[0-9] "))
     page.get_by_role("button", name="Pause", exact=True).click()
     preview = page.get_by_role("region", name="3D preview")
     wait_for(lambda: preview.screenshot() != standing, "the preview shows another picture", 60)
@@ -73,7 +64,7 @@ def optimise_check_and_approve(page: Page) -> None:
     page.get_by_role("tab", name="Optimise").click()
     page.get_by_role("button", name="Optimise", exact=True).click()
     jobs = page.get_by_role("list", name="Jobs")
-    expect(jobs.get_by_text(re.compile("done", re.I)).first).to_be_visible(timeout=LONG_MS)
+    expect(jobs.get_by_text(re.compile("done", re.I)).first).to_be_visible()
     look(page, "optimised")
     page.get_by_role("tab", name="Check").click()
     page.get_by_role("button", name="Check", exact=True).click()
@@ -98,12 +89,12 @@ def go_the_robots_way(page: Page) -> None:
     look(page, "before-connecting")
     page.get_by_role("button", name="Connect", exact=True).click()
     status = page.get_by_role("status", name="Robot")
-    expect(status).to_contain_text("disarmed", timeout=LONG_MS)
+    expect(status).to_contain_text("disarmed")
     page.get_by_role("button", name="Arm", exact=True).click()
     expect(status).to_contain_text("armed")
     look(page, "armed")
     page.get_by_role("button", name="Send to robot").click()
-    expect(status).to_contain_text("moving", timeout=LONG_MS)
+    expect(status).to_contain_text("moving")
 
 
 def test_from_opening_the_page_to_the_robots_measured_strokes(
@@ -120,7 +111,7 @@ def test_from_opening_the_page_to_the_robots_measured_strokes(
     expect(status).to_contain_text("moving")
     page.get_by_role("tab", name="Robot").click()
     look(page, "running")
-    expect(status).to_contain_text("done", timeout=LONG_MS)
+    expect(status).to_contain_text("done")
     look(page, "done")
     plan = studio.ask("GET", "/api/gaits/walk/view").content["plan"]
     messages = [m for m in robot.firmware.messages if m.strokes_mm is not None]
@@ -162,11 +153,11 @@ def test_stop_on_the_page_latches_until_it_is_cleared(
     page.get_by_role("button", name="Stop", exact=True).click()
     status = page.get_by_role("status", name="Robot")
     wait_for(lambda: studio.robot()["robot"] == "stopped", "the robot stands still")
-    expect(status).to_contain_text(re.compile("stopped at .* by Ada", re.I), timeout=LONG_MS)
+    expect(status).to_contain_text(re.compile("stopped at .* by Ada", re.I))
     look(page, "stopped")
     taken = len(robot.firmware.messages)
     page.get_by_role("button", name="Clear", exact=True).click()
-    expect(status).to_contain_text("disarmed", timeout=LONG_MS)
+    expect(status).to_contain_text("disarmed")
     page.get_by_role("button", name="Arm", exact=True).click()
     expect(status).to_contain_text("armed")
     cleared = [m.payload for m in robot.firmware.messages[taken:]]

@@ -21,8 +21,6 @@ FOUR = (
 )
 """Four feet that swing one after the other, 24 samples."""
 
-LONG_MS = 30_000
-
 
 @dataclass(frozen=True)
 class TimelinePage:
@@ -48,7 +46,7 @@ class TimelinePage:
         gait: str = made.content["id"]
         alone = re.compile(f"^{re.escape(name)}(?!,)")
         self.page.get_by_role("list", name="Gaits").get_by_role("button", name=alone).click()
-        expect(self.page.get_by_label("Gait name")).to_have_value(name, timeout=LONG_MS)
+        expect(self.page.get_by_label("Gait name")).to_have_value(name)
         expect(self.grid).to_have_attribute("aria-colcount", str(len(feet[0])))
         return gait
 
@@ -161,5 +159,5 @@ def painted(feet: Sequence[str], foot: int, first: int, last: int, value: str) -
 def opened_timeline(browser: Browser, studio: StudioProcess) -> Iterator[TimelinePage]:
     """A page with its timeline drawn."""
     with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
-        page.get_by_role("grid", name="Footfall timeline").get_by_role("row").first.wait_for(timeout=LONG_MS)
+        page.get_by_role("grid", name="Footfall timeline").get_by_role("row").first.wait_for()
         yield TimelinePage(page, studio)

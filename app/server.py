@@ -26,14 +26,14 @@ from app.routes import (
     runs,
     scene,
     sequences,
-    simulations,
     setups,
+    simulations,
     tables,
     trial_beside,
     trials,
     versions,
-)
     videos,
+)
 from app.routes.assets import REVALIDATED, Assets
 from app.routes.edge import install_error_handlers
 from app.routes.module_page import ModulePage
@@ -79,10 +79,10 @@ def make_app(studio: Studio, scenes: Scenes, access: Access) -> FastAPI:
         tables.router,
         trial_beside.router,
         trials.router,
-        robots.router,
         learning.router,
         setups.router,
         videos.router,
+        robots.router,
         scene.router,
         events.router,
         make_viser_router(scenes.of),

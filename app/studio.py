@@ -38,11 +38,11 @@ from app.store.simulation_log import SimulationLog
 from app.store.trial_beside import TrialBesideLog
 from app.trials.beside import TrialsBeside
 from app.trials.desk import TrialDesk
-from app.trials.simulated import TrialSimulations
 from app.trials.seeing import Seeing
-from app.version import VERSION
+from app.trials.simulated import TrialSimulations
 from app.trials.track_desk import KIND as TRACK
 from app.trials.track_desk import TrackOrder
+from app.version import VERSION
 from app.views import gait_view, steps_view
 from core.errors import FootfallError, StateError
 from core.gait import Gait, motion_problem
@@ -103,12 +103,6 @@ class Studio:
         self.trials = TrialDesk(self._database)
         self._trial_simulations = TrialSimulations(TrialBesideLog(self._database), self._simulator)
         self.beside = TrialsBeside(self.trials, self._trial_simulations)
-        self._told_sources: dict[str, tuple[int, list[str]]] = {}
-        self.stop_lane = ThreadPoolExecutor(max_workers=2, thread_name_prefix="stop")
-        self._closed = threading.Event()
-
-    def close(self) -> None:
-        """Stops a run, ends workers and threads; doing it twice does no harm."""
         self.seeing = Seeing(
             data,
             self._database,
@@ -118,6 +112,12 @@ class Studio:
             self._show_tracking,
             self.hub.publish,
         )
+        self._told_sources: dict[str, tuple[int, list[str]]] = {}
+        self.stop_lane = ThreadPoolExecutor(max_workers=2, thread_name_prefix="stop")
+        self._closed = threading.Event()
+
+    def close(self) -> None:
+        """Stops a run, ends workers and threads; doing it twice does no harm."""
         if self._closed.is_set():
             return
         self._closed.set()
@@ -128,16 +128,16 @@ class Studio:
             solver.close()
         self._simulator.close()
         self._simulating.close()
+        for traveller in self._travellers:
+            traveller.close()
+        self.learning.close()
+        self.seeing.close()
         self._trial_simulations.close()
         self._plans.close()
         self.session.close()
         self.hub.close()
         self.stop_lane.shutdown()
         self._database.close()
-        for traveller in self._travellers:
-            traveller.close()
-        self.learning.close()
-        self.seeing.close()
 
     def stop_run(self, by: str) -> None:
         """Stops the robot where a run is on; returns at once."""
@@ -216,14 +216,14 @@ class Studio:
 
     def job_view(self, content: dict[str, Any]) -> dict[str, Any]:
         """A job, and whether it is of the gait as it is now; None where its plan is not made yet."""
+        if content["kind"] == TRACK:
+            return {**content, "fresh": None}
         if content["kind"] == SIMULATE:
             keys = self._simulated_as.get(content["gait"])
             return {**content, "fresh": None if keys is None else content["motion"] in keys}
         try:
             gait = self._glanced(content["gait"])
             fresh = content["motion"] in (run_motions(gait) if gait.sequence else {asked_hash(gait)})
-        if content["kind"] == TRACK:
-            return {**content, "fresh": None}
         except FootfallError:  # it is gone, or its file is damaged
             fresh = False
         return {**content, "fresh": fresh}
@@ -307,14 +307,6 @@ class Studio:
         self.hub.publish({"type": "job", "job": view})
         return view
 
-    def _show_simulation(self, content: dict[str, Any]) -> None:
-        """Shows a simulation's job, and once it is done its gait, which has another simulation now."""
-        if content["state"] == "done":
-            self.publish_soon(content["gait"])
-        self.hub.publish({"type": "job", "job": self.job_view(content)})
-
-    def submit_parts(self, gait_id: str) -> list[dict[str, Any]]:
-        """Starts an optimisation of each part of a sequence that can have an exact motion and has none yet.
     def submit_tracking(self, order: TrackOrder) -> dict[str, Any]:
         """Starts following the feet in a video."""
         view = self.job_view(self.seeing.tracks.submit(order))
@@ -324,6 +316,14 @@ class Studio:
     def _show_tracking(self, content: dict[str, Any]) -> None:
         self.hub.publish({"type": "job", "job": self.job_view(content)})
 
+    def _show_simulation(self, content: dict[str, Any]) -> None:
+        """Shows a simulation's job, and once it is done its gait, which has another simulation now."""
+        if content["state"] == "done":
+            self.publish_soon(content["gait"])
+        self.hub.publish({"type": "job", "job": self.job_view(content)})
+
+    def submit_parts(self, gait_id: str) -> list[dict[str, Any]]:
+        """Starts an optimisation of each part of a sequence that can have an exact motion and has none yet.
 
         Raises:
             StateError: there is none, or the gait is no sequence.

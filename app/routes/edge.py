@@ -18,8 +18,6 @@ from app.gait_shelf import UnknownGaitError
 from app.history import Author
 from app.job_book import UnknownJobError
 from app.kept_simulations import UnknownSimulationError
-from app.learning.desk import UnknownLearningError
-from app.learning.sets import UnknownSetError
 from app.open_gait import OpenGait
 from app.pattern_desk import UnknownSearchError
 from app.runs.record import UnknownRunError

@@ -79,7 +79,6 @@ def make_app(studio: Studio, scenes: Scenes, access: Access) -> FastAPI:
         tables.router,
         trial_beside.router,
         trials.router,
-        learning.router,
         setups.router,
         videos.router,
         robots.router,

@@ -52,8 +52,6 @@ _STATUS: tuple[tuple[type[FootfallError], int], ...] = (
     (UnknownRunError, 404),
     (UnknownSimulationError, 404),
     (UnknownTrialError, 404),
-    (UnknownLearningError, 404),
-    (UnknownSetError, 404),
     (UnknownSetupError, 404),
     (UnknownVideoError, 404),
     (StateError, 409),

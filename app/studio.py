@@ -38,6 +38,7 @@ from app.store.simulation_log import SimulationLog
 from app.store.trial_beside import TrialBesideLog
 from app.trials.beside import TrialsBeside
 from app.trials.desk import TrialDesk
+from app.trials.photos import TrialPhotos
 from app.trials.seeing import Seeing
 from app.trials.simulated import TrialSimulations
 from app.trials.track_desk import KIND as TRACK
@@ -103,6 +104,7 @@ class Studio:
         self.trials = TrialDesk(self._database)
         self._trial_simulations = TrialSimulations(TrialBesideLog(self._database), self._simulator)
         self.beside = TrialsBeside(self.trials, self._trial_simulations)
+        self.photos = TrialPhotos(self.trials, self._database, data)
         self.seeing = Seeing(
             data,
             self._database,

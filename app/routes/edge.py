@@ -23,6 +23,7 @@ from app.pattern_desk import UnknownSearchError
 from app.runs.record import UnknownRunError
 from app.studio import Studio
 from app.trials.desk import UnknownTrialError
+from app.trials.photos import UnknownPhotoError
 from app.trials.setup_desk import UnknownSetupError
 from app.trials.video_desk import UnknownVideoError
 from app.versions import UnknownVersionError
@@ -52,6 +53,7 @@ _STATUS: tuple[tuple[type[FootfallError], int], ...] = (
     (UnknownRunError, 404),
     (UnknownSimulationError, 404),
     (UnknownTrialError, 404),
+    (UnknownPhotoError, 404),
     (UnknownSetupError, 404),
     (UnknownVideoError, 404),
     (StateError, 409),

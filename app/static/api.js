@@ -44,9 +44,9 @@ async function answer(method, path, body, signal) {
 
 export const request = async (method, path, body, signal) => (await answer(method, path, body, signal)).json();
 
-/** Takes text or a file as it stands, such as a CSV or JSON file. */
-async function sendText(path, text) {
-  const response = await fetch(path, { method: "POST", body: text, headers: { "Content-Type": "text/plain" } });
+/** Takes text or a file as it stands, such as a CSV or JSON file or a picture. */
+export async function sendFile(path, body, type = "text/plain") {
+  const response = await fetch(path, { method: "POST", body, headers: { ...authorHeaders(), "Content-Type": type } });
   if (!response.ok) throw await refusal(response);
   return response.json();
 }
@@ -68,7 +68,7 @@ export const api = {
   redraw: (id, body) => request("POST", `${gait(id)}/redraw`, body),
   history: (id, verb) => request("POST", `${gait(id)}/${verb}`),
   copy: (id, name) => request("POST", `/api/gaits?copy_of=${encodeURIComponent(id)}&name=${encodeURIComponent(name)}`),
-  importFile: (body, file) => sendText(`/api/gaits/import?file=${encodeURIComponent(file)}`, body),
+  importFile: (body, file) => sendFile(`/api/gaits/import?file=${encodeURIComponent(file)}`, body),
   exportFile: (id, form) => download(`${gait(id)}/export/${form}`),
   robots: () => request("GET", "/api/robots"),
   draw: (words) => request("POST", "/api/gaits/drawn", words),

@@ -5,6 +5,7 @@ import { clockTime, fixed } from "./format.js";
 import { announce, attempt } from "./toasts.js";
 import { trialApi } from "./trial_api.js";
 import { besidePart } from "./trial_beside.js";
+import { photosPart } from "./trial_photos.js";
 import { pathPlot } from "./trial_plot.js";
 import { wayPlot } from "./trial_way.js";
 
@@ -81,6 +82,7 @@ export async function trialDetail(id, { all, remove, tracks }) {
   const plots = h("div", { class: "trial-plots" });
   const beside = besidePart(id, (simulated) => { sources.simulated = simulated; drawPlots(); });
   const scene = tracks([id]);
+  const photos = photosPart(id);
   let shown = trial;
 
   function drawPlots() {
@@ -94,7 +96,7 @@ export async function trialDetail(id, { all, remove, tracks }) {
     const parts = [
       h("button", { class: "link", text: "All trials", on: { click: all } }),
       h("div", { class: "run-line run-title" }, h("b", { text: now.name })),
-      facts(now), noteField(now), scene.element, plots, endsLine(now, draw) ?? "", beside.element,
+      facts(now), noteField(now), photos, scene.element, plots, endsLine(now, draw) ?? "", beside.element,
       iterationTable(now),
       movementTable("Movement as published", "Largest excursions from the first frame; never negative. The planned motion by the same definition", now.figures, now.plan, published),
       movementTable("Movement, first to last", "Last minus first frame", now.figures, now.plan, net),

@@ -8,6 +8,7 @@ from typing import Any
 from playwright.sync_api import Browser, Locator, Page, expect
 
 from core.trials.track_csv import format_track_csv
+from tests.core.trials.test_picture_size import picture
 from tests.core.trials.tracks import stepping_track
 from tests.page.opened import opened_page
 from tests.studio_process import StudioProcess
@@ -101,3 +102,36 @@ def test_trials_of_one_gait_lie_over_each_other_as_a_band(browser: Browser, stud
         expect(above.locator("polyline.way-trial")).to_have_count(4)
         panel.get_by_role("checkbox", name="long").uncheck()
         expect(panel.get_by_text("Choose at least one trial.")).to_be_visible()
+
+
+def test_photos_are_added_captioned_dropped_deleted_and_brought_back(
+    browser: Browser, studio: StudioProcess
+) -> None:
+    add_trial(studio, "with photos", gait="")
+    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
+        panel = open_trials(page)
+        panel.get_by_role("button", name=re.compile("^with photos")).click()
+        photos = panel.get_by_role("region", name="Photos of this trial")
+        content = picture("PNG", (400, 300))
+        file = {"name": "tape.png", "mimeType": "image/png", "buffer": content}
+        photos.get_by_label("Add photos…", exact=True).and_(page.locator("input")).set_input_files(file)
+        expect(photos.get_by_role("img", name="tape.png")).to_have_js_property("naturalWidth", 240)
+        photos.get_by_label("Caption of photo 1").fill("new tape")
+        photos.get_by_label("Caption of photo 1").press("Enter")
+        expect(photos.get_by_role("img", name="new tape")).to_be_visible()
+        photos.dispatch_event("drop", {"dataTransfer": dropped(page, "notes.txt")})
+        expect(page.get_by_role("alert")).to_contain_text("notes.txt is no PNG or JPEG picture")
+        photos.get_by_role("button", name="Delete photo 1").click()
+        expect(photos.get_by_role("listitem")).to_have_count(0)
+        page.get_by_role("button", name="Undo", exact=True).last.click()
+        expect(photos.get_by_label("Caption of photo 1")).to_have_value("new tape")
+
+
+def dropped(page: Page, name: str) -> Any:
+    """What a hand drops that holds a file of words."""
+    script = """(name) => {
+      const held = new DataTransfer();
+      held.items.add(new File(["words"], name));
+      return held;
+    }"""
+    return page.evaluate_handle(script, name)

@@ -1,0 +1,87 @@
+"""Photos of trials: adding, captions, deleting, the pictures themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Annotated, Any, TypeVar
+
+from fastapi import APIRouter, Depends, Query, Request, Response
+from pydantic import BaseModel, ConfigDict, Field
+from starlette.concurrency import run_in_threadpool
+
+from app.routes.edge import TheAuthor, studio_of
+from app.studio import Studio
+from app.trials.photos import check_bytes
+
+router = APIRouter(prefix="/api/trials/{trial}/photos", tags=["trials"])
+TheStudio = Annotated[Studio, Depends(studio_of)]
+Result = TypeVar("Result")
+
+_PICTURE = {
+    "requestBody": {
+        "required": True,
+        "content": {
+            kind: {"schema": {"type": "string", "format": "binary"}} for kind in ("image/png", "image/jpeg")
+        },
+    }
+}
+
+
+class Caption(BaseModel):
+    """What a person says of a photo; nothing takes the words away."""
+
+    model_config = ConfigDict(extra="forbid")
+    caption: str = Field(max_length=500)
+
+
+async def _answer(action: Callable[[], Result]) -> Result:
+    return await run_in_threadpool(action)
+
+
+@router.get("")
+async def list_photos(trial: str, studio: TheStudio) -> dict[str, Any]:
+    """A trial's photos, in the order in which they came."""
+    return {"photos": await _answer(lambda: studio.photos.photos(trial))}
+
+
+@router.post("", status_code=201, openapi_extra=_PICTURE)
+async def add_photo(
+    trial: str,
+    request: Request,
+    studio: TheStudio,
+    author: TheAuthor,
+    name: Annotated[str, Query(min_length=1, max_length=200)] = "The photo",
+) -> dict[str, Any]:
+    """Keeps the PNG or JPEG picture that is the request's body, without place, time and camera."""
+    gathered = bytearray()
+    async for chunk in request.stream():
+        gathered += chunk
+        check_bytes(len(gathered), name)
+    return await _answer(lambda: studio.photos.add(trial, bytes(gathered), name, author.name))
+
+
+@router.put("/{photo}")
+async def caption_photo(trial: str, photo: str, words: Caption, studio: TheStudio) -> dict[str, Any]:
+    """Keeps a caption."""
+    return await _answer(lambda: studio.photos.caption(trial, photo, words.caption.strip()))
+
+
+@router.delete("/{photo}")
+async def delete_photo(trial: str, photo: str, studio: TheStudio) -> dict[str, Any]:
+    """Takes a photo away; it can be restored."""
+    await _answer(lambda: studio.photos.delete(trial, photo))
+    return {"id": photo, "deleted": True}
+
+
+@router.post("/{photo}/restore")
+async def restore_photo(trial: str, photo: str, studio: TheStudio) -> dict[str, Any]:
+    """Brings a deleted photo back."""
+    return await _answer(lambda: studio.photos.restore(trial, photo))
+
+
+@router.get("/{photo}/picture", response_class=Response)
+async def read_picture(trial: str, photo: str, studio: TheStudio, small: bool = False) -> Response:
+    """The photo as JPEG, or its thumbnail."""
+    content = await _answer(lambda: studio.photos.picture(trial, photo, is_small=small))
+    headers = {"cache-control": "private, max-age=31536000, immutable"}
+    return Response(content, media_type="image/jpeg", headers=headers)

@@ -1,0 +1,52 @@
+"""Photos of trials in the database: what is known of each; the pictures are files."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from app.store.database import Database
+
+Content = dict[str, Any]
+
+
+class PhotoLog:
+    """What is kept of photos; any thread may ask.
+
+    Args:
+        database: where it is kept.
+    """
+
+    def __init__(self, database: Database) -> None:
+        self._database = database
+
+    def add(self, content: Content) -> None:
+        """Stores a new photo of `content["trial"]`."""
+        with self._database.writing() as connection:
+            connection.execute(
+                "INSERT INTO trial_photo(id, trial, made, content) VALUES(?,?,?,?)",
+                (content["id"], content["trial"], content["made"], json.dumps(content, allow_nan=False)),
+            )
+
+    def of_trial(self, trial: str) -> list[Content]:
+        """A trial's photos that are not deleted, in the order in which they came."""
+        rows = self._database.rows(
+            "SELECT content FROM trial_photo WHERE trial=? AND deleted IS NULL ORDER BY made, id", trial
+        )
+        return [json.loads(row[0]) for row in rows]
+
+    def get(self, trial: str, photo: str) -> Content | None:
+        """One photo, also a deleted one; None where the trial has none of that id."""
+        rows = self._database.rows("SELECT content FROM trial_photo WHERE id=? AND trial=?", photo, trial)
+        return json.loads(rows[0][0]) if rows else None
+
+    def change(self, content: Content) -> None:
+        """Stores what is known of a photo now."""
+        with self._database.writing() as connection:
+            text = json.dumps(content, allow_nan=False)
+            connection.execute("UPDATE trial_photo SET content=? WHERE id=?", (text, content["id"]))
+
+    def put_deleted(self, photo: str, deleted: float | None) -> None:
+        """Takes a photo away, or brings it back with None."""
+        with self._database.writing() as connection:
+            connection.execute("UPDATE trial_photo SET deleted=? WHERE id=?", (deleted, photo))

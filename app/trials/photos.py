@@ -1,0 +1,147 @@
+"""Photos of a trial: kept as JPEG files in the data folder, without what the camera wrote into them."""
+
+from __future__ import annotations
+
+import threading
+import time
+import uuid
+from pathlib import Path
+from typing import Any
+
+from app.store.database import Database
+from app.store.files import require_folder, write_atomically
+from app.store.photo_log import Content, PhotoLog
+from app.trials.desk import TrialDesk
+from core.errors import InputError
+from core.trials.picture_size import picture_size
+
+MOST_BYTES = 20_000_000
+"""Bytes of a picture file as it comes."""
+MOST_PIXELS = 50_000_000
+"""Pixels of a picture as it comes; unpacked it takes three bytes for each."""
+MOST_PHOTOS = 24
+"""Photos of a trial."""
+KEPT_WIDTH, SMALL_WIDTH = 1600, 240
+"""Widest that a photo and its thumbnail are kept, px."""
+
+
+class UnknownPhotoError(InputError):
+    """There is no such photo."""
+
+
+class TrialPhotos:
+    """The photos of trials; every method may be called from any thread.
+
+    Args:
+        desk: the trials.
+        database: where is kept what is known of photos.
+        data: the data folder; pictures lie in its folder `trial-photos`.
+    """
+
+    def __init__(self, desk: TrialDesk, database: Database, data: Path) -> None:
+        self._desk = desk
+        self._log = PhotoLog(database)
+        self._folder = data / "trial-photos"
+        self._lock = threading.Lock()
+
+    def photos(self, trial: str) -> list[Content]:
+        """A trial's photos, in the order in which they came."""
+        self._desk.record(trial)
+        return self._log.of_trial(trial)
+
+    def add(self, trial: str, content: bytes, name: str, by: str) -> Content:
+        """Keeps a photo, no wider than `KEPT_WIDTH` and with nothing in it but the picture.
+
+        Args:
+            trial: its id.
+            content: of a PNG or JPEG file.
+            name: of the file.
+            by: who adds it.
+
+        Raises:
+            InputError: it is no such picture, too large, or one too many.
+        """
+        self._desk.record(trial)
+        check_bytes(len(content), name)
+        size = picture_size(content, name)
+        if size.width * size.height > MOST_PIXELS:
+            raise InputError(
+                f"{name} has {size.width} × {size.height} pixels; at most {MOST_PIXELS // 1_000_000} million "
+                "are read. Make it smaller.",
+                name,
+            )
+        from app.trials.video import jpeg, read_picture, scaled  # only who adds a photo waits for OpenCV
+
+        picture = scaled(read_picture(content, name), KEPT_WIDTH)
+        photo: Content = {
+            "id": uuid.uuid4().hex[:12],
+            "trial": trial,
+            "made": time.time(),
+            "by": by,
+            "name": name,
+            "caption": "",
+            "width": picture.shape[1],
+            "height": picture.shape[0],
+        }
+        with self._lock:
+            if len(self._log.of_trial(trial)) >= MOST_PHOTOS:
+                raise InputError(
+                    f"This trial has {MOST_PHOTOS} photos, and no more are kept. Delete one.", name
+                )
+            require_folder(self._folder)
+            write_atomically(self._path(photo["id"]), jpeg(picture))
+            write_atomically(self._path(photo["id"], is_small=True), jpeg(scaled(picture, SMALL_WIDTH)))
+            self._log.add(photo)
+        return photo
+
+    def caption(self, trial: str, photo: str, caption: str) -> Content:
+        """Keeps what a person says of a photo."""
+        content = {**self._known(trial, photo), "caption": caption}
+        self._log.change(content)
+        return content
+
+    def delete(self, trial: str, photo: str) -> None:
+        """Takes a photo away; `restore` brings it back."""
+        self._known(trial, photo)
+        self._log.put_deleted(photo, time.time())
+
+    def restore(self, trial: str, photo: str) -> Content:
+        """Brings a deleted photo back."""
+        content = self._known(trial, photo)
+        self._log.put_deleted(photo, None)
+        return content
+
+    def picture(self, trial: str, photo: str, *, is_small: bool = False) -> bytes:
+        """A photo as a JPEG file, or its thumbnail.
+
+        Raises:
+            UnknownPhotoError: there is none, or its file is gone.
+        """
+        self._known(trial, photo)
+        try:
+            return self._path(photo, is_small=is_small).read_bytes()
+        except OSError as error:
+            raise UnknownPhotoError(
+                f"The file of photo {photo} is gone: {error.strerror}.", "photo"
+            ) from error
+
+    def _known(self, trial: str, photo: str) -> dict[str, Any]:
+        content = self._log.get(trial, photo)
+        if content is None:
+            raise UnknownPhotoError(f"The trial {trial} has no photo {photo}.", "photo")
+        return content
+
+    def _path(self, photo: str, *, is_small: bool = False) -> Path:
+        return self._folder / (f"{photo}-small.jpg" if is_small else f"{photo}.jpg")
+
+
+def check_bytes(count: int, name: str) -> None:
+    """Refuses a picture file that is too large, also before all of it is there.
+
+    Raises:
+        InputError: it is.
+    """
+    if count > MOST_BYTES:
+        raise InputError(
+            f"{name} has more than {MOST_BYTES // 1_000_000} MB. Make the picture smaller.", name
+        )

@@ -30,6 +30,9 @@ function receive(store, message, onHello) {
     case "sources": acceptSources(store, message); break;
     case "job": store.set({ jobs: withJob(store.state.jobs, message.job) }); break;
     case "pattern": store.set({ pattern: message }); break;
+    case "setups": store.set({ setups: message.setups }); break;
+    case "cameras": store.set({ cameras: message.cameras }); break;
+    case "trials": store.set({ trialMade: { id: message.trial } }); break;
     case "robot": acceptRobot(store, message.robot); break;
     default: break;
   }

@@ -25,9 +25,12 @@ export function jobOf({ jobs, shownJob, selected }) {
 
 const isTiming = (job) => job.kind === "timing";
 const isSimulation = (job) => job.kind === "simulate";
+const isTracking = (job) => job.kind === "track";
+const NAMES = { timing: "Fastest timing of", simulate: "Simulate", track: "Tracking of" };
 
 function figures(job) {
   const last = job.progress?.at(-1);
+  if (isTracking(job)) return job.state === "running" ? `tracked ${fixed((job.share ?? 0) * 100, 0)} %` : job.sentence;
   if (isSimulation(job)) return job.state === "running" ? `simulated ${fixed((job.share ?? 0) * 100, 0)} %` : job.sentence;
   if (jobIsOn(job)) return last ? `iteration ${last.iteration} · violation ${compact(last.primal)}` : job.sentence;
   if (job.state === "done" && job.result && isTiming(job)) return `fastest ${seconds(job.result.total_seconds)} s, drawn ${seconds(job.result.drawn_seconds)} s`;
@@ -50,10 +53,12 @@ function item(store, id) {
 
 async function pick(store, id) {
   const job = store.state.jobs.find((one) => one.id === id);
+  if (isTracking(job)) return store.set({ trialWanted: job.result?.trial ? { trial: job.result.trial } : { video: job.video } });
   const { selectGait } = await import("./gaits.js");
   if (store.state.gaits.some((gait) => gait.id === job.gait)) await selectGait(store, job.gait);
   if (!isSimulation(job)) store.set({ shownJob: id });
   byId(isSimulation(job) ? "tab-simulate" : "tab-optimise").click();
+  return undefined;
 }
 
 function show(part, job, shown) {
@@ -74,7 +79,7 @@ function show(part, job, shown) {
 function tellEnded(before, jobs) {
   for (const job of jobs) {
     const known = before.get(job.id);
-    if (known && jobIsOn(known) && !jobIsOn(job)) announce(`${isTiming(job) ? "Fastest timing of" : isSimulation(job) ? "Simulate" : "Optimise"} ${job.gait_name}: ${job.state}. ${job.sentence}`);
+    if (known && jobIsOn(known) && !jobIsOn(job)) announce(`${NAMES[job.kind] ?? "Optimise"} ${job.gait_name}: ${job.state}. ${job.sentence}`);
   }
   return new Map(jobs.map((job) => [job.id, job]));
 }

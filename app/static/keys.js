@@ -15,7 +15,7 @@ function ownsSpace(target, withShift) {
 }
 
 /** True where letters, Delete and Ctrl with a letter mean something else than the timeline. */
-const ownsLetters = (target) => Boolean(target.closest?.("select, [role=grid]:not(#timeline), [role=listbox], [role=dialog]"));
+const ownsLetters = (target) => Boolean(target.closest?.("select, [role=grid]:not(#timeline), [role=listbox], [role=dialog], [data-keys]"));
 
 function withControl(event, { edits, timeline, actions }) {
   const key = event.key.toLowerCase();

@@ -5,7 +5,7 @@ import { h, onPress, setText } from "./dom.js";
 import { clockTime, fixed, seconds, shortHash } from "./format.js";
 import { runTone } from "./run_list.js";
 import { comparison, durationWords, errorTables } from "./run_tables.js";
-import { announce, attempt, toast } from "./toasts.js";
+import { announce, attempt, report, toast } from "./toasts.js";
 
 const OTHERS = 100;
 
@@ -64,14 +64,21 @@ function comparing(run, others, tables) {
 
 const file = (run, form, text, help) => h("a", { href: `/api/runs/${encodeURIComponent(run.id)}/run.${form}`, download: "", text, title: help });
 
+/** What cameras recorded with the run: a line that comes later than the page. */
+function recordedPart(id, open) {
+  const place = h("div");
+  import("./camera_recorded.js").then(({ recordedLine }) => place.replaceWith(recordedLine(id, open))).catch(report);
+  return place;
+}
+
 /**
  * Builds a run's page in the panel.
  * @param {string} id
- * @param {{leave: () => void, open: (id: string) => void, standing: (run: object) => string}} acts `standing` says how the shown gait
- *   stands to it
+ * @param {{leave: () => void, open: (id: string) => void, standing: (run: object) => string, recorded: (wanted: object) => void}} acts `standing`
+ *   says how the shown gait stands to it, `recorded` opens a trial or a video of it
  * @returns {Promise<{element: HTMLElement, follow: () => void}>} `follow` says again how the shown gait stands to it
  */
-export async function runDetail(id, { leave, open, standing }) {
+export async function runDetail(id, { leave, open, standing, recorded }) {
   const [run, { runs: others }] = await Promise.all([api.keptRun(id), api.runs({ most: OTHERS })]);
   const tables = h("div", { class: "run-tables" }, ...(run.errors ? errorTables(run.errors) : [h("p", { class: "why", text: "This run was kept without its plan: its errors are not known." })]));
   const word = h("span", { class: "word", text: run.state });
@@ -81,7 +88,7 @@ export async function runDetail(id, { leave, open, standing }) {
     h("div", { class: "run-line run-title" }, h("span", { class: "dot", data: { tone: runTone(run) } }), h("b", { text: run.gait_name }), word),
     h("p", { class: "quiet", text: endOf(run) }),
     run.left_out ? h("p", { class: "why", data: { toneText: "caution" }, text: `The record has a hole: ${run.left_out} bytes were not kept, as the disk was full.` }) : null,
-    facts(run), noteField(run), over,
+    facts(run), recordedPart(id, recorded), noteField(run), over,
     run.errors ? comparing(run, others, tables) : null, tables, stateLog(run),
     h("div", { class: "run-files" }, file(run, "csv", "CSV", "Time, state, commanded and measured strokes in mm"), file(run, "mcap", "MCAP", "For Foxglove and other viewers: strokes, commands, states and every byte"), deleteButton(run, leave, open)));
   return { element, follow: () => setText(over, standing(run)) };

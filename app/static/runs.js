@@ -60,7 +60,7 @@ function mountPanel(store, opening) {
     openTab("robot");
     const run = await api.keptRun(id);
     if (store.state.selected !== run.gait && store.state.gaits.some((gait) => gait.id === run.gait)) await selectGait(store, run.gait);
-    const detail = await runDetail(id, { leave: all, open, standing: (one) => standing(store, one) });
+    const detail = await runDetail(id, { leave: all, open, standing: (one) => standing(store, one), recorded: (wanted) => store.set({ trialWanted: wanted }) });
     ({ follow } = detail);
     follow();
     show(detail.element);

@@ -2,8 +2,8 @@
  * The page's only state: one frozen object, replaced as a whole, watched by selection.
  *
  * Everything that several tabs must agree on comes from the server; the rest (`selected`, `shownJob`, `pending`,
- * `gesture`, `tool`, `selection`, `preview`, `zoom`, `live`, `remedies`,
- * `iterate`, `tableDrafts`, `runCourse`, `jog`, `simulation`, `tracks`) belongs to this tab alone.
+ * `left` (edits of gaits that were left before they were sent), `gesture`, `tool`, `selection`, `preview`, `zoom`, `live`, `remedies`,
+ * `iterate`, `tableDrafts`, `runCourse`, `jog`, `simulation`, `tracks`, `trialWanted`) belongs to this tab alone.
  */
 
 const INITIAL = Object.freeze({
@@ -16,6 +16,7 @@ const INITIAL = Object.freeze({
   selected: null,
   view: null,
   pending: Object.freeze([]),
+  left: Object.freeze([]),
   gesture: null,
   tool: "paint",
   selection: null,
@@ -37,6 +38,10 @@ const INITIAL = Object.freeze({
   simulation: null,
   tracks: Object.freeze([]),
   jog: null,
+  cameras: null,
+  setups: null,
+  trialMade: null,
+  trialWanted: null,
   operator: "",
 });
 

@@ -1,7 +1,7 @@
 /** The ways to the trials of the real robot, which are loaded when they are first opened. */
 
 import { byId, h } from "./dom.js";
-import { report } from "./toasts.js";
+import { attempt, report } from "./toasts.js";
 
 const HELP = "What the real robot did: foot tracks beside their plan, iteration by iteration, and gaits compared";
 
@@ -14,22 +14,31 @@ const HELP = "What the real robot did: foot tracks beside their plan, iteration 
 export function mountTrialEntry(store, opening) {
   let [loading, panel] = [null, null];
 
-  async function open() {
+  async function open(wanted = null) {
     try {
       loading ??= import("./trials.js").then(({ mountTrials }) => mountTrials(store));
       panel = await loading;
       opening();
-      panel.open();
+      if (wanted) panel.go(wanted);
+      else panel.open();
     } catch (error) {
       loading = null;
       report(error);
     }
   }
 
-  const link = (text) => h("button", { class: "link", text, title: HELP, on: { click: open } });
+  const link = (text) => h("button", { class: "link", text, title: HELP, on: { click: () => open() } });
   byId("jobs").parentElement.append(h("div", { class: "runs-head" }, h("h2", { text: "Trials" }), link("All trials")));
   const below = link("Trials of the real robot");
   below.classList.add("runs-way");
   byId("robot").append(below);
+  store.watch(({ trialWanted }) => [trialWanted], ({ trialWanted }) => {
+    if (!trialWanted) return;
+    store.set({ trialWanted: null });
+    open(trialWanted);
+  });
+  store.watch(({ trialMade }) => [trialMade], attempt(async ({ trialMade }) => {
+    if (trialMade?.id) (await import("./camera_recorded.js")).tellTrial(trialMade.id, open);
+  }));
   return () => Boolean(panel?.leave());
 }

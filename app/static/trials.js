@@ -20,7 +20,7 @@ function addStyles() {
 /**
  * Builds the panel, closed.
  * @param {object} store
- * @returns {{open: () => void, leave: () => boolean}} `leave` closes it; true where it was open
+ * @returns {{open: () => void, go: (wanted: object) => void, leave: () => boolean}} `leave` closes it; true where it was open
  */
 export function mountTrials(store) {
   addStyles();
@@ -56,7 +56,10 @@ export function mountTrials(store) {
   }
 
   const tracks = tracksParts(store, attempt((gait) => selectGait(store, gait)));
-  const all = attempt(async () => show(await trialList({ open: one, add, band })));
+  const page = { store, show, all: () => all(), one: (id) => one(id) };
+  // Videos come when they are first asked for.
+  const videos = attempt(async () => (await import("./video.js")).openVideos(page));
+  const all = attempt(async () => show(await trialList({ open: one, add, band, videos })));
 
   const one = attempt(async (id) => {
     const { element, leave: gone } = await trialDetail(id, { all, remove, tracks });
@@ -81,5 +84,12 @@ export function mountTrials(store) {
   close.addEventListener("click", leave);
   document.querySelector('[role="tablist"][aria-label="Inspector"]').addEventListener("click", leave);
   store.watch(({ robot }) => [runIsOn(robot)], ({ robot }) => { if (runIsOn(robot)) leave(); });
-  return { open: () => { openTab("robot"); all(); }, leave };
+
+  /** Opens what another part of the page asks for: a trial or a video. */
+  const go = attempt(async ({ trial, video }) => {
+    openTab("robot");
+    if (trial) return one(trial);
+    return (await import("./video.js")).openVideoOf(page, video);
+  });
+  return { open: () => { openTab("robot"); all(); }, go, leave };
 }

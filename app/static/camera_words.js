@@ -1,0 +1,20 @@
+/** Words of cameras and their setups that several parts use. */
+
+export const FOOT_NAMES = ["Foot 1, green", "Foot 2, red", "Foot 3, orange", "Foot 4, blue"];
+
+export const USES = [["under", "under the platform"], ["side", "from the side"]];
+
+const TONES = { live: "good", starting: "accent", idle: "quiet", unplugged: "bad" };
+const STATES = { live: "live", starting: "starting", idle: "there", unplugged: "unplugged" };
+
+export const cameraTone = ({ state }) => TONES[state] ?? "quiet";
+export const cameraWord = ({ state, recording }) => (recording ? "recording" : STATES[state] ?? state);
+
+/** What a setup still lacks, in one line. */
+export const setupWords = ({ ready, missing }) => (ready ? "Complete." : missing.join(" "));
+
+/** Seconds as minutes and seconds. */
+export const lengthWords = (seconds) => (seconds < 60 ? `${seconds.toFixed(1)} s` : `${Math.floor(seconds / 60)} min ${Math.round(seconds % 60)} s`);
+
+/** Bytes as megabytes. */
+export const sizeWords = (bytes) => `${(bytes / 1e6).toFixed(bytes < 1e7 ? 1 : 0)} MB`;

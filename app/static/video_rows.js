@@ -1,0 +1,59 @@
+/** Kept videos in a list, and a file on its way to the studio. */
+
+import { lengthWords, sizeWords } from "./camera_words.js";
+import { h, setText } from "./dom.js";
+import { clockTime, fixed } from "./format.js";
+import { report } from "./toasts.js";
+import { videoApi } from "./video_api.js";
+import "./video_style.js";
+
+/** Size, rate and length of a video. */
+export const videoFacts = ({ size, rate, seconds, bytes }) => `${size.join(" × ")} px · ${fixed(rate, 1)} frames/s · ${lengthWords(seconds)} · ${sizeWords(bytes)}`;
+
+/** A kept video in the list. */
+export function videoRow(video, open) {
+  const state = video.state === "kept" ? (video.kind === "recording" ? `of a run, camera ${video.camera}` : "") : video.state;
+  return h("li", {}, h("button", { type: "button", class: "run-row", data: { video: video.id }, title: video.sentence || "Track the feet in this video", on: { click: () => open(video) } },
+    h("span", { class: "run-line" }, h("b", { text: video.name }), h("span", { text: lengthWords(video.seconds) })),
+    h("span", { class: "run-line quiet" }, h("span", { text: [clockTime(video.made), state, video.trial ? "has a trial" : ""].filter(Boolean).join(" · ") }))));
+}
+
+/**
+ * A field for a file that is sent when it is chosen, with its progress and Cancel.
+ * @param {(video: object) => void} done
+ * @returns {{element: HTMLElement, stop: () => void}}
+ */
+export function uploadField(done) {
+  const file = h("input", { type: "file", accept: "video/*,.avi,.mkv,.mov,.mp4", "aria-label": "Video file" });
+  const bar = h("i");
+  const words = h("p", { class: "quiet number", role: "status" });
+  const cancel = h("button", { type: "button", text: "Cancel", "aria-label": "Cancel upload" });
+  const going = h("div", { class: "video-going", hidden: true }, h("div", { class: "progress" }, bar), words, cancel);
+  let ending = null;
+
+  function progress(share, size) {
+    bar.style.transform = `scaleX(${share})`;
+    setText(words, share < 1 ? `${fixed(share * 100, 0)} % of ${sizeWords(size)} sent` : "Sent; the studio looks at it…");
+  }
+
+  async function send() {
+    const [chosen] = file.files;
+    if (!chosen) return;
+    ending = new AbortController();
+    [going.hidden, file.disabled] = [false, true];
+    progress(0, chosen.size);
+    let video = null;
+    try {
+      video = await videoApi.upload(chosen, { signal: ending.signal, progress: (share) => progress(share, chosen.size) });
+    } catch (error) {
+      report(error);
+    }
+    ending = null;
+    [going.hidden, file.disabled, file.value] = [true, false, ""];
+    if (video) done(video);
+  }
+
+  file.addEventListener("change", send);
+  cancel.addEventListener("click", () => ending?.abort());
+  return { element: h("div", { class: "video-upload" }, h("label", {}, h("span", { text: "Video file" }), file), going), stop: () => ending?.abort() };
+}

@@ -1,0 +1,92 @@
+/** A large picture in the place of the 3D preview and the timeline: of a kept video with its frames, or of a camera. */
+
+import { h, setText } from "./dom.js";
+import { fixed } from "./format.js";
+import { lane } from "./lane.js";
+import { pictureView } from "./video_picture.js";
+import { pictureOf } from "./video_api.js";
+import "./video_style.js";
+
+const LIVE_MS = 250;
+
+function frameSlider(moved) {
+  const range = h("input", { type: "range", min: "0", step: "1", value: "0", "aria-label": "Frame" });
+  const number = h("input", { type: "number", min: "0", step: "1", value: "0", "aria-label": "Frame number" });
+  const words = h("span", { class: "quiet number" });
+  const element = h("div", { class: "video-frames" }, range, number, words);
+  let rate = 1;
+  const show = (frame) => {
+    range.value = number.value = String(frame);
+    range.setAttribute("aria-valuetext", `frame ${frame}, ${fixed(frame / rate, 2)} s`);
+    setText(words, `of ${Number(range.max) + 1} · ${fixed(frame / rate, 2)} s`);
+  };
+  const take = (input) => () => {
+    const frame = Math.round(Math.min(Math.max(input.valueAsNumber || 0, 0), Number(range.max)));
+    show(frame);
+    moved(frame);
+  };
+  range.addEventListener("input", take(range));
+  number.addEventListener("change", take(number));
+  return {
+    element,
+    open({ kind, frames, rate: perSecond }, frame) {
+      element.hidden = kind !== "video";
+      rate = perSecond || 1;
+      range.max = number.max = String(Math.max(frames - 1, 0));
+      show(Math.min(frame, Number(range.max)));
+    },
+    get frame() { return Number(range.value); },
+  };
+}
+
+/**
+ * Opens the picture.
+ * @param {object} source of `videoSource` or `cameraSource`
+ * @param {number} [frame] that is shown first
+ * @returns {object} `picture` of `pictureView`; `frame`; `fetches(act)`: another way to a picture, `act(frame)` gives a blob, an
+ *   address or null where it is out of date; `refresh()`; `close()`; `source`
+ */
+export function openStage(source, frame = 0) {
+  const picture = pictureView(`Picture of ${source.name}`);
+  const title = h("b", { text: source.name });
+  const note = h("span", { class: "quiet", role: "status" });
+  const plain = (number) => pictureOf(source, number);
+  let [fetching, timer, closed] = [plain, 0, false];
+
+  const offer = lane(async (number) => {
+    if (closed) return;
+    try {
+      const next = await fetching(number);
+      if (next !== null && !closed) await picture.show(next);
+      setText(note, "");
+    } catch (error) {
+      setText(note, error.message);
+    }
+    if (source.kind !== "camera" || closed) return;
+    clearTimeout(timer);
+    timer = setTimeout(() => offer(0), LIVE_MS);
+  });
+  const slider = frameSlider(offer);
+  slider.open(source, frame);
+  const element = h("section", { class: "video-stage", "aria-label": "Picture", data: { keys: "" } },
+    h("header", {}, title, note, slider.element), picture.element);
+  document.querySelector("section.stage").append(element);
+  document.body.toggleAttribute("data-video", true);
+  offer(slider.frame);
+
+  return {
+    picture, source,
+    get frame() { return slider.frame; },
+    fetches(act) {
+      fetching = act ?? plain;
+      offer(slider.frame);
+    },
+    refresh: () => offer(slider.frame),
+    close() {
+      closed = true;
+      clearTimeout(timer);
+      element.remove();
+      document.body.toggleAttribute("data-video", document.querySelector(".video-stage") !== null);
+    },
+  };
+}

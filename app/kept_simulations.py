@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from app.plans import Plan
@@ -10,7 +10,7 @@ from app.simulations import report_from_content, simulation_key, simulation_prob
 from app.store.simulation_log import SimulationLog, SimulationRow
 from core.errors import InputError
 from core.physics.masses import default_physics
-from core.physics.parameters import physics_set, physics_sets
+from core.physics.parameters import PhysicsSet, physics_sets
 from core.simulation_check import Simulated
 
 
@@ -24,11 +24,18 @@ class KeptSimulations:
     Args:
         log: where they are kept.
         told: hears of the waypoints' hash of each one that is kept.
+        sets: every set of physics parameters that there is now.
     """
 
-    def __init__(self, log: SimulationLog, told: Callable[[str], None] = lambda waypoints: None) -> None:
+    def __init__(
+        self,
+        log: SimulationLog,
+        told: Callable[[str], None] = lambda waypoints: None,
+        sets: Callable[[], Iterable[PhysicsSet]] = lambda: physics_sets().values(),
+    ) -> None:
         self._log = log
         self._told = told
+        self._sets = sets
 
     def put(self, row: SimulationRow, content: dict[str, Any]) -> None:
         """Keeps a simulation; variations that are known of the same stay where it has none of its own."""
@@ -56,14 +63,14 @@ class KeptSimulations:
         rows = self._log.of_gait(gait_id)
         if not rows:
             return None
-        now = keys_of(plan)
+        now = self.keys_of(plan)
         fresh = next((row for row in rows if row.key in now), None)
         row = fresh or rows[0]
         return {"key": row.key, "physics": row.physics, "made": row.made, "fresh": fresh is not None}
 
     def is_fresh(self, gait_id: str, key: str, plan: Plan) -> bool:
         """Whether a simulation is kept and is of the gait's plan as it is now."""
-        return key in keys_of(plan) and any(row.key == key for row in self._log.of_gait(gait_id))
+        return key in self.keys_of(plan) and any(row.key == key for row in self._log.of_gait(gait_id))
 
     def simulated(self, plan: Plan) -> Simulated | None:
         """A simulation of a plan as it is now, for its verdict; None where there is none.
@@ -73,16 +80,16 @@ class KeptSimulations:
         """
         if plan.waypoints is None:
             return None
-        now, usual = keys_of(plan), default_physics(plan.model).name
-        rows = [row for row in self._log.of_waypoints(plan.waypoints.content_hash) if row.key in now]
+        sets = {simulation_key(plan, physics): physics for physics in self._sets()}
+        usual = default_physics(plan.model).name
+        rows = [row for row in self._log.of_waypoints(plan.waypoints.content_hash) if row.key in sets]
         for row in sorted(rows, key=lambda row: row.physics != usual):
             content = self._log.content(row.key)
             if content is not None:
-                problem = simulation_problem(plan, physics_set(row.physics))
+                problem = simulation_problem(plan, sets[row.key])
                 return Simulated(report_from_content(content["report"]), problem)
         return None
 
-
-def keys_of(plan: Plan) -> frozenset[str]:
-    """What simulations of a plan are kept under, with each physics set."""
-    return frozenset(simulation_key(plan, physics) for physics in physics_sets().values())
+    def keys_of(self, plan: Plan) -> frozenset[str]:
+        """What simulations of a plan are kept under, with each physics set."""
+        return frozenset(simulation_key(plan, physics) for physics in self._sets())

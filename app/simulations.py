@@ -79,6 +79,14 @@ def physics_content(physics: PhysicsSet) -> dict[str, Any]:
     return content
 
 
+def physics_from_content(content: dict[str, Any]) -> PhysicsSet:
+    """Inverse of `physics_content`."""
+    values: dict[str, Any] = {
+        name: tuple(value) if isinstance(value, list) else value for name, value in content.items()
+    }
+    return PhysicsSet(**values)
+
+
 def report_content(report: SimulationReport) -> dict[str, Any]:
     """A report as JSON content, SI."""
     values = {field.name: getattr(report, field.name) for field in fields(report)}

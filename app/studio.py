@@ -18,7 +18,8 @@ from app.history import Author
 from app.job_book import JobBook
 from app.job_desk import JobDesk
 from app.jog_desk import JogDesk
-from app.kept_simulations import KeptSimulations, keys_of
+from app.kept_simulations import KeptSimulations
+from app.learning.desk import LearningDesk
 from app.live_desk import LiveDesk
 from app.open_gait import OpenGait
 from app.pattern_desk import PatternDesk
@@ -49,14 +50,15 @@ from core.errors import FootfallError, StateError
 from core.gait import Gait, motion_problem
 from core.library import library
 from core.motion_problem import MotionProblem
-from core.physics.masses import physics_for
 from core.robot import load_robot
-from solver_jobs import Job, JobKind, JobRunner, LiveSolver, PatternSolver, Simulator
+from solver_jobs import Job, JobKind, JobRunner, LiveSolver, PatternSolver, Simulator, TravelSimulator
 
 _SCRIPT = Author()
 
 PATTERN_PROCESSES = 2
 """Pattern searches that go on at one time; each process starts when it is first needed."""
+LEARNING_PROCESSES = 2
+"""Gaits that are simulated at one time while the studio learns from trials; started when first needed."""
 
 
 class Studio:
@@ -77,7 +79,11 @@ class Studio:
         self.live = LiveDesk(self._solver)
         self._pattern_solvers = tuple(PatternSolver() for _ in range(PATTERN_PROCESSES))
         self.patterns = PatternDesk(self._pattern_solvers, self._tell_page)
-        self.simulations = KeptSimulations(SimulationLog(self._database), self._simulated)
+        self._travellers = tuple(TravelSimulator() for _ in range(LEARNING_PROCESSES))
+        self.learning = LearningDesk(self._database, self._travellers)
+        self.simulations = KeptSimulations(
+            SimulationLog(self._database), self._simulated, self.learning.sets.physics
+        )
         self.gaits = GaitDesk(
             self._files,
             self._database,
@@ -201,7 +207,7 @@ class Studio:
 
     def _gait_view(self, open_gait: OpenGait) -> dict[str, Any]:
         plan = self.gaits.plan(open_gait.id)
-        self._simulated_as[open_gait.id] = keys_of(plan)
+        self._simulated_as[open_gait.id] = self.simulations.keys_of(plan)
         view = gait_view(open_gait, plan, self.hub.pages())
         return view | {
             "simulation": self.simulations.standing(open_gait.id, plan),
@@ -297,7 +303,9 @@ class Studio:
             variations: how many variations of them are tried as well.
         """
         open_gait, plan = self.gaits.open_gait(gait_id), self.gaits.plan(gait_id)
-        content = self._simulating.submit(open_gait, plan, physics_for(plan.model, physics), variations)
+        content = self._simulating.submit(
+            open_gait, plan, self.learning.sets.chosen(plan.model, physics), variations
+        )
         view = self.job_view(content)
         self.hub.publish({"type": "job", "job": view})
         return view

@@ -11,6 +11,7 @@ from app.bench.exact import bench_exact, bench_growth
 from app.bench.frontier import bench_frontier
 from app.bench.gait_list import bench_gait_list
 from app.bench.kinematics import bench_kinematics
+from app.bench.learning import bench_learning
 from app.bench.live import bench_live
 from app.bench.measure import Row, conditions
 from app.bench.page import bench_page
@@ -38,6 +39,7 @@ BENCHMARKS: dict[str, Benchmark] = {
     "edits": bench_edits,
     "patterns": bench_patterns,
     "physics": bench_physics,
+    "learning": bench_learning,
     "bridge": bench_bridge,
     "telemetry": bench_telemetry,
     "page": bench_page,
@@ -46,5 +48,5 @@ BENCHMARKS: dict[str, Benchmark] = {
 }
 """Every benchmark by its name."""
 
-BY_NAME_ONLY = frozenset({"page", "gaits", "scene"})
+BY_NAME_ONLY = frozenset({"page", "gaits", "scene", "learning"})
 """Those that need what is not installed with the program."""

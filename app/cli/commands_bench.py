@@ -8,6 +8,7 @@ from typing import Any
 
 from app.bench import BENCHMARKS, BY_NAME_ONLY, Benchmark, Row, conditions
 from app.bench.edits import bench_edits
+from app.bench.learning import bench_learning
 from app.bench.physics import bench_physics
 from app.cli.report import end_on_sigterm, note, show
 from core.errors import InputError
@@ -23,6 +24,7 @@ def run_bench(options: Namespace) -> int:
         **BENCHMARKS,
         "edits": partial(bench_edits, options.count, options.seed),
         "physics": partial(bench_physics, options.reference, options.report),
+        "learning": partial(bench_learning, options.reference),
     }
     where = conditions()
     results: dict[str, list[Row]] = {}

@@ -18,6 +18,8 @@ from app.gait_shelf import UnknownGaitError
 from app.history import Author
 from app.job_book import UnknownJobError
 from app.kept_simulations import UnknownSimulationError
+from app.learning.desk import UnknownLearningError
+from app.learning.sets import UnknownSetError
 from app.open_gait import OpenGait
 from app.pattern_desk import UnknownSearchError
 from app.runs.record import UnknownRunError
@@ -53,6 +55,8 @@ _STATUS: tuple[tuple[type[FootfallError], int], ...] = (
     (UnknownRunError, 404),
     (UnknownSimulationError, 404),
     (UnknownTrialError, 404),
+    (UnknownLearningError, 404),
+    (UnknownSetError, 404),
     (UnknownPhotoError, 404),
     (UnknownSetupError, 404),
     (UnknownVideoError, 404),

@@ -10,7 +10,6 @@ from starlette.concurrency import run_in_threadpool
 
 from app.routes.edge import studio_of
 from app.scene.simulated_ghost import simulated_blob
-from app.simulations import fitting_sets
 from app.studio import Studio
 from core.robot import load_robot
 
@@ -19,9 +18,10 @@ TheStudio = Annotated[Studio, Depends(studio_of)]
 
 
 @router.get("/sets")
-async def read_sets(robot: str) -> dict[str, Any]:
-    """The sets of physics parameters that fit a robot, the usual one first."""
-    return {"sets": [{"name": one.name, "title": one.title} for one in fitting_sets(load_robot(robot))]}
+async def read_sets(robot: str, studio: TheStudio) -> dict[str, Any]:
+    """The sets of physics parameters that fit a robot: its usual one, the program's others, learned ones."""
+    found = await run_in_threadpool(studio.learning.sets.fitting, load_robot(robot))
+    return {"sets": [{"name": one.name, "title": one.title} for one in found]}
 
 
 @router.get("/{key}")

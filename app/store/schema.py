@@ -142,6 +142,16 @@ def _add_videos(connection: sqlite3.Connection) -> None:
         connection.execute(statement)
 
 
+def _add_learning(connection: sqlite3.Connection) -> None:
+    """What was learned from trials, and the named sets of physics parameters, every version."""
+    for statement in (
+        "CREATE TABLE learning(id TEXT PRIMARY KEY, made REAL, content TEXT)",
+        "CREATE TABLE physics_set(name TEXT, version INTEGER, made REAL, deleted REAL, content TEXT, "
+        "PRIMARY KEY(name, version))",
+    ):
+        connection.execute(statement)
+
+
 _MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     _add_authors_and_versions,
     _add_to_runs,
@@ -149,4 +159,5 @@ _MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     _add_trials,
     _add_beside_trials,
     _add_videos,
+    _add_learning,
 )

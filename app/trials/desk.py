@@ -157,6 +157,10 @@ class TrialDesk:
         """A trial as it was kept, for what is laid over it."""
         return trial_record(self._known(trial))
 
+    def sent(self, trial: str) -> dict[str, Any] | None:
+        """What the robot was sent in a trial (`app.runs.plan_content.sent_content`); None where not known."""
+        return self._beside.sent(self._known(trial).content["id"])
+
     def track(self, trial: str) -> str:
         """The track as a file in centimetres; what was not seen is empty."""
         return self._known(trial).track

@@ -76,7 +76,8 @@ def fit(
     """The parameters after the trials: means over what was thought before, weighed by likelihood.
 
     Each figure is normal about its surface, with the spread of a trial times a factor and that of simulations
-    about the surface. What cannot be told is put back to its default, and the rest is fitted again.
+    about the surface. The parameter that is told least is put back to its default and the rest fitted again,
+    until all that are left are told.
 
     Args:
         surfaces: of all figures.
@@ -87,15 +88,16 @@ def fit(
     gaits = np.setdiff1d(np.arange(measured.gait_count), list(left_out)).astype(np.int64)
     draws = prior_draws(tuple(parameters))
     effect = _effects(surfaces, measured, parameters, gaits)
-    weights, noise = _weights(draws, surfaces, measured, gaits)
-    mean, spread = _moments(draws, weights)
     before = draws.std(axis=0)
-    told = np.asarray((effect > LEAST_EFFECT) & (spread < MOST_LEFT * before))
-    if told.any() and not told.all():
+    told, spread = np.asarray(effect > LEAST_EFFECT), before.copy()
+    while True:
         weights, noise = _weights(np.where(told, draws, 0.0), surfaces, measured, gaits)
-        again, narrower = _moments(draws, weights)
-        mean, spread = again, np.where(told, narrower, spread)
-    return Fit(np.where(told, mean, 0.0), spread, before, effect, told, noise)
+        mean, after = _moments(draws, weights)
+        spread = np.where(told, after, spread)
+        left = np.where(told, spread / before, 0.0)
+        if left.max() < MOST_LEFT:
+            return Fit(np.where(told, mean, 0.0), spread, before, effect, told, noise)
+        told[int(left.argmax())] = False
 
 
 @cache

@@ -1,0 +1,107 @@
+"""What was learned, as pages and scripts get it: cm and degrees, as tables of trials are."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from app.finite import finite
+from app.simulations import physics_content
+from core.trials.fit_parameters import FitParameter
+from core.trials.learning import Foretold, Learned
+
+CM = 100.0
+WAYS = {
+    "as planned": "As planned",
+    "default": "Physics, usual parameters",
+    "fitted": "Physics, fitted",
+    "left out": "Physics, gait left out",
+    "ratio, left out": "Line, gait left out",
+    "kind left out": "Physics, kind of gait left out",
+    "ratio, kind left out": "Line, kind of gait left out",
+}
+"""Ways of foretelling in words; a line is measured = a × wanted + b."""
+
+
+def learned_content(learned: Learned) -> dict[str, Any]:
+    """Everything of it as JSON content."""
+    content: dict[str, Any] = finite(
+        {
+            "defaults": learned.defaults.name,
+            "defaults_title": learned.defaults.title,
+            "spread_cm": learned.spread[0] * CM,
+            "spread_deg": math.degrees(learned.spread[1]),
+            "noise": list(learned.fit.noise),
+            "simulations": learned.simulations,
+            "parameters": [_parameter(learned, place) for place in range(len(learned.parameters))],
+            "gaits": [_gait(learned, gait) for gait in range(len(learned.measured))],
+            "foretold": [_foretold(learned, way) for way in learned.foretold],
+            "physics": physics_content(learned.physics),
+        }
+    )
+    return content
+
+
+def _parameter(learned: Learned, place: int) -> dict[str, Any]:
+    parameter, fit = learned.parameters[place], learned.fit
+    told = bool(fit.is_identifiable[place])
+    value = parameter.scale * parameter.value(learned.defaults, float(fit.z[place]))
+    low, high = _ends(learned, parameter, place)
+    return {
+        "name": parameter.name,
+        "title": parameter.title,
+        "unit": parameter.unit,
+        "default": parameter.scale * parameter.read(learned.defaults),
+        "fitted": value if told else None,
+        "low": low if told else None,
+        "high": high if told else None,
+        "effect": float(fit.effect[place]),
+        "left": float(fit.spread[place] / fit.before[place]),
+        "is_identifiable": told,
+    }
+
+
+def _ends(learned: Learned, parameter: FitParameter, place: int) -> tuple[float, float]:
+    """One spread below and above, within the parameter's range."""
+    z, spread = float(learned.fit.z[place]), float(learned.fit.spread[place])
+    places = (max(z - spread, parameter.low), min(z + spread, parameter.high))
+    low, high = sorted(parameter.scale * parameter.value(learned.defaults, one) for one in places)
+    return low, high
+
+
+def _gait(learned: Learned, gait: int) -> dict[str, Any]:
+    walk = learned.measured[gait]
+    return {
+        "name": walk.name,
+        "kind": walk.kind,
+        "wanted_cm": walk.wanted * CM,
+        "distance_cm": walk.travel.distance * CM,
+        "angle_deg": math.degrees(walk.travel.angle),
+        "trials": walk.trials,
+        "surface_cm": float(learned.misfit[gait]) * CM,
+    }
+
+
+def _foretold(learned: Learned, way: Foretold) -> dict[str, Any]:
+    distance, angle = learned.errors(way)
+    return {
+        "name": way.name,
+        "title": WAYS[way.name],
+        "distances_cm": [travel.distance * CM for travel in way.travels],
+        "angles_deg": [math.degrees(travel.angle) for travel in way.travels],
+        "error_cm": distance * CM,
+        "error_deg": math.degrees(angle),
+        "falls": way.falls,
+    }
+
+
+def learned_sentence(content: Mapping[str, Any]) -> str:
+    """The result in a sentence, of its content."""
+    errors = {way["name"]: way["error_cm"] for way in content["foretold"]}
+    told = [one["title"].lower() for one in content["parameters"] if one["is_identifiable"]]
+    what = f"These trials tell {', '.join(told)}." if told else "These trials tell none of the parameters."
+    return (
+        f"{what} A gait that was left out is foretold to {errors['left out']:.2f} cm; as planned it is "
+        f"{errors['as planned']:.2f} cm, by a line through the others {errors['ratio, left out']:.2f} cm."
+    )

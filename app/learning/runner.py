@@ -1,0 +1,106 @@
+"""Simulations of gaits for learning, on several processes at once."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from typing import Protocol
+
+from core.errors import SimulationCancelledError
+from core.physics.parameters import PhysicsSet
+from core.trials.learning import Task, Walk
+from core.trials.travel import Travel
+
+
+class TravelHandle(Protocol):
+    """Simulations under way; `solver_jobs.TravelQuestion` in the studio."""
+
+    def result(self) -> tuple[Travel | None, ...]:
+        """Waits for their answer."""
+
+    def cancel(self) -> None:
+        """Ends them."""
+
+
+class TravelTier(Protocol):
+    """What simulates gaits, one after the other; `solver_jobs.TravelSimulator` in the studio."""
+
+    def submit(self, walk: Walk, sets: Sequence[PhysicsSet]) -> TravelHandle:
+        """Begins some simulations of a gait."""
+
+
+class WalkRunner:
+    """Simulates gaits, as `core.trials.learning.learn` asks for it.
+
+    Args:
+        tiers: each simulates one gait at a time.
+        walks: the gaits.
+        told: hears how many simulations are done, from any thread.
+    """
+
+    def __init__(
+        self, tiers: Sequence[TravelTier], walks: Sequence[Walk], told: Callable[[int], object]
+    ) -> None:
+        self._tiers = tiers
+        self._walks = walks
+        self._told = told
+        self._lock = threading.Lock()
+        self._done = 0
+        self._is_cancelled = False
+        self._on: set[TravelHandle] = set()
+
+    def cancel(self) -> None:
+        """Ends what is on and what would follow; any thread may call."""
+        with self._lock:
+            self._is_cancelled = True
+            for handle in self._on:
+                handle.cancel()
+
+    def __call__(self, tasks: Sequence[Task]) -> list[Travel | None]:
+        """Simulates, in any order, and answers in the order of the tasks.
+
+        Raises:
+            SimulationCancelledError: it was cancelled.
+            FootfallError: a simulation was refused.
+        """
+        answers: list[Travel | None] = [None] * len(tasks)
+        failures: list[Exception] = []
+        waiting = iter(range(len(tasks)))
+
+        def work(tier: TravelTier) -> None:
+            try:
+                while not failures and (number := self._next(waiting)) is not None:
+                    gait, physics = tasks[number]
+                    answers[number] = self._one(tier, self._walks[gait], physics)
+            except Exception as error:  # it belongs to whoever asked
+                failures.append(error)
+
+        threads = [threading.Thread(target=work, args=(tier,), daemon=True) for tier in self._tiers]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        if failures:
+            raise failures[0]
+        return answers
+
+    def _next(self, waiting: Iterator[int]) -> int | None:
+        with self._lock:
+            return next(waiting, None)
+
+    def _one(self, tier: TravelTier, walk: Walk, physics: PhysicsSet) -> Travel | None:
+        with self._lock:
+            if self._is_cancelled:
+                raise SimulationCancelledError("Learning was cancelled.")
+            handle = tier.submit(walk, (physics,))
+            self._on.add(handle)
+        try:
+            (travel,) = handle.result()
+        finally:
+            with self._lock:
+                self._on.discard(handle)
+        with self._lock:
+            self._done += 1
+            done = self._done
+        self._told(done)
+        return travel

@@ -1,0 +1,1 @@
+"""Learning from trials: gaits out of trials and tables, jobs, sets."""

@@ -1,0 +1,122 @@
+"""Gaits out of trials and of the published table: what the robot did, and exactly what it was sent."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from app.learning.table import walks_of_table
+from app.learning.walks import SentTrial, walks_of
+from app.runs.plan_content import sent_content
+from app.store.database import Database
+from app.trials.desk import TrialDesk, TrialWords
+from app.trials.planned import PlannedFeet
+from core.errors import InputError
+from core.robot import load_robot
+from core.trajectory_csv import format_trajectory_csv
+from core.trials.alignment import repeated_motion
+from core.trials.track import FootTrack
+from tests.core.trials.tracks import stepping_track
+from tests.reference import reference_path
+from tests.simulated_walk import walk_plan
+
+ROBOT = load_robot("deltawalker")
+WORDS = TrialWords("first", "Ada", 3.0, 3, gait="walk", gait_name="Walk 10 mm")
+TABLE = "Traj, +x, -x, dx, +y, -y, dy, dist, angle, % err\n"
+ROW = "TrajAa_o1,3.6,0.1,3.5,0.5,0.2,0.4,3.7,8.5,22.0\n"
+
+
+def planned(laps: int = 3) -> PlannedFeet:
+    plan = walk_plan()
+    assert plan.trajectory is not None
+    assert plan.way is not None
+    motion = plan.trajectory
+    sent = sent_content(plan.model, plan.way.waypoints, plan.way.times, motion)
+    return PlannedFeet(*repeated_motion(motion.times, motion.feet_world[..., :2], laps), laps, sent)
+
+
+def trial(
+    database: Database, track: FootTrack, feet: PlannedFeet | None, words: TrialWords = WORDS
+) -> SentTrial:
+    desk = TrialDesk(database)
+    kept = desk.add(track, words, feet)["id"]
+    return SentTrial(desk.record(kept), desk.sent(kept))
+
+
+def test_trials_of_the_same_waypoints_are_one_gait_with_their_mean_and_spread(database: Database) -> None:
+    steps = [(0.0084, 0.0084), (0.0088, 0.0088)]
+    trials = [trial(database, stepping_track(step, 3), planned()) for step in steps]
+    (walk,) = walks_of(trials)
+    assert walk.measured.trials == 2
+    assert walk.laps == 3
+    assert walk.heading == pytest.approx(math.pi / 4, abs=1e-6)
+    assert walk.measured.travel.distance == pytest.approx(3 * 0.0086 * math.sqrt(2), rel=0.02)
+    assert walk.measured.travel.angle == pytest.approx(0.0, abs=0.02)
+    assert walk.measured.spread is not None
+    assert walk.measured.spread[0] == pytest.approx(3 * 0.0004, rel=0.05)
+
+
+def test_a_robot_that_stood_turned_goes_the_same_way(database: Database) -> None:
+    straight = stepping_track((0.0086, 0.0086), 3)
+    quarter = np.array([[0.0, -1.0], [1.0, 0.0]])
+    turned = FootTrack(straight.times, straight.feet @ quarter.T, straight.filled)
+    angles = [
+        walks_of([trial(database, track, planned())])[0].measured.travel.angle for track in (straight, turned)
+    ]
+    assert angles[0] == pytest.approx(angles[1], abs=1e-6)
+
+
+def test_trials_of_other_iterations_are_another_gait(database: Database) -> None:
+    once = replace(WORDS, expected_cm=1.0, iterations=1)
+    trials = [
+        trial(database, stepping_track((0.0085, 0.0085), 3), planned()),
+        trial(database, stepping_track((0.0085, 0.0085), 1), planned(1), once),
+    ]
+    names = [walk.measured.name for walk in walks_of(trials)]
+    assert len(set(names)) == 2
+
+
+def test_a_trial_of_unknown_waypoints_is_refused_with_its_name(database: Database) -> None:
+    with pytest.raises(InputError, match="“first” it is not known what the robot was sent") as refused:
+        walks_of([trial(database, stepping_track((0.0085, 0.0085), 3), None)])
+    assert refused.value.where == "trials"
+
+
+def test_a_row_and_its_trajectory_make_a_gait_in_the_wanted_direction() -> None:
+    plan = walk_plan()
+    assert plan.trajectory is not None
+    (walk,) = walks_of_table(TABLE + ROW, {"walk_a.csv": format_trajectory_csv(plan.trajectory)}, ROBOT)
+    assert walk.measured.travel.distance == pytest.approx(0.037)
+    assert walk.measured.travel.angle == pytest.approx(math.atan2(0.4, 3.5))
+    assert walk.measured.wanted == pytest.approx(0.03, abs=1e-3)
+    assert walk.heading == pytest.approx(math.pi / 4, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ("", "no column Traj"),
+        ("a,b\n1,2\n", "no column Traj"),
+        (TABLE + "Other,1,1,1,1,1,1,1,1,1\n", "none of TrajAa to TrajDd"),
+        (TABLE + ROW.replace("Aa", "Bb"), r"needs the trajectory ambl_b\.csv"),
+        (TABLE + ROW.replace("3.7", "far"), "“far” for dist"),
+        (TABLE + ROW.replace("3.5", "inf"), "“inf” for dx"),
+    ],
+)
+def test_a_table_that_cannot_be_used_is_refused_with_a_sentence(table: str, words: str) -> None:
+    plan = walk_plan()
+    assert plan.trajectory is not None
+    with pytest.raises(InputError, match=words):
+        walks_of_table(table, {"walk_a.csv": format_trajectory_csv(plan.trajectory)}, ROBOT)
+
+
+def test_the_published_robot_is_off_by_0_96_cm_where_it_is_taken_to_walk_as_planned() -> None:
+    table = reference_path("robot_trials/trajectory_averages.csv").read_text()
+    folder = reference_path("trajectories/direction1")
+    walks = walks_of_table(table, {path.name: path.read_text() for path in folder.glob("*.csv")}, ROBOT)
+    assert len(walks) == 16
+    off = [abs(walk.measured.travel.distance - walk.measured.wanted) for walk in walks]
+    assert np.mean(off) == pytest.approx(0.0096, abs=0.00005)

@@ -20,6 +20,7 @@ from app.scene.scenes import Scenes
 from app.security import LOOPBACK_NAMES, Access
 from app.server import MOST_MESSAGE_BYTES, make_app
 from app.studio import Studio
+from app.trials.camera_address import CameraAddress
 from core.errors import InputError
 
 GRACE_SECONDS = 3
@@ -36,6 +37,7 @@ class ServeOptions:
     data: Path
     token: str | None
     opens_browser: bool
+    cameras: tuple[CameraAddress, ...] = ()
 
 
 class _Server(uvicorn.Server):
@@ -72,7 +74,7 @@ def serve(options: ServeOptions, announce: Callable[[str], None]) -> None:
         token = secrets.token_urlsafe(18)
     scenes = Scenes()
     with contextlib.closing(listening):
-        studio = Studio(options.data, options.device)
+        studio = Studio(options.data, options.device, options.cameras)
         try:
             app = make_app(studio, scenes, Access(options.host, token))
             config = uvicorn.Config(

@@ -14,6 +14,7 @@ from starlette.middleware import Middleware
 from app.documents import gait_schema
 from app.routes import (
     approvals,
+    cameras,
     events,
     exports,
     gaits,
@@ -85,6 +86,7 @@ def make_app(studio: Studio, scenes: Scenes, access: Access) -> FastAPI:
         learning.router,
         setups.router,
         videos.router,
+        cameras.router,
         robots.router,
         scene.router,
         events.router,

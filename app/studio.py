@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
@@ -38,6 +38,7 @@ from app.store.files import GaitFiles
 from app.store.simulation_log import SimulationLog
 from app.store.trial_beside import TrialBesideLog
 from app.trials.beside import TrialsBeside
+from app.trials.camera_address import CameraAddress
 from app.trials.desk import TrialDesk
 from app.trials.photos import TrialPhotos
 from app.trials.seeing import Seeing
@@ -67,9 +68,10 @@ class Studio:
     Args:
         data: the data folder.
         device: `emulator`, a serial device, or `socket://HOST:PORT`.
+        cameras: video files that are played as cameras.
     """
 
-    def __init__(self, data: Path, device: str) -> None:
+    def __init__(self, data: Path, device: str, cameras: Sequence[CameraAddress] = ()) -> None:
         self.hub = EventHub()
         self._files = GaitFiles(data)
         self._database = Database(data / "studio.sqlite3")
@@ -116,10 +118,13 @@ class Studio:
             self._database,
             self.book,
             self.trials,
+            self.runs,
+            cameras,
             self.session.tell,
             self._show_tracking,
             self.hub.publish,
         )
+        self.robot.bridge.subscribe(self.seeing.recordings.follow)
         self._told_sources: dict[str, tuple[int, list[str]]] = {}
         self.stop_lane = ThreadPoolExecutor(max_workers=2, thread_name_prefix="stop")
         self._closed = threading.Event()

@@ -118,6 +118,8 @@ def _serve_words(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--data", type=Path, default=None, help="data folder")
     parser.add_argument("--token", default=None, help="demanded of every request; made where host is public")
+    text = "play a video file as a camera of that name; may be given several times"
+    parser.add_argument("--camera", action="append", default=[], metavar="NAME=VIDEO", help=text)
     parser.add_argument("--no-browser", action="store_true", help="do not open a browser")
 
 

@@ -15,6 +15,7 @@ from typing import Any
 from app.bridge.emulated import start_emulator
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPlan
 from app.cli.report import INTERRUPTED, end_on_sigterm, note, show, verdict_lines
+from app.cli.served_cameras import served_cameras
 from app.cli.streaming import stream
 from app.store.files import default_data_folder
 from app.trajectory_files import read_waypoints
@@ -32,6 +33,7 @@ NOT_FIT = 4
 
 def run_serve(options: Namespace) -> int:
     """Serves the studio until a signal ends it."""
+    cameras = served_cameras(options.camera)
     # The web server and the 3D scene take a second to load; the other commands do without them.
     from app.serve import ServeOptions, serve
 
@@ -47,6 +49,7 @@ def run_serve(options: Namespace) -> int:
             data=(options.data or default_data_folder()).expanduser(),
             token=token,
             opens_browser=not options.no_browser,
+            cameras=cameras,
         ),
         _announce,
     )

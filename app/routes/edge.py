@@ -24,6 +24,7 @@ from app.open_gait import OpenGait
 from app.pattern_desk import UnknownSearchError
 from app.runs.record import UnknownRunError
 from app.studio import Studio
+from app.trials.camera_desk import UnknownCameraError
 from app.trials.desk import UnknownTrialError
 from app.trials.photos import UnknownPhotoError
 from app.trials.setup_desk import UnknownSetupError
@@ -55,11 +56,12 @@ _STATUS: tuple[tuple[type[FootfallError], int], ...] = (
     (UnknownRunError, 404),
     (UnknownSimulationError, 404),
     (UnknownTrialError, 404),
+    (UnknownPhotoError, 404),
     (UnknownLearningError, 404),
     (UnknownSetError, 404),
-    (UnknownPhotoError, 404),
     (UnknownSetupError, 404),
     (UnknownVideoError, 404),
+    (UnknownCameraError, 404),
     (StateError, 409),
     (CheckError, 409),
     (RobotError, 503),

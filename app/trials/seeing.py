@@ -1,15 +1,20 @@
-"""Everything that sees the robot: setups, videos, tracking."""
+"""Everything that sees the robot: setups, videos, tracking, cameras, recordings of runs."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import threading
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from app.job_book import JobBook
+from app.runs.desk import RunDesk
 from app.store.database import Database
+from app.trials.camera_address import CameraAddress
+from app.trials.camera_desk import CameraDesk
 from app.trials.desk import TrialDesk
 from app.trials.eyes import open_eyes
+from app.trials.run_recordings import RunRecordings
 from app.trials.setup_desk import SetupDesk
 from app.trials.track_desk import TrackDesk
 from app.trials.video_desk import VideoDesk
@@ -25,6 +30,8 @@ class Seeing:
         database: where is kept what is known of them.
         book: the list of jobs.
         trials: where tracks go.
+        runs: the records of runs.
+        files: video files that are played as cameras.
         later: does something on the session's thread.
         show_job: told of a job that changed, on the session's thread.
         publish: tells every page.
@@ -34,6 +41,8 @@ class Seeing:
         setups: how cameras see the platform.
         videos: uploads and recordings.
         tracks: videos that are tracked; for the session's thread.
+        cameras: of this computer.
+        recordings: of runs.
     """
 
     def __init__(
@@ -42,6 +51,8 @@ class Seeing:
         database: Database,
         book: JobBook,
         trials: TrialDesk,
+        runs: RunDesk,
+        files: Sequence[CameraAddress],
         later: Callable[[Callable[[], object]], None],
         show_job: Callable[[Content], object],
         publish: Callable[[Content], None],
@@ -55,8 +66,17 @@ class Seeing:
         self.videos.end_abandoned()
         self.tracks = TrackDesk(self.eyes, book, self.videos, self.setups, trials, later, self._show_tracking)
 
+        self._is_telling = threading.Lock()
+        self.cameras = CameraDesk(database, self.setups, files, self._tell_cameras)
+        self.cameras.stand_by()
+        self.recordings = RunRecordings(
+            database, self.cameras, self.setups, self.videos, runs, trials, self.tell_trial
+        )
+
     def close(self) -> None:
-        """Ends the processes."""
+        """Ends recordings and processes."""
+        self.recordings.close()
+        self.cameras.close()
         self.eyes.close()
 
     def tell_trial(self, trial: str) -> None:
@@ -65,6 +85,10 @@ class Seeing:
 
     def _tell_setups(self) -> None:
         self._publish({"type": "setups", "setups": self.setups.views()})
+
+    def _tell_cameras(self) -> None:
+        with self._is_telling:  # the last to tell is the last that looked
+            self._publish({"type": "cameras", "cameras": self.cameras.views()})
 
     def _show_tracking(self, job: Content) -> None:
         if job["state"] == "done":

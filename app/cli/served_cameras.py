@@ -1,0 +1,34 @@
+"""The `--camera` words of `serve`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+from app.trials.camera_address import CameraAddress
+from core.errors import InputError
+
+
+def served_cameras(words: Sequence[str]) -> tuple[CameraAddress, ...]:
+    """Video files that are played as cameras.
+
+    Args:
+        words: each a name, an equals sign and a file.
+
+    Raises:
+        InputError: a word is none, a file is not there, or two have one name.
+    """
+    found: dict[str, CameraAddress] = {}
+    for word in words:
+        name, _, path = word.partition("=")
+        key = re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-")
+        if not key or not path:
+            raise InputError(f"“{word}” is no camera; write NAME=VIDEO, as in under=walk.avi.", "--camera")
+        if key in found:
+            raise InputError(f"Two cameras are called “{key}”; give each a name of its own.", "--camera")
+        file = Path(path).expanduser().resolve()
+        if not file.is_file():
+            raise InputError(f"There is no file {path} to play as the camera “{name}”.", "--camera")
+        found[key] = CameraAddress(key, name, str(file), True)
+    return tuple(found.values())

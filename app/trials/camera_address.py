@@ -1,0 +1,22 @@
+"""Where a camera is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class CameraAddress:
+    """Where a camera is.
+
+    Args:
+        id: in addresses and settings.
+        name: what a person calls it.
+        path: of the device or the file.
+        is_file: whether a video file is played as a camera.
+    """
+
+    id: str
+    name: str
+    path: str
+    is_file: bool

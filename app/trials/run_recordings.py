@@ -1,0 +1,210 @@
+"""Recording with the run: cameras begin and end with it, and what they saw becomes its trial.
+
+The bridge only puts a word on a queue; everything else is done by a thread of its own.
+"""
+
+from __future__ import annotations
+
+import logging
+import queue
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from app.bridge.states import LinkState, RobotSnapshot
+from app.robot_view import RUNNING
+from app.runs.desk import RunDesk
+from app.store.database import Database
+from app.store.run_log import RunLog
+from app.trials.camera_desk import UNDER, CameraDesk
+from app.trials.camera_link import CameraError, CameraLink
+from app.trials.desk import TrialDesk
+from app.trials.recorder import Recorded, RecordOrder
+from app.trials.run_trial import run_trial
+from app.trials.setup_desk import SetupDesk
+from app.trials.sight import Sight, SightSource
+from app.trials.video_desk import VideoDesk
+from core.errors import FootfallError, StateError
+from core.trials.setup import CameraSetup
+
+_log = logging.getLogger(__name__)
+
+FINISH_SECONDS = 20.0
+"""Longest wait for a camera's track at the end of a run."""
+
+KEPT_SECONDS = 10.0
+"""Longest wait for the record of the run after its end."""
+
+LOOK_SECONDS = 0.02
+"""Between two looks for that."""
+
+
+@dataclass(frozen=True)
+class _Turn:
+    """A run began or ended."""
+
+    run: str
+    began: bool
+
+
+@dataclass(frozen=True, eq=False)
+class _Recording:
+    """A recording that is on."""
+
+    video: str
+    link: CameraLink
+    camera: str
+    setup: CameraSetup | None
+    source: SightSource
+
+
+class RunRecordings:
+    """The recordings of runs.
+
+    Args:
+        database: where runs are kept.
+        cameras: which cameras there are.
+        setups: how they see the platform.
+        videos: where recordings are kept.
+        runs: the records of runs.
+        trials: where tracks go.
+        told: told of each new trial's id.
+    """
+
+    def __init__(
+        self,
+        database: Database,
+        cameras: CameraDesk,
+        setups: SetupDesk,
+        videos: VideoDesk,
+        runs: RunDesk,
+        trials: TrialDesk,
+        told: Callable[[str], None],
+    ) -> None:
+        self._log = RunLog(database)
+        self._cameras, self._setups, self._videos = cameras, setups, videos
+        self._runs, self._trials, self._told = runs, trials, told
+        self._turns: queue.SimpleQueue[_Turn | None] = queue.SimpleQueue()
+        self._run = ""
+        self._is_on = False
+        self._recordings: list[_Recording] = []
+        self._thread = threading.Thread(target=self._work, name="run recordings", daemon=True)
+        self._thread.start()
+
+    def follow(self, snapshot: RobotSnapshot) -> None:
+        """Hears from the bridge; only puts a word on a queue."""
+        run = snapshot.run
+        if run is None:
+            return
+        is_on = snapshot.robot in RUNNING and snapshot.link is not LinkState.LOST
+        if run.run_id != self._run and is_on:
+            self._end()
+            self._run, self._is_on = run.run_id, True
+            self._turns.put(_Turn(run.run_id, True))
+        elif run.run_id == self._run and not is_on:
+            self._end()
+
+    def _end(self) -> None:
+        if self._is_on:
+            self._is_on = False
+            self._turns.put(_Turn(self._run, False))
+
+    def close(self) -> None:
+        """Ends the recordings that are on, and keeps them."""
+        self._end()
+        self._turns.put(None)
+        self._thread.join()
+
+    def _work(self) -> None:
+        while (turn := self._turns.get()) is not None:
+            try:
+                if turn.began:
+                    self._begin(turn.run)
+                else:
+                    self._finish(turn.run)
+            except Exception:
+                _log.exception("A recording of the run %s failed.", turn.run)
+
+    def _begin(self, run: str) -> None:
+        row = self._log.get(run)
+        if row is None:
+            return
+        for view, link in self._cameras.recording():
+            try:
+                self._recordings.append(self._record(view, link, row.content))
+            except FootfallError as error:
+                _log.warning("The camera %s does not record: %s", view["id"], error.sentence)
+
+    def _record(self, view: dict[str, Any], link: CameraLink, run: dict[str, Any]) -> _Recording:
+        self._videos.make_room()
+        self._videos.files.require_room(0)
+        setup, source = None, SightSource("", view["id"], "", "", 0)
+        if view["use"] == UNDER:
+            setup, revision = self._setups.complete(view["setup"])
+            source = SightSource("", view["id"], view["setup"], setup.name, revision)
+        name = f"{run['gait_name']}, {view['name']}"
+        video = self._videos.begin_recording(name, run["id"], view["id"])["id"]
+        tracking = None if setup is None else setup.tracking()
+        folder = self._videos.files.path(video)
+        link.record(RecordOrder(folder, run["started_monotonic"], tracking, view["name"]))
+        self._cameras.tell()
+        return _Recording(video, link, view["id"], setup, source)
+
+    def _finish(self, run: str) -> None:
+        recordings, self._recordings = self._recordings, []
+        for one in recordings:
+            try:
+                recorded = one.link.finish(FINISH_SECONDS)
+            except CameraError as error:
+                sentence = f"{error.sentence} What it recorded until then is kept and can be tracked."
+                self._videos.change(one.video, state="kept", sentence=sentence)
+                continue
+            trial, remarks = self._trial(run, one, recorded)
+            self._keep(one, recorded, trial, remarks)
+        self._cameras.tell()
+
+    def _keep(self, one: _Recording, recorded: Recorded, trial: str, remarks: tuple[str, ...]) -> None:
+        self._videos.change(
+            one.video,
+            state="kept" if recorded.count else "removed",
+            sentence=" ".join(remarks),
+            trial=trial,
+            frames=recorded.count,
+            bytes=recorded.size,
+            rate=recorded.rate,
+            seconds=recorded.seconds,
+            size=list(recorded.shape or (0, 0)),
+        )
+        if trial:
+            self._told(trial)
+
+    def _trial(self, run: str, one: _Recording, recorded: Recorded) -> tuple[str, tuple[str, ...]]:
+        """The trial's id, "" where there is none, and what is to be said."""
+        remarks = recorded.remarks
+        if one.setup is None:
+            return "", remarks
+        if recorded.found is None:
+            return "", (*remarks, f"There is no trial: {recorded.refusal}")
+        try:
+            self._await_record(run)
+            made = run_trial(self._runs.record(run), recorded.found)
+            source = replace(one.source, video=one.video)
+            sight = Sight(made.found, source, (*remarks, *made.remarks), made.ends)
+            trial = self._trials.add(made.found.track, made.words, made.planned, sight)
+        except FootfallError as error:
+            return "", (*remarks, f"There is no trial: {error.sentence}")
+        return trial["id"], remarks
+
+    def _await_record(self, run: str) -> None:
+        """Waits until the run's record is whole.
+
+        Raises:
+            StateError: it does not become so.
+        """
+        deadline = time.monotonic() + KEPT_SECONDS
+        while (row := self._log.get(run)) is None or row.content["ended"] is None:
+            if time.monotonic() > deadline:
+                raise StateError("The record of the run is not whole yet. Track the recording later.", "run")
+            time.sleep(LOOK_SECONDS)

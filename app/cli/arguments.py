@@ -301,8 +301,10 @@ def _send_words(parser: argparse.ArgumentParser) -> None:
 
 def _trial_words(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "files", type=Path, nargs="+", metavar="TRACK.csv", help="X_D1, Y_D1, …, a row a frame"
+        "files", type=Path, nargs="+", metavar="TRACK.csv|VIDEO", help="X_D1, Y_D1, …, a row a frame"
     )
+    text = "the files are videos: how their camera sees the platform, as the studio exports it"
+    parser.add_argument("--setup", type=Path, default=None, metavar="SETUP.json", help=text)
     length = number(0.01, 1000.0, "cm")
     parser.add_argument("--expect", type=length, required=True, metavar="CM", help="the whole wanted way")
     text = "find the ends of so many iterations, and print each"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from argparse import Namespace
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -41,13 +42,13 @@ class _Trial:
 def run_trial(options: Namespace) -> int:
     """Movement tables of recorded foot tracks."""
     end_on_sigterm()
-    trials = [_read(options, path) for path in options.files]
+    trials = [_read(options, path, track) for path, track in _tracks(options)]
     for trial in trials:
         if trial.track.gaps:
             note(f"{trial.path}: {_gap_words(trial.track)}")
         if trial.found is not None and not trial.found.is_clear:
             note(f"{trial.path}: the feet's steps overlap between iterations, so their ends are unsure.")
-    if options.frame_rate is None and options.iterations is not None:
+    if options.setup is None and options.frame_rate is None and options.iterations is not None:
         note(
             f"The files tell no times; they are taken to hold {FRAME_RATE:g} frames a second (--frame-rate)."
         )
@@ -64,9 +65,25 @@ def run_trial(options: Namespace) -> int:
     return 0
 
 
-def _read(options: Namespace, path: Path) -> _Trial:
-    rate = FRAME_RATE if options.frame_rate is None else options.frame_rate
-    track = parse_track_csv(read_text(path), str(path), frame_rate=rate, pixels=_pixels(options))
+def _tracks(options: Namespace) -> Iterator[tuple[Path, FootTrack]]:
+    if options.setup is None:
+        rate = FRAME_RATE if options.frame_rate is None else options.frame_rate
+        for path in options.files:
+            yield path, parse_track_csv(read_text(path), str(path), frame_rate=rate, pixels=_pixels(options))
+        return
+    # What reads videos takes a moment to load; track files do without it.
+    from app.cli.tracked import read_setup, tracked
+
+    for word in ("frame_rate", "pixels_per_cm", "origin"):
+        if getattr(options, word) is not None:
+            name = "--" + word.replace("_", "-")
+            raise InputError(f"{name} is for track files; a video tells its rate, a setup its scale.", name)
+    setup = read_setup(options.setup)
+    for path in options.files:
+        yield path, tracked(path, setup)
+
+
+def _read(options: Namespace, path: Path, track: FootTrack) -> _Trial:
     expected = options.expect / 100.0
     feet = foot_movements(track, expected)
     if options.iterations is None:

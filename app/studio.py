@@ -41,6 +41,7 @@ from app.trials.beside import TrialsBeside
 from app.trials.camera_address import CameraAddress
 from app.trials.desk import TrialDesk
 from app.trials.photos import TrialPhotos
+from app.trials.report import TrialReports
 from app.trials.seeing import Seeing
 from app.trials.simulated import TrialSimulations
 from app.trials.track_desk import KIND as TRACK
@@ -113,6 +114,7 @@ class Studio:
         self._trial_simulations = TrialSimulations(TrialBesideLog(self._database), self._simulator)
         self.beside = TrialsBeside(self.trials, self._trial_simulations)
         self.photos = TrialPhotos(self.trials, self._database, data)
+        self.reports = TrialReports(self.trials, self.beside, self.photos, self.runs)
         self.seeing = Seeing(
             data,
             self._database,

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from itertools import pairwise
 
 
 class Anchor(StrEnum):
@@ -109,3 +111,23 @@ def hatching(box: Box, colour: str, spacing: float = 6.0, width: float = 1.6) ->
             width,
         )
         start += spacing
+
+
+def dashed(
+    points: Sequence[tuple[float, float]], colour: str, width: float, dash: float, gap: float
+) -> Iterator[Trace]:
+    """A broken line through points: pieces of a length, with a gap between them, px."""
+    piece, left, is_drawn = [points[0]], dash, True
+    for (x1, y1), (x2, y2) in pairwise(points):
+        length, done = math.hypot(x2 - x1, y2 - y1), 0.0
+        while length - done > left:
+            done += left
+            at = (x1 + (x2 - x1) * done / length, y1 + (y2 - y1) * done / length)
+            if is_drawn:
+                yield Trace((*piece, at), colour, width)
+            piece, is_drawn = [at], not is_drawn
+            left = dash if is_drawn else gap
+        left -= length - done
+        piece.append((x2, y2))
+    if is_drawn and len(piece) > 1:
+        yield Trace(tuple(piece), colour, width)

@@ -80,6 +80,7 @@ export async function trialList({ open, add, band, videos }) {
     h("div", { class: "trial-ways" }, h("button", { class: "primary", text: "Add trials…", on: { click: add } }),
       h("button", { text: "From a video…", title: "The feet are found in a video of the robot from under its glass platform", on: { click: videos } })),
     trials.length ? comparedTable(compared, band) : h("p", { class: "teach", text: "No trial yet. Add the foot tracks of a recording: how far each foot went, which way, how fast, and how that compares with the plan." }),
-    trials.length ? h("div", { class: "run-files" }, file("csv", "CSV", "The table of gaits"), file("latex", "LaTeX", "The table of gaits for a paper")) : null,
+    trials.length ? h("div", { class: "run-files" }, file("csv", "CSV", "The table of gaits"), file("latex", "LaTeX", "The table of gaits for a paper"),
+      h("a", { href: "/api/trials/report", download: "", text: "Report", title: "One HTML file with the table, and the trials of each gait over each other" })) : null,
     h("ul", { class: "run-list", role: "list", "aria-label": "Trials" }, ...trials.map((trial) => trialRow(trial, open))));
 }

@@ -41,17 +41,19 @@ class TrialsBeside:
         """How the trial's simulation stands, a row of figures a source, and physics' feet for a plot."""
         record = self._desk.record(trial)
         simulated, remark = self._simulated(record)
-        rows = [_row("tracked", record, record.track)]
-        if record.placed_plan is not None:
-            rows.insert(0, _row("planned", record, record.placed_plan))
-        if simulated is not None:
-            rows.insert(-1, _row("simulated", record, simulated))
+        rows = [_row(source, record, motion) for source, motion in self.sources(record).items()]
         return {
             "id": trial,
             "simulation": {**self._simulations.standing(trial), "remark": remark},
             "rows": rows,
             "simulated": None if simulated is None else path_content(simulated, MOST_PLACES),
         }
+
+    def sources(self, record: TrialRecord) -> dict[str, FootTrack]:
+        """The feet as `planned`, `simulated` and `tracked`, those that there are, in the track's frame."""
+        simulated, _ = self._simulated(record)
+        known = {"planned": record.placed_plan, "simulated": simulated, "tracked": record.track}
+        return {source: motion for source, motion in known.items() if motion is not None}
 
     def simulate(self, trial: str) -> dict[str, Any]:
         """Starts a trial's simulation where there is none; tells how it stands."""

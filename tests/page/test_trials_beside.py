@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import Any
 
-from playwright.sync_api import Browser, Locator, Page, expect
+from playwright.sync_api import Browser, FilePayload, Locator, Page, expect
 
 from core.trials.track_csv import format_track_csv
 from tests.core.trials.test_picture_size import picture
@@ -33,7 +34,6 @@ def add_trial(studio: StudioProcess, name: str, step: float = 0.0085, **more: An
 
 
 def open_trials(page: Page) -> Locator:
-    page.set_default_timeout(60_000)
     page.get_by_role("button", name="All trials").click()
     return page.get_by_role("region", name="Trials")
 
@@ -53,12 +53,13 @@ def test_physics_stands_beside_plan_and_track_once_it_is_there(
         panel.get_by_role("button", name=re.compile("^with plan")).click()
         expect(panel.get_by_role("table", name="Movement as published")).to_be_visible()
         table = panel.get_by_role("table", name="Planned, simulated, tracked")
-        expect(table.get_by_role("row")).to_contain_text(
-            ["cm", "planned", "simulated", "tracked"], timeout=120_000
-        )
+        expect(table.get_by_role("row")).to_contain_text(["cm", "planned", "simulated", "tracked"])
         expect(table.get_by_role("row", name=re.compile("^tracked 1.20 45.0 20 –"))).to_be_visible()
         expect(panel.get_by_role("status", name="Physics")).to_contain_text("Robot on the scales")
         expect(panel.locator("svg.way polyline.way-simulated")).to_have_count(4)
+        with page.expect_download() as download:
+            panel.get_by_role("link", name="Report").click()
+        assert "Tracked solid, simulated dashed, planned dotted." in Path(download.value.path()).read_text()
         panel.get_by_role("button", name="All trials").click()
         panel.get_by_role("button", name=re.compile("^without plan")).click()
         expect(panel.get_by_role("status", name="Physics")).to_contain_text("is not known")
@@ -113,7 +114,7 @@ def test_photos_are_added_captioned_dropped_deleted_and_brought_back(
         panel.get_by_role("button", name=re.compile("^with photos")).click()
         photos = panel.get_by_role("region", name="Photos of this trial")
         content = picture("PNG", (400, 300))
-        file = {"name": "tape.png", "mimeType": "image/png", "buffer": content}
+        file = FilePayload(name="tape.png", mimeType="image/png", buffer=content)
         photos.get_by_label("Add photos…", exact=True).and_(page.locator("input")).set_input_files(file)
         expect(photos.get_by_role("img", name="tape.png")).to_have_js_property("naturalWidth", 240)
         photos.get_by_label("Caption of photo 1").fill("new tape")

@@ -9,19 +9,18 @@ from dataclasses import dataclass, field
 import numpy as np
 import pytest
 
-from app.runs.plan_content import sent_content
 from app.store.database import Database
 from app.store.trial_beside import TrialBesideLog
 from app.trials.beside import TrialsBeside
 from app.trials.desk import TrialDesk, TrialWords, UnknownTrialError
-from app.trials.planned import PlannedFeet, sent_problem
+from app.trials.planned import sent_problem
 from app.trials.simulated import NOT_KNOWN, TrialSimulations
 from core.errors import CheckError, InputError
 from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
 from core.physics.variations import VariedRun
-from core.trials.alignment import repeated_motion
 from core.trials.track import FootTrack
+from tests.app.trials.walking import walk_planned, walked
 from tests.core.trials.tracks import stepping_track
 from tests.simulated_walk import followed, walk_plan, walk_problem
 from tests.studio_process import wait_for
@@ -83,24 +82,6 @@ def desk(database: Database) -> TrialDesk:
 @pytest.fixture
 def beside(database: Database, desk: TrialDesk, tier: Tier) -> TrialsBeside:
     return TrialsBeside(desk, TrialSimulations(TrialBesideLog(database), tier))
-
-
-def walk_planned(laps: int = 1, knows_sent: bool = True) -> PlannedFeet:
-    plan, way = walk_plan(), walk_plan().way
-    assert plan.trajectory is not None
-    assert way is not None
-    sent = sent_content(plan.model, way.waypoints, way.times, plan.trajectory) if knows_sent else None
-    motion = plan.trajectory.times, plan.trajectory.feet_world[..., :2]
-    return PlannedFeet(*repeated_motion(*motion, laps), laps, sent)
-
-
-def walked(laps: int = 1) -> FootTrack:
-    """A robot that did exactly as planned, on a platform that lies turned by 90°."""
-    planned = walk_planned(laps)
-    frames = np.linspace(planned.times[0], planned.times[-1], int(13 * planned.times[-1]))
-    flat = planned.feet.reshape(len(planned.times), -1).T
-    feet = np.stack([np.interp(frames, planned.times, way) for way in flat], axis=-1).reshape(-1, 4, 2)
-    return FootTrack(frames, feet @ np.array([[0.0, 1.0], [-1.0, 0.0]]), np.zeros(feet.shape[:2], dtype=bool))
 
 
 def test_the_problem_of_what_was_sent_is_the_one_of_the_plan() -> None:

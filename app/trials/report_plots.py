@@ -1,0 +1,168 @@
+"""Plots of trials for print: planned dotted, simulated dashed, tracked solid, from above and over time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from app.export.drawing import Anchor, Dot, Drawing, Rule, Shape, Trace, Words, dashed
+from app.trials.figures import CM
+from core.arrays import Bools, Floats
+from core.trials.track import FootTrack
+
+QUIET, GRID, SHEET, UNSEEN = "#667085", "#e3e6eb", "#ffffff", "#9aa3b2"
+SIZE, EDGE = 300.0, 26.0
+WIDE, TALL = 640.0, 170.0
+MOST_POINTS = 800
+"""Points of a line; a sheet of paper shows no more."""
+DASHES = {"planned": (1.5, 3.0), "simulated": (6.0, 3.0)}
+"""Lengths of the pieces and of the gaps between them, px, by the source; what is not here is solid."""
+
+Place = Callable[[float, float], tuple[float, float]]
+Points = Sequence[tuple[float, float]]
+
+
+def ways_from_above(sources: Mapping[str, FootTrack], colours: Sequence[str]) -> Drawing:
+    """The feet from above, x to the right and y up, in equal scales on a 1 cm grid.
+
+    Args:
+        sources: `tracked`, and where they are known `planned` and `simulated`, in one frame.
+        colours: a colour a foot.
+    """
+    ways = {name: _thinned(track.feet * CM) for name, track in sources.items()}
+    every = np.concatenate([way.reshape(-1, 2) for way in ways.values()])
+    place, grid = _ground(every)
+    shapes: list[Shape] = [*grid]
+    filled = _thinned(sources["tracked"].filled.astype(np.float64)) > 0
+    for name in ("planned", "simulated", "tracked"):
+        for foot, colour in enumerate(colours if name in ways else ()):
+            points = [place(float(x), float(y)) for x, y in ways[name][:, foot]]
+            shapes += (
+                _seen(points, filled[:, foot], colour) if name == "tracked" else _line(points, colour, name)
+            )
+    words = [
+        f"foot {foot + 1} goes {math.hypot(*(way[-1] - way[0])):.2f} cm"
+        for foot, way in enumerate(ways["tracked"].swapaxes(0, 1))
+    ]
+    return _drawing(SIZE + EDGE, SIZE + EDGE, "Feet from above", "; ".join(words) + ".", shapes)
+
+
+def ways_over_time(lines: Mapping[str, tuple[Floats, Floats]], colours: Sequence[str], unit: str) -> Drawing:
+    """How far the feet are along the way.
+
+    Args:
+        lines: by source, in the order of painting, (n,) times and (n, feet) ways in cm.
+        colours: a colour a foot.
+        unit: of the times.
+    """
+    longest = max(float(times[-1]) for times, _ in lines.values())
+    low = min(0.0, *(float(ways.min()) for _, ways in lines.values()))
+    high = max(0.1, *(float(ways.max()) for _, ways in lines.values()))
+    right, bottom = WIDE - 8.0, TALL - 20.0
+
+    def place(time: float, way: float) -> tuple[float, float]:
+        share = (way - low) / (high - low)
+        return EDGE + time / longest * (right - EDGE), bottom - share * (bottom - 10.0)
+
+    shapes: list[Shape] = []
+    for level in range(math.ceil(low), math.floor(high) + 1):
+        (left, y), (end, _) = place(0.0, level), place(longest, level)
+        shapes += [Rule(left, y, end, y, GRID), Words(left - 4, y + 3, str(level), 9, QUIET, Anchor.END)]
+    shapes.append(Words(right, TALL - 4, f"{longest:.0f} {unit}", 9, QUIET, Anchor.END))
+    shapes.append(Words(EDGE, TALL - 4, "cm along the way", 9, QUIET))
+    for name, (times, ways) in lines.items():
+        for foot, colour in enumerate(colours):
+            rows = _thinned(np.column_stack([times, ways[:, foot]]))
+            shapes += _line([place(float(t), float(way)) for t, way in rows], colour, name)
+    ends = ", ".join(f"{name} {ways[-1].mean():.2f} cm" for name, (_, ways) in lines.items())
+    return _drawing(WIDE, TALL, "Ways of the feet", f"Mean way at the end: {ends}.", shapes)
+
+
+def band_from_above(feet: Sequence[Mapping[str, Any]], colours: Sequence[str]) -> Drawing:
+    """Trials over each other from above: each thin, their mean solid, the plan dotted.
+
+    Args:
+        feet: of `app.trials.bands.band_content`.
+        colours: a colour a foot.
+    """
+    ways = [
+        (foot, name, np.column_stack([way["x"], way["y"]]))
+        for foot, content in enumerate(feet)
+        for name, way in _layers(content["place"])
+    ]
+    place, grid = _ground(np.concatenate([way for _, _, way in ways]))
+    shapes: list[Shape] = [*grid]
+    for foot, name, way in ways:
+        shapes += _line([place(float(x), float(y)) for x, y in way], colours[foot], name)
+    words = f"Mean ways of {len(feet[0]['place']['trials'])} trials over the plan."
+    return _drawing(SIZE + EDGE, SIZE + EDGE, "Trials from above", words, shapes)
+
+
+def _layers(place: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    """A foot's ways in the order of painting."""
+    if place["plan"] is not None:
+        yield "planned", place["plan"]
+    for way in place["trials"]:
+        yield "trial", way
+    yield "mean", place["mean"]
+
+
+def _ground(every: Floats) -> tuple[Place, list[Shape]]:
+    """Where places in cm lie on the sheet, and the grid's lines with their numbers."""
+    low, high = every.min(axis=0), every.max(axis=0)
+    middle, scale = (low + high) / 2, (SIZE - 20.0) / max(float((high - low).max()), 1.0)
+
+    def place(x: float, y: float) -> tuple[float, float]:
+        return (
+            EDGE + SIZE / 2 + (x - float(middle[0])) * scale,
+            SIZE / 2 - (y - float(middle[1])) * scale,
+        )
+
+    half = SIZE / 2 / scale
+    shapes: list[Shape] = []
+    for x in range(math.ceil(middle[0] - half), math.floor(middle[0] + half) + 1):
+        across, _ = place(x, 0.0)
+        shapes += [Rule(across, 0, across, SIZE, GRID), _number(x, across, SIZE + 12, Anchor.MIDDLE)]
+    for y in range(math.ceil(middle[1] - half), math.floor(middle[1] + half) + 1):
+        _, down = place(0.0, y)
+        shapes += [Rule(EDGE, down, EDGE + SIZE, down, GRID), _number(y, EDGE - 4, down + 3, Anchor.END)]
+    shapes.append(Words(EDGE + SIZE, SIZE + 24, "x right, y up, cm", 9, QUIET, Anchor.END))
+    return place, shapes
+
+
+def _number(value: int, x: float, y: float, anchor: Anchor) -> Words:
+    return Words(x, y, str(value) if value % 2 == 0 else "", 9, QUIET, anchor)
+
+
+def _line(points: Points, colour: str, name: str) -> Iterator[Shape]:
+    if name in DASHES:
+        yield from dashed(points, colour, 1.2, *DASHES[name])
+    else:
+        yield Trace(tuple(points), colour, 0.6 if name == "trial" else 1.6)
+
+
+def _seen(points: Points, filled: Bools, colour: str) -> Iterator[Shape]:
+    """A tracked way, grey where the foot was not seen, with a dot at its end and a ring at its beginning."""
+    first = 0
+    while first + 1 < len(points):
+        is_gap, last = bool(filled[first] or filled[first + 1]), first + 1
+        while last + 1 < len(points) and bool(filled[last] or filled[last + 1]) == is_gap:
+            last += 1
+        part = tuple(points[first : last + 1])
+        yield Trace(part, UNSEEN if is_gap else colour, 1.6)
+        first = last
+    yield Dot(*points[0], 3.5, colour)
+    yield Dot(*points[0], 2.2, SHEET)
+    yield Dot(*points[-1], 3.0, colour)
+
+
+def _thinned(values: Floats) -> Floats:
+    every = max(1, -(-len(values) // MOST_POINTS))
+    return np.asarray(values[np.unique(np.append(np.arange(0, len(values), every), len(values) - 1))])
+
+
+def _drawing(width: float, height: float, title: str, words: str, shapes: Sequence[Shape]) -> Drawing:
+    return Drawing(width, height, title, words, SHEET, tuple(shapes))

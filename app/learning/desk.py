@@ -18,7 +18,7 @@ from app.store.database import Database
 from app.store.learning_log import LearningLog
 from core.errors import FootfallError, InputError, StateError
 from core.physics.parameters import PhysicsSet
-from core.trials.learning import LEAST_GAITS, POINTS, Walk, learn, simulation_count
+from core.trials.learning import POINTS, Walk, learn, require_gaits, simulation_count
 
 _log = logging.getLogger(__name__)
 
@@ -85,13 +85,7 @@ class LearningDesk:
             InputError: there are too few gaits.
             StateError: one is on.
         """
-        names = {walk.measured.name for walk in walks}
-        if len(names) < LEAST_GAITS:
-            raise InputError(
-                f"The trials are of {len(names)} gaits; {LEAST_GAITS} different ones are needed, so that one "
-                "can be left out. Add trials of other gaits or steps.",
-                "trials",
-            )
+        require_gaits(walks)
         kinds = len({walk.measured.kind for walk in walks})
         content: Content = {
             "id": uuid.uuid4().hex[:12],

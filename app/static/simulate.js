@@ -24,12 +24,15 @@ function whyNot(state) {
 /** The choice of physics parameters, of those that fit the shown gait's robot. */
 function setChooser(store) {
   const select = h("select", { "aria-label": "Physics parameters", title: "Masses, friction and motors of the simulated robot" });
-  store.watch(({ view }) => [view?.document.robot], async ({ view }) => {
+  store.watch(({ view, physicsSets }) => [view?.document.robot, physicsSets], async ({ view }) => {
     if (!view) return;
     const { robot } = view.document;
     try {
       const { sets } = await api.physicsSets(robot);
-      if (store.state.view?.document.robot === robot) select.replaceChildren(...sets.map(({ name, title }) => h("option", { value: name, text: title })));
+      if (store.state.view?.document.robot !== robot) return;
+      const chosen = select.value;
+      select.replaceChildren(...sets.map(({ name, title }) => h("option", { value: name, text: title })));
+      if (sets.some(({ name }) => name === chosen)) select.value = chosen;
     } catch (error) {
       report(error);
     }

@@ -3,7 +3,7 @@
  *
  * Everything that several tabs must agree on comes from the server; the rest (`selected`, `shownJob`, `pending`,
  * `left` (edits of gaits that were left before they were sent), `gesture`, `tool`, `selection`, `preview`, `zoom`, `live`, `remedies`,
- * `iterate`, `tableDrafts`, `runCourse`, `jog`, `simulation`, `tracks`, `trialWanted`) belongs to this tab alone.
+ * `iterate`, `tableDrafts`, `runCourse`, `jog`, `simulation`, `tracks`, `trialWanted`, `physicsSets`) belongs to this tab alone.
  */
 
 const INITIAL = Object.freeze({
@@ -42,6 +42,7 @@ const INITIAL = Object.freeze({
   setups: null,
   trialMade: null,
   trialWanted: null,
+  physicsSets: 0,
   operator: "",
 });
 

@@ -59,7 +59,8 @@ export function mountTrials(store) {
   const page = { store, show, all: () => all(), one: (id) => one(id) };
   // Videos come when they are first asked for.
   const videos = attempt(async () => (await import("./video.js")).openVideos(page));
-  const all = attempt(async () => show(await trialList({ open: one, add, band, videos })));
+  const learn = attempt(async () => (await import("./learning.js")).openLearning(page));
+  const all = attempt(async () => show(await trialList({ open: one, add, band, videos, learn })));
 
   const one = attempt(async (id) => {
     const { element, leave: gone } = await trialDetail(id, { all, remove, tracks });

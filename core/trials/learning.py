@@ -22,6 +22,7 @@ from core.trials.travel import MeasuredWalk, Travel, pooled_spread
 POINTS = 48
 """Sets of parameters at which every gait is simulated; a quadratic surface of seven has 36 coefficients."""
 LEAST_GAITS = 3
+LEAST_POINTS = 8
 FALLEN = Travel(0.0, 0.0)
 """What a check foretells in whose simulation the robot falls: nothing; the whole way counts as error."""
 USUAL_SPREAD = (0.0021, float(np.radians(3.8)))
@@ -116,6 +117,21 @@ def is_by_kind(gaits: int, kinds: int) -> bool:
     return LEAST_GAITS <= kinds < gaits
 
 
+def require_gaits(walks: Sequence[Named]) -> None:
+    """Refuses what nothing can be learned from.
+
+    Raises:
+        InputError: there are too few gaits.
+    """
+    count = len({walk.measured.name for walk in walks})
+    if count < LEAST_GAITS:
+        raise InputError(
+            f"Learning needs trials of {LEAST_GAITS} different gaits or steps, so that one can be left out; "
+            f"these are of {count}. Add trials of others.",
+            "trials",
+        )
+
+
 def learn(
     walks: Sequence[Named],
     physics: PhysicsSet,
@@ -140,7 +156,9 @@ def learn(
         InputError: there are too few gaits or points.
         CheckError: a gait falls in most simulations.
     """
-    _require(walks, points)
+    require_gaits(walks)
+    if points < LEAST_POINTS:
+        raise InputError(f"{points} points are asked for; take at least {LEAST_POINTS}.", "points")
     course = _Course(walks, physics, simulate, points, parameters)
     gaits, kinds = [[gait] for gait in range(len(walks))], _kinds(walks)
     ways = [course.as_planned(), course.at("default", physics), course.at("fitted", course.learned)]
@@ -229,18 +247,6 @@ class _Course:
         travels = self._simulate(list(enumerate(chosen)))
         falls = sum(travel is None for travel in travels)
         return Foretold(name, tuple(travel or FALLEN for travel in travels), falls)
-
-
-def _require(walks: Sequence[Named], points: int) -> None:
-    names = [walk.measured.name for walk in walks]
-    if len(set(names)) < LEAST_GAITS:
-        raise InputError(
-            f"The trials are of {len(set(names))} gaits; {LEAST_GAITS} different ones are needed, so that "
-            "one can be left out. Add trials of other gaits or steps.",
-            "trials",
-        )
-    if points < 8:
-        raise InputError(f"{points} points are asked for; take at least 8.", "points")
 
 
 def _kinds(walks: Sequence[Named]) -> list[list[int]]:

@@ -6,11 +6,14 @@ import threading
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
+from app.learning.desk import LearningDesk
+from app.store.database import Database
 from core.errors import SimulationCancelledError
 from core.physics.parameters import PhysicsSet, physics_set
 from core.trials.learning import Walk
 from core.trials.travel import MeasuredWalk, Travel
 from tests.simulated_walk import walk_problem
+from tests.studio_process import wait_for
 
 REAL = replace(physics_set("scales"), cable_drag=0.6)
 POINTS = 16
@@ -54,3 +57,13 @@ class Tier:
 
     def submit(self, walk: Walk, sets: Sequence[PhysicsSet]) -> Handle:
         return Handle(self, tuple(travel(walk.measured.wanted, one) for one in sets))
+
+
+def keep_course(database: Database, source: str) -> None:
+    """A course that has ended, of a robot that a cable holds back."""
+    tier = Tier()
+    tier.may_answer.set()
+    desk = LearningDesk(database, (tier,), POINTS)
+    desk.start(made_walks(), physics_set("scales"), "Ada", source)
+    wait_for(lambda: desk.found()[0]["state"] == "done", "the course has ended")
+    desk.close()

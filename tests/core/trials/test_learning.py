@@ -115,7 +115,7 @@ def test_trials_that_agree_with_the_defaults_change_nothing_much() -> None:
 
 def test_two_gaits_are_too_few() -> None:
     walks = made_walks()[:2]
-    with pytest.raises(InputError, match="2 gaits; 3 different ones are needed") as refused:
+    with pytest.raises(InputError, match=r"3 different gaits or steps.*these are of 2") as refused:
         learn(walks, DEFAULT, simulating(walks), POINTS)
     assert refused.value.where == "trials"
 

@@ -1,0 +1,113 @@
+/** Learning physics from trials: what is learned from, the course that is on, what came of it, and the kept sets. */
+
+import { h, setText } from "./dom.js";
+import { clockTime, fixed } from "./format.js";
+import { learningApi } from "./learning_api.js";
+import { tableChoice, trialChoice } from "./learning_choice.js";
+import { learnedResult } from "./learning_result.js";
+import { announce, attempt, toast } from "./toasts.js";
+import { trialApi } from "./trial_api.js";
+
+const POLL_MS = 1000;
+const PURPOSE = "Fits what no data sheet gives (soft links, friction, cable, backlash, centre of mass) to how far and which way the robot really went. Nothing changes until you choose the result in Simulate.";
+const OPEN = new Set(["running", "cancelling"]);
+
+function addStyles() {
+  const href = new URL("./learning.css", import.meta.url).pathname;
+  if (!document.querySelector(`link[href="${href}"]`)) document.head.append(h("link", { rel: "stylesheet", href }));
+}
+
+/** The course that is on: a bar, how many simulations are done, and Cancel. */
+function progressPart(cancel) {
+  const [bar, text] = [h("i"), h("span", { class: "number quiet", role: "status", "aria-label": "Learning" })];
+  const element = h("div", { class: "simulating" }, h("div", { class: "progress" }, bar), text, h("button", { text: "Cancel", "aria-label": "Cancel learning", on: { click: cancel } }));
+  return {
+    element,
+    show({ state, done, total }) {
+      bar.style.transform = `scaleX(${done / Math.max(total, 1)})`;
+      setText(text, state === "running" ? `${fixed((100 * done) / Math.max(total, 1), 0)} %` : "cancelling");
+    },
+  };
+}
+
+function courseRow(course, open) {
+  const words = [h("span", { class: "run-line" }, h("b", { text: course.source }), h("span", { text: course.state })),
+    h("span", { class: "run-line quiet" }, h("span", { text: [course.by, clockTime(course.made)].filter(Boolean).join(" · ") }))];
+  if (course.state !== "done") return h("li", { title: course.sentence }, h("div", { class: "run-row" }, ...words, h("span", { class: "quiet", text: course.sentence })));
+  return h("li", {}, h("button", { class: "run-row", title: course.sentence, on: { click: () => open(course.id) } }, ...words));
+}
+
+function setRow(set, remove) {
+  return h("li", { class: "learned-set" }, h("span", { title: set.title }, h("b", { text: set.key }), h("span", { class: "quiet", text: ` ${[set.note, set.by, clockTime(set.made)].filter(Boolean).join(" · ")}` })),
+    h("button", { class: "link", text: "Delete", "aria-label": `Delete ${set.key}`, title: "It can be brought back; what was simulated with it counts as stale meanwhile", on: { click: () => remove(set) } }));
+}
+
+/**
+ * Opens learning in the panel of trials.
+ * @param {{store: object, show: (element: Element, whenLeft?: () => void) => void, all: () => void}} page
+ */
+export async function openLearning(page) {
+  addStyles();
+  const { store, show, all } = page;
+  let timer = null;
+  const leave = () => { clearTimeout(timer); timer = null; };
+  const setsChanged = () => store.set({ physicsSets: (store.state.physicsSets ?? 0) + 1 });
+
+  const list = attempt(async () => {
+    const [{ trials }, courses, sets] = await Promise.all([trialApi.list(), learningApi.courses(), learningApi.sets()]);
+    const on = courses.find(({ state }) => OPEN.has(state));
+    const ended = courses.filter(({ state }) => !OPEN.has(state));
+    const rows = (label, head, items) => (items.length ? [h("h2", { text: head }), h("ul", { class: "run-list", role: "list", "aria-label": label }, ...items)] : []);
+    const followed = on && following(on);
+    show(h("div", { class: "run-all learning" }, h("button", { class: "link", text: "All trials", on: { click: all } }),
+      h("div", { class: "run-line run-title" }, h("b", { text: "Learn from trials" })), h("p", { class: "quiet", text: PURPOSE }),
+      ...(followed ? [followed.element] : [trialChoice(trials, start), tableChoice(start)]),
+      ...rows("Courses of learning", "Learned", ended.map((course) => courseRow(course, open))),
+      ...rows("Sets of physics parameters", "Sets", sets.map((set) => setRow(set, remove)))), leave);
+    followed?.begin();
+  });
+
+  function following(course) {
+    const progress = progressPart(attempt(async () => progress.show(await learningApi.cancel(course.id))));
+    progress.show(course);
+    const again = () => { timer = setTimeout(look, POLL_MS); };
+    async function look() {
+      try {
+        const now = await learningApi.course(course.id);
+        if (timer === null) return;
+        if (OPEN.has(now.state)) {
+          progress.show(now);
+          again();
+          return;
+        }
+        announce(now.sentence);
+        if (now.state === "done") show(learnedResult(now, { back: list, keep }), leave);
+        else await list();
+      } catch {
+        if (timer !== null) again();
+      }
+    }
+    // Not before it is shown: what was shown until then ends its own following.
+    return { element: progress.element, begin: again };
+  }
+
+  const start = attempt(async (wanted) => { await learningApi.start(wanted); await list(); });
+  const open = attempt(async (id) => show(learnedResult(await learningApi.course(id), { back: list, keep }), leave));
+
+  const keep = attempt(async ({ id }, name) => {
+    const { key } = await learningApi.keep(id, name);
+    setsChanged();
+    await list();
+    toast(`“${key}” is kept. Choose it in Simulate under Physics.`);
+  });
+
+  const remove = attempt(async (set) => {
+    await learningApi.removeSet(set);
+    setsChanged();
+    await list();
+    const undo = attempt(async () => { await learningApi.restoreSet(set); setsChanged(); await list(); });
+    toast(`“${set.key}” is deleted.`, { action: { label: "Undo", act: undo } });
+  });
+
+  await list();
+}

@@ -9,22 +9,21 @@ import numpy as np
 from app.bench.cases import Case, all_cases
 from app.bench.published import Reference
 from app.judgement import judge
+from app.learning.table import problem_within_range
 from app.simulations import way_problem
 from app.trajectory_files import read_text
 from core.arrays import Floats
 from core.gait import drawn_timeline, motion_problem
-from core.kinematics import free_strokes
 from core.library import library, manual_entry
 from core.manual import manual_motion
 from core.motion_problem import Workspace
-from core.path_merging import plan_of_knots, plan_waypoints
+from core.path_merging import plan_waypoints
 from core.physics.parameters import PhysicsSet
 from core.physics.problem import SimulationProblem
 from core.robot import RobotModel, load_robot
 from core.timeline import timeline_from_order
 from core.trajectory import Trajectory
 from core.trajectory_csv import parse_trajectory_csv
-from core.waypoints import Waypoints
 from solver_jobs import SolveStatus, solve_exact
 
 MARGINS = (0.003, 0.0025, 0.002, 0.001, 0.0)
@@ -84,9 +83,6 @@ def published_problem(
 ) -> tuple[SimulationProblem, float]:
     """A published trajectory as the published program sent it, and the most that it cut off a stroke, m.
 
-    Its feet rise beyond the motors' range; the program kept each stroke within the range (DOMAIN.md,
-    errors 3), and so is it done here.
-
     Args:
         reference: the published data.
         gait: name of a gait of the library.
@@ -101,11 +97,7 @@ def published_problem(
     motion = parse_trajectory_csv(read_text(path), path.name).trajectory
     timeline = timeline_from_order(model.leg_count, library()[gait].gait.order, closing_knots=0)
     motion = replace(motion, contact=timeline.stance.T)
-    wanted = free_strokes(model, motion.feet_world, motion.pose(model))
-    made = np.clip(wanted, model.stroke.lower, model.stroke.upper)
-    knots = Waypoints(made, np.full(motion.knot_count, timeline.sample_time))
-    problem = way_problem(model, motion, plan_of_knots(model, motion, knots), physics)
-    return problem, float(np.abs(made - wanted).max())
+    return problem_within_range(model, motion, physics)
 
 
 def tipping(motion: Trajectory, margin: float = TIPPING) -> Trajectory:

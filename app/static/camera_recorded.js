@@ -14,6 +14,14 @@ export const tellTrial = attempt(async (id, open) => {
   toast(`The run of ${trial.gait_name} was recorded: ${fixed(trial.figures.distance, 1)} of ${fixed(trial.expected_cm, 1)} cm.`, { action: { label: "Trial of this run", act: () => open({ trial: id }) } });
 });
 
+/** Tells once what is to be known of a recording, such as why there is no trial of it. */
+const told = new Set();
+export function tellRecording({ id, name, sentence }, open) {
+  if (told.has(id)) return;
+  told.add(id);
+  toast(`Recording of ${name}: ${sentence}`, { action: { label: "Open the recording", act: () => open({ video: id }) } });
+}
+
 /**
  * A line with the trials and recordings of a run; empty where there are none.
  * @param {string} run
@@ -26,7 +34,8 @@ export function recordedLine(run, open) {
     const [{ trials }, videos] = await Promise.all([trialApi.list(), videoApi.ofRun(run)]);
     const own = trials.filter((trial) => trial.run === run);
     line.append(...own.map(({ id, name }) => link(own.length > 1 ? `Trial of this run: ${name}` : "Trial of this run", { trial: id }, name)),
-      ...videos.filter(({ state }) => state !== "removed").map(({ id, camera }) => link(`Recording of ${camera}`, { video: id }, "The video that the camera took of this run")));
+      ...videos.filter(({ state }) => state !== "removed").map(({ id, camera }) => link(`Recording of ${camera}`, { video: id }, "The video that the camera took of this run")),
+      ...videos.filter(({ sentence }) => sentence).map(({ camera, sentence }) => h("p", { class: "why", text: `${camera}: ${sentence}` })));
   })();
   return line;
 }

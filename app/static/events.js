@@ -32,6 +32,7 @@ function receive(store, message, onHello) {
     case "pattern": store.set({ pattern: message }); break;
     case "setups": store.set({ setups: message.setups }); break;
     case "cameras": store.set({ cameras: message.cameras }); break;
+    case "video": store.set({ videoChanged: message.video }); break;
     case "trials": store.set({ trialMade: { id: message.trial } }); break;
     case "robot": acceptRobot(store, message.robot); break;
     default: break;

@@ -41,6 +41,7 @@ const INITIAL = Object.freeze({
   cameras: null,
   setups: null,
   trialMade: null,
+  videoChanged: null,
   trialWanted: null,
   physicsSets: 0,
   operator: "",

@@ -7,6 +7,7 @@ import { trialApi } from "./trial_api.js";
 import { besidePart } from "./trial_beside.js";
 import { photosPart } from "./trial_photos.js";
 import { pathPlot } from "./trial_plot.js";
+import { sourcePart } from "./trial_source.js";
 import { wayPlot } from "./trial_way.js";
 
 function table(caption, help, head, rows) {
@@ -54,6 +55,7 @@ function noteField(trial) {
 
 function endsLine(trial, redraw) {
   if (trial.parts.length < 2) return null;
+  if (trial.ends_from === "run") return h("p", { class: "quiet", text: "The ends of iterations are the run's own." });
   if (trial.ends_by_hand) {
     const again = h("button", { class: "link", text: "Find them again" });
     onPress(again, attempt(async () => redraw(await trialApi.change(trial.id, { ends: null }))));
@@ -72,10 +74,11 @@ function keepingMark(plots, redraw) {
 /**
  * Builds a trial's page in the panel.
  * @param {string} id
- * @param {{all: () => void, remove: (trial: object) => void, tracks: Function}} acts `tracks` makes the switch of the 3D scene
+ * @param {{all: () => void, remove: (trial: object) => void, tracks: Function, video: (id: string) => void}} acts `tracks` makes the
+ *   switch of the 3D scene
  * @returns {Promise<{element: HTMLElement, leave: () => void}>}
  */
-export async function trialDetail(id, { all, remove, tracks }) {
+export async function trialDetail(id, { all, remove, tracks, video }) {
   const [trial, paths] = await Promise.all([trialApi.read(id), trialApi.paths(id)]);
   const sources = { tracked: paths.track, planned: paths.plan, simulated: null };
   const element = h("div", { class: "run-detail" });
@@ -96,7 +99,7 @@ export async function trialDetail(id, { all, remove, tracks }) {
     const parts = [
       h("button", { class: "link", text: "All trials", on: { click: all } }),
       h("div", { class: "run-line run-title" }, h("b", { text: now.name })),
-      facts(now), noteField(now), photos, scene.element, plots, endsLine(now, draw) ?? "", beside.element,
+      facts(now), sourcePart(now, video) ?? "", noteField(now), photos, scene.element, plots, endsLine(now, draw) ?? "", beside.element,
       iterationTable(now),
       movementTable("Movement as published", "Largest excursions from the first frame; never negative. The planned motion by the same definition", now.figures, now.plan, published),
       movementTable("Movement, first to last", "Last minus first frame", now.figures, now.plan, net),

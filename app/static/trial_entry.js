@@ -5,6 +5,22 @@ import { attempt, report } from "./toasts.js";
 
 const HELP = "What the real robot did: foot tracks beside their plan, iteration by iteration, and gaits compared";
 
+/** The cameras under the robot's section: a list that opens, and is read then. */
+function cameraGroup(store, open) {
+  const element = h("details", { class: "more" }, h("summary", { text: "Cameras" }));
+  let list = null;
+  element.addEventListener("toggle", attempt(async () => {
+    if (!element.open) return;
+    if (!list) {
+      const { cameraList } = await import("./camera_list.js");
+      list = cameraList(store, { watch: (camera) => open({ camera }), setUp: (setup) => open({ setup }) });
+      element.append(list.element);
+    }
+    list.refresh();
+  }));
+  return element;
+}
+
 /**
  * Builds the links under the runs and under the robot.
  * @param {object} store
@@ -31,7 +47,7 @@ export function mountTrialEntry(store, opening) {
   byId("jobs").parentElement.append(h("div", { class: "runs-head" }, h("h2", { text: "Trials" }), link("All trials")));
   const below = link("Trials of the real robot");
   below.classList.add("runs-way");
-  byId("robot").append(below);
+  byId("robot").append(below, cameraGroup(store, open));
   store.watch(({ trialWanted }) => [trialWanted], ({ trialWanted }) => {
     if (!trialWanted) return;
     store.set({ trialWanted: null });
@@ -39,6 +55,9 @@ export function mountTrialEntry(store, opening) {
   });
   store.watch(({ trialMade }) => [trialMade], attempt(async ({ trialMade }) => {
     if (trialMade?.id) (await import("./camera_recorded.js")).tellTrial(trialMade.id, open);
+  }));
+  store.watch(({ videoChanged }) => [videoChanged], attempt(async ({ videoChanged }) => {
+    if (videoChanged?.run && videoChanged.state === "kept" && videoChanged.sentence) (await import("./camera_recorded.js")).tellRecording(videoChanged, open);
   }));
   return () => Boolean(panel?.leave());
 }

@@ -71,14 +71,15 @@ function trialRow(trial, open) {
 
 /**
  * Builds the list.
- * @param {{open: (id: string) => void, add: () => void, band: (group: object) => void, videos: () => void, learn: () => void}} acts
+ * @param {{open: (id: string) => void, add: () => void, band: (group: object) => void, videos: () => void, cameras: () => void, learn: () => void}} acts
  */
-export async function trialList({ open, add, band, videos, learn }) {
+export async function trialList({ open, add, band, videos, cameras, learn }) {
   const { trials, compared } = await trialApi.list();
   const file = (form, text, help) => h("a", { href: `/api/trials/table?form=${form}`, download: "", text, title: help });
   return h("div", { class: "run-all" },
     h("div", { class: "trial-ways" }, h("button", { class: "primary", text: "Add trials…", on: { click: add } }),
       h("button", { text: "From a video…", title: "The feet are found in a video of the robot from under its glass platform", on: { click: videos } }),
+      h("button", { class: "link", text: "Cameras", title: "The studio's cameras: live pictures, setups, recording with the run", on: { click: cameras } }),
       h("button", { class: "link", text: "Learn from trials", title: "Physics parameters that no data sheet gives, fitted to what the robot did", on: { click: learn } })),
     trials.length ? comparedTable(compared, band) : h("p", { class: "teach", text: "No trial yet. Add the foot tracks of a recording: how far each foot went, which way, how fast, and how that compares with the plan." }),
     trials.length ? h("div", { class: "run-files" }, file("csv", "CSV", "The table of gaits"), file("latex", "LaTeX", "The table of gaits for a paper"),

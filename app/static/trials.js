@@ -57,13 +57,14 @@ export function mountTrials(store) {
 
   const tracks = tracksParts(store, attempt((gait) => selectGait(store, gait)));
   const page = { store, show, all: () => all(), one: (id) => one(id) };
-  // Videos come when they are first asked for.
+  // Videos and cameras come when they are first asked for.
   const videos = attempt(async () => (await import("./video.js")).openVideos(page));
+  const cameras = attempt(async () => (await import("./camera_list.js")).openCameras(page));
   const learn = attempt(async () => (await import("./learning.js")).openLearning(page));
-  const all = attempt(async () => show(await trialList({ open: one, add, band, videos, learn })));
+  const all = attempt(async () => show(await trialList({ open: one, add, band, videos, cameras, learn })));
 
   const one = attempt(async (id) => {
-    const { element, leave: gone } = await trialDetail(id, { all, remove, tracks });
+    const { element, leave: gone } = await trialDetail(id, { all, remove, tracks, video: (wanted) => go({ video: wanted }) });
     show(element, gone);
   });
 
@@ -86,11 +87,13 @@ export function mountTrials(store) {
   document.querySelector('[role="tablist"][aria-label="Inspector"]').addEventListener("click", leave);
   store.watch(({ robot }) => [runIsOn(robot)], ({ robot }) => { if (runIsOn(robot)) leave(); });
 
-  /** Opens what another part of the page asks for: a trial or a video. */
-  const go = attempt(async ({ trial, video }) => {
+  /** Opens what another part of the page asks for: a trial, a video, a camera's picture or its setup. */
+  const go = attempt(async ({ trial, video, camera, setup }) => {
     openTab("robot");
     if (trial) return one(trial);
-    return (await import("./video.js")).openVideoOf(page, video);
+    if (video) return (await import("./video.js")).openVideoOf(page, video);
+    const { watchCamera, setUpCamera } = await import("./camera_list.js");
+    return setup ? setUpCamera(page, setup) : watchCamera(page, camera);
   });
   return { open: () => { openTab("robot"); all(); }, go, leave };
 }

@@ -21,6 +21,7 @@ from app.bench.scene import bench_scene
 from app.bench.timing import bench_timing
 from app.bench.trajectories import bench_trajectories
 from app.bench.transitions import bench_transitions
+from app.bench.video import bench_video
 
 __all__ = ["BENCHMARKS", "BY_NAME_ONLY", "Benchmark", "Row", "conditions"]
 
@@ -42,6 +43,7 @@ BENCHMARKS: dict[str, Benchmark] = {
     "learning": bench_learning,
     "bridge": bench_bridge,
     "telemetry": bench_telemetry,
+    "video": bench_video,
     "page": bench_page,
     "gaits": bench_gait_list,
     "scene": bench_scene,

@@ -117,14 +117,15 @@ class Studio:
     Args:
         data: its data folder.
         device: its robot.
+        *more: further words of `footfall serve`.
 
     Raises:
         StateError: it does not start.
     """
 
-    def __init__(self, data: Path, device: str) -> None:
+    def __init__(self, data: Path, device: str, *more: str) -> None:
         options = ("--port", "0", "--data", str(data), "--robot", device, "--no-browser")
-        words = (sys.executable, "-u", "-m", "app", "serve", *options)
+        words = (sys.executable, "-u", "-m", "app", "serve", *options, *more)
         self._process = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
         line = self._process.stdout.readline() if self._process.stdout is not None else ""
         found = re.search(r"http://\S+", line)
@@ -171,12 +172,12 @@ class Studio:
         self.ask("POST", "api/robot/connect", {})
         wait_until(lambda: self.robot()["link"] == "ready", "the robot answers")
 
-    def begin_run(self, gait: str) -> str:
+    def begin_run(self, gait: str, iterations: int = 1) -> str:
         """Approves a gait, arms, sends, waits for the first waypoint, and returns the run's name."""
         self.ask("POST", f"api/gaits/{gait}/check")
         self.ask("POST", f"api/gaits/{gait}/approve", {"by": "bench", "accept_warnings": True})
         self.ask("POST", "api/robot/arm", {"by": "bench"})
-        self.ask("POST", "api/robot/send", {"gait": gait, "by": "bench"})
+        self.ask("POST", "api/robot/send", {"gait": gait, "by": "bench", "iterations": iterations})
         wait_until(lambda: (self.robot()["run"] or {}).get("sent", 0) > 0, "a waypoint was sent")
         return str(self.robot()["run"]["id"])
 

@@ -33,6 +33,8 @@ class Lockstep:
         self._ahead = 0
         self._connected = False
         self._is_connecting = False
+        self._departures = 0
+        self._noticed = 0
         self._change = threading.Condition()
 
     @property
@@ -47,7 +49,13 @@ class Lockstep:
         return count
 
     def read(self) -> bytes:
-        return self.port.read()
+        departures = self._departures
+        data = self.port.read()
+        with self._change:
+            if not data:
+                self._noticed = departures
+            self._change.notify_all()
+        return data
 
     def close(self) -> None:
         self.port.close()
@@ -89,6 +97,10 @@ class Lockstep:
     def disconnect(self, bridge: RobotBridge) -> None:
         bridge.disconnect()
         self._release()
+        # Until the port has seen that its host has gone, it would send the next host's lines to nobody.
+        with self._change:
+            self._departures += 1
+            assert self._change.wait_for(lambda: self._noticed == self._departures, PATIENCE)
 
     def _release(self) -> None:
         with self._change:

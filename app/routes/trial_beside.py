@@ -33,6 +33,8 @@ async def simulate_trial(trial: str, studio: TheStudio) -> dict[str, Any]:
 
 
 @router.get("/{trial}/scene")
-async def read_scene(trial: str, studio: TheStudio) -> dict[str, Any]:
-    """The track in the plan's frame by shares of the whole walk, with its gaps and how the robot stood; m."""
-    return await run_in_threadpool(studio.beside.scene, trial)
+async def read_scene(
+    trial: str, studio: TheStudio, lap: Annotated[int, Query(ge=1, le=1000)] = 1
+) -> dict[str, Any]:
+    """The track over a lap of the plan by shares of the whole walk, its gaps, and how the robot stood; m."""
+    return await run_in_threadpool(lambda: studio.beside.scene(trial, lap))

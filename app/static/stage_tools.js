@@ -8,6 +8,7 @@ import { shownDocument, shownPlan } from "./store.js";
 
 /** What the menu shows and hides: its parts of the preview, and how it begins. */
 const ENTRIES = [
+  { key: "robot", text: "Robot", shown: true, parts: ["robot"], help: "Without it everything on the floor is seen; it is back when the page is loaded again" },
   { key: "polygon", text: "Support polygon", shown: true, parts: ["polygon", "trouble"], help: "Green inside, amber near the edge, red outside" },
   { key: "com", text: "Centre of mass", shown: true, parts: ["com"], help: "A disc on the floor, and its way" },
   { key: "cop", text: "Centre of pressure", shown: true, parts: ["cop"], help: "A diamond on the floor, and its way: where the ground pushes" },
@@ -61,7 +62,7 @@ export function mountTools(store, preview) {
     entries: ENTRIES.map(({ key, text, help }) => ({ key, text, help, checked: choice[key] })),
     onChange(key, checked) {
       choice[key] = checked;
-      remember("scene", choice);
+      remember("scene", { ...choice, robot: true });
       apply(ENTRIES.find((entry) => entry.key === key));
     },
   });

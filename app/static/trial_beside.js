@@ -13,7 +13,7 @@ const trial = (id) => `/api/trials/${encodeURIComponent(id)}`;
 export const besideApi = {
   read: (id) => request("GET", `${trial(id)}/beside`),
   simulate: (id) => request("POST", `${trial(id)}/simulation`),
-  scene: (id) => request("GET", `${trial(id)}/scene`),
+  scene: (id, lap) => request("GET", `${trial(id)}/scene?lap=${lap}`),
   band: (ids) => request("GET", `/api/trials/band?${new URLSearchParams(ids.map((id) => ["trial", id]))}`),
 };
 

@@ -7,14 +7,11 @@ import { attempt } from "./toasts.js";
 import { besideApi } from "./trial_beside.js";
 
 const LAYER = "trial-tracks";
-const FOLLOWS = "Rings follow the playhead; grey is unseen.";
-
-/** How the robot stood, and what the playhead does. */
+/** How the robots stood, and what the rings are. */
 function words(tracks) {
-  if (tracks.length > 1) return `${tracks.length} tracks, each turned back by how its robot stood. ${FOLLOWS}`;
-  const [{ turn_deg: turn, gaps_mm: gaps, laps }] = tracks;
-  const rings = laps > 1 ? `Rings follow the playhead over the first of ${laps} rounds; grey is unseen.` : FOLLOWS;
-  return `Turned back by the robot's ${fixed(turn, 1)}°, feet of the first frame ± ${fixed(Math.max(...gaps), 1)} mm. ${rings}`;
+  const [{ turn_deg: turn, gaps_mm: gaps }] = tracks;
+  const stood = tracks.length > 1 ? `${tracks.length} tracks, each turned back by how its robot stood.` : `Turned back by the robot's ${fixed(turn, 1)}°, feet of the first frame ± ${fixed(Math.max(...gaps), 1)} mm.`;
+  return `${stood} Rings follow the playhead; grey is unseen.`;
 }
 
 /**
@@ -32,7 +29,16 @@ export function tracksParts(store, showGait) {
     const box = h("input", { type: "checkbox", "aria-label": "Tracks in 3D" });
     box.checked = recalled(LAYER, { on: true }).on;
     const [note, other] = [h("p", { class: "quiet" }), h("p", { class: "why", hidden: true })];
+    const lap = h("select", { "aria-label": "Lap of the walk", title: "The walk does the plan several times: which of them lies over the shown gait" });
+    const ofLaps = h("label", { hidden: true }, "lap", lap);
     let tracks = [];
+
+    function tellLaps() {
+      const count = Math.min(...tracks.map(({ laps }) => laps), Infinity);
+      ofLaps.hidden = !(count > 1 && count < Infinity);
+      if (ofLaps.hidden || lap.length === count) return;
+      lap.replaceChildren(...Array.from({ length: count }, (_, index) => h("option", { value: String(index + 1), text: `${index + 1} of ${count}` })));
+    }
 
     /** Says so where another gait is shown than the trials'. */
     function tellGait() {
@@ -46,14 +52,16 @@ export function tracksParts(store, showGait) {
     }
 
     const part = {
-      element: h("div", { class: "trial-tracks" }, h("label", {}, box, "Tracks in 3D"), note, other),
+      element: h("div", { class: "trial-tracks" }, h("div", { class: "tracks-choice" }, h("label", {}, box, "Tracks in 3D"), ofLaps), note, other),
       tellGait,
       refresh: attempt(async () => {
-        const found = box.checked ? await Promise.all(ids.map(besideApi.scene)) : [];
-        if (current !== part || Boolean(found.length) !== box.checked) return;
+        const wanted = lap.value || "1";
+        const found = box.checked ? await Promise.all(ids.map((id) => besideApi.scene(id, wanted))) : [];
+        if (current !== part || Boolean(found.length) !== box.checked || wanted !== (lap.value || "1")) return;
         tracks = found;
         note.hidden = !tracks.length;
         if (tracks.length) setText(note, words(tracks));
+        tellLaps();
         tellGait();
         store.set({ tracks });
       }),
@@ -67,6 +75,7 @@ export function tracksParts(store, showGait) {
       remember(LAYER, { on: box.checked });
       part.refresh();
     });
+    lap.addEventListener("change", part.refresh);
     current = part;
     return part;
   };

@@ -69,10 +69,14 @@ class TrialsBeside:
         words = f"Physics: {feet.physics}. {feet.ended_early}".strip()
         return placed_motion(times, places, record.alignment), words
 
-    def scene(self, trial: str) -> dict[str, Any]:
-        """The track in the plan's frame, m, by shares of the whole walk; and how the robot stood."""
+    def scene(self, trial: str, lap: int = 1) -> dict[str, Any]:
+        """The track in the frame of the plan's lap, m, by shares of the whole walk; and how the robot stood.
+
+        Raises:
+            InputError: there is no such lap.
+        """
         record = self._desk.record(trial)
-        track = track_of_motion(record.track, record.alignment)
+        track = track_of_motion(record.track, record.alignment_of_lap(lap))
         kept = _thinned(track.times.size, SCENE_PLACES)
         shares = np.interp(kept, [0, *record.ends], np.linspace(0.0, 1.0, len(record.ends) + 1))
         return {
@@ -80,7 +84,8 @@ class TrialsBeside:
             "name": record.content["name"],
             "gait": record.content["gait"],
             "robot": ROBOT,
-            "laps": 1 if record.planned is None else record.planned.laps,
+            "laps": record.laps,
+            "lap": lap,
             "turn_deg": math.degrees(record.alignment.turn),
             "gaps_mm": (record.alignment.gaps * 1000.0).tolist(),
             "colours": list(load_robot(ROBOT).colours),

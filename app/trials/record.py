@@ -11,6 +11,7 @@ import numpy as np
 
 from app.store.trial_log import TrialRow
 from app.trials.planned import PlannedFeet
+from core.errors import InputError
 from core.robot import load_robot
 from core.trials.alignment import Alignment, align, placed_motion
 from core.trials.iterations import find_iterations
@@ -54,6 +55,28 @@ class TrialRecord:
         if self.planned is not None:
             return align(self.track, self.planned.feet[0])
         return align(self.track, load_robot(ROBOT).module_centres_robot[:, :2])
+
+    @property
+    def laps(self) -> int:
+        """How often the plan is walked."""
+        return 1 if self.planned is None else self.planned.laps
+
+    def alignment_of_lap(self, lap: int) -> Alignment:
+        """How the plan's frame lies in the track's where a lap begins, where the lap before was to end.
+
+        Args:
+            lap: from 1.
+
+        Raises:
+            InputError: there is no such lap.
+        """
+        if not 1 <= lap <= self.laps:
+            raise InputError(f"The plan was walked {self.laps} times; choose a lap from 1 on.", "lap")
+        plan = self.placed_plan
+        if lap == 1 or plan is None or self.planned is None:
+            return self.alignment
+        begin = (lap - 1) * (plan.times.size - 1) // self.laps
+        return align(plan.between(begin, plan.times.size - 1), self.planned.feet[0])
 
     @property
     def placed_plan(self) -> FootTrack | None:

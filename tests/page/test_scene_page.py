@@ -54,10 +54,13 @@ def test_marks_are_shown_and_hidden_by_the_menu(page: Page) -> None:
         wait_until_visible(page, node, shown)
     choose(page, "Show", "Goal")
     expect(page.get_by_role("slider", name="Goal", exact=True)).to_be_hidden()
+    choose(page, "Show", "Robot")
+    wait_until_visible(page, "/robot", False)
     page.reload()
     wait_for_scene(page)
     wait_until_visible(page, "/robot/body/reach", True)
     wait_until_visible(page, "/overlay/cop_trace", False)
+    wait_until_visible(page, "/robot", True)
 
 
 def test_a_ghost_says_why_there_is_none_and_stands_where_the_gait_was_before(

@@ -2,7 +2,7 @@
  * Where a trial's feet were on the ground, as lines over the gait that is shown, with a mark a foot that follows the playhead.
  *
  * Tracks come in the plan's frame (`GET /api/trials/{id}/scene`). What was filled, as a foot was not seen, is drawn grey and
- * broken, and so is the mark's ring. The playhead goes over the plan once; of a walk of several laps that is the first.
+ * broken, and so is the mark's ring. The playhead goes over the plan once: over the lap that the track was asked for.
  */
 
 import { visibleMessage } from "./viser_client.js";
@@ -11,8 +11,8 @@ const WAYS = "/tracks/ways";
 const MARKS = "/tracks/marks";
 const GREY = "#7c8698";
 const LIFT = 0.0026;
-const RING_RADIUS = 0.0075;
-const RING_PIECES = 12;
+const RING_RADIUS = 0.0145;
+const RING_PIECES = 20;
 
 /** "#2e9e5b" as red, green, blue; the client takes colours of single points as linear light. */
 const rgb = (colour) => [1, 3, 5].map((at) => 255 * (Number.parseInt(colour.slice(at, at + 2), 16) / 255) ** 2.2);
@@ -38,7 +38,7 @@ function placeIn(values, value) {
   return [at, Math.min(Math.max(part, 0), 1)];
 }
 
-/** Puts a ring round a place into line pieces; every second piece of it is missing where the foot was not seen. */
+/** Puts a ring round a place, wider than a sole, into line pieces; every second piece of it is missing where the foot was not seen. */
 function ringInto(into, start, [x, y], height, isBroken) {
   for (let piece = 0; piece < RING_PIECES; piece += 1) {
     const length = isBroken && piece % 2 ? 0 : 1;
@@ -103,7 +103,7 @@ export class Tracks {
 
   #markMessages(share, height) {
     this.#feet.forEach(({ track, places, filled }, index) => {
-      const [at, part] = placeIn(track.shares, share / track.laps);
+      const [at, part] = placeIn(track.shares, (track.lap - 1 + share) / track.laps);
       const next = Math.min(at + 1, places.length - 1);
       const place = [0, 1].map((axis) => places[at][axis] * (1 - part) + places[next][axis] * part);
       ringInto(this.#points, index * RING_PIECES * 6, place, height, filled[part < 0.5 ? at : next]);

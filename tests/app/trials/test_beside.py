@@ -172,6 +172,20 @@ def test_a_track_comes_into_the_scene_as_the_plan_lies(desk: TrialDesk, beside: 
     assert not np.array(scene["filled"]).any()
 
 
+def test_a_later_lap_lies_over_the_plan_as_the_first_one_does(desk: TrialDesk, beside: TrialsBeside) -> None:
+    trial = desk.add(walked(2), TrialWords("laps", "Ada", 2.0, 2), walk_planned(2))["id"]
+    first, second = beside.scene(trial), beside.scene(trial, 2)
+    assert (first["laps"], first["lap"], second["lap"]) == (2, 1, 2)
+    shares, feet = np.array(first["shares"]), np.array(first["feet"])
+    begin, end = feet[:, 0], feet[:, -1]
+    middle = int(np.argmin(np.abs(shares - 0.5)))
+    np.testing.assert_allclose(np.array(second["feet"])[:, middle], begin, atol=1e-3)
+    np.testing.assert_allclose(np.array(second["feet"])[:, -1], feet[:, middle], atol=1e-3)
+    assert np.linalg.norm(end - begin, axis=-1) == pytest.approx([0.02] * 4, abs=1e-3)
+    with pytest.raises(InputError, match="walked 2 times"):
+        beside.scene(trial, 3)
+
+
 def test_a_trial_without_a_plan_stands_as_the_robot_does(desk: TrialDesk, beside: TrialsBeside) -> None:
     trial = desk.add(stepping_track((0.01, 0.0), 1), WORDS, None)["id"]
     assert [row["source"] for row in beside.figures(trial)["rows"]] == ["tracked"]

@@ -14,8 +14,8 @@ from app.bench.bridge_stop import stop_latencies
 from app.bench.film import ACROSS, Film, draw_film, stepping_feet
 from app.bench.measure import Row, milliseconds
 from app.trials.eyes import Look, open_eyes
+from app.trials.footage import PICTURES
 from app.trials.picture_tasks import LookAt, Source
-from app.trials.recording_file import PICTURES
 from app.trials.setup_models import SetupDocument
 from app.trials.tracking import track_video
 from app.trials.video import use_one_thread

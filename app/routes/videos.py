@@ -20,8 +20,8 @@ from app.routes.setups import Corners, board_of
 from app.routes.trials import Iterations, Length, Name, planned_for
 from app.studio import Studio
 from app.trials.desk import TrialWords
+from app.trials.footage import PICTURES
 from app.trials.picture_tasks import BoardIn, Source
-from app.trials.recording_file import PICTURES
 from app.trials.track_desk import TrackOrder
 from app.trials.video_files import MOST_BYTES, Upload
 

@@ -50,6 +50,10 @@ class VideoLog:
                 (content["id"], content["made"], content["run"], text),
             )
 
+    def deleted_at(self, video: str) -> float:
+        """When a deleted video was deleted, s since the epoch."""
+        return float(self._database.rows("SELECT deleted FROM video WHERE id=?", video)[0][0])
+
     def put_deleted(self, video: str, deleted: float | None) -> None:
         """Takes a video out of every list, or brings it back with None; its file stays."""
         with self._database.writing() as connection:

@@ -119,11 +119,17 @@ class CameraDesk:
         """
         return self._live(camera).picture(most, PICTURE_SECONDS)
 
-    def recording(self) -> list[tuple[Content, CameraLink]]:
-        """The cameras that record with the run, each with its process."""
-        kept, addresses = self._log.cameras(), self._addresses()
-        wanted = [camera for camera, one in kept.items() if one["records"] and camera in addresses]
-        return [(self._view(addresses[camera], kept[camera]), self._live(camera)) for camera in wanted]
+    def recording(self) -> list[Content]:
+        """The cameras that are to record with the run, also unplugged ones."""
+        return [view for view in self.views() if view["records"]]
+
+    def link(self, camera: str) -> CameraLink:
+        """A camera's process, started where it does not go on.
+
+        Raises:
+            UnknownCameraError: it is unplugged.
+        """
+        return self._live(camera)
 
     def close(self) -> None:
         """Ends every camera's process."""

@@ -64,6 +64,11 @@ class CameraLink:
         return self._thread.is_alive() and not self._closing.is_set()
 
     @property
+    def process_id(self) -> int | None:
+        """The process's number, or None where none runs."""
+        return self._worker.process_id
+
+    @property
     def is_recording(self) -> bool:
         """Whether a recording is on."""
         return self._order is not None

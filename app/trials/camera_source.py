@@ -19,6 +19,9 @@ class CameraSource(Protocol):
     def next(self) -> tuple[float, Picture] | None:
         """Waits for the next picture; its time by the monotonic clock. None where the camera is gone."""
 
+    def skip(self) -> bool:
+        """Waits as long as for a picture that nobody wants; false where the camera is gone."""
+
     def begin_anew(self) -> None:
         """Starts a file from its beginning; a real camera goes on."""
 
@@ -27,7 +30,7 @@ class CameraSource(Protocol):
 
 
 class PlayedFile:
-    """A video file that plays in real time and then over again; it is unplugged while it is not there.
+    """A video file that plays in real time, over and over, while it is looked at; gone while it is not there.
 
     A picture whose time has passed is left out, as a camera would not wait either.
 
@@ -71,6 +74,13 @@ class PlayedFile:
         self._number += 1
         return None if picture is None else (due, picture)
 
+    def skip(self) -> bool:
+        """Waits; a film that nobody sees stands still."""
+        interval = 1.0 / self._file.facts.rate
+        time.sleep(interval)
+        self._begun += interval
+        return self._path.exists()
+
     def close(self) -> None:
         """Closes the file."""
         self._file.close()
@@ -97,6 +107,10 @@ class LiveDevice:
         """Waits for the next picture."""
         picture = self._device.read()
         return None if picture is None else (time.monotonic(), picture)
+
+    def skip(self) -> bool:
+        """Leaves a picture out."""
+        return self._device.skip()
 
     def close(self) -> None:
         """Leaves the camera."""

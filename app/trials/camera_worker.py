@@ -103,15 +103,23 @@ class _Camera:
         while True:
             if self._source is None:
                 self._open()
-            taken = None if self._source is None else self._source.next()
-            if taken is None:
+            is_there = self._source is not None and self._advance(self._source)
+            if not is_there:
                 self._lose()
-            else:
-                self._take(*taken)
-            wait = RETRY_SECONDS if taken is None else 0.0
+            wait = 0.0 if is_there else RETRY_SECONDS
             while self._pipe.poll(wait):
                 self._hear(self._pipe.recv())
                 wait = 0.0
+
+    def _advance(self, source: CameraSource) -> bool:
+        """Takes the next picture where somebody wants it; false where the camera is gone."""
+        is_known = self._told is not None and self._told.is_live
+        if is_known and self._recorder is None and not self._asked:
+            return source.skip()
+        taken = source.next()
+        if taken is not None:
+            self._take(source, *taken)
+        return taken is not None
 
     def _open(self) -> None:
         try:
@@ -133,9 +141,8 @@ class _Camera:
             self._pipe.send(Shown(show.number, b"", sentence))
         self._asked.clear()
 
-    def _take(self, when: float, picture: Picture) -> None:
-        size, rate = (picture.shape[1], picture.shape[0]), None if self._source is None else self._source.rate
-        self._tell(Standing(True, "", size, rate))
+    def _take(self, source: CameraSource, when: float, picture: Picture) -> None:
+        self._tell(Standing(True, "", (picture.shape[1], picture.shape[0]), source.rate))
         if self._recorder is not None:
             self._recorder.add(when, picture)
         for show in self._asked:

@@ -6,6 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+PICTURES, TABLE = "pictures.mjpeg", "pictures.table"
+"""Files of a recording: JPEG pictures one after the other, and where each is and when."""
+
 
 @dataclass(frozen=True)
 class Facts:

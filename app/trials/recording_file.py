@@ -14,12 +14,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from app.trials.footage import Facts
+from app.trials.footage import PICTURES, TABLE, Facts
 from app.trials.video import Picture, read_picture
 from core.arrays import Floats
 from core.errors import InputError
 
-PICTURES, TABLE = "pictures.mjpeg", "pictures.table"
 _ROW = struct.Struct("<qqd")
 _ROWS = np.dtype([("begin", "<i8"), ("length", "<i8"), ("time", "<f8")])
 

@@ -131,25 +131,26 @@ class RunRecordings:
         row = self._log.get(run)
         if row is None:
             return
-        for view, link in self._cameras.recording():
+        for view in self._cameras.recording():
+            name = f"{row.content['gait_name']}, {view['name']}"
+            video = self._videos.begin_recording(name, run, view["id"])["id"]
             try:
-                self._recordings.append(self._record(view, link, row.content))
+                self._recordings.append(self._record(video, view, row.content))
             except FootfallError as error:
-                _log.warning("The camera %s does not record: %s", view["id"], error.sentence)
+                self._videos.change(video, state="removed", sentence=error.sentence)
+        self._cameras.tell()
 
-    def _record(self, view: dict[str, Any], link: CameraLink, run: dict[str, Any]) -> _Recording:
+    def _record(self, video: str, view: dict[str, Any], run: dict[str, Any]) -> _Recording:
         self._videos.make_room()
         self._videos.files.require_room(0)
+        link = self._cameras.link(view["id"])
         setup, source = None, SightSource("", view["id"], "", "", 0)
         if view["use"] == UNDER:
             setup, revision = self._setups.complete(view["setup"])
             source = SightSource("", view["id"], view["setup"], setup.name, revision)
-        name = f"{run['gait_name']}, {view['name']}"
-        video = self._videos.begin_recording(name, run["id"], view["id"])["id"]
         tracking = None if setup is None else setup.tracking()
         folder = self._videos.files.path(video)
         link.record(RecordOrder(folder, run["started_monotonic"], tracking, view["name"]))
-        self._cameras.tell()
         return _Recording(video, link, view["id"], setup, source)
 
     def _finish(self, run: str) -> None:
@@ -158,8 +159,7 @@ class RunRecordings:
             try:
                 recorded = one.link.finish(FINISH_SECONDS)
             except CameraError as error:
-                sentence = f"{error.sentence} What it recorded until then is kept and can be tracked."
-                self._videos.change(one.video, state="kept", sentence=sentence)
+                self._videos.salvage(one.video, error.sentence)
                 continue
             trial, remarks = self._trial(run, one, recorded)
             self._keep(one, recorded, trial, remarks)

@@ -63,8 +63,10 @@ class Seeing:
         self.videos = VideoDesk(
             data, database, self.eyes, lambda view: publish({"type": "video", "video": view})
         )
-        self.videos.end_abandoned()
-        self.tracks = TrackDesk(self.eyes, book, self.videos, self.setups, trials, later, self._show_tracking)
+        self.videos.tidy()
+        self.tracks = TrackDesk(
+            self.eyes, book, self.videos, self.setups, trials, runs, later, self._show_tracking
+        )
 
         self._is_telling = threading.Lock()
         self.cameras = CameraDesk(database, self.setups, files, self._tell_cameras)

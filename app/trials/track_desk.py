@@ -12,10 +12,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.job_book import ENDED, JobBook
+from app.runs.desk import RunDesk
 from app.trials.desk import TrialDesk, TrialWords
 from app.trials.eyes import Eyes, Look
 from app.trials.picture_tasks import TrackIn
 from app.trials.planned import PlannedFeet
+from app.trials.run_trial import run_trial
 from app.trials.setup_desk import SetupDesk
 from app.trials.sight import Sight, SightSource
 from app.trials.tracking import VideoTrack
@@ -57,6 +59,7 @@ class TrackDesk:
         videos: which videos there are.
         setups: which setups there are.
         trials: where tracks go.
+        runs: the records of runs.
         later: does something on the session's thread.
         shown: told of a job that changed, on the session's thread.
     """
@@ -68,11 +71,12 @@ class TrackDesk:
         videos: VideoDesk,
         setups: SetupDesk,
         trials: TrialDesk,
+        runs: RunDesk,
         later: Callable[[Callable[[], object]], None],
         shown: Callable[[Content], object],
     ) -> None:
         self._eyes, self._book = eyes, book
-        self._videos, self._setups, self._trials = videos, setups, trials
+        self._videos, self._setups, self._trials, self._runs = videos, setups, trials, runs
         self._later, self._shown = later, shown
         self._on: dict[str, Look] = {}
 
@@ -137,7 +141,7 @@ class TrackDesk:
             self._end(job_id, {"state": "cancelled", "sentence": "Cancelled."})
             return
         try:
-            trial = self._trials.add(found.track, order.words, order.planned, Sight(found, source))
+            trial = self._kept(order, source, found)
         except FootfallError as error:
             self._end(job_id, {"state": "failed", "sentence": error.sentence})
             return
@@ -145,6 +149,15 @@ class TrackDesk:
         self._end(
             job_id, {"state": "done", "sentence": track_sentence(found), "share": 1.0, "result": result}
         )
+
+    def _kept(self, order: TrackOrder, source: SightSource, found: VideoTrack) -> Content:
+        """The trial; that of a recorded run counts from the run's first waypoint, as the run's log tells."""
+        words, video = order.words, self._videos.view(order.video)
+        if video["kind"] != "recording" or words.run != video["run"]:
+            return self._trials.add(found.track, words, order.planned, Sight(found, source))
+        made = run_trial(self._runs.record(words.run), found)
+        sight = Sight(made.found, source, made.remarks, made.ends)
+        return self._trials.add(made.found.track, words, made.planned, sight)
 
     def _end(self, job_id: str, end: Content) -> None:
         self._later(lambda: self._ended(job_id, end))

@@ -123,6 +123,10 @@ class Device:
         there, frame = self._capture.read()
         return np.asarray(frame, dtype=np.uint8) if there else None
 
+    def skip(self) -> bool:
+        """Waits for the next picture without unpacking it; false where the camera is gone."""
+        return bool(self._capture.grab())
+
 
 def read_picture(content: bytes, name: str) -> Picture:
     """A picture file's content.

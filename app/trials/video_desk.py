@@ -12,13 +12,16 @@ from typing import Any
 from app.store.database import Database
 from app.store.video_log import VideoLog
 from app.trials.eyes import Eyes, Look
-from app.trials.footage import Facts
+from app.trials.footage import PICTURES, Facts
 from app.trials.picture_tasks import FactsOf, PictureOf, Source
 from app.trials.video_files import MOST_RECORDED, Upload, VideoFiles
 from core.errors import FootfallError, InputError, StateError
 
 LOOK_SECONDS = 30.0
 """Longest wait for a picture."""
+
+MOST_DELETED = 30 * 86_400.0
+"""A deleted video can be restored for so long, s."""
 
 Content = dict[str, Any]
 
@@ -118,12 +121,37 @@ class VideoDesk:
         with self._lock:
             return self.put({**self._known(video), **changes})
 
-    def end_abandoned(self) -> None:
-        """Says of recordings that a killed program left what became of them."""
+    def tidy(self) -> None:
+        """Says of recordings that a killed program left what became of them; old deleted videos go."""
         for content in self._log.found():
             if content["state"] == "recording":
-                sentence = "The studio ended while this was recorded; what was recorded until then is kept."
-                self.change(content["id"], state="kept", sentence=sentence)
+                self.salvage(content["id"], "The studio ended while this was recorded.")
+        for content in self._log.found(is_deleted=True):
+            if (
+                content["state"] == "kept"
+                and time.time() - self._log.deleted_at(content["id"]) > MOST_DELETED
+            ):
+                self.files.remove(content["file"])
+                self.change(content["id"], state="removed", sentence="It was deleted more than 30 days ago.")
+
+    def salvage(self, video: str, sentence: str) -> None:
+        """Keeps what there is of a recording that was broken off; its facts follow once they are read.
+
+        Args:
+            video: its id.
+            sentence: why it was broken off.
+        """
+        path = self.files.path(self._known(video)["file"])
+
+        def done(facts: Facts) -> None:
+            kept = f"{sentence} What was recorded until then is kept, and can be tracked."
+            size = (path / PICTURES).stat().st_size
+            self.change(video, state="kept", sentence=kept, bytes=size, **facts_content(facts))
+
+        def failed(error: FootfallError) -> None:
+            self.change(video, state="removed", sentence=f"{sentence} {error.sentence}")
+
+        self._eyes.near.ask(Look(FactsOf(path), done=done, failed=failed))
 
     def make_room(self) -> None:
         """Takes the oldest recordings' pictures away where all together are too many; trials stay."""

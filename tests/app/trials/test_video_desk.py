@@ -1,0 +1,105 @@
+"""Recordings that were broken off are kept as far as they came; old ones make room."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.store.database import Database
+from app.trials import video_desk
+from app.trials.eyes import Eyes, open_eyes
+from app.trials.footage import PICTURES
+from app.trials.recording_file import Recording, RecordingWriter
+from app.trials.video import jpeg
+from app.trials.video_desk import VideoDesk
+from core.errors import InputError, StateError
+from tests.studio_process import wait_for
+
+GREY = jpeg(np.full((48, 64, 3), 120, dtype=np.uint8))
+
+
+@pytest.fixture(scope="module")
+def eyes() -> Iterator[Eyes]:
+    opened = open_eyes()
+    yield opened
+    opened.close()
+
+
+@pytest.fixture
+def desk(tmp_path: Path, database: Database, eyes: Eyes) -> VideoDesk:
+    return VideoDesk(tmp_path, database, eyes)
+
+
+def recorded(desk: VideoDesk, pictures: int, name: str = "Walk") -> str:
+    """A recording that nobody ended."""
+    video = str(desk.begin_recording(name, "run", "under")["id"])
+    writer = RecordingWriter(desk.files.path(video))
+    for number in range(pictures):
+        writer.add(GREY, 0.1 * number)
+    writer.close()
+    return video
+
+
+def ended(desk: VideoDesk, video: str) -> str:
+    wait_for(lambda: desk.view(video)["state"] != "recording", "it is known what there is", 60)
+    return str(desk.view(video)["state"])
+
+
+def test_what_a_killed_program_recorded_is_kept(desk: VideoDesk, database: Database, eyes: Eyes) -> None:
+    video = recorded(desk, 5)
+    again = VideoDesk(desk.files.folder.parent, database, eyes)
+    again.tidy()
+    assert ended(again, video) == "kept"
+    view = again.view(video)
+    assert (view["frames"], view["size"], view["bytes"]) == (5, [64, 48], 5 * len(GREY))
+    assert view["rate"] == pytest.approx(10.0)
+    assert "The studio ended while this was recorded." in view["sentence"]
+
+
+def test_a_picture_that_was_not_written_whole_is_left_out(desk: VideoDesk) -> None:
+    video = recorded(desk, 3)
+    pictures = desk.files.path(video) / PICTURES
+    pictures.write_bytes(pictures.read_bytes()[:-10])
+    footage = Recording(desk.files.path(video))
+    assert footage.facts.count == 2
+    with pytest.raises(InputError, match="ends before picture 2"):
+        footage.picture(2)
+    footage.close()
+
+
+def test_a_recording_without_pictures_says_so(desk: VideoDesk) -> None:
+    video = recorded(desk, 0)
+    desk.salvage(video, "The camera's process ended.")
+    assert ended(desk, video) == "removed"
+    assert "holds no picture" in desk.view(video)["sentence"]
+    with pytest.raises(StateError, match="holds no picture"):
+        desk.path(video)
+
+
+def test_the_oldest_recordings_make_room(desk: VideoDesk, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(video_desk, "MOST_RECORDED", 1.5 * len(GREY) * 3)
+    old, new = recorded(desk, 3), recorded(desk, 3)
+    for video in (old, new):
+        desk.change(video, state="kept", bytes=3 * len(GREY))
+    desk.make_room()
+    assert [desk.view(video)["state"] for video in (old, new)] == ["removed", "kept"]
+    assert not desk.files.path(old).exists()
+
+
+def test_a_video_that_was_deleted_long_ago_goes(desk: VideoDesk, monkeypatch: pytest.MonkeyPatch) -> None:
+    video = recorded(desk, 3)
+    desk.change(video, state="kept")
+    desk.delete(video)
+    desk.tidy()
+    assert desk.files.path(video).exists()
+    monkeypatch.setattr(video_desk, "MOST_DELETED", -1.0)
+    desk.tidy()
+    assert not desk.files.path(video).exists()
+
+
+def test_a_video_that_is_being_recorded_cannot_be_deleted(desk: VideoDesk) -> None:
+    with pytest.raises(StateError, match="being recorded"):
+        desk.delete(recorded(desk, 1))

@@ -29,6 +29,9 @@ export function openable(root, button, menu, items) {
   window.addEventListener("blur", () => { if (isOpen()) setOpen(false, false); });
 }
 
+/** Whether a menu over the scene is open, which Esc closes before anything else. */
+export const menuIsOpen = () => document.querySelector('.check-menu [role="menu"]:not([hidden])') !== null;
+
 /**
  * Builds the button with its menu.
  * @param {object} options

@@ -2,6 +2,7 @@
 
 import { nameAuthor } from "./author.js";
 import { createActions } from "./actions.js";
+import { menuIsOpen } from "./check_menu.js";
 import { mountClipboard } from "./clipboard.js";
 import { mountDecimalComma } from "./decimal_comma.js";
 import { createEdits } from "./edits.js";
@@ -77,7 +78,7 @@ export function start(store) {
   mountLive(store);
   const panels = panelsAfterPaint({ store, edits, playback, goTo, gaitTools });
   const patterns = mountPatternEntry(store, { edits, playback, show: (id) => selectGait(store, id) });
-  mountKeys({ store, edits, playback, timeline, actions, zoom, escapes: [patterns.cancel, () => panels.segments?.(), timeline.cancelGesture, () => panels.sequence?.(), tools.close, optimise.cancel, () => panels.countdown?.(), () => panels.runs?.(), timeline.clearSelection] });
+  mountKeys({ store, edits, playback, timeline, actions, zoom, escapes: [patterns.cancel, () => panels.segments?.(), timeline.cancelGesture, () => panels.sequence?.(), tools.close, optimise.cancel, () => panels.countdown?.(), menuIsOpen, () => panels.runs?.(), timeline.clearSelection] });
 
   // During a run the preview stands where the robot is, to the end, unless somebody plays the plan.
   let followed = null;

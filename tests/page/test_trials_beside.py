@@ -55,6 +55,8 @@ def test_physics_stands_beside_plan_and_track_once_it_is_there(
         table = panel.get_by_role("table", name="Planned, simulated, tracked")
         expect(table.get_by_role("row")).to_contain_text(["cm", "planned", "simulated", "tracked"])
         expect(table.get_by_role("row", name=re.compile("^tracked 1.20 45.0 20 –"))).to_be_visible()
+        simulated = table.get_by_role("row", name=re.compile(r"^simulated (0\.9|1\.0)\d "))
+        expect(simulated).to_be_visible()
         expect(panel.get_by_role("status", name="Physics")).to_contain_text("Robot on the scales")
         expect(panel.locator("svg.way polyline.way-simulated")).to_have_count(4)
         with page.expect_download() as download:
@@ -80,6 +82,9 @@ def test_tracks_lie_over_the_gait_in_3d_follow_the_playhead_and_go_with_the_pane
         page.keyboard.press("End")
         moved = f"(old) => ({ENDS})('/tracks/marks').some((value, at) => Math.abs(value - old[at]) > 0.005)"
         page.wait_for_function(moved, arg=before)
+        page.get_by_role("button", name="Show", exact=True).click()
+        page.keyboard.press("Escape")
+        expect(page.get_by_role("menu", name="Show")).to_be_hidden()
         panel.get_by_label("Tracks in 3D").uncheck()
         wait_until_shown(page, "/tracks/ways", False)
         panel.get_by_label("Tracks in 3D").check()

@@ -5,11 +5,12 @@ import { svg } from "./dom.js";
 const ARM_PX = 9;
 const LEAST_RADIUS = 3;
 
-const cross = ({ pixel: [x, y] }, foot) => svg("path", { class: "camera-foot", "data-foot": foot + 1, d: `M${x - ARM_PX} ${y}h${2 * ARM_PX}M${x} ${y - ARM_PX}v${2 * ARM_PX}` });
+/** Dark and light under the foot's colour, so that it is seen on a sole of that very colour. */
+const cross = ({ pixel: [x, y] }, foot) => ["dark", "light", "own"].map((line) => svg("path", { class: `camera-foot ${line}`, "data-foot": foot + 1, d: `M${x - ARM_PX} ${y}h${2 * ARM_PX}M${x} ${y - ARM_PX}v${2 * ARM_PX}` }));
 
 /** A cross in each foot's colour. */
 export function drawFeet(drawing, feet) {
-  drawing.replaceChildren(...feet.flatMap((one, index) => (one ? [cross(one, index)] : [])));
+  drawing.replaceChildren(...feet.flatMap((one, index) => (one ? cross(one, index) : [])));
 }
 
 /** A ring around every spot of a foot's colour, and crosses on the feet. */

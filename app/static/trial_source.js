@@ -21,6 +21,6 @@ export function sourcePart(trial, open) {
   if (!source && !doubts.length) return null;
   const video = source?.video && h("button", { class: "link", text: source.camera ? `Recording of ${source.camera}` : "Its video", title: "The frames that the feet were found in", on: { click: () => open(source.video) } });
   return h("div", { class: "trial-source" },
-    source && h("p", { class: "quiet" }, video, video && " · ", `tracked with ${source.setup_name}, version ${source.setup_revision}`),
+    source && h("p", { class: "quiet" }, video, video && " · ", `tracked with “${source.setup_name}”, version ${source.setup_revision}`),
     ...doubts.map((text) => h("p", { class: "why", data: { toneText: "caution" }, text })));
 }

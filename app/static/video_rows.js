@@ -3,7 +3,7 @@
 import { lengthWords, sizeWords } from "./camera_words.js";
 import { h, setText } from "./dom.js";
 import { clockTime, fixed } from "./format.js";
-import { report } from "./toasts.js";
+import { report, toast } from "./toasts.js";
 import { videoApi } from "./video_api.js";
 import "./video_style.js";
 
@@ -18,17 +18,14 @@ export function videoRow(video, open) {
     h("span", { class: "run-line quiet" }, h("span", { text: [clockTime(video.made), state, video.trial ? "has a trial" : ""].filter(Boolean).join(" · ") }))));
 }
 
-/**
- * A field for a file that is sent when it is chosen, with its progress and Cancel.
- * @param {(video: object) => void} done
- * @returns {{element: HTMLElement, stop: () => void}}
- */
-export function uploadField(done) {
+/** A field for a file, which is sent when it is chosen, with its progress and Cancel. */
+function buildUpload() {
   const file = h("input", { type: "file", accept: "video/*,.avi,.mkv,.mov,.mp4", "aria-label": "Video file" });
   const bar = h("i");
   const words = h("p", { class: "quiet number", role: "status" });
   const cancel = h("button", { type: "button", text: "Cancel", "aria-label": "Cancel upload" });
   const going = h("div", { class: "video-going", hidden: true }, h("div", { class: "progress" }, bar), words, cancel);
+  const field = { element: h("div", { class: "video-upload" }, h("label", {}, h("span", { text: "Video file" }), file), going), done: () => {} };
   let ending = null;
 
   function progress(share, size) {
@@ -50,10 +47,24 @@ export function uploadField(done) {
     }
     ending = null;
     [going.hidden, file.disabled, file.value] = [true, false, ""];
-    if (video) done(video);
+    if (video && field.element.isConnected) field.done(video);
+    else if (video) toast(`${video.name} is sent.`, { action: { label: "Track its feet", act: () => field.done(video) } });
   }
 
   file.addEventListener("change", send);
   cancel.addEventListener("click", () => ending?.abort());
-  return { element: h("div", { class: "video-upload" }, h("label", {}, h("span", { text: "Video file" }), file), going), stop: () => ending?.abort() };
+  return field;
+}
+
+let upload = null;
+
+/**
+ * The field for a video; a file goes on being sent where its panel is left, and is there again when that is opened.
+ * @param {(video: object) => void} done
+ * @returns {HTMLElement}
+ */
+export function uploadField(done) {
+  upload ??= buildUpload();
+  upload.done = done;
+  return upload.element;
 }

@@ -49,7 +49,7 @@ function frameSlider(moved) {
 export function openStage(source, frame = 0) {
   const picture = pictureView(`Picture of ${source.name}`);
   const title = h("b", { text: source.name });
-  const note = h("span", { class: "quiet", role: "status" });
+  const note = h("span", { class: "quiet", role: "status", text: "Waiting for the picture…" });
   const plain = (number) => pictureOf(source, number);
   let [fetching, timer, closed] = [plain, 0, false];
 

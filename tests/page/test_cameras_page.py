@@ -79,7 +79,7 @@ def test_a_run_is_recorded_and_its_note_leads_to_the_trial_with_its_figures(
     expect(published.get_by_role("row", name="planned 1.0")).to_be_visible()
     mean = published.get_by_role("row", name="mean").get_by_role("cell").first
     assert 0.2 < float(mean.inner_text()) < 2.0
-    expect(panel(page)).to_contain_text("tracked with under the glass, version 1")
+    expect(panel(page)).to_contain_text("tracked with “under the glass”, version 1")
 
     page.get_by_role("list", name="Newest runs").locator(f"[data-run='{run}']").click()
     recorded = page.get_by_role("group", name="Recorded with this run")

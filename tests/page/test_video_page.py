@@ -106,6 +106,23 @@ def test_a_video_becomes_a_trial_through_a_setup_that_is_made_on_its_picture(pag
     assert float(mean.nth(1).inner_text()) == pytest.approx(45.0, abs=3.0)
 
 
+def test_a_file_on_its_way_goes_on_where_its_panel_is_left_until_it_is_cancelled(
+    page: Page, video: Path
+) -> None:
+    page.route("**/api/videos?name=*", lambda route: None)
+    page.get_by_role("button", name="All trials").click()
+    panel(page).get_by_role("button", name="From a video…").click()
+    panel(page).get_by_label("Video file").set_input_files(video)
+    expect(panel(page).get_by_role("button", name="Cancel upload")).to_be_visible()
+    page.keyboard.press("Escape")
+    expect(panel(page)).to_be_hidden()
+    page.get_by_role("button", name="All trials").click()
+    panel(page).get_by_role("button", name="From a video…").click()
+    panel(page).get_by_role("button", name="Cancel upload").click()
+    expect(panel(page).get_by_label("Video file")).to_be_enabled()
+    expect(panel(page).get_by_role("button", name="Cancel upload")).to_be_hidden()
+
+
 TURNS = ((0.0, 0.0, 0.0), (0.4, 0.0, 0.1), (-0.35, 0.2, 0.0), (0.1, -0.45, 0.2))
 """Slopes of the board before the camera, rad."""
 

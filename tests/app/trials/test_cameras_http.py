@@ -13,7 +13,7 @@ from app.bridge.emulated import start_emulator
 from app.bridge.profiles import ProfileName
 from app.trials.video import read_picture
 from tests.app.trials.rendered import SIZE, write_video
-from tests.app.trials.test_videos_http import SETUP, TRACK
+from tests.app.trials.test_videos_http import FILMED, SETUP
 from tests.core.trials.tracks import RATE
 from tests.studio_process import StudioProcess, running_studio, wait_for
 
@@ -24,7 +24,7 @@ SPEED = 3.0
 @pytest.fixture(scope="module")
 def film(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("video") / "walk.avi"
-    write_video(path, TRACK.feet[:200], RATE)
+    write_video(path, FILMED, RATE)
     return path
 
 

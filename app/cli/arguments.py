@@ -258,8 +258,9 @@ def _simulate_words(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", type=Path, help="TRAJ.csv or GAIT.json")
     add_robot(parser, "default the gait's own, else deltawalker")
     _way_words(parser)
-    text = f"parameters: {', '.join(physics_sets())} (default the robot's usual one)"
+    text = f"parameters: {', '.join(physics_sets())}, or a learned set (default the robot's usual one)"
     parser.add_argument("--physics", default=None, metavar="SET", help=text)
+    parser.add_argument("--data", type=Path, default=None, help="data folder, where learned sets are kept")
     parser.add_argument("--rig", type=one_of(Rig), metavar=words_of(Rig), default=Rig.WALKING)
     text = "try so many seeded variations of the parameters as well"
     parser.add_argument("--variations", type=whole(0, MOST_VARIATIONS), default=0, metavar="N", help=text)

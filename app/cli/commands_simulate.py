@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from argparse import Namespace
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from dataclasses import asdict
 from pathlib import Path
 
@@ -13,10 +14,14 @@ import numpy as np
 from app.cli.commands_plan import NOT_FIT, ROBOT, trajectory_of
 from app.cli.report import Interrupted, end_on_sigterm, note, show, tally
 from app.documents import parse_gait
+from app.learning.sets import LearnedSets
 from app.simulation_content import variations_content
 from app.simulations import report_figures, way_problem
+from app.store.database import DATABASE, Database
+from app.store.files import default_data_folder
 from app.trajectory_files import read_text, read_trajectory
 from core.arrays import Floats
+from core.errors import InputError
 from core.findings import Finding, Severity
 from core.gait import Gait
 from core.new_gait import with_robot
@@ -24,6 +29,7 @@ from core.path_merging import plan_waypoints
 from core.physics.findings import physics_outcomes
 from core.physics.masses import physics_for
 from core.physics.motion import SimulatedMotion
+from core.physics.parameters import PhysicsSet, physics_sets
 from core.physics.problem import Rig, SimulationProblem
 from core.physics.report import SimulationReport
 from core.physics.reporting import report
@@ -79,7 +85,26 @@ def _problem(options: Namespace) -> SimulationProblem:
     merge = merge if options.merge is None else options.merge
     bound = bound if options.stop_bound is None else options.stop_bound
     way = plan_waypoints(model, trajectory, merge, bound)
-    return way_problem(model, trajectory, way, physics_for(model, options.physics), options.rig)
+    return way_problem(model, trajectory, way, _physics(options, model), options.rig)
+
+
+def _physics(options: Namespace, model: RobotModel) -> PhysicsSet:
+    """A set of the program, or one that was learned and is kept in the data folder.
+
+    Raises:
+        InputError: there is none of that name.
+    """
+    if options.physics is None or options.physics in physics_sets():
+        return physics_for(model, options.physics)
+    path = (options.data or default_data_folder()).expanduser() / DATABASE
+    if not path.is_file():
+        raise InputError(
+            f"There is no physics set “{options.physics}”: choose one of {', '.join(physics_sets())}, or "
+            "name with --data the folder where learned ones are kept.",
+            "--physics",
+        )
+    with closing(Database(path)) as database:
+        return LearnedSets(database).chosen(model, options.physics)
 
 
 def _input(options: Namespace) -> tuple[RobotModel, Trajectory, Gait | None]:

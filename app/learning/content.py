@@ -17,11 +17,13 @@ WAYS = {
     "default": "Physics, usual parameters",
     "fitted": "Physics, fitted",
     "left out": "Physics, gait left out",
+    "left out, line": "Physics and a line, gait left out",
     "ratio, left out": "Line, gait left out",
-    "kind left out": "Physics, kind of gait left out",
-    "ratio, kind left out": "Line, kind of gait left out",
+    "kind left out": "Physics, kind left out",
+    "kind left out, line": "Physics and a line, kind left out",
+    "ratio, kind left out": "Line, kind left out",
 }
-"""Ways of foretelling in words; a line is measured = a × wanted + b."""
+"""Ways of foretelling in words; a line is measured = a × wanted + b, or a × simulated + b."""
 
 
 def learned_content(learned: Learned) -> dict[str, Any]:

@@ -17,6 +17,9 @@ from app.store import run_rows
 from app.store.schema import bring_up_to_date
 from core.errors import InputError
 
+DATABASE = "studio.sqlite3"
+"""Name of the file in a data folder."""
+
 
 class Database:
     """The studio's database.

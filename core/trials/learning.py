@@ -15,7 +15,7 @@ from core.physics.problem import SimulationProblem
 from core.trials.design import even_points
 from core.trials.fit import Fit, Measured, fit
 from core.trials.fit_parameters import FIT_PARAMETERS, FitParameter, box, physics_at
-from core.trials.ratio import ratio_left_out
+from core.trials.ratio import fitted_line, ratio_left_out
 from core.trials.surface import Surfaces, fitted_surfaces
 from core.trials.travel import MeasuredWalk, Travel, pooled_spread
 
@@ -162,9 +162,9 @@ def learn(
     course = _Course(walks, physics, simulate, points, parameters)
     gaits, kinds = [[gait] for gait in range(len(walks))], _kinds(walks)
     ways = [course.as_planned(), course.at("default", physics), course.at("fitted", course.learned)]
-    ways += [course.left_out("left out", gaits), course.ratio("ratio, left out", gaits)]
+    ways += [*course.left_out("left out", gaits), course.ratio("ratio, left out", gaits)]
     if is_by_kind(len(walks), len(kinds)):
-        ways += [course.left_out("kind left out", kinds), course.ratio("ratio, kind left out", kinds)]
+        ways += [*course.left_out("kind left out", kinds), course.ratio("ratio, kind left out", kinds)]
     return Learned(
         physics=course.learned,
         defaults=physics,
@@ -228,14 +228,26 @@ class _Course:
         """Every gait simulated with one set."""
         return self._foretold(name, [physics] * len(self._walks))
 
-    def left_out(self, name: str, groups: Sequence[Sequence[int]]) -> Foretold:
-        """Every gait simulated with what is fitted without the group that it is in."""
-        chosen = [self._physics] * len(self._walks)
+    def left_out(self, name: str, groups: Sequence[Sequence[int]]) -> tuple[Foretold, Foretold]:
+        """Every gait simulated with what is fitted without the group that it is in, and with a line besides.
+
+        The line goes through the others' measured distances over those of their surfaces.
+        """
+        count = len(self._walks)
+        chosen, lines = [self._physics] * count, [(1.0, 0.0)] * count
         for group in groups:
-            without = self._set(fit(self.surfaces, self._measured, self._parameters, frozenset(group)))
+            without = fit(self.surfaces, self._measured, self._parameters, frozenset(group))
+            kept = np.setdiff1d(np.arange(count), group)
+            said = self.surfaces.at(without.z[None])[0]
             for gait in group:
-                chosen[gait] = without
-        return self._foretold(name, chosen)
+                chosen[gait] = self._set(without)
+                lines[gait] = fitted_line(said[kept], self._measured.values[kept])
+        plain = self._foretold(name, chosen)
+        moved = tuple(
+            travel if travel is FALLEN else Travel(slope * travel.distance + offset, travel.angle)
+            for travel, (slope, offset) in zip(plain.travels, lines, strict=True)
+        )
+        return plain, Foretold(f"{name}, line", moved, plain.falls)
 
     def ratio(self, name: str, groups: Sequence[Sequence[int]]) -> Foretold:
         """Every gait by a line through the others' distances; of angles it says nothing."""

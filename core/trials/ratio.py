@@ -1,4 +1,4 @@
-"""A line through measured distances over wanted ones, which any model of the robot must beat."""
+"""A line through measured distances: over wanted ones any model of the robot must beat it."""
 
 from __future__ import annotations
 
@@ -8,11 +8,28 @@ import numpy as np
 
 from core.arrays import Floats
 
+LEAST_RANGE = 1e-9
+"""Foretold distances that differ by no more have no line through them, m."""
+
+
+def fitted_line(said: Floats, measured: Floats) -> tuple[float, float]:
+    """Slope and offset of measured = a · said + b (least squares).
+
+    Where all are said to be equally far, a is the mean of their shares and b is 0.
+
+    Args:
+        said: (gaits,) distances by whatever foretells them, m.
+        measured: (gaits,) m.
+    """
+    if np.ptp(said) < LEAST_RANGE:
+        return float((measured / said).mean()), 0.0
+    columns = np.stack([said, np.ones(len(said))], axis=1)
+    (slope, offset), *_ = np.linalg.lstsq(columns, measured, rcond=None)
+    return float(slope), float(offset)
+
 
 def ratio_left_out(wanted: Floats, measured: Floats, groups: Sequence[Sequence[int]]) -> Floats:
-    """Distances that measured = a · wanted + b foretells of gaits that were left out (least squares).
-
-    Where all others were wanted equally far, a is the mean of their shares and b is 0.
+    """Distances that a line through the others' over wanted ones foretells of gaits that were left out.
 
     Args:
         wanted: (gaits,) m.
@@ -25,10 +42,6 @@ def ratio_left_out(wanted: Floats, measured: Floats, groups: Sequence[Sequence[i
     said = np.empty_like(wanted)
     for group in groups:
         kept = np.setdiff1d(np.arange(len(wanted)), group)
-        if np.ptp(wanted[kept]) < 1e-9:
-            said[group] = (measured[kept] / wanted[kept]).mean() * wanted[group]
-            continue
-        columns = np.stack([wanted[kept], np.ones(len(kept))], axis=1)
-        (slope, offset), *_ = np.linalg.lstsq(columns, measured[kept], rcond=None)
+        slope, offset = fitted_line(wanted[kept], measured[kept])
         said[group] = slope * wanted[group] + offset
     return said

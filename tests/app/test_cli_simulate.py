@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,8 +15,11 @@ import numpy as np
 import pytest
 
 from app.documents import gait_content
+from app.learning.sets import LearnedSets
+from app.store.database import DATABASE, Database
 from app.trajectory_files import write_trajectory
 from core.library import library
+from core.physics.parameters import physics_set
 from core.trajectory import Trajectory
 from tests.app.command import run, run_json
 from tests.simulated_walk import walk_problem
@@ -132,3 +136,23 @@ def test_an_interrupted_simulation_ends_cleanly(bow: str) -> None:
         _, err = process.communicate(timeout=60)
     assert process.returncode == INTERRUPTED
     assert err.strip() == "Interrupted."
+
+
+def test_a_learned_set_is_found_in_the_data_folder_by_its_name_and_version(
+    bow: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    physics = replace(physics_set("scales"), cable_drag=0.5)
+    with closing(Database(tmp_path / DATABASE)) as database:
+        LearnedSets(database).save("Lab floor", "Ada", "deltawalker", physics, "made", "made")
+    words = ("simulate", bow, "--data", str(tmp_path), "--physics")
+    status, content = run_json(capsys, *words, "Lab floor, version 1")
+    assert status == 0
+    assert content["physics"] == "Lab floor, version 1"
+    status, content = run_json(capsys, *words, "Lab floor, version 2")
+    assert status == 2
+    assert "Lab floor, version 1" in content["error"]
+    status, content = run_json(
+        capsys, "simulate", bow, "--data", str(tmp_path / "none"), "--physics", "Lab floor"
+    )
+    assert status == 2
+    assert "--data" in content["error"]

@@ -90,6 +90,17 @@ def test_gaits_that_were_left_out_are_foretold_better_than_by_plan_and_default(l
     assert errors["fitted"] <= errors["left out"] + 1e-4
 
 
+def test_a_line_helps_where_the_real_robot_goes_farther_than_any_parameter_lets_it() -> None:
+    walks = [
+        MadeWalk(replace(one.measured, travel=replace(went, distance=1.3 * went.distance + 0.004)))
+        for one in made_walks(DEFAULT)
+        for went in [one.measured.travel]
+    ]
+    result = learn(walks, DEFAULT, simulating(walks), POINTS)
+    errors = {way.name: result.errors(way)[0] for way in result.foretold}
+    assert errors["left out, line"] < 0.25 * errors["left out"]
+
+
 def test_a_gait_that_is_left_out_says_nothing_about_itself() -> None:
     honest, lying = made_walks(), made_walks()
     wrong = replace(lying[2].measured, travel=Travel(0.02, 0.5))

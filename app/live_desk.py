@@ -24,9 +24,9 @@ from core.gait import Gait
 from core.motion_problem import MotionProblem
 from solver_jobs import MotionResult, RemedySearch, SolveStatus
 
-FIRST_SECONDS = 20.0
+FIRST_SECONDS = 40.0
 """How long a plan may wait for the first answer of the live tier's process, which still loads the solver."""
-NEXT_SECONDS = 2.0
+NEXT_SECONDS = 4.0
 """How long it may wait for the answers after that: the session waits along."""
 FAILED_SECONDS = 5.0
 """How long a solver that broke off is not asked for the same motion again."""

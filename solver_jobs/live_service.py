@@ -88,8 +88,11 @@ class LiveSolver:
             )
         return result
 
-    def remedies(self, gait: Gait, timeout: float = 5.0) -> RemedySearch:
-        """Changes of an infeasible gait that the live tier finds feasible; cut short by other questions."""
+    def remedies(self, gait: Gait, timeout: float = 40.0) -> RemedySearch:
+        """Changes of an infeasible gait that the live tier finds feasible; cut short by other questions.
+
+        Nobody waits for them: on a busy computer they may take a while.
+        """
         try:
             found: RemedySearch = self._ask(lambda number: FindRemedies(number, gait), timeout)
         except (FutureTimeout, CancelledError, OSError, LiveSolverError) as error:

@@ -3,6 +3,7 @@
 import { api } from "./api.js";
 import { h } from "./dom.js";
 import { clockTime, fixed, shortHash } from "./format.js";
+import { turns } from "./lane.js";
 import { attempt } from "./toasts.js";
 
 const NOW = "the gait as it is";
@@ -39,13 +40,13 @@ export function approvalHistory(store) {
   const element = h("div", { class: "approvals", hidden: true }, h("h3", { text: "Approvals" }), list, difference);
   let records = [];
   let chosen = null;
-  let asked = 0;
+  const [beginShow, beginRefresh] = [turns(), turns()];
 
   const show = attempt(async () => {
-    const turn = (asked += 1);
+    const isOld = beginShow();
     const { selected } = store.state;
     const { groups } = await api.approvalDifference(selected, chosen.number, against.value ? Number(against.value) : null);
-    if (turn !== asked || selected !== store.state.selected) return;
+    if (isOld() || selected !== store.state.selected) return;
     const title = h("label", { class: "quiet" }, `From ${chosen.by}, ${clockTime(chosen.when)}, to `, against);
     difference.replaceChildren(title, ...sentences(groups));
     difference.hidden = false;
@@ -60,9 +61,10 @@ export function approvalHistory(store) {
 
   async function refresh() {
     const { selected, view } = store.state;
+    const isOld = beginRefresh();
     if (!view) return;
     const { approvals } = await api.approvals(selected);
-    if (selected !== store.state.selected) return;
+    if (isOld() || selected !== store.state.selected) return;
     records = approvals;
     element.hidden = !records.length;
     list.replaceChildren(...records.map((record) => item(record, compare)));

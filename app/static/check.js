@@ -94,14 +94,14 @@ async function approve(store) {
     return;
   }
   const approval = await api.approve(selected, by, view.verdict.hash, store.state.seenWarnings === view.verdict.hash);
-  if (store.state.selected !== selected || store.state.view.revision !== view.revision) return;
+  if (store.state.selected !== selected || store.state.view?.revision !== view.revision) return;
   store.set({ view: { ...store.state.view, approval, revoked: null }, checked: { ...store.state.checked, [selected]: { word: "approved", revision: store.state.view.revision } } });
 }
 
 async function check(store) {
   const { selected, view } = store.state;
   const verdict = await api.check(selected);
-  if (store.state.selected !== selected || store.state.view.revision !== view.revision) return;
+  if (store.state.selected !== selected || store.state.view?.revision !== view.revision) return;
   const seen = store.state.checked[selected];
   store.set({ view: { ...store.state.view, verdict }, checked: { ...store.state.checked, [selected]: { word: seen?.word === "approved" && store.state.view.approval ? seen.word : "checked", revision: view.revision } } });
 }

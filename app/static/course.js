@@ -17,10 +17,12 @@ export function mountCourse(store, section) {
 
   const leave = () => { if (store.state.iterate) store.set({ iterate: null }); };
   const offer = lane(async ({ job, at }) => {
+    const isWanted = () => jobOf(store.state)?.id === job && Number(slider.value) === at;
     try {
       const plan = await api.iterate(job, at);
-      if (jobOf(store.state)?.id === job && Number(slider.value) === at) store.set({ iterate: { job, number: at, plan } });
+      if (isWanted()) store.set({ iterate: { job, number: at, plan } });
     } catch (error) {
+      if (!isWanted()) return;
       leave();
       report(error);
     }

@@ -3,6 +3,7 @@
  *
  * An edit is a function from document to document, so that it can be put on top of what another tab did meanwhile.
  * A drawing that the server refuses stays on screen, marked, and goes along with the next edit.
+ * Every act is of the gait that was shown when it was done: it reaches that one, also where another is shown by then.
  */
 
 import { api } from "./api.js";
@@ -39,30 +40,41 @@ export function createEdits(store) {
   let sending = null;
   let turn = Promise.resolve();
 
-  async function put(batch, tries = 1) {
-    const { view } = store.state;
+  const isShown = (gait) => store.state.selected === gait;
+
+  async function put(gait, batch, tries = 1) {
+    const { view: shown } = store.state;
+    const view = shown?.id === gait ? shown : await api.view(gait);
     const document = batch.reduce((result, edit) => edit.apply(result), view.document);
     try {
-      return await api.put(view.id, document, batch.at(-1).label, view.revision);
+      return await api.put(gait, document, batch.at(-1).label, view.revision);
     } catch (error) {
       if (error.status !== STALE || error.where !== "revision" || tries === MOST_TRIES) throw error;
-      acceptView(store, await api.view(view.id));
-      return put(batch, tries + 1);
+      if (isShown(gait)) acceptView(store, await api.view(gait));
+      return put(gait, batch, tries + 1);
     }
   }
 
+  /** Takes edits out of those to be sent; `more` is set where their gait is still shown. */
+  function settle(batch, more) {
+    const { pending, left } = store.state;
+    const others = (edits) => edits.filter((edit) => !batch.includes(edit));
+    store.set({ pending: others(pending), left: others(left), ...(isShown(batch[0].gait) ? more : {}) });
+  }
+
   async function sendNext(batch) {
-    const rest = () => store.state.pending.filter((edit) => !batch.includes(edit));
+    const { gait, drawing } = batch.at(-1);
     try {
-      const view = await put(batch);
-      store.set({ pending: rest(), refused: null, formError: null });
+      const view = await put(gait, batch);
+      settle(batch, { refused: null, formError: null });
       acceptView(store, view);
     } catch (error) {
-      const drawing = batch.at(-1).drawing && [REFUSED, STALE].includes(error.status);
-      if (drawing) keep(batch, error.message);
-      else store.set({ pending: rest(), formError: batch.at(-1).drawing ? null : error.message });
-      if (!drawing && batch.at(-1).drawing) report(error);
+      const isStanding = batch.every((edit) => store.state.pending.includes(edit));
+      if (isStanding && drawing && [REFUSED, STALE].includes(error.status)) return keep(batch, error.message);
+      settle(batch, { formError: drawing ? null : error.message });
+      if (drawing || !isShown(gait)) report(error);
     }
+    return undefined;
   }
 
   function keep(batch, sentence) {
@@ -70,13 +82,15 @@ export function createEdits(store) {
     store.set({ pending, refused: sentence });
   }
 
+  /** What is sent next: edits of a gait that was left come first, all of one gait at once. */
+  function nextBatch() {
+    const { pending, left } = store.state;
+    if (left.length) return left.filter(({ gait }) => gait === left[0].gait);
+    return pending.slice(0, pending.findIndex((edit) => !edit.refused) + 1);
+  }
+
   async function drain() {
-    for (;;) {
-      const { pending } = store.state;
-      const next = pending.findIndex((edit) => !edit.refused);
-      if (next < 0) return;
-      await sendNext(pending.slice(0, next + 1));
-    }
+    for (let batch = nextBatch(); batch.length; batch = nextBatch()) await sendNext(batch);
   }
 
   /** Requests that change the gait reach the studio one at a time, in the order of the acts behind them. */
@@ -91,12 +105,15 @@ export function createEdits(store) {
     return sending;
   }
 
-  function edit(apply, label, { drawing = false } = {}) {
-    if (drawing && isSequence(store.state.view?.document)) {
+  /** `gait` is the one that the edit is of, where something was waited for since it was the shown one. */
+  function edit(apply, label, { drawing = false, gait = store.state.view?.id } = {}) {
+    if (!gait) return Promise.resolve();
+    const one = { gait, apply, label, drawing, refused: false };
+    if (!isShown(gait)) store.set({ left: [...store.state.left, one] });
+    else if (drawing && isSequence(store.state.view?.document)) {
       toast(FOLLOWS);
       return Promise.resolve();
-    }
-    store.set({ pending: [...store.state.pending, { apply, label, drawing, refused: false }], formError: null });
+    } else store.set({ pending: [...store.state.pending, one], formError: null });
     return flush();
   }
 
@@ -104,54 +121,50 @@ export function createEdits(store) {
     store.set({ pending: store.state.pending.filter((one) => !one.refused), refused: null });
   }
 
-  async function passHistory(verb) {
-    if (verb === "undo" && undoDraft(store)) return undefined;
-    if (verb === "undo" && store.state.pending.length) return dropRefused();
-    const { selected } = store.state;
-    if (!selected) return undefined;
+  async function passHistory(gait, verb) {
+    if (verb === "undo" && isShown(gait) && undoDraft(store)) return undefined;
+    if (verb === "undo" && isShown(gait) && store.state.pending.length) return dropRefused();
     try {
-      acceptView(store, await api.history(selected, verb));
+      acceptView(store, await api.history(gait, verb));
     } catch (error) {
       report(error);
     }
     return undefined;
   }
 
-  function history(verb) {
-    flush();
-    return inTurn(() => passHistory(verb));
-  }
-
-  async function passRedraw(body) {
-    dropRefused();
+  async function passRedraw(gait, body) {
+    if (isShown(gait)) dropRefused();
     try {
-      acceptView(store, await api.redraw(store.state.selected, body));
-      store.set({ formError: null });
+      acceptView(store, await api.redraw(gait, body));
+      if (isShown(gait)) store.set({ formError: null });
     } catch (error) {
-      store.set({ formError: error.message });
+      if (isShown(gait)) store.set({ formError: error.message });
+      else report(error);
     }
   }
 
-  async function passRestore(number) {
-    dropRefused();
-    acceptView(store, await api.restoreVersion(store.state.selected, number));
+  async function passRestore(gait, number) {
+    if (isShown(gait)) dropRefused();
+    acceptView(store, await api.restoreVersion(gait, number));
+  }
+
+  /** An act on the gait that is shown now, after what was done to it before. */
+  function pass(act, ...values) {
+    const { selected } = store.state;
+    if (!selected) return Promise.resolve();
+    flush();
+    return inTurn(() => act(selected, ...values));
   }
 
   return {
     edit,
     dropRefused,
     paint: (cells, swing) => edit((document) => paintCells(document, cells, swing), paintLabel(cells, swing), { drawing: true }),
-    redraw: (body) => {
-      flush();
-      return inTurn(() => passRedraw(body));
-    },
-    restoreVersion: (number) => {
-      flush();
-      return inTurn(() => passRestore(number));
-    },
-    undo: () => history("undo"),
-    redo: () => history("redo"),
-    save: () => history("save"),
+    redraw: (body) => pass(passRedraw, body),
+    restoreVersion: (number) => pass(passRestore, number),
+    undo: () => pass(passHistory, "undo"),
+    redo: () => pass(passHistory, "redo"),
+    save: () => pass(passHistory, "save"),
     shown: () => shownDocument(store.state),
   };
 }

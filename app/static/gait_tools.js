@@ -22,22 +22,26 @@ async function exportFile(store, form) {
   setTimeout(() => URL.revokeObjectURL(address), 1000);
 }
 
+/** What the list or the shown view says of the selected gait: one that was just made is shown before it is listed. */
+const lineOf = ({ selected, gaits, view }) => gaits.find(({ id }) => id === selected) ?? (view?.id === selected ? view : null);
+
 async function remove(store, show) {
-  const { selected, gaits } = store.state;
-  const name = gaits.find(({ id }) => id === selected).name;
+  const { selected } = store.state;
+  const { name } = lineOf(store.state);
   await api.remove(selected);
   const restore = attempt(async () => {
     await api.restore(selected);
     await show(selected);
   });
   toast(`${name} is deleted.`, { action: { label: "Bring it back", act: restore } });
+  if (store.state.selected !== selected) return;
   const next = store.state.gaits.find(({ id }) => id !== selected) ?? null;
   await show(store.state.gaits.some(({ id }) => id === selected) ? selected : next?.id);
 }
 
 async function duplicate(store, show) {
-  const { selected, gaits } = store.state;
-  const { name } = gaits.find(({ id }) => id === selected);
+  const { selected } = store.state;
+  const { name } = lineOf(store.state);
   const view = await api.copy(selected, freeName(store.state, `${name} copy`));
   await show(view.id);
 }
@@ -65,8 +69,6 @@ export function mountGaitTools(store, show) {
   const exports = actMenu({ name: "Export", help: "Write this gait as a file", entries: FORMS.map(([form, text]) => ({ text, help: `Write this gait as ${text}`, act: attempt(() => exportFile(store, form)) })) });
   byId("gait-new").append(news.element);
   byId("gait-tools").append(link("Duplicate", "A copy of this gait under another name", duplicate), exports.element, deletion);
-  store.watch(({ gaits, selected }) => [gaits, selected], ({ gaits, selected }) => {
-    deletion.hidden = gaits.find(({ id }) => id === selected)?.kind !== "saved";
-  });
+  store.watch((state) => [lineOf(state)?.kind], (state) => { deletion.hidden = lineOf(state)?.kind !== "saved"; });
   return { addNew: (entry) => news.add(entry, 1) };
 }

@@ -28,13 +28,14 @@ function lastUsed() {
 export async function selectGait(store, id) {
   if (store.state.selected !== id) {
     clearOfGait();
-    store.set({ selected: id, view: null, pending: [], gesture: null, live: null, remedies: null, iterate: null, refused: null, formError: null, shownJob: null, runSummary: null });
+    const { pending, left } = store.state;
+    store.set({ selected: id, view: null, pending: [], left: [...left, ...pending.filter((edit) => !edit.refused)], gesture: null, live: null, remedies: null, iterate: null, refused: null, formError: null, shownJob: null, runSummary: null });
   }
   try {
     acceptView(store, await api.view(id));
-    remember(id);
+    if (store.state.selected === id) remember(id);
   } catch (error) {
-    report(error);
+    if (store.state.selected === id) report(error);
   }
 }
 
@@ -50,8 +51,9 @@ async function rename(store, id) {
 
 /** After a greeting: the gait that runs, else the one shown, else the one used last, else the first. */
 export function selectAfterHello(store) {
-  const { gaits, selected, robot } = store.state;
-  const known = (id) => gaits.some((gait) => gait.id === id);
+  const { gaits, selected, robot, view } = store.state;
+  // What was just made may be shown before the greeting knows of it.
+  const known = (id) => gaits.some((gait) => gait.id === id) || id === view?.id;
   const running = robot?.run && robot.run.phase !== "ended" ? robot.run.gait : null;
   const choice = [selected, running, lastUsed(), gaits[0]?.id].find((id) => id && known(id));
   if (choice) selectGait(store, choice);

@@ -23,9 +23,9 @@ function whyNot(state) {
 export function takePose(store, edits) {
   const button = h("button", { class: "wide", text: "Take this pose as a waypoint" });
   const take = attempt(async () => {
-    const document = shownDocument(store.state);
+    const [document, { selected: gait }] = [shownDocument(store.state), store.state];
     const { table, name, segment, sentences } = await api.poseTable({ document, strokes_mm: store.state.jog.pose_mm });
-    edits.edit((now) => ({ ...now, segment_table: table }), `Take ${name} as segment ${segment}`, { drawing: true });
+    edits.edit((now) => ({ ...now, segment_table: table }), `Take ${name} as segment ${segment}`, { drawing: true, gait });
     toast([`${name} is segment ${segment} of the segment table.`, ...sentences].join(" "), { of: "studio" });
   });
   onPress(button, take, (why) => toast(why));

@@ -22,3 +22,15 @@ export function lane(work) {
     else run(value);
   };
 }
+
+/**
+ * Answers may come in another order than their questions.
+ * @returns {() => () => boolean} begins a question; what it gives says whether a later one was begun since
+ */
+export function turns() {
+  let turn = 0;
+  return () => {
+    const mine = (turn += 1);
+    return () => mine !== turn;
+  };
+}

@@ -2,6 +2,7 @@
 
 import { api } from "./api.js";
 import { h, onPress, setAllowed, setText } from "./dom.js";
+import { turns } from "./lane.js";
 import { bodyOf, limbsOf, ruleOf, RULES } from "./pattern_question.js";
 import { shownDocument } from "./store.js";
 import { announce, attempt, toast } from "./toasts.js";
@@ -50,13 +51,19 @@ export function patternActs(store, question, { edits, playback, show }) {
     return { question: bodyOf(question.state, { gait: store.state.selected, limbs, document: store.state.pending.length ? document : null, drawing: null, isFree: () => false }), feet: pattern.feet };
   }
 
-  const leave = () => { if (store.state.iterate?.pattern) store.set({ iterate: null }); };
+  const begin = turns();
+  /** Ends the walk, also one that is only asked for. */
+  const leave = () => {
+    begin();
+    if (store.state.iterate?.pattern) store.set({ iterate: null });
+  };
 
   const made = attempt(async () => {
     leave();
+    const { selected: gait } = store.state;
     if (question.state.mode === "drawing") {
       const { document } = await api.patternDocument(body());
-      await edits.edit((now) => ({ ...now, timeline: { ...now.timeline, feet: document.timeline.feet }, ...(document.held ? { held: document.held } : {}) }), LABEL, { drawing: true });
+      await edits.edit((now) => ({ ...now, timeline: { ...now.timeline, feet: document.timeline.feet }, ...(document.held ? { held: document.held } : {}) }), LABEL, { drawing: true, gait });
       announce("The drawing is completed. Undo takes it back.");
       return;
     }
@@ -72,7 +79,10 @@ export function patternActs(store, question, { edits, playback, show }) {
       leave();
       return;
     }
+    const isOld = begin();
+    const { selected } = store.state;
     const plan = await api.patternPlan(body());
+    if (isOld() || store.state.selected !== selected) return;
     if (!plan.times.length) throw new Error(plan.refusal?.sentence ?? "This pattern makes no motion.");
     store.set({ iterate: { job: null, number: null, pattern: true, plan: { ...plan, note: `The pattern, not the open gait. ${plan.note}` } } });
     if (plan.live?.status === "infeasible") toast(`What is shown does not keep every limit. ${fallsWords(question.state)}`);

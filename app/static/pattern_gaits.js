@@ -19,9 +19,14 @@ export function timelineOf(store, question, gait) {
 export function mountPatternGaits(store, question, isOpen) {
   const fetched = new Map();
 
-  const fetchDocument = attempt(async (gait) => {
-    const document = await api.document(gait);
-    question.set({ documents: { ...question.state.documents, [gait]: document } });
+  const fetchDocument = attempt(async (gait, line) => {
+    try {
+      const document = await api.document(gait);
+      if (fetched.get(gait) === line) question.set({ documents: { ...question.state.documents, [gait]: document } });
+    } catch (error) {
+      if (fetched.get(gait) === line) fetched.delete(gait);
+      throw error;
+    }
   });
 
   function choose() {
@@ -39,7 +44,7 @@ export function mountPatternGaits(store, question, isOpen) {
       const line = store.state.gaits.find(({ id }) => id === gait);
       if (!gait || gait === selected || fetched.get(gait) === line) continue;
       fetched.set(gait, line);
-      fetchDocument(gait);
+      fetchDocument(gait, line);
     }
   }
 

@@ -2,6 +2,7 @@
 
 import { api } from "./api.js";
 import { h, onPress, setAttribute, setText } from "./dom.js";
+import { lane } from "./lane.js";
 import { report } from "./toasts.js";
 
 const EMULATOR = "emulator";
@@ -51,14 +52,14 @@ export function portChooser(store, connect) {
     setText(words, found.again?.sentence ?? "");
   }
 
-  async function look() {
+  const look = lane(async () => {
     try {
       found = await api.ports();
       render();
     } catch (error) {
       if (error.status) report(error); // a studio that does not answer is said in the top bar
     }
-  }
+  });
 
   function choose(device) {
     chosen = device;

@@ -5,6 +5,7 @@ import { confirmAct } from "./dialogs.js";
 import { byId, h, onPress, setAllowed, setText } from "./dom.js";
 import { fixed, seconds, shortHash } from "./format.js";
 import { jogPart } from "./jog.js";
+import { turns } from "./lane.js";
 import { leasePart, whyNotHeld } from "./lease.js";
 import { needOperator } from "./operator.js";
 import { portChooser } from "./ports.js";
@@ -151,18 +152,23 @@ function whyNotSend(state) {
   return runSummary.reason ?? null;
 }
 
-async function fetchSummary(store) {
-  const { selected, view } = store.state;
-  if (!selected || !view?.plan || view.plan.refusal) return store.set({ runSummary: null });
-  try {
-    const asked = courseOf(store.state);
-    const summary = await api.run(selected, asked);
-    if (store.state.selected === selected && courseOf(store.state) === asked) store.set({ runSummary: { ...summary, gait: selected } });
-  } catch (error) {
-    store.set({ runSummary: null });
-    if (error.status !== 409 && error.status !== 422) report(error);
-  }
-  return undefined;
+/** Keeps the summary of what would be sent that of the shown plan. */
+function followSummary(store) {
+  const begin = turns();
+  store.watch(({ selected, view, robot, runCourse }) => [selected, runCourse, view?.plan?.waypoints_hash, view?.approval?.waypoints_hash, robot?.link, robot?.robot], async (state) => {
+    const isOld = begin();
+    const { selected, view } = state;
+    if (!selected || !view?.plan || view.plan.refusal) return store.set({ runSummary: null });
+    try {
+      const summary = await api.run(selected, courseOf(state));
+      if (!isOld()) store.set({ runSummary: { ...summary, gait: selected } });
+    } catch (error) {
+      if (isOld()) return undefined;
+      store.set({ runSummary: null });
+      if (error.status !== 409 && error.status !== 422) report(error);
+    }
+    return undefined;
+  });
 }
 
 /** Builds the section; returns what Esc may cancel. */
@@ -191,6 +197,6 @@ export function mountRobot(store, edits, playback) {
     ways.start.hidden = planIsOn(state.robot);
     parts.summary.hidden = parts.summary.childElementCount === 0;
   });
-  store.watch(({ selected, view, robot, runCourse }) => [selected, runCourse, view?.plan?.waypoints_hash, view?.approval?.waypoints_hash, robot?.link, robot?.robot], () => fetchSummary(store));
+  followSummary(store);
   return send.cancel;
 }

@@ -3,6 +3,7 @@
 import { api } from "./api.js";
 import { h, setAttribute, setText } from "./dom.js";
 import { clockTime, fixed, seconds } from "./format.js";
+import { turns } from "./lane.js";
 import { attempt } from "./toasts.js";
 
 const TONES = { done: "good", running: "accent", stopped: "caution", stopping: "caution", interrupted: "caution", fault: "bad", lost: "bad", refused: "quiet" };
@@ -55,14 +56,15 @@ export function runList(open) {
   const [since, until] = [dayField("Since", "Runs since", "Started on this day or later"), dayField("Until", "Runs until", "Started on this day or earlier")];
   const [count, list] = [h("p", { class: "quiet", role: "status" }), h("ul", { class: "run-list", role: "list", "aria-label": "Runs" })];
   const more = h("button", { class: "link", text: "Older runs", hidden: true });
-  let [shown, turn] = [[], 0];
+  let shown = [];
+  const begin = turns();
 
   const wanted = (offset) => ({ gait: gait.value, state: state.value, operator: operator.value, since: since.input.value, until: until.input.value, offset, most: PAGE });
 
   const load = attempt(async (offset) => {
-    const mine = (turn += 1);
+    const isOld = begin();
     const answer = await api.runs(wanted(offset));
-    if (mine !== turn) return;
+    if (isOld()) return;
     shown = offset ? [...shown, ...answer.runs] : answer.runs;
     fill(gait, "Every gait", answer.gaits.map(({ id, name }) => ({ value: id, text: name })));
     fill(state, "Every result", plain(answer.states));

@@ -3,6 +3,7 @@
 import { api } from "./api.js";
 import { byId, h, icon, setText } from "./dom.js";
 import { selectGait } from "./gaits.js";
+import { turns } from "./lane.js";
 import { runDetail } from "./run_detail.js";
 import { runList, runRow } from "./run_list.js";
 import { mountTrace } from "./run_trace.js";
@@ -31,6 +32,7 @@ function mountPanel(store, opening) {
   const panel = h("section", { class: "runs-panel", id: "runs", "aria-label": "Runs", hidden: true }, h("header", {}, h("h2", { text: "Runs" }), close), body);
   document.querySelector("aside.right").append(panel);
   const list = runList((id) => open(id));
+  const begin = turns();
   let follow = () => {};
 
   function show(content) {
@@ -42,6 +44,7 @@ function mountPanel(store, opening) {
   }
 
   function all() {
+    begin();
     store.set({ run: null });
     openTab("robot");
     show(list.element);
@@ -49,6 +52,7 @@ function mountPanel(store, opening) {
   }
 
   function leave() {
+    begin();
     if (panel.hidden) return false;
     store.set({ run: null });
     panel.hidden = true;
@@ -58,13 +62,17 @@ function mountPanel(store, opening) {
 
   const open = attempt(async (id) => {
     openTab("robot");
+    const isOld = begin();
     const run = await api.keptRun(id);
+    if (isOld()) return;
     if (store.state.selected !== run.gait && store.state.gaits.some((gait) => gait.id === run.gait)) await selectGait(store, run.gait);
     const detail = await runDetail(id, { leave: all, open, standing: (one) => standing(store, one), recorded: (wanted) => store.set({ trialWanted: wanted }) });
+    if (isOld()) return;
     ({ follow } = detail);
     follow();
     show(detail.element);
-    store.set({ run: run.errors ? { ...run, strokes: await api.runStrokes(id) } : null });
+    const shown = run.errors ? { ...run, strokes: await api.runStrokes(id) } : null;
+    if (!isOld()) store.set({ run: shown });
   });
 
   close.addEventListener("click", leave);
@@ -83,13 +91,17 @@ export function mountRuns(store, opening = () => {}) {
   byId("robot").append(h("button", { class: "link runs-way", text: "Runs that were kept", title: more.title, on: { click: panel.all } }));
   byId("jobs-empty").after(h("div", { class: "runs-head" }, h("h2", { text: "Runs" }), more), list, empty);
 
+  const begin = turns();
+
   async function refresh(tries = 0) {
+    const isOld = begin();
     try {
       const { runs } = await api.runs({ most: NEWEST });
+      if (isOld()) return;
       list.replaceChildren(...runs.map((run) => runRow(run, panel.open)));
       setText(empty, runs.length ? "" : "No run yet. What the robot does is kept here.");
       empty.hidden = runs.length > 0;
-      if (runs[0]?.state === "running" && !runIsOn(store.state.robot) && tries < MOST_TRIES) setTimeout(() => refresh(tries + 1), AGAIN_MS);
+      if (runs[0]?.state === "running" && !runIsOn(store.state.robot) && tries < MOST_TRIES) setTimeout(() => { if (!isOld()) refresh(tries + 1); }, AGAIN_MS);
     } catch (error) {
       report(error);
     }

@@ -38,9 +38,9 @@ function wholeOf({ body, heading, duration }) {
 function adder(store, edits) {
   const select = h("select", { "aria-label": "Gait to add", title: "A gait of the list; a sequence adds its parts" });
   const act = attempt(async () => {
-    const source = select.value;
+    const [source, { selected: gait }] = [select.value, store.state];
     const { apply, label } = added(await api.document(source), source);
-    await edits.edit(apply, label);
+    await edits.edit(apply, label, { gait });
   });
   const button = h("button", { text: "Add", title: "Add the chosen gait at the end", on: { click: act } });
   store.watch(({ gaits, selected, view }) => [gaits, selected, isSequence(view?.document)], ({ gaits, selected, view }) => {

@@ -52,7 +52,7 @@ export function followSimulation(store) {
       const simulation = await api.simulation(key);
       if (store.state.view?.simulation?.key === key) store.set({ simulation });
     } catch (error) {
-      report(error);
+      if (store.state.view?.simulation?.key === key) report(error);
     }
   });
   // A simulation of the same again, as with variations, has the same key and another time.

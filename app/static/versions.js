@@ -4,6 +4,7 @@ import { api } from "./api.js";
 import { dialogFrame, openDialog } from "./dialogs.js";
 import { byId, h, onPress, setAllowed, setAttribute } from "./dom.js";
 import { clockTime } from "./format.js";
+import { turns } from "./lane.js";
 import { announce, attempt, toast } from "./toasts.js";
 
 const WORDS = {
@@ -39,13 +40,13 @@ function parts(id) {
 function panel(store, edits, ui) {
   let versions = [];
   let chosen = null;
-  let asked = 0;
+  const [beginDifference, beginRefresh] = [turns(), turns()];
 
   const showDifference = attempt(async () => {
-    const turn = (asked += 1);
+    const isOld = beginDifference();
     const to = ui.against.value ? Number(ui.against.value) : null;
     const { groups } = await api.difference(ui.id, chosen, to);
-    if (turn !== asked) return;
+    if (isOld()) return;
     ui.heading.textContent = to === null ? `Since version ${chosen}` : `From version ${chosen} to version ${to}`;
     ui.difference.replaceChildren(ui.heading, ...sentences(groups));
   });
@@ -61,7 +62,10 @@ function panel(store, edits, ui) {
   }
 
   async function refresh() {
-    ({ versions } = await api.versions(ui.id));
+    const isOld = beginRefresh();
+    const found = await api.versions(ui.id);
+    if (isOld()) return undefined;
+    ({ versions } = found);
     ui.list.replaceChildren(...versions.map((version) => option(version, choose)));
     const kept = ui.against.value;
     ui.against.replaceChildren(h("option", { value: "", text: "the present state" }),

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import json
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
 
 import pytest
-from playwright.sync_api import Browser, Locator, Page, Request, WebSocketRoute, expect
+from playwright.sync_api import Browser, Locator, Page, Request, expect
 
+from tests.page.late_answers import LateList
 from tests.page.opened import leave_scene_out, opened_page
 from tests.page.test_accessibility import serious_findings
 from tests.studio_process import StudioProcess, wait_for
@@ -72,12 +72,12 @@ def status(page: Page) -> Locator:
     return page.get_by_role("status", name="Pattern found")
 
 
-def solved(page: Page, word: str = "Optimal") -> None:
+def solved(page: Page, word: str | re.Pattern[str] = "Optimal") -> None:
     """Waits until the newest question is answered."""
     expect(page.locator(".pattern-grid[data-stale]")).to_have_count(0)
     expect(status(page)).to_contain_text(word)
     wait_for(
-        lambda: rows(page) != [] and (word != "Optimal" or "." not in "".join(rows(page))), "its cells", 60
+        lambda: rows(page) != [] and (word == "Infeasible" or "." not in "".join(rows(page))), "its cells", 60
     )
 
 
@@ -112,22 +112,9 @@ def test_a_transition_follows_its_cursors_and_becomes_a_gait(search: Page, studi
 def test_cursors_stay_while_a_new_gait_is_not_yet_in_the_list(
     browser: Browser, studio: StudioProcess
 ) -> None:
-    late: list[Callable[[], None]] = []
-
-    def hold_the_list_back(socket: WebSocketRoute) -> None:
-        server = socket.connect_to_server()
-
-        def from_the_studio(message: str | bytes) -> None:
-            if json.loads(message)["type"] == "gaits":
-                late.append(partial(socket.send, message))
-            else:
-                socket.send(message)
-
-        server.on_message(from_the_studio)
-
     with opened_page(browser, f"{studio.url}static/icon.svg", 1280, 800) as other:
         leave_scene_out(other)
-        other.route_web_socket("**/api/events*", hold_the_list_back)
+        late = LateList(other)
         other.goto(studio.url)
         choose_gait(other, "Walk 10 mm")
         other.get_by_role("tab", name="Patterns").click()
@@ -139,9 +126,8 @@ def test_cursors_stay_while_a_new_gait_is_not_yet_in_the_list(
         other.get_by_role("button", name="Make gait").click()
         expect(other.get_by_label("Gait name")).to_have_value("Walk 10 mm to Amble 10 mm")
         expect(cursor(other, "A")).to_have_attribute("aria-valuenow", "7")
-        assert late, "the list was held back"
-        for send in late:
-            send()
+        assert late.count > 0, "the list was held back"
+        late.let_go()
         expect(other.get_by_role("list", name="Gaits")).to_contain_text("Walk 10 mm to Amble 10 mm")
         expect(cursor(other, "A")).to_have_attribute("aria-valuenow", "7")
         assert rows(other) == shown
@@ -341,7 +327,8 @@ def test_no_kind_of_pattern_has_a_serious_finding(search: Page, scheme: str) -> 
     search.emulate_media(color_scheme="dark" if scheme == "dark" else "light")
     for kind in ("Transition", "Some limbs", "Complete"):
         search.get_by_role("button", name=kind, exact=True).click()
-        solved(search)
+        # On a busy machine the time limit may come before the proof.
+        solved(search, re.compile("^(Optimal|Feasible)"))
         assert serious_findings(search, SEARCH) == [], f"{kind}, {scheme}"
     search.get_by_role("tab", name="Optimise").click()
     expect(search.get_by_role("grid", name="Footfall timeline")).to_be_visible()

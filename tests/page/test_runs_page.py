@@ -11,9 +11,10 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Locator, Page, expect
 
 from app.store.database import Database
+from tests.page.late_answers import LateAnswers
 from tests.page.opened import opened_page
 from tests.ran_robot import keep_run
-from tests.studio_process import StudioProcess, running_studio
+from tests.studio_process import StudioProcess, running_studio, wait_for
 
 GAIT = "walk-manual-0"
 
@@ -87,6 +88,27 @@ def test_a_run_lies_over_the_plan_with_its_errors_and_its_note(page: Page, studi
     found = Axe().run(page, context={"include": [[".runs-panel"]]}).response["violations"]
     assert [one["id"] for one in found if one["impact"] in ("serious", "critical")] == []
     panel(page).get_by_role("button", name="Close runs").click()
+    expect(page.locator(".measured-key")).to_have_count(0)
+
+
+def test_the_run_that_was_opened_last_stays_and_a_closed_panel_lays_nothing_over_the_plan(page: Page) -> None:
+    rows = newest(page)
+    first = rows.nth(0).locator("button").get_attribute("data-run")
+    late = LateAnswers(page, "GET", f"/api/runs/{first}$")
+    rows.nth(0).get_by_role("button").click()
+    wait_for(lambda: late.count == 1, "the first run is on its way")
+    rows.nth(1).get_by_role("button").click()
+    expect(page.locator(".measured-key")).to_have_count(2)
+    with page.expect_event("requestfinished", lambda request: request.url.endswith(f"/api/runs/{first}")):
+        late.let_go()
+    page.evaluate("() => new Promise(requestAnimationFrame)")
+    expect(panel(page)).to_contain_text("Bob")
+    late = LateAnswers(page, "GET", f"/api/runs/{first}/strokes")
+    rows.nth(0).get_by_role("button").click()
+    wait_for(lambda: late.count == 1, "its strokes are on their way")
+    panel(page).get_by_role("button", name="Close runs").click()
+    late.let_go()
+    page.evaluate("() => new Promise(requestAnimationFrame)")
     expect(page.locator(".measured-key")).to_have_count(0)
 
 

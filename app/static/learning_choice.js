@@ -22,7 +22,7 @@ export function trialChoice(trials, start) {
 
   function refresh() {
     const gaits = new Set(chosen().map(gaitOf)).size;
-    setAllowed(press, gaits < LEAST_GAITS ? `The ticked trials are of ${gaits} gaits; ${LEAST_GAITS} different gaits or steps are needed, so that one can be left out.` : null, "Simulates every gait some fifty times, in the background");
+    setAllowed(press, gaits < LEAST_GAITS ? `The ticked trials are of ${gaits} gaits; ${LEAST_GAITS} different gaits or steps are needed, so that one can be left out.` : null, "Simulates every gait some forty times, in the background");
   }
   refresh();
   onPress(press, () => start({ trials: chosen().map(({ id }) => id) }), (why) => toast(why));

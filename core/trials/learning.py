@@ -19,7 +19,7 @@ from core.trials.ratio import fitted_line, ratio_left_out
 from core.trials.surface import Surfaces, fitted_surfaces
 from core.trials.travel import MeasuredWalk, Travel, pooled_spread
 
-POINTS = 48
+POINTS = 40
 """Sets of parameters at which every gait is simulated; a quadratic surface of seven has 36 coefficients."""
 LEAST_GAITS = 3
 LEAST_POINTS = 8

@@ -85,7 +85,7 @@ class TrialsBeside:
             "gait": record.content["gait"],
             "robot": ROBOT,
             "laps": record.laps,
-            "lap": lap,
+            "playing": _playing(record, lap),
             "turn_deg": math.degrees(record.alignment.turn),
             "gaps_mm": (record.alignment.gaps * 1000.0).tolist(),
             "colours": list(load_robot(ROBOT).colours),
@@ -104,6 +104,18 @@ class TrialsBeside:
             raise InputError(f"Choose 1 to {MOST_TOGETHER} different trials.", "trial")
         records = [self._desk.record(trial) for trial in trials]
         return band_content(records)
+
+
+def _playing(record: TrialRecord, lap: int) -> list[float]:
+    """Shares of the walk at which a lap of the plan begins and ends; outside of 0 to 1 it was not done.
+
+    Plans begin at 0 s; a run from a later pose on begins within the first lap.
+    """
+    if record.planned is None:
+        return [0.0, 1.0]
+    begin, end = float(record.planned.times[0]), float(record.planned.times[-1])
+    first = (lap - 1) * record.lap_seconds
+    return [(time - begin) / (end - begin) for time in (first, first + record.lap_seconds)]
 
 
 def _row(source: str, record: TrialRecord, motion: FootTrack) -> dict[str, Any]:

@@ -174,7 +174,8 @@ class TrialDesk:
 
 def _kept_plan(planned: PlannedFeet) -> dict[str, Any]:
     feet = np.round(planned.feet, 6)
-    return {"times": planned.times.tolist(), "feet": feet.tolist(), "laps": planned.laps}
+    laps = {"laps": planned.laps, "lap_seconds": planned.lap_seconds}
+    return {"times": planned.times.tolist(), "feet": feet.tolist(), **laps}
 
 
 def _plan_arrays(plan: dict[str, Any]) -> tuple[Floats, Floats]:

@@ -27,15 +27,17 @@ class PlannedFeet:
     Args:
         times: (n,) s.
         feet: (n, feet, 2) x, y, m.
-        laps: how often the motion is done in them.
+        laps: how often the motion was to be done.
         sent: the waypoints of one lap with their motion (`app.runs.plan_content.sent_content`); None where
             they are not known.
+        lap_seconds: how long a lap takes, s; None where the times hold exactly the laps.
     """
 
     times: Floats
     feet: Floats
     laps: int = 1
     sent: Mapping[str, Any] | None = None
+    lap_seconds: float | None = None
 
 
 def planned_of_run(record: RunRecord) -> PlannedFeet:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -13,13 +14,16 @@ from app.store.trial_log import TrialRow
 from app.trials.planned import PlannedFeet
 from core.errors import InputError
 from core.robot import load_robot
-from core.trials.alignment import Alignment, align, placed_motion
+from core.trials.alignment import Alignment, align, align_feet, placed_motion
 from core.trials.iterations import find_iterations
 from core.trials.track import FootTrack
 from core.trials.track_csv import parse_track_csv
 
 ROBOT = "deltawalker"
 """The one robot that stands on a platform (its cable's robot)."""
+
+SAME_LAP = 1e-6
+"""A part of a lap that is none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,9 +61,20 @@ class TrialRecord:
         return align(self.track, load_robot(ROBOT).module_centres_robot[:, :2])
 
     @property
+    def lap_seconds(self) -> float:
+        """How long the plan takes once, s; 0 where nothing was planned."""
+        if self.planned is None:
+            return 0.0
+        whole = float(self.planned.times[-1] - self.planned.times[0])
+        return self.planned.lap_seconds or whole / self.planned.laps
+
+    @property
     def laps(self) -> int:
-        """How often the plan is walked."""
-        return 1 if self.planned is None else self.planned.laps
+        """In how many laps the plan is there; a run that was ended early has fewer than it was to do."""
+        if self.planned is None:
+            return 1
+        whole = float(self.planned.times[-1] - self.planned.times[0])
+        return max(1, math.ceil(whole / self.lap_seconds - SAME_LAP))
 
     def alignment_of_lap(self, lap: int) -> Alignment:
         """How the plan's frame lies in the track's where a lap begins, where the lap before was to end.
@@ -71,12 +86,14 @@ class TrialRecord:
             InputError: there is no such lap.
         """
         if not 1 <= lap <= self.laps:
-            raise InputError(f"The plan was walked {self.laps} times; choose a lap from 1 on.", "lap")
+            raise InputError(f"The walk has {self.laps} laps of its plan; choose one of them.", "lap")
         plan = self.placed_plan
         if lap == 1 or plan is None or self.planned is None:
             return self.alignment
-        begin = (lap - 1) * (plan.times.size - 1) // self.laps
-        return align(plan.between(begin, plan.times.size - 1), self.planned.feet[0])
+        later = plan.times[0] + (lap - 1) * self.lap_seconds
+        columns = plan.feet.reshape(plan.times.size, -1).T
+        place = np.array([np.interp(later, plan.times, column) for column in columns])
+        return align_feet(place.reshape(-1, 2), self.planned.feet[0])
 
     @property
     def placed_plan(self) -> FootTrack | None:
@@ -110,5 +127,6 @@ def trial_record(row: TrialRow) -> TrialRecord:
     plan = content["plan"]
     planned = None
     if plan is not None:
-        planned = PlannedFeet(np.array(plan["times"]), np.array(plan["feet"]), plan.get("laps", 1))
+        times, feet = np.array(plan["times"]), np.array(plan["feet"])
+        planned = PlannedFeet(times, feet, plan.get("laps", 1), lap_seconds=plan.get("lap_seconds"))
     return TrialRecord(content, track, planned)

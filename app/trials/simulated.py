@@ -29,7 +29,9 @@ from core.trials.alignment import repeated_motion
 
 _log = logging.getLogger(__name__)
 
-NOT_KNOWN = "What the robot was sent is not known of this trial, so there is nothing to simulate."
+NOT_KNOWN = (
+    "No simulated feet: what the robot was sent is not known of this trial, or the run did not do all of it."
+)
 DECIMALS = 6
 """Of positions in m that are kept."""
 

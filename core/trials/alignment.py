@@ -57,9 +57,22 @@ def align(track: FootTrack, motion_feet: Floats) -> Alignment:
     Raises:
         InputError: the two have not the same number of feet, or the feet lie in one point.
     """
-    feet = frozen_floats(motion_feet, (track.foot_count, 2), "feet")
-    turn, shift = _rigid_move(feet, track.feet[0])
-    gaps = np.hypot(*(feet @ _turning(turn).T + shift - track.feet[0]).T)
+    return align_feet(track.feet[0], motion_feet)
+
+
+def align_feet(places: Floats, motion_feet: Floats) -> Alignment:
+    """The same for feet at places (see `align`).
+
+    Args:
+        places: (feet, 2) where they are, m.
+        motion_feet: (feet, 2) where the motion has them, m.
+
+    Raises:
+        InputError: the two have not the same number of feet, or the feet lie in one point.
+    """
+    feet = frozen_floats(motion_feet, (len(places), 2), "feet")
+    turn, shift = _rigid_move(feet, places)
+    gaps = np.hypot(*(feet @ _turning(turn).T + shift - places).T)
     return Alignment(turn, shift, gaps)
 
 

@@ -64,7 +64,7 @@ def test_physics_stands_beside_plan_and_track_once_it_is_there(
         assert "Tracked solid, simulated dashed, planned dotted." in Path(download.value.path()).read_text()
         panel.get_by_role("button", name="All trials").click()
         panel.get_by_role("button", name=re.compile("^without plan")).click()
-        expect(panel.get_by_role("status", name="Physics")).to_contain_text("is not known")
+        expect(panel.get_by_role("status", name="Physics")).to_contain_text("is not known of this trial")
         expect(table.get_by_role("row")).to_contain_text(["cm", "tracked"])
 
 

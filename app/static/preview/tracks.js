@@ -103,7 +103,7 @@ export class Tracks {
 
   #markMessages(share, height) {
     this.#feet.forEach(({ track, places, filled }, index) => {
-      const [at, part] = placeIn(track.shares, (track.lap - 1 + share) / track.laps);
+      const [at, part] = placeIn(track.shares, track.playing[0] + share * (track.playing[1] - track.playing[0]));
       const next = Math.min(at + 1, places.length - 1);
       const place = [0, 1].map((axis) => places[at][axis] * (1 - part) + places[next][axis] * part);
       ringInto(this.#points, index * RING_PIECES * 6, place, height, filled[part < 0.5 ? at : next]);

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pytest
@@ -175,15 +175,35 @@ def test_a_track_comes_into_the_scene_as_the_plan_lies(desk: TrialDesk, beside: 
 def test_a_later_lap_lies_over_the_plan_as_the_first_one_does(desk: TrialDesk, beside: TrialsBeside) -> None:
     trial = desk.add(walked(2), TrialWords("laps", "Ada", 2.0, 2), walk_planned(2))["id"]
     first, second = beside.scene(trial), beside.scene(trial, 2)
-    assert (first["laps"], first["lap"], second["lap"]) == (2, 1, 2)
+    assert first["laps"] == 2
+    assert (first["playing"], second["playing"]) == ([0.0, 0.5], [0.5, 1.0])
     shares, feet = np.array(first["shares"]), np.array(first["feet"])
     begin, end = feet[:, 0], feet[:, -1]
     middle = int(np.argmin(np.abs(shares - 0.5)))
     np.testing.assert_allclose(np.array(second["feet"])[:, middle], begin, atol=1e-3)
     np.testing.assert_allclose(np.array(second["feet"])[:, -1], feet[:, middle], atol=1e-3)
     assert np.linalg.norm(end - begin, axis=-1) == pytest.approx([0.02] * 4, abs=1e-3)
-    with pytest.raises(InputError, match="walked 2 times"):
+    with pytest.raises(InputError, match="The walk has 2 laps"):
         beside.scene(trial, 3)
+
+
+def test_a_run_that_ended_early_plays_over_as_much_of_the_plan_as_was_done(
+    desk: TrialDesk, beside: TrialsBeside
+) -> None:
+    whole = walk_planned(2)
+    lap = float(whole.times[-1]) / 2
+    done = whole.times <= 1.5 * lap
+    planned = replace(whole, times=whole.times[done], feet=whole.feet[done], sent=None, lap_seconds=lap)
+    track = walked(2)
+    frames = int((track.times <= planned.times[-1]).sum())
+    words = TrialWords("early", "Ada", 1.5, 1)
+    trial = desk.add(track.between(0, frames - 1), words, planned)["id"]
+    first, second = beside.scene(trial), beside.scene(trial, 2)
+    assert first["laps"] == 2
+    assert first["playing"] == pytest.approx([0.0, 2 / 3], abs=0.02)
+    assert second["playing"] == pytest.approx([2 / 3, 4 / 3], abs=0.03)
+    at = int(np.argmin(np.abs(np.array(second["shares"]) - second["playing"][0])))
+    np.testing.assert_allclose(np.array(second["feet"])[:, at], np.array(first["feet"])[:, 0], atol=1e-3)
 
 
 def test_a_trial_without_a_plan_stands_as_the_robot_does(desk: TrialDesk, beside: TrialsBeside) -> None:

@@ -58,9 +58,15 @@ def simulating(walks: Sequence[MadeWalk], counted: list[Task] | None = None) -> 
 
 
 @pytest.fixture(scope="module")
-def learned() -> Learned:
+def counted() -> list[Task]:
+    """What `learned` asks to be simulated."""
+    return []
+
+
+@pytest.fixture(scope="module")
+def learned(counted: list[Task]) -> Learned:
     walks = made_walks()
-    return learn(walks, DEFAULT, simulating(walks), POINTS)
+    return learn(walks, DEFAULT, simulating(walks, counted), POINTS)
 
 
 def test_known_parameters_come_back_within_their_stated_spread(learned: Learned) -> None:
@@ -101,20 +107,16 @@ def test_a_line_helps_where_the_real_robot_goes_farther_than_any_parameter_lets_
     assert errors["left out, line"] < 0.25 * errors["left out"]
 
 
-def test_a_gait_that_is_left_out_says_nothing_about_itself() -> None:
-    honest, lying = made_walks(), made_walks()
-    wrong = replace(lying[2].measured, travel=Travel(0.02, 0.5))
-    lying[2] = MadeWalk(wrong)
-    first = learn(honest, DEFAULT, simulating(honest), POINTS)
-    second = learn(lying, DEFAULT, simulating(lying), POINTS)
-    of = [next(way for way in one.foretold if way.name == "left out") for one in (first, second)]
+def test_a_gait_that_is_left_out_says_nothing_about_itself(learned: Learned) -> None:
+    lying = made_walks()
+    lying[2] = MadeWalk(replace(lying[2].measured, travel=Travel(0.02, 0.5)))
+    other = learn(lying, DEFAULT, simulating(lying), POINTS)
+    of = [next(way for way in one.foretold if way.name == "left out") for one in (learned, other)]
     assert of[0].travels[2].distance == pytest.approx(of[1].travels[2].distance, abs=1e-3)
 
 
-def test_as_many_simulations_run_as_were_announced() -> None:
-    walks, counted = made_walks(), list[Task]()
-    result = learn(walks, DEFAULT, simulating(walks, counted), 40)
-    assert result.simulations == len(counted) == simulation_count(12, 3, 40)
+def test_as_many_simulations_run_as_were_announced(learned: Learned, counted: list[Task]) -> None:
+    assert learned.simulations == len(counted) == simulation_count(12, 3, POINTS)
 
 
 def test_trials_that_agree_with_the_defaults_change_nothing_much() -> None:

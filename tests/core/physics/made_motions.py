@@ -100,3 +100,8 @@ def sliding(motion: SimulatedMotion, foot: int, first: int, last: int, way: floa
     share = np.clip((np.arange(len(feet)) - first) / (last - first), 0.0, 1.0)
     feet[:, foot, 1] += way * share
     return replace(motion, feet_world=feet)
+
+
+PROBLEM = problem_of(walking_plan())
+PLANNED = as_planned(PROBLEM)
+"""A run of it that goes as it was planned."""

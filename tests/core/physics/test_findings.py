@@ -12,20 +12,8 @@ from core.physics.findings import SLIP_LIMIT, TILT_LIMIT, physics_outcomes
 from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
 from core.physics.reporting import report
-from tests.core.physics.made_motions import (
-    EACH,
-    KNOTS,
-    as_planned,
-    leaning,
-    problem_of,
-    sliding,
-    swinging,
-    turned,
-    walking_plan,
-)
-
-PROBLEM = problem_of(walking_plan())
-PLANNED = as_planned(PROBLEM)
+from tests.core.physics import made_motions as made
+from tests.core.physics.made_motions import PLANNED, PROBLEM
 
 
 def findings(motion: SimulatedMotion, problem: SimulationProblem = PROBLEM) -> list[Finding]:
@@ -49,7 +37,7 @@ def test_a_run_as_planned_breaks_no_rule_and_tells_its_margins() -> None:
 
 def test_a_fall_is_an_error_with_its_time_and_knot() -> None:
     angle = np.where(PLANNED.times > 1.22, 1.0, 0.0)
-    finding = only(leaning(PLANNED, angle))
+    finding = only(made.leaning(PLANNED, angle))
     assert (finding.rule, finding.severity) == ("simulated_fall", Severity.ERROR)
     assert finding.time == pytest.approx(1.25)
     assert finding.sample == 3
@@ -60,41 +48,41 @@ def test_a_fall_is_an_error_with_its_time_and_knot() -> None:
 def test_leaning_beyond_the_limit_is_an_error_and_within_it_none() -> None:
     angle = np.zeros(len(PLANNED.times))
     angle[20] = 1.01 * TILT_LIMIT
-    finding = only(leaning(PLANNED, angle))
+    finding = only(made.leaning(PLANNED, angle))
     assert (finding.rule, finding.severity, finding.sample) == ("simulated_tilt", Severity.ERROR, 2)
     assert "leans by 2.0° at 1.0 s" in finding.sentence
     angle[20] = 0.99 * TILT_LIMIT
-    assert findings(leaning(PLANNED, angle)) == []
+    assert findings(made.leaning(PLANNED, angle)) == []
 
 
 def test_load_on_a_foot_that_should_swing_is_an_error_also_where_the_body_hardly_leans() -> None:
-    lifted = swinging(PROBLEM, 2, 1, 2)
+    lifted = made.swinging(PROBLEM, 2, 1, 2)
     finding = only(PLANNED, lifted)
     assert (finding.rule, finding.severity) == ("simulated_swing", Severity.ERROR)
     assert (finding.foot, finding.sample) == (2, 2)
     assert finding.time == pytest.approx(0.75)
     assert "foot 3 carries load for 100 % of its swing about 0.8 s" in finding.sentence
-    assert only(leaning(PLANNED, np.full(len(PLANNED.times), 0.05)), lifted).rule == "simulated_tilt"
+    assert only(made.leaning(PLANNED, np.full(len(PLANNED.times), 0.05)), lifted).rule == "simulated_tilt"
     forces = PLANNED.ground_forces.copy()
-    forces[: 2 * EACH + 5, 2, 2] = 0.0
+    forces[: 2 * made.EACH + 5, 2, 2] = 0.0
     assert findings(replace(PLANNED, ground_forces=forces), lifted) == []
 
 
 def test_a_run_that_broke_off_is_an_error() -> None:
     finding = only(replace(PLANNED, arrivals=PLANNED.arrivals[:3], ended_early="The solver lost its way"))
     assert (finding.rule, finding.severity) == ("simulated_end", Severity.ERROR)
-    assert f"2 of {KNOTS} waypoints early: The solver lost its way." in finding.sentence
+    assert f"2 of {made.KNOTS} waypoints early: The solver lost its way." in finding.sentence
 
 
 def test_slides_add_up_over_one_stance() -> None:
-    slid = sliding(PLANNED, 1, EACH - 5, 2 * EACH + 5, 0.0015)
+    slid = made.sliding(PLANNED, 1, made.EACH - 5, 2 * made.EACH + 5, 0.0015)
     finding = only(slid)
     assert (finding.rule, finding.severity, finding.foot) == ("simulated_slip", Severity.WARNING, 1)
     assert finding.value == pytest.approx(0.0015)
     assert "foot 2 slides 1.5 mm during one stance, most about 1.0 s" in finding.sentence
     lifted = np.array(PROBLEM.standing)
     lifted[2, 1] = False
-    assert findings(slid, problem_of(walking_plan(), lifted)) == []
+    assert findings(slid, made.problem_of(made.walking_plan(), lifted)) == []
 
 
 def test_a_centre_of_mass_beyond_the_carrying_feet_is_a_warning() -> None:
@@ -118,7 +106,7 @@ def test_a_body_that_stays_behind_is_a_warning_also_to_the_side() -> None:
 
 
 def test_a_body_that_turns_unasked_is_a_warning() -> None:
-    finding = only(turned(PLANNED, np.linspace(0.0, -0.06, len(PLANNED.times))))
+    finding = only(made.turned(PLANNED, np.linspace(0.0, -0.06, len(PLANNED.times))))
     assert (finding.rule, finding.severity) == ("simulated_heading", Severity.WARNING)
     assert "turns by -3.4°; the plan says 0.0°" in finding.sentence
 

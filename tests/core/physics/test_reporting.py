@@ -12,21 +12,8 @@ from hypothesis import strategies as st
 
 from core.physics.problem import Rig
 from core.physics.reporting import FALL_TILT, LOAD, report, rotations, tilts
-from tests.core.physics.made_motions import (
-    EACH,
-    KNOTS,
-    MODEL,
-    as_planned,
-    leaning,
-    problem_of,
-    sliding,
-    swinging,
-    turned,
-    walking_plan,
-)
-
-PROBLEM = problem_of(walking_plan())
-PLANNED = as_planned(PROBLEM)
+from tests.core.physics import made_motions as made
+from tests.core.physics.made_motions import PLANNED, PROBLEM
 
 
 def test_a_run_as_planned_has_no_error() -> None:
@@ -55,18 +42,20 @@ def test_a_shift_of_all_is_the_error_of_all_and_no_slip() -> None:
 
 def test_errors_count_at_arrivals_only_and_each_foot_by_itself() -> None:
     feet = PLANNED.feet_world.copy()
-    feet[EACH // 2, 0] += 0.05
+    feet[made.EACH // 2, 0] += 0.05
     feet[PLANNED.arrivals[2], 1, 2] += 0.010
     figures = report(PROBLEM, replace(PLANNED, feet_world=feet))
-    assert figures.feet_error == pytest.approx([0.0, 0.010 / KNOTS, 0.0, 0.0], abs=1e-15)
-    assert figures.feet_mean_error == pytest.approx(0.010 / KNOTS / 4)
+    assert figures.feet_error == pytest.approx([0.0, 0.010 / made.KNOTS, 0.0, 0.0], abs=1e-15)
+    assert figures.feet_mean_error == pytest.approx(0.010 / made.KNOTS / 4)
 
 
 def test_the_mean_is_of_distances_and_not_of_squares() -> None:
     feet = PLANNED.feet_world.copy()
     feet[PLANNED.arrivals[1], 0, 2] += 0.001
     feet[PLANNED.arrivals[2], 0, 2] += 0.003
-    assert report(PROBLEM, replace(PLANNED, feet_world=feet)).feet_error[0] == pytest.approx(0.004 / KNOTS)
+    assert report(PROBLEM, replace(PLANNED, feet_world=feet)).feet_error[0] == pytest.approx(
+        0.004 / made.KNOTS
+    )
 
 
 @given(st.floats(0.0, 1.5), st.floats(-3.0, 3.0))
@@ -83,7 +72,7 @@ def test_tilt_is_the_lean_whatever_the_heading(lean: float, heading: float) -> N
 def test_a_lean_has_its_size_and_time_and_slides_no_sole() -> None:
     angle = np.zeros(len(PLANNED.times))
     angle[17] = np.radians(4.0)
-    figures = report(PROBLEM, leaning(PLANNED, angle))
+    figures = report(PROBLEM, made.leaning(PLANNED, angle))
     assert figures.max_tilt == pytest.approx(np.radians(4.0))
     assert figures.max_tilt_time == pytest.approx(0.85)
     assert not figures.fell
@@ -92,57 +81,57 @@ def test_a_lean_has_its_size_and_time_and_slides_no_sole() -> None:
 
 def test_a_robot_that_tips_over_has_fallen_from_then_on() -> None:
     angle = np.linspace(0.0, 2 * FALL_TILT, len(PLANNED.times))
-    figures = report(PROBLEM, leaning(PLANNED, angle))
+    figures = report(PROBLEM, made.leaning(PLANNED, angle))
     assert figures.fell
     assert figures.fell_time == pytest.approx(1.0, abs=0.06)
 
 
 def test_a_body_on_the_floor_has_fallen_though_it_lies_level() -> None:
     body = PLANNED.body_world.copy()
-    body[20:, 2] = MODEL.com_height + 0.020
+    body[20:, 2] = made.MODEL.com_height + 0.020
     figures = report(PROBLEM, replace(PLANNED, body_world=body))
     assert figures.fell
     assert figures.fell_time == pytest.approx(1.0)
 
 
 def test_a_floating_robot_does_not_fall() -> None:
-    problem = problem_of(walking_plan(), rig=Rig.FLOATING)
-    assert not report(problem, leaning(PLANNED, np.full(len(PLANNED.times), 2 * FALL_TILT))).fell
+    problem = made.problem_of(made.walking_plan(), rig=Rig.FLOATING)
+    assert not report(problem, made.leaning(PLANNED, np.full(len(PLANNED.times), 2 * FALL_TILT))).fell
 
 
 def test_a_clamped_robots_feet_are_compared_in_the_bodys_frame() -> None:
     still = np.tile(PLANNED.body_world[0], (len(PLANNED.times), 1))
     feet = PLANNED.feet_world - (PLANNED.body_world - still)[:, None]
     clamped = replace(PLANNED, body_world=still, feet_world=feet)
-    assert report(problem_of(walking_plan(), rig=Rig.CLAMPED), clamped).feet_error == pytest.approx(
+    assert report(made.problem_of(made.walking_plan(), rig=Rig.CLAMPED), clamped).feet_error == pytest.approx(
         np.zeros(4), abs=1e-12
     )
     assert report(PROBLEM, clamped).feet_error.min() > 0.001
 
 
 def test_heading_is_the_turn_from_the_first_to_the_last_arrival_beyond_half_a_turn() -> None:
-    figures = report(PROBLEM, turned(PLANNED, np.linspace(0.1, 3.6, len(PLANNED.times))))
+    figures = report(PROBLEM, made.turned(PLANNED, np.linspace(0.1, 3.6, len(PLANNED.times))))
     assert figures.heading == pytest.approx(3.5)
     assert figures.planned_heading == 0.0
 
 
 def test_a_known_slip_is_in_its_move_and_its_foot() -> None:
-    slid = report(PROBLEM, sliding(PLANNED, 2, EACH + 2, EACH + 8, 0.0015))
+    slid = report(PROBLEM, made.sliding(PLANNED, 2, made.EACH + 2, made.EACH + 8, 0.0015))
     assert slid.slip == pytest.approx([0.0, 0.0, 0.0015, 0.0], abs=1e-12)
     assert slid.slip_samples[2, 2] == pytest.approx(0.0015)
 
 
 def test_to_and_fro_is_a_way_of_both() -> None:
-    there = sliding(PLANNED, 0, 3, 6, 0.001)
-    back = sliding(there, 0, 15, 18, -0.001)
+    there = made.sliding(PLANNED, 0, 3, 6, 0.001)
+    back = made.sliding(there, 0, 15, 18, -0.001)
     assert report(PROBLEM, back).slip[0] == pytest.approx(0.002)
 
 
 def test_a_foot_in_swing_or_without_load_does_not_slip() -> None:
-    slid = sliding(PLANNED, 1, 2, 8, 0.004)
-    swinging = np.array(PROBLEM.standing)
-    swinging[1, 1] = False
-    assert report(problem_of(walking_plan(), swinging), slid).slip[1] == 0.0
+    slid = made.sliding(PLANNED, 1, 2, 8, 0.004)
+    standing = np.array(PROBLEM.standing)
+    standing[1, 1] = False
+    assert report(made.problem_of(made.walking_plan(), standing), slid).slip[1] == 0.0
     forces = PLANNED.ground_forces.copy()
     forces[:, 1, 2] = LOAD / 2
     assert report(PROBLEM, replace(slid, ground_forces=forces)).slip[1] == 0.0
@@ -150,9 +139,9 @@ def test_a_foot_in_swing_or_without_load_does_not_slip() -> None:
 
 @pytest.mark.parametrize(("first", "last"), [(1, 3), (2, 2)])
 def test_a_foot_s_load_in_its_swing_is_a_share_of_that_swing(first: int, last: int) -> None:
-    lifted = swinging(PROBLEM, 1, first, last)
+    lifted = made.swinging(PROBLEM, 1, first, last)
     assert report(lifted, PLANNED).swing_load.tolist() == [0.0, 1.0, 0.0, 0.0]
-    middle = (first + last) * EACH // 2
+    middle = (first + last) * made.EACH // 2
     forces = PLANNED.ground_forces.copy()
     forces[:middle, 1, 2] = LOAD / 2
     loads = report(lifted, replace(PLANNED, ground_forces=forces))
@@ -164,7 +153,7 @@ def test_a_foot_s_load_in_its_swing_is_a_share_of_that_swing(first: int, last: i
 
 def test_a_swing_that_was_not_reached_carries_nothing() -> None:
     short = replace(PLANNED, arrivals=PLANNED.arrivals[:2], ended_early="it fell")
-    assert report(swinging(PROBLEM, 1, 2, 3), short).swing_load[1] == 0.0
+    assert report(made.swinging(PROBLEM, 1, 2, 3), short).swing_load[1] == 0.0
 
 
 def test_the_margin_is_to_the_edge_of_the_feet_that_carry_load() -> None:
@@ -232,5 +221,5 @@ def test_a_run_that_ended_early_is_judged_by_what_was_reached() -> None:
     figures = report(PROBLEM, short)
     assert figures.distance == pytest.approx(0.002)
     assert figures.planned_distance == pytest.approx(0.002)
-    assert figures.slip_samples.shape == (KNOTS, 4)
+    assert figures.slip_samples.shape == (made.KNOTS, 4)
     assert figures.ended_early == "it fell"

@@ -143,9 +143,9 @@ class Studio:
             solver.close()
         self._simulator.close()
         self._simulating.close()
+        self.learning.close()
         for traveller in self._travellers:
             traveller.close()
-        self.learning.close()
         self.seeing.close()
         self._trial_simulations.close()
         self._plans.close()

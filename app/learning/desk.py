@@ -24,6 +24,7 @@ _log = logging.getLogger(__name__)
 
 Content = dict[str, Any]
 
+INTERRUPTED = {"state": "interrupted", "sentence": "The studio ended while this was on. Learn again."}
 MOST_SHOWN = 20
 """Courses in the page's list."""
 MOST_SET_NAME = 80
@@ -63,14 +64,7 @@ class LearningDesk:
         self._thread: threading.Thread | None = None
         for content in self._log.found(MOST_SHOWN):
             if content["state"] == "running":
-                self._log.put(
-                    content
-                    | {
-                        "state": "interrupted",
-                        "ended": time.time(),
-                        "sentence": "The studio ended while this was on. Learn again.",
-                    }
-                )
+                self._log.put({**content, **INTERRUPTED, "ended": time.time()})
 
     def start(self, walks: Sequence[Walk], physics: PhysicsSet, by: str, source: str) -> Content:
         """Begins a course.
@@ -113,10 +107,12 @@ class LearningDesk:
         return dict(content)
 
     def close(self) -> None:
-        """Ends what is on; the tiers are closed before, so that it has its answers."""
-        work, thread = self._on, self._thread
-        if work is not None:
-            work.runner.cancel()
+        """Ends what is on; the tiers are closed after."""
+        with self._lock:
+            work, thread = self._on, self._thread
+            if work is not None:
+                work.content.update(INTERRUPTED)
+                work.runner.cancel()
         if thread is not None:
             thread.join()
 
@@ -186,8 +182,11 @@ class LearningDesk:
             _log.exception("Learning broke off")
             end = {"state": "failed", "sentence": f"Learning broke off ({error!r}); this is a bug."}
         with self._lock:
-            if work.content["state"] == "cancelling" and end["state"] != "done":
-                end = {"state": "cancelled", "sentence": "Cancelled."}
+            was = work.content["state"]
+            if was != "running" and end["state"] != "done":
+                end = (
+                    INTERRUPTED if was == "interrupted" else {"state": "cancelled", "sentence": "Cancelled."}
+                )
             work.content.update(end, ended=time.time())
             self._log.put(work.content)
             self._on = None

@@ -132,6 +132,12 @@ def test_a_course_that_was_on_when_the_studio_ended_is_said_to_be_interrupted(
     assert "Learn again" in again.content(learned)["sentence"]
 
 
+def test_a_course_that_is_on_while_the_studio_closes_is_interrupted_too(desk: LearningDesk) -> None:
+    learning = begun(desk)
+    desk.close()
+    assert desk.content(learning)["state"] == "interrupted"
+
+
 def test_too_few_gaits_and_unknown_things_are_refused(desk: LearningDesk, learned: str) -> None:
     with pytest.raises(InputError, match="these are of 2"):
         desk.start(made_walks(2), USUAL, "Ada", "made")

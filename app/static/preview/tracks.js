@@ -13,19 +13,27 @@ const GREY = "#7c8698";
 const LIFT = 0.0026;
 const RING_RADIUS = 0.0145;
 const RING_PIECES = 20;
+const LEAST_PIECE = 0.0004;
 
 /** "#2e9e5b" as red, green, blue; the client takes colours of single points as linear light. */
 const rgb = (colour) => [1, 3, 5].map((at) => 255 * (Number.parseInt(colour.slice(at, at + 2), 16) / 255) ** 2.2);
 const UNSEEN = rgb(GREY);
 
-/** The line pieces of a foot's way: [points, colours], a grey piece of two where it was not seen. */
+/** The line pieces of a foot's way: [points, colours]; where it was not seen they are grey, and every second one is missing. */
 function wayOf(places, filled, colour, height) {
   const [points, colours] = [[], []];
-  for (let at = 0; at + 1 < places.length; at += 1) {
-    const isGap = filled[at] || filled[at + 1];
-    if (isGap && at % 2) continue;
-    points.push(...places[at], height, ...places[at + 1], height);
-    colours.push(...(isGap ? UNSEEN : colour), ...(isGap ? UNSEEN : colour));
+  let [from, gaps] = [0, 0];
+  for (let at = 1; at < places.length; at += 1) {
+    const isGap = filled[at - 1] || filled[at];
+    const turns = at + 1 < places.length && isGap !== (filled[at] || filled[at + 1]);
+    // Feet mostly stand: what is nearer than one sees makes no piece of its own.
+    if (!turns && at + 1 < places.length && Math.hypot(places[at][0] - places[from][0], places[at][1] - places[from][1]) < LEAST_PIECE) continue;
+    gaps += isGap ? 1 : 0;
+    if (!isGap || gaps % 2) {
+      points.push(...places[from], height, ...places[at], height);
+      colours.push(...(isGap ? UNSEEN : colour), ...(isGap ? UNSEEN : colour));
+    }
+    from = at;
   }
   return [points, colours];
 }

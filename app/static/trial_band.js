@@ -7,6 +7,8 @@ import { besideApi } from "./trial_beside.js";
 import { ground, legend, points } from "./trial_plot.js";
 import { wayFrame } from "./trial_way.js";
 
+/** The studio lays so many over each other; of more, the newest are chosen. */
+const MOST_TOGETHER = 20;
 const WORDS = { mean: "mean", trial: "each trial", plan: "planned" };
 
 const kindsOf = ({ has_plan: hasPlan }) => ["mean", "trial", ...(hasPlan ? ["plan"] : [])];
@@ -62,10 +64,10 @@ function spreadTable({ feet }) {
 }
 
 /** A box a trial, which says whether it counts, with a way to the trial itself. */
-function choice({ trials }, open, changed) {
-  const boxes = trials.map(({ id, name }) => {
+function choice(trials, open, changed) {
+  const boxes = trials.map(({ id, name }, index) => {
     const box = h("input", { type: "checkbox", "aria-label": name, value: id, on: { change: changed } });
-    box.checked = true;
+    box.checked = index < MOST_TOGETHER;
     return { box, row: h("li", {}, h("label", {}, box), h("button", { class: "link", text: name, title: "Show this trial beside its plan", on: { click: () => open(id) } })) };
   });
   const element = h("ul", { class: "band-trials", role: "list", "aria-label": "Trials of the band" }, ...boxes.map(({ row }) => row));
@@ -74,7 +76,7 @@ function choice({ trials }, open, changed) {
 
 /**
  * Builds the band's page in the panel.
- * @param {object} group a row of the gaits compared
+ * @param {object} group a row of the gaits compared, with its trials' `lines`, the newest first
  * @param {{all: () => void, open: (id: string) => void, tracks: Function}} acts
  * @returns {Promise<{element: HTMLElement, leave: () => void}>}
  */
@@ -94,7 +96,7 @@ export async function trialBand(group, { all, open, tracks }) {
     await part?.refresh();
   });
 
-  const { element: list, chosen } = choice(await besideApi.band(group.trials), open, draw);
+  const { element: list, chosen } = choice(group.lines, open, draw);
   const element = h("div", { class: "run-detail" },
     h("button", { class: "link", text: "All trials", on: { click: all } }),
     h("div", { class: "run-line run-title" }, h("b", { text: `${group.gait_name}, ${fixed(group.step_cm, 1)} cm` })), list, scene, plots);

@@ -197,4 +197,4 @@ def test_the_emulator_prints_its_line_and_ends_by_a_signal(number: signal.Signal
         device = json.loads(process.stdout.readline())["device"]
         assert Path(device).exists()
         process.send_signal(number)
-        assert process.wait(10) == 0
+        assert process.wait(60) == 0

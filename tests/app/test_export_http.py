@@ -42,7 +42,7 @@ def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess]:
 
 def download(studio: StudioProcess, path: str) -> tuple[int, Message, bytes]:
     try:
-        with urllib.request.urlopen(studio.url + path, timeout=20) as answer:
+        with urllib.request.urlopen(studio.url + path, timeout=60) as answer:
             return answer.status, answer.headers, answer.read()
     except urllib.error.HTTPError as error:
         with error:

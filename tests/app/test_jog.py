@@ -70,7 +70,7 @@ def poses(studio: StudioProcess, target: dict[str, Any]) -> tuple[dict[str, Any]
         json.dumps(target).encode(),
         {"content-type": "application/json"},
     )
-    with urllib.request.urlopen(request, timeout=20) as answer:
+    with urllib.request.urlopen(request, timeout=60) as answer:
         blob: bytes = answer.read()
     size = int.from_bytes(blob[:4], "little")
     header: dict[str, Any] = json.loads(blob[4 : 4 + size])

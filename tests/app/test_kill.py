@@ -195,12 +195,12 @@ def test_what_a_killed_server_acknowledged_is_there(tmp_path: Path) -> None:
             editor = Editor(studio, "walk", number)
             editor.start()
             for _ in range(dice.randrange(1, 8)):
-                assert editor.moved.wait(20)
+                assert editor.moved.wait(60)
                 editor.moved.clear()
             wait_about(dice.uniform(0, 2 * LONGEST_WAIT))
         finally:
             kill(studio)
-        editor.join(20)
+        editor.join(60)
         assert not editor.is_alive()
         acknowledged, sent, saved = editor.acknowledged, editor.sent, max(saved, editor.saved)
         file = tmp_path / "gaits" / "walk.json"

@@ -53,7 +53,7 @@ class Handle:
         self.answer: PatternResult | Exception = found(problem)
 
     def result(self) -> PatternResult:
-        assert self.ended.wait(10)
+        assert self.ended.wait(60)
         if isinstance(self.answer, Exception):
             raise self.answer
         return self.answer
@@ -216,12 +216,12 @@ def test_a_search_that_is_cancelled_before_it_reaches_a_process_ends(
     class SlowTier(Tier):
         def submit(self, problem: PatternProblem, **words: Any) -> Handle:
             reached.set()
-            assert goes_on.wait(10)
+            assert goes_on.wait(60)
             return super().submit(problem, **words)
 
     desk = desk_of(told, SlowTier())
     search = desk.ask("page", question())
-    assert reached.wait(10)
+    assert reached.wait(60)
     desk.cancel(search.id)
     goes_on.set()
     assert search.future.result(5)["result"]["status"] == "cancelled"

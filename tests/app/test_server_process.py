@@ -135,7 +135,7 @@ def test_stop_needs_no_body_latches_and_clears(studio: StudioProcess, robot: Emu
 
 def test_stop_waits_for_no_body(studio: StudioProcess) -> None:
     host, port = studio.url.removeprefix("http://").rstrip("/").split(":")
-    with socket.create_connection((host, int(port)), timeout=5) as line:
+    with socket.create_connection((host, int(port)), timeout=60) as line:
         head = f"POST /api/robot/stop HTTP/1.1\r\nHost: {host}:{port}\r\nContent-Length: 10\r\n\r\n{{"
         line.sendall(head.encode())
         assert line.recv(64).startswith(b"HTTP/1.1 200")

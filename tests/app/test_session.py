@@ -26,7 +26,7 @@ def test_a_command_that_fails_says_so_to_whoever_waits_and_the_next_is_done(sess
 
 def test_a_command_that_nobody_waits_for_any_more_is_left_out_and_the_next_is_done(session: Session) -> None:
     free, done = threading.Event(), []
-    session.submit(lambda: free.wait(10))
+    session.submit(lambda: free.wait(60))
     dropped = session.submit(lambda: done.append("dropped"))
     after = session.submit(lambda: done.append("after"))
     assert dropped.cancel()

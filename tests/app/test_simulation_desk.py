@@ -40,7 +40,7 @@ class Handle:
         self.error: Exception | None = None
 
     def result(self) -> Answer:
-        assert self.ended.wait(30)
+        assert self.ended.wait(60)
         if self.error is not None:
             raise self.error
         return Answer(followed(self.problem))

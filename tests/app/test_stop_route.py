@@ -16,7 +16,7 @@ from fastapi.testclient import TestClient
 
 from app.routes import robot
 
-PATIENCE = 30.0
+PATIENCE = 60.0
 
 
 class FakeBridge:

@@ -17,7 +17,7 @@ from app.bridge.transport import serial_devices
 from app.robot_ports import RobotPorts
 from tests.bridge.virtual_robot import VirtualRobot
 
-PATIENCE = 30.0
+PATIENCE = 60.0
 BOARD = SerialDevice("/dev/ttyACM0", "Feather M0", "F00D")
 MOVED = SerialDevice("/dev/ttyACM1", "Feather M0", "F00D")
 OTHER = SerialDevice("/dev/ttyACM0", "Feather M0", "BEEF")

@@ -100,8 +100,10 @@ export function cameraList(store, acts) {
 
 /** Opens a camera's setup on its live picture; a camera without one gets a new one. */
 export const setUpCamera = attempt(async (page, camera) => {
+  const isOld = page.begin();
   const answer = camera.setup ? await setupApi.read(camera.setup) : await newSetup();
   if (!camera.setup) accept(page.store, await cameraApi.change(camera.id, { setup: answer.id }));
+  if (isOld()) return;
   openSetup(page, { answer, source: cameraSource(camera), back: { text: "Cameras", act: () => openCameras(page) } });
 });
 
@@ -115,10 +117,12 @@ function feetList() {
 
 /** Opens a camera's live picture; of one under the platform with the feet that are found. */
 export const watchCamera = attempt(async (page, camera) => {
-  const stage = openStage(cameraSource(camera));
-  const feet = feetList();
-  if (camera.use === "under" && camera.setup) {
-    const { setup, view } = await setupApi.read(camera.setup);
+  const isOld = page.begin();
+  const kept = camera.use === "under" && camera.setup ? await setupApi.read(camera.setup) : null;
+  if (isOld()) return;
+  const [stage, feet] = [openStage(cameraSource(camera)), feetList()];
+  if (kept) {
+    const { setup, view } = kept;
     stage.fetches(async () => {
       const answer = await look(stage.source, 0, { foot: null, colours: setup.colours, limits: setup.limits, shows: "plain", setup: view ? setup : null, most: LOOK_WIDTH });
       await stage.picture.show(answer.picture, answer.size);
@@ -133,6 +137,7 @@ export const watchCamera = attempt(async (page, camera) => {
 
 /** Opens the cameras in the trials' panel. */
 export function openCameras(page) {
+  page.begin();
   const list = cameraList(page.store, { watch: (camera) => watchCamera(page, camera), setUp: (camera) => setUpCamera(page, camera) });
   page.show(h("div", { class: "trial-form" }, h("button", { type: "button", class: "link", text: "All trials", on: { click: page.all } }), h("h3", { text: "Cameras" }), list.element));
   list.refresh();

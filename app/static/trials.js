@@ -2,6 +2,7 @@
 
 import { h, icon } from "./dom.js";
 import { selectGait } from "./gaits.js";
+import { turns } from "./lane.js";
 import { runIsOn } from "./store.js";
 import { openTab } from "./tabs.js";
 import { attempt, toast } from "./toasts.js";
@@ -29,6 +30,7 @@ export function mountTrials(store) {
   const panel = h("section", { class: "runs-panel", "aria-label": "Trials", hidden: true }, h("header", {}, h("h2", { text: "Trials" }), close), body);
   document.querySelector("aside.right").append(panel);
 
+  const begin = turns();
   let left = () => {};
 
   function leaveContent() {
@@ -48,6 +50,7 @@ export function mountTrials(store) {
   }
 
   function leave() {
+    begin();
     if (panel.hidden) return false;
     leaveContent();
     panel.hidden = true;
@@ -56,24 +59,33 @@ export function mountTrials(store) {
   }
 
   const tracks = tracksParts(store, attempt((gait) => selectGait(store, gait)));
-  const page = { store, show, all: () => all(), one: (id) => one(id) };
-  // Videos and cameras come when they are first asked for.
-  const videos = attempt(async () => (await import("./video.js")).openVideos(page));
-  const cameras = attempt(async () => (await import("./camera_list.js")).openCameras(page));
-  const learn = attempt(async () => (await import("./learning.js")).openLearning(page));
-  const all = attempt(async () => show(await trialList({ open: one, add, band, videos, cameras, learn })));
+  const page = { store, show, begin, all: () => all(), one: (id) => one(id) };
 
-  const one = attempt(async (id) => {
-    const { element, leave: gone } = await trialDetail(id, { all, remove, tracks, video: (wanted) => go({ video: wanted }) });
-    show(element, gone);
+  /** Shows what `make` gives, unless something else was asked for meanwhile. */
+  const shown = (make) => attempt(async (wanted) => {
+    const isOld = begin();
+    const { element, leave: gone } = await make(wanted);
+    if (isOld()) gone?.();
+    else show(element, gone);
   });
 
-  const band = attempt(async (group) => {
-    const { element, leave: gone } = await trialBand(group, { all, open: one, tracks });
-    show(element, gone);
+  /** Does what a module offers that comes when it is first asked for. */
+  const later = (load, name) => attempt(async (...values) => {
+    const isOld = begin();
+    const { [name]: act } = await load();
+    if (!isOld()) act(page, ...values);
   });
+  const ofVideos = () => import("./video.js");
+  const ofCameras = () => import("./camera_list.js");
+  const [videos, oneVideo] = [later(ofVideos, "openVideos"), later(ofVideos, "openVideoOf")];
+  const [cameras, look, setUp] = [later(ofCameras, "openCameras"), later(ofCameras, "watchCamera"), later(ofCameras, "setUpCamera")];
+  const learn = later(() => import("./learning.js"), "openLearning");
+  const all = shown(async () => ({ element: await trialList({ open: one, add, band, videos: () => videos(), cameras: () => cameras(), learn: () => learn() }) }));
+  const one = shown((id) => trialDetail(id, { all, remove, tracks, video: oneVideo }));
+  const band = shown((group) => trialBand(group, { all, open: one, tracks }));
 
   function add() {
+    begin();
     show(trialForm({ store, all, done: (added) => (added.length === 1 ? one(added[0].id) : all()) }));
   }
 
@@ -88,12 +100,12 @@ export function mountTrials(store) {
   store.watch(({ robot }) => [runIsOn(robot)], ({ robot }) => { if (runIsOn(robot)) leave(); });
 
   /** Opens what another part of the page asks for: a trial, a video, a camera's picture or its setup. */
-  const go = attempt(async ({ trial, video, camera, setup }) => {
+  function go({ trial, video, camera, setup }) {
     openTab("robot");
-    if (trial) return one(trial);
-    if (video) return (await import("./video.js")).openVideoOf(page, video);
-    const { watchCamera, setUpCamera } = await import("./camera_list.js");
-    return setup ? setUpCamera(page, setup) : watchCamera(page, camera);
-  });
+    if (trial) one(trial);
+    else if (video) oneVideo(video);
+    else if (camera) look(camera);
+    else if (setup) setUp(setup);
+  }
   return { open: () => { openTab("robot"); all(); }, go, leave };
 }

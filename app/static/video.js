@@ -8,12 +8,14 @@ import { uploadField, videoRow } from "./video_rows.js";
 
 /**
  * Opens the videos in the trials' panel.
- * @param {object} page `store`, `show(content, whenLeft)`, `all` shows the list of trials, `one` a trial
+ * @param {object} page `store`, `show(content, whenLeft)`, `begin()` tells later whether something else was asked for, `all` shows the list of trials, `one` a trial
  */
 export const openVideos = attempt(async (page) => {
   const again = () => openVideos(page);
   const open = (video) => openVideo(page, video, { back: again }).catch(report);
+  const isOld = page.begin();
   const { videos } = await videoApi.list();
+  if (isOld()) return;
   const upload = uploadField(open);
   const kept = videos.filter(({ state }) => state !== "removed");
   page.show(h("div", { class: "trial-form" },
@@ -24,4 +26,8 @@ export const openVideos = attempt(async (page) => {
 });
 
 /** Opens one video by its id. */
-export const openVideoOf = attempt(async (page, id) => openVideo(page, await videoApi.read(id), { back: () => openVideos(page) }));
+export const openVideoOf = attempt(async (page, id) => {
+  const isOld = page.begin();
+  const video = await videoApi.read(id);
+  if (!isOld()) await openVideo(page, video, { back: () => openVideos(page) });
+});

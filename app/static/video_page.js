@@ -47,7 +47,9 @@ function removeButton(video, back) {
  *   `kept` what was written in the form
  */
 export async function openVideo(page, video, { back, chosen = "", frame = 0, kept = {} }) {
+  const isOld = page.begin();
   const { setups } = await setupApi.list();
+  if (isOld()) return;
   const stage = openStage(videoSource(video), frame);
   const name = h("input", { "aria-label": "Trial name", required: true, maxlength: "120", value: kept.name ?? video.name.replace(/\.\w+$/, "") });
   const walk = walkFields(page.store, { ...kept, run: kept.run ?? video.run });
@@ -57,7 +59,12 @@ export async function openVideo(page, video, { back, chosen = "", frame = 0, kep
 
   const again = (setup) => () => openVideo(page, video, { back, chosen: setup, frame: stage.frame, kept: words() });
   const edit = (answer) => openSetup(page, { answer, source: videoSource(video), frame: stage.frame, back: { text: `Back to ${video.name}`, act: again(answer.id) } });
-  const choice = setupChoice({ setups, chosen, edit, make: attempt(async () => edit(await newSetup())), changed: allow });
+  const make = attempt(async () => {
+    const older = page.begin();
+    const answer = await newSetup();
+    if (!older()) edit(answer);
+  });
+  const choice = setupChoice({ setups, chosen, edit, make, changed: allow });
 
   function allow() {
     const setup = choice.now();

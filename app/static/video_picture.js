@@ -77,28 +77,30 @@ function zoomButtons({ zoom, fit, middle }) {
   return h("div", { class: "video-zoom", role: "group", "aria-label": "Zoom" }, button("−", "Further", () => zoom(1 / STEP, middle())), button("+", "Closer", () => zoom(STEP, middle())), fitting);
 }
 
-/** Shows a new picture only once it can be drawn, so that nothing flickers; gives back whether it is the newest. */
-function mountImage(image, resized) {
+const newImage = () => Object.assign(new Image(), { className: "video-image", alt: "", draggable: false });
+
+/** Puts a new picture in the old one's place once it can be drawn, so that nothing flickers; gives back whether it is the newest. */
+function mountImage(replace) {
   let [asked, shown] = [0, null];
   return async (source, size) => {
     const number = ++asked;
     const url = source instanceof Blob ? URL.createObjectURL(source) : source;
-    const next = new Image();
+    const forget = () => { if (url !== source) URL.revokeObjectURL(url); };
+    const next = newImage();
     next.src = url;
     try {
       await next.decode();
     } catch {
-      if (url !== source) URL.revokeObjectURL(url);
+      forget();
       throw new Error("The picture cannot be drawn.");
     }
     if (number < asked) {
-      if (url !== source) URL.revokeObjectURL(url);
+      forget();
       return false;
     }
-    image.src = url;
-    if (shown) URL.revokeObjectURL(shown);
-    shown = url === source ? null : url;
-    resized(size ? { width: size[0], height: size[1] } : { width: next.naturalWidth, height: next.naturalHeight });
+    replace(next, size ? { width: size[0], height: size[1] } : { width: next.naturalWidth, height: next.naturalHeight });
+    shown?.();
+    shown = forget;
     return true;
   };
 }
@@ -111,7 +113,7 @@ function mountImage(image, resized) {
  *   with the place; `reveal(place)`; `image`
  */
 export function pictureView(name) {
-  const image = h("img", { class: "video-image", alt: "", draggable: "false" });
+  let image = newImage();
   const drawing = svg("g");
   const overlay = svg("svg", { class: "video-overlay", "aria-hidden": "true" }, drawing);
   const layer = h("div", { class: "video-layer" });
@@ -154,13 +156,16 @@ export function pictureView(name) {
   new ResizeObserver(() => { if (view.fitted) fitted(); else drawn(); }).observe(frame);
 
   return {
-    element: frame, image, drawing, layer, toScreen, toPlace, isInside,
+    element: frame, drawing, layer, toScreen, toPlace, isInside,
+    get image() { return image; },
     get size() { return size; },
-    show: mountImage(image, (next) => {
-      const changed = next.width !== size.width || next.height !== size.height;
-      size = next;
-      Object.assign(image, size);
+    show: mountImage((next, nextSize) => {
+      const changed = nextSize.width !== size.width || nextSize.height !== size.height;
+      size = nextSize;
+      image.replaceWith(Object.assign(next, size));
+      image = next;
       if (changed || view.fitted) fitted();
+      else drawn();
     }),
     onView: (act) => { told.view.push(act); act(view.scale); },
     onClick: (act) => told.click.push(act),

@@ -14,9 +14,10 @@ from app.trials.video import jpeg
 from tests.app.trials import rendered
 from tests.app.trials.test_lens import CORNERS, seen_from
 from tests.core.trials.tracks import RATE, stepping_track
+from tests.page.late_answers import LateRequests
 from tests.page.opened import opened_page
 from tests.page.test_accessibility import serious_findings
-from tests.studio_process import StudioProcess
+from tests.studio_process import StudioProcess, wait_for
 
 EVERY = 4
 """Every so many frames of the track are rendered."""
@@ -121,6 +122,20 @@ def test_a_file_on_its_way_goes_on_where_its_panel_is_left_until_it_is_cancelled
     panel(page).get_by_role("button", name="Cancel upload").click()
     expect(panel(page).get_by_label("Video file")).to_be_enabled()
     expect(panel(page).get_by_role("button", name="Cancel upload")).to_be_hidden()
+
+
+def test_videos_that_come_late_take_no_later_form_away(page: Page) -> None:
+    page.get_by_role("button", name="All trials").click()
+    late = LateRequests(page, "GET", "/api/videos")
+    panel(page).get_by_role("button", name="From a video…").click()
+    wait_for(lambda: late.count > 0, "the list of videos is asked for")
+    panel(page).get_by_role("button", name="Add trials…").click()
+    with page.expect_response("**/api/videos") as answer:
+        late.let_go()
+    answer.value.finished()
+    page.evaluate("new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)))")
+    expect(panel(page).get_by_label("Track files")).to_be_visible()
+    expect(panel(page).get_by_label("Video file")).to_have_count(0)
 
 
 TURNS = ((0.0, 0.0, 0.0), (0.4, 0.0, 0.1), (-0.35, 0.2, 0.0), (0.1, -0.45, 0.2))

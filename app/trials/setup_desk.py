@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from app.finite import finite
 from app.store.database import Database
 from app.store.setup_log import SetupLog, SetupRow
 from app.trials.setup_models import SetupDocument
@@ -132,15 +133,23 @@ def _platform(setup: CameraSetup) -> dict[str, Any]:
     off_mm = setup.off * 1000.0
     outline = setup.outline
     across = np.linalg.norm(np.roll(outline, -1, axis=0) - outline, axis=1).mean()
-    return {
-        "off_mm": np.round(off_mm, 4).tolist(),
-        "worst_mm": float(off_mm.max()),
-        "mm_per_pixel": float(100.0 / across),
-        "outline": np.round(outline, 2).tolist(),
-        "seen": np.round(setup.seen(setup.places), 2).tolist(),
-        "grid": [
-            {"axis": line.axis, "at_cm": round(line.at * 100.0, 6), "line": np.round(line.pixels, 1).tolist()}
-            for line in setup.grid
-        ],
-        "doubt": setup.doubt,
-    }
+    content: dict[str, Any] = finite(
+        {
+            "off_mm": np.round(off_mm, 4).tolist(),
+            "worst_mm": float(off_mm.max()),
+            "mm_per_pixel": float(100.0 / across),
+            "outline": np.round(outline, 2).tolist(),
+            "seen": np.round(setup.seen(setup.places), 2).tolist(),
+            "grid": [
+                {
+                    "axis": line.axis,
+                    "at_cm": round(line.at * 100.0, 6),
+                    "line": np.round(line.pixels, 1).tolist(),
+                }
+                for line in setup.grid
+                if np.isfinite(line.pixels).all()
+            ],
+            "doubt": setup.doubt,
+        }
+    )
+    return content

@@ -37,6 +37,12 @@ SUBSTITUTIONS = 40
 INVERSE_PX = 0.01
 """The inverse of a lens is known where it leads back this near, px."""
 
+HORIZON = 1e-9
+"""Depth of a pixel, as a share of the clicked points', below which it shows no place."""
+
+FLAT = 1e-4
+"""A view of points that are scaled to unit size is none where it flattens the platform so much."""
+
 FARTHEST_RAY = 4.0
 """Farthest ray from the middle, in focal lengths: it keeps a search that fails finite."""
 
@@ -165,16 +171,17 @@ class PlatformView:
             pixels: (..., 2) undistorted, px; nan stays nan.
 
         Returns:
-            (..., 2) m.
+            (..., 2) m; nan where a pixel shows no place, on the platform's horizon.
         """
         ones = np.ones((*pixels.shape[:-1], 1))
         turned = np.concatenate([pixels, ones], axis=-1) @ self.H_platform_pixel.T
-        return np.asarray(turned[..., :2] / turned[..., 2:])
+        depth = turned[..., 2:]
+        return np.asarray(turned[..., :2] / np.where(np.abs(depth) < HORIZON, np.nan, depth))
 
     def pixels(self, places: Floats) -> Floats:
         """Inverse of `places`: (..., 2) undistorted pixels of (..., 2) places in m."""
         inverse = np.linalg.inv(self.H_platform_pixel)
-        return PlatformView(inverse / inverse[2, 2]).places(places)
+        return PlatformView(inverse / np.abs(inverse).max()).places(places)
 
 
 def view_of_points(pixels: Floats, places: Floats) -> PlatformView:
@@ -202,13 +209,20 @@ def view_of_points(pixels: Floats, places: Floats) -> PlatformView:
         raise InputError(
             "The points lie on a line or upon each other; click the corners of a square.", "points"
         )
-    homography = np.linalg.inv(T_unit_place) @ turned[-1].reshape(3, 3) @ T_unit_pixel
+    unit = turned[-1].reshape(3, 3)
+    spread = np.linalg.svd(unit, compute_uv=False)
+    if spread[2] < FLAT * spread[0] or abs(unit[2, 2]) < FLAT * spread[0]:
+        raise InputError(
+            "The points or their places lie on a line or upon each other; click the corners of a square.",
+            "points",
+        )
+    homography = np.linalg.inv(T_unit_place) @ unit @ T_unit_pixel
     depths = seen @ homography[2, :2] + homography[2, 2]
     if depths.min() * depths.max() <= 0.0:
         raise InputError(
             "Some points seem to lie behind the camera: two of them have their places exchanged.", "points"
         )
-    return PlatformView(homography / homography[2, 2])
+    return PlatformView(homography / depths.mean())
 
 
 def _unit_scale(points: Floats) -> Floats:

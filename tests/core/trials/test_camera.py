@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.trials.camera import ColourRange, Lens, SpotLimits, view_of_points
+from core.trials.camera import ColourRange, Lens, PlatformView, SpotLimits, view_of_points
 from core.trials.false_sights import false_sights
 from tests.core.trials.tracks import stepping_track
 
@@ -81,6 +81,17 @@ def test_where_a_lens_has_no_inverse_there_is_no_pixel() -> None:
 def test_places_and_pixels_are_each_others_inverse() -> None:
     view = view_of_points(pixels_of(CORNERS), CORNERS)
     np.testing.assert_allclose(view.pixels(CORNERS), pixels_of(CORNERS), atol=1e-6)
+
+
+@pytest.mark.parametrize("flat", [CORNERS * [1.0, 0.0], CORNERS @ [[1.0, 1.0], [0.0, 0.0]]])
+def test_places_on_a_line_are_refused(flat: np.ndarray) -> None:
+    with pytest.raises(InputError, match="lie on a line"):
+        view_of_points(pixels_of(CORNERS), flat)
+
+
+def test_a_pixel_on_the_horizon_shows_no_place() -> None:
+    view = PlatformView(np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.01, 0.0, -1.0]]))
+    assert np.isnan(view.places(np.array([100.0, 20.0]))).all()
 
 
 def test_two_points_whose_places_are_exchanged_are_refused() -> None:

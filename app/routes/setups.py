@@ -179,6 +179,9 @@ async def make_lens(lens: LensRequest, studio: TheStudio) -> dict[str, Any]:
             )
     size = next(iter(sizes), (16, 16))
     boards = [np.array(board.points) for board in seen]
+    for board, points in zip(seen, boards, strict=True):
+        if (points < 0.0).any() or (points > size).any():
+            raise InputError(f"{board.name} has corners outside its picture. Look for it again.", "boards")
     look = studio.seeing.eyes.boards.ask(Look(LensOf(boards, size, (lens.columns, lens.rows))))
     found: dict[str, Any] = await run_in_threadpool(lambda: look.result(BOARD_SECONDS))
     each = iter(found.pop("each"))

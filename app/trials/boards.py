@@ -16,6 +16,9 @@ from core.trials.camera import Lens
 LEAST_BOARDS = 3
 """Pictures of the checkerboard that a lens needs."""
 
+MOST_UNEXPLAINED = 5.0
+"""A lens that leaves more than this is none, px; a good one leaves less than one."""
+
 Corners = NDArray[np.float32]
 """(columns × rows, 1, 2) inner corners of a board in a picture, px."""
 
@@ -68,7 +71,7 @@ def lens_of_corners(boards: Sequence[Corners], size: tuple[int, int], corners: t
     except cv2.error:
         raise _no_lens() from None
     numbers = np.concatenate([np.ravel(matrix), np.ravel(distortion), [unexplained]])
-    if not np.isfinite(numbers).all():
+    if not np.isfinite(numbers).all() or unexplained > MOST_UNEXPLAINED:
         raise _no_lens()
     each = []
     for board, turn, shift in zip(boards, turns, shifts, strict=True):

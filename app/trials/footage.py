@@ -35,6 +35,9 @@ class Footage(Protocol):
 
     facts: Facts
 
+    def counted(self) -> Facts:
+        """The facts, with the number of pictures counted where nothing tells it."""
+
     def close(self) -> None:
         """Closes the file."""
 

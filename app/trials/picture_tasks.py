@@ -75,7 +75,7 @@ class FactsOf:
                     raise InputError(
                         f"{self.path.name} holds {number} pictures; a track needs at least two.", "file"
                     ) from None
-            return footage.facts
+            return footage.counted()
         finally:
             footage.close()
 

@@ -118,6 +118,10 @@ class Recording:
         height, width = self.picture(0).shape[:2]
         self.facts = Facts(self._table.rate, len(self._table.rows), (width, height))
 
+    def counted(self) -> Facts:
+        """What the table says."""
+        return self.facts
+
     def close(self) -> None:
         """Closes the file."""
         self._file.close()

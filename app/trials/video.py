@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -39,11 +40,8 @@ class VideoFile:
     """
 
     def __init__(self, path: Path) -> None:
-        self._name = path.name
-        # Other readers of OpenCV's take a file name with digits for a row of pictures.
-        self._capture = cv2.VideoCapture(str(path), cv2.CAP_FFMPEG)
-        if not self._capture.isOpened():
-            raise InputError(f"{path.name} cannot be read as a video.", path.name)
+        self._path, self._name = path, path.name
+        self._open()
         rate = self._capture.get(cv2.CAP_PROP_FPS)
         if not (math.isfinite(rate) and rate > 0):
             self.close()
@@ -52,7 +50,24 @@ class VideoFile:
             int(self._capture.get(p)) for p in (cv2.CAP_PROP_FRAME_WIDTH, cv2.CAP_PROP_FRAME_HEIGHT)
         )
         self.facts = Facts(rate, max(int(self._capture.get(cv2.CAP_PROP_FRAME_COUNT)), 0), (wide, high))
+        # A bare row of pictures says nothing of their number and cannot be sought in.
+        self._is_row = self.facts.count == 0
+
+    def _open(self) -> None:
+        # Other readers of OpenCV's take a file name with digits for a row of pictures.
+        self._capture = cv2.VideoCapture(str(self._path), cv2.CAP_FFMPEG)
+        if not self._capture.isOpened():
+            raise InputError(f"{self._name} cannot be read as a video.", self._name)
         self._next = 0
+
+    def counted(self) -> Facts:
+        """What the file says, and where it does not say how many pictures it holds, as many as there are."""
+        if not self._is_row:
+            return self.facts
+        self._seek(0)
+        while self.skip():
+            pass
+        return replace(self.facts, count=self._next)
 
     def close(self) -> None:
         """Closes the file."""
@@ -79,14 +94,21 @@ class VideoFile:
             InputError: the file ends before it.
         """
         if not self._next <= number <= self._next + NEAR:
-            self._capture.set(cv2.CAP_PROP_POS_FRAMES, number)
-            self._next = number
+            self._seek(number)
         while self._next < number and self.skip():
             pass
         frame = self.read() if self._next == number else None
         if frame is None:
             raise InputError(f"{self._name} ends before picture {number}.", "frame")
         return frame
+
+    def _seek(self, number: int) -> None:
+        if not self._is_row:
+            self._capture.set(cv2.CAP_PROP_POS_FRAMES, number)
+            self._next = number
+        elif number < self._next:
+            self.close()
+            self._open()
 
     def pictures(self) -> Iterator[tuple[float, Picture]]:
         """Every picture with its time, s."""

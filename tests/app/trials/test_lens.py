@@ -65,9 +65,12 @@ def test_pictures_without_a_board_are_counted_in_the_refusal() -> None:
 
 
 def test_boards_that_tell_no_lens_are_refused() -> None:
-    point = np.full((CORNERS[0] * CORNERS[1], 1, 2), 50.0, dtype=np.float32)
-    with pytest.raises(InputError, match="tell no lens"):
-        lens_of_corners([point] * 3, SIZE, CORNERS)
+    count = CORNERS[0] * CORNERS[1]
+    point = np.full((count, 1, 2), 50.0, dtype=np.float32)
+    chance = np.random.default_rng(1).uniform(0.0, 400.0, (3, count, 1, 2)).astype(np.float32)
+    for boards in ([point] * 3, list(chance)):
+        with pytest.raises(InputError, match="tell no lens"):
+            lens_of_corners(boards, SIZE, CORNERS)
 
 
 def test_a_picture_comes_back_and_other_files_are_refused() -> None:

@@ -13,7 +13,7 @@ from app.trials import video_desk
 from app.trials.eyes import Eyes, open_eyes
 from app.trials.footage import PICTURES
 from app.trials.recording_file import Recording, RecordingWriter
-from app.trials.video import jpeg
+from app.trials.video import jpeg, read_picture
 from app.trials.video_desk import VideoDesk
 from core.errors import InputError, StateError
 from tests.studio_process import wait_for
@@ -103,3 +103,16 @@ def test_a_video_that_was_deleted_long_ago_goes(desk: VideoDesk, monkeypatch: py
 def test_a_video_that_is_being_recorded_cannot_be_deleted(desk: VideoDesk) -> None:
     with pytest.raises(StateError, match="being recorded"):
         desk.delete(recorded(desk, 1))
+
+
+def test_a_bare_row_of_pictures_is_counted_and_sought_in(desk: VideoDesk) -> None:
+    shades = [jpeg(np.full((48, 64, 3), 20 * number, dtype=np.uint8)) for number in range(12)]
+    upload = desk.begin("row.mjpeg", None)
+    upload.add(b"".join(shades))
+    video = desk.keep(upload)
+    assert video["frames"] == 12
+    for number in (9, 2, 11):
+        shown = read_picture(desk.picture(desk.source(video["id"], number), None), "shown")
+        assert shown.mean() == pytest.approx(20 * number, abs=2)
+    with pytest.raises(InputError, match="there is no picture 12"):
+        desk.source(video["id"], 12)

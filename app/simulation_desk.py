@@ -14,10 +14,11 @@ from dataclasses import asdict, dataclass
 from typing import Any, Protocol
 
 from app.finite import finite
-from app.job_book import ENDED, JobBook
+from app.job_book import JobBook
 from app.kept_simulations import KeptSimulations
 from app.open_gait import OpenGait
 from app.plans import Plan
+from app.running_jobs import RunningJobs
 from app.simulation_content import motion_content, report_sentence, variations_content
 from app.simulations import (
     physics_content,
@@ -44,9 +45,6 @@ Content = dict[str, Any]
 
 KIND = "simulate"
 """What pages and scripts call these jobs."""
-
-TELL_SECONDS = 0.2
-"""Between two reports of a simulation's progress."""
 
 
 class SimulationAnswer(Protocol):
@@ -118,9 +116,7 @@ class SimulationDesk:
         self._tier = tier
         self._book = book
         self._kept = kept
-        self._later = later
-        self._shown = shown
-        self._on: dict[str, _Work] = {}
+        self._running = RunningJobs(book, later, shown, "The physics is at it.")
         self._waiting: list[threading.Thread] = []
 
     def submit(self, open_gait: OpenGait, plan: Plan, physics: PhysicsSet, variations: int = 0) -> Content:
@@ -137,17 +133,17 @@ class SimulationDesk:
             InputError: the robot has no such masses.
             StateError: this gait is being simulated.
         """
-        if any(work.row.gait == open_gait.id for work in self._on.values()):
+        if any(job["gait"] == open_gait.id for job in self._running.contents()):
             raise StateError("This gait is being simulated. Wait for it, or cancel that job.", "gait")
         part_masses(plan.model, physics)
         problem, key = simulation_problem(plan, physics), simulation_key(plan, physics)
         job_id = uuid.uuid4().hex[:12]
-        handle = self._tier.submit(problem, variations, progress=self._teller(job_id))
+        handle = self._tier.submit(problem, variations, progress=self._running.teller(job_id))
         more = {"share": 0.0, "physics": physics.name, "variations": variations}
         job = self._book.begin(job_id, KIND, open_gait.id, open_gait.gait.name, key, **more)
         row = SimulationRow(open_gait.id, key, problem.waypoints.content_hash, physics.name, time.time())
         work = _Work(job, row, plan.hash, physics, problem, handle)
-        self._on[job_id] = work
+        self._running.begin(job_id, handle)
         thread = threading.Thread(target=self._await, args=(work,), name=f"simulation-{job_id}", daemon=True)
         self._waiting = [one for one in self._waiting if one.is_alive()] + [thread]
         thread.start()
@@ -160,32 +156,7 @@ class SimulationDesk:
 
     def cancel(self, job_id: str) -> Content:
         """Asks a simulation to end; one that ended already stays as it is."""
-        job, work = self._book.content(job_id), self._on.get(job_id)
-        if work is not None and job["state"] not in ENDED:
-            job |= {"state": "cancelling", "sentence": "It ends in a moment."}
-            work.handle.cancel()
-        return job
-
-    def _teller(self, job_id: str) -> Callable[[float], object]:
-        """What hears of a simulation's progress, and passes on what is not too soon after the last."""
-        told_at = 0.0
-
-        def tell(share: float) -> None:
-            nonlocal told_at
-            now = time.monotonic()
-            if now - told_at >= TELL_SECONDS:
-                told_at = now
-                self._later(lambda: self._progressed(job_id, share))
-
-        return tell
-
-    def _progressed(self, job_id: str, share: float) -> None:
-        work = self._on.get(job_id)
-        if work is None or work.job["state"] not in ("queued", "running"):
-            return
-        started = work.job["started"] or time.time()
-        work.job.update(state="running", started=started, share=share, sentence="The physics is at it.")
-        self._shown(work.job)
+        return self._running.cancel(job_id)
 
     def _await(self, work: _Work) -> None:
         """Waits for the answer, in a thread of its own, and hands it to the session."""
@@ -200,15 +171,7 @@ class SimulationDesk:
         except Exception as error:
             _log.exception("A simulation broke off.")
             end = {"state": "failed", "sentence": f"The simulation broke off: {error!r}."}
-        self._later(lambda: self._ended(work, end))
-
-    def _ended(self, work: _Work, end: Content) -> None:
-        del self._on[work.job["id"]]
-        if work.job["state"] == "cancelling" and end["state"] != "done":
-            end = {"state": "cancelled", "sentence": "Cancelled."}
-        work.job.update(end, ended=time.time())
-        self._book.keep(work.job)
-        self._shown(work.job)
+        self._running.end(work.job["id"], end)
 
 
 def _content(work: _Work, answer: SimulationAnswer) -> Content:

@@ -5,13 +5,13 @@ Only the session's thread calls this.
 
 from __future__ import annotations
 
-import time
 import uuid
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from app.job_book import ENDED, JobBook
+from app.job_book import JobBook
+from app.running_jobs import RunningJobs
 from app.runs.desk import RunDesk
 from app.trials.desk import TrialDesk, TrialWords
 from app.trials.eyes import Eyes, Look
@@ -28,9 +28,6 @@ Content = dict[str, Any]
 
 KIND = "track"
 """What pages and scripts call these jobs."""
-
-TELL_SECONDS = 0.2
-"""Between two reports of a job's progress."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,13 +69,12 @@ class TrackDesk:
         setups: SetupDesk,
         trials: TrialDesk,
         runs: RunDesk,
-        later: Callable[[Callable[[], object]], None],
+        later: Callable[[Callable[[], None]], object],
         shown: Callable[[Content], object],
     ) -> None:
         self._eyes, self._book = eyes, book
         self._videos, self._setups, self._trials, self._runs = videos, setups, trials, runs
-        self._later, self._shown = later, shown
-        self._on: dict[str, Look] = {}
+        self._running = RunningJobs(book, later, shown, "Follows the feet.")
 
     def submit(self, order: TrackOrder) -> Content:
         """Starts tracking.
@@ -99,54 +95,30 @@ class TrackDesk:
         job = self._book.begin(job_id, KIND, words.gait, name, "", video=order.video, share=0.0)
         look = Look(
             TrackIn(path, tracking),
-            self._teller(job_id),
+            self._running.teller(job_id),
             lambda found: self._tracked(job_id, order, source, found),
-            lambda error: self._end(job_id, {"state": "failed", "sentence": error.sentence}),
+            lambda error: self._running.end(job_id, {"state": "failed", "sentence": error.sentence}),
         )
-        self._on[job_id] = look
+        self._running.begin(job_id, look)
         self._eyes.tracker.ask(look)
         return job
 
     def cancel(self, job_id: str) -> Content:
         """Asks a job to end; one that ended already stays as it is."""
-        job, look = self._book.content(job_id), self._on.get(job_id)
-        if look is not None and job["state"] not in ENDED:
-            job |= {"state": "cancelling", "sentence": "It ends in a moment."}
-            look.cancel()
-        return job
-
-    def _teller(self, job_id: str) -> Callable[[float], object]:
-        """What hears of a job's progress, and passes on what is not too soon after the last."""
-        told_at = 0.0
-
-        def tell(share: float) -> None:
-            nonlocal told_at
-            now = time.monotonic()
-            if now - told_at >= TELL_SECONDS:
-                told_at = now
-                self._later(lambda: self._progressed(job_id, share))
-
-        return tell
-
-    def _progressed(self, job_id: str, share: float) -> None:
-        job = self._book.content(job_id)
-        if job_id in self._on and job["state"] in ("queued", "running"):
-            started = job["started"] or time.time()
-            job |= {"state": "running", "started": started, "share": share, "sentence": "Follows the feet."}
-            self._shown(job)
+        return self._running.cancel(job_id)
 
     def _tracked(self, job_id: str, order: TrackOrder, source: SightSource, found: VideoTrack | None) -> None:
         """Keeps a track as a trial; on the tracker's thread."""
         if found is None:
-            self._end(job_id, {"state": "cancelled", "sentence": "Cancelled."})
+            self._running.end(job_id, {"state": "cancelled", "sentence": "Cancelled."})
             return
         try:
             trial = self._kept(order, source, found)
         except FootfallError as error:
-            self._end(job_id, {"state": "failed", "sentence": error.sentence})
+            self._running.end(job_id, {"state": "failed", "sentence": error.sentence})
             return
         result = track_figures(trial["id"], found)
-        self._end(
+        self._running.end(
             job_id, {"state": "done", "sentence": track_sentence(found), "share": 1.0, "result": result}
         )
 
@@ -158,18 +130,6 @@ class TrackDesk:
         made = run_trial(self._runs.record(words.run), found)
         sight = Sight(made.found, source, made.remarks, made.ends)
         return self._trials.add(made.found.track, words, made.planned, sight)
-
-    def _end(self, job_id: str, end: Content) -> None:
-        self._later(lambda: self._ended(job_id, end))
-
-    def _ended(self, job_id: str, end: Content) -> None:
-        del self._on[job_id]
-        job = self._book.content(job_id)
-        if job["state"] == "cancelling" and end["state"] != "done":
-            end = {"state": "cancelled", "sentence": "Cancelled."}
-        job |= {**end, "ended": time.time()}
-        self._book.keep(job)
-        self._shown(job)
 
 
 def track_figures(trial: str, found: VideoTrack) -> Content:

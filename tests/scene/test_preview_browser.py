@@ -1,10 +1,11 @@
 """The preview in a real browser: it fails when the way into Viser's client breaks."""
 
 from collections.abc import Iterator
+from io import BytesIO
 
-import cv2
 import numpy as np
 import pytest
+from PIL import Image
 from playwright.sync_api import Browser, Page
 
 from app.scene import Scenes
@@ -155,8 +156,8 @@ def test_without_a_gpu_the_feet_keep_their_colours(page: Page) -> None:
           return key === "plain surface"; }""",
         timeout=START_MS,
     )
-    picture = cv2.imdecode(np.frombuffer(page.screenshot(), np.uint8), cv2.IMREAD_COLOR).astype(int)
-    blue, green, red = np.moveaxis(picture, 2, 0)
+    with Image.open(BytesIO(page.screenshot())) as picture:
+        red, green, blue = np.moveaxis(np.asarray(picture.convert("RGB"), dtype=int), 2, 0)
     for name, seen in (
         ("green", (green > red + 60) & (green > blue + 60)),
         ("red", (red > green + 90) & (red > blue + 60)),

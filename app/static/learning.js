@@ -44,17 +44,20 @@ function setRow(set, remove) {
 
 /**
  * Opens learning in the panel of trials.
- * @param {{store: object, show: (element: Element, whenLeft?: () => void) => void, all: () => void}} page
+ * @param {{store: object, show: (element: Element, whenLeft?: () => void) => void, begin: () => () => boolean, all: () => void}} page
+ *   `begin` begins something that is shown; what it gives says whether something else was asked for since
  */
 export async function openLearning(page) {
   addStyles();
-  const { store, show, all } = page;
+  const { store, show, begin, all } = page;
   let timer = null;
   const leave = () => { clearTimeout(timer); timer = null; };
   const setsChanged = () => store.set({ physicsSets: (store.state.physicsSets ?? 0) + 1 });
 
   const list = attempt(async () => {
+    const isOld = begin();
     const [{ trials }, courses, sets] = await Promise.all([trialApi.list(), learningApi.courses(), learningApi.sets()]);
+    if (isOld()) return;
     const on = courses.find(({ state }) => OPEN.has(state));
     const ended = courses.filter(({ state }) => !OPEN.has(state));
     const rows = (label, head, items) => (items.length ? [h("h2", { text: head }), h("ul", { class: "run-list", role: "list", "aria-label": label }, ...items)] : []);
@@ -91,21 +94,33 @@ export async function openLearning(page) {
     return { element: progress.element, begin: again };
   }
 
-  const start = attempt(async (wanted) => { await learningApi.start(wanted); await list(); });
-  const open = attempt(async (id) => show(learnedResult(await learningApi.course(id), { back: list, keep }), leave));
+  /** Does something, and shows the list again unless something else was asked for meanwhile. */
+  const changed = async (act) => {
+    const isOld = begin();
+    const made = await act();
+    if (!isOld()) await list();
+    return made;
+  };
+  const start = attempt((wanted) => changed(() => learningApi.start(wanted)));
+  const open = attempt(async (id) => {
+    const isOld = begin();
+    const course = await learningApi.course(id);
+    if (!isOld()) show(learnedResult(course, { back: list, keep }), leave);
+  });
 
   const keep = attempt(async ({ id }, name) => {
-    const { key } = await learningApi.keep(id, name);
+    const { key } = await changed(() => learningApi.keep(id, name));
     setsChanged();
-    await list();
     toast(`“${key}” is kept. Choose it in Simulate under Physics.`);
   });
 
   const remove = attempt(async (set) => {
-    await learningApi.removeSet(set);
+    await changed(() => learningApi.removeSet(set));
     setsChanged();
-    await list();
-    const undo = attempt(async () => { await learningApi.restoreSet(set); setsChanged(); await list(); });
+    const undo = attempt(async () => {
+      await changed(() => learningApi.restoreSet(set));
+      setsChanged();
+    });
     toast(`“${set.key}” is deleted.`, { action: { label: "Undo", act: undo } });
   });
 

@@ -17,7 +17,7 @@ from core.errors import InputError
 DEVICES = Path("/sys/class/video4linux")
 """Where Linux lists cameras."""
 
-PICTURE_SECONDS = 8.0
+PICTURE_SECONDS = 15.0
 """Longest wait for a picture; a camera takes seconds to start."""
 
 UNDER, SIDE = "under", "side"

@@ -43,7 +43,7 @@ def count(folder: Path) -> int:
 def test_feet_are_followed_while_a_camera_records(film: Film, tmp_path: Path) -> None:
     link = link_of(film)
     try:
-        assert link.picture(None, 30.0)
+        assert link.picture(None, 90.0)
         link.record(order(film, tmp_path / "recording"))
         wait_for(lambda: count(tmp_path / "recording") > 10, "pictures are kept", 60)
         recorded = link.finish(60.0)
@@ -59,7 +59,7 @@ def test_feet_are_followed_while_a_camera_records(film: Film, tmp_path: Path) ->
 def test_a_process_that_ends_leaves_what_it_recorded(film: Film, tmp_path: Path) -> None:
     link = link_of(film)
     try:
-        assert link.picture(None, 30.0)
+        assert link.picture(None, 90.0)
         link.record(order(film, tmp_path / "recording"))
         wait_for(lambda: count(tmp_path / "recording") > 5, "pictures are kept", 60)
         process = link.process_id
@@ -79,6 +79,6 @@ def test_a_camera_that_is_not_there_says_so(tmp_path: Path) -> None:
     link = CameraLink(CameraAddress("under", "Under", str(tmp_path / "none.avi"), True), lambda: None)
     try:
         with pytest.raises(CameraError, match=r"Plug the camera “Under” in again"):
-            link.picture(None, 30.0)
+            link.picture(None, 90.0)
     finally:
         link.close()

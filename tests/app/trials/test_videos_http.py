@@ -106,6 +106,21 @@ def test_a_video_becomes_a_trial_beside_its_gaits_plan(
     assert trial["ends_from"] == "tracks"
 
 
+def test_tracking_that_is_cancelled_leaves_no_trial(
+    studio: StudioProcess, video: dict[str, Any], setup: str
+) -> None:
+    order = {"setup": setup, "name": "cancelled", "expected_cm": 1.0}
+    path = f"/api/videos/{video['id']}/track"
+    first, second = (studio.ask("POST", path, order).content["id"] for _ in range(2))
+    for job in (second, first):
+        studio.ask("DELETE", f"/api/jobs/{job}")
+        wait_for(lambda job=job: studio.ask("GET", f"/api/jobs/{job}").content["ended"], "its end", 90)  # type: ignore[misc]
+    assert studio.ask("GET", f"/api/jobs/{second}").content["state"] == "cancelled"
+    state = studio.ask("GET", f"/api/jobs/{first}").content["state"]
+    names = [trial["name"] for trial in studio.ask("GET", "/api/trials").content["trials"]]
+    assert names.count("cancelled") == (state == "done")
+
+
 def test_a_setup_moves_on_by_revisions_is_deleted_and_comes_back(studio: StudioProcess) -> None:
     first = studio.ask("POST", "/api/setups", {**SETUP, "name": "side"}).content
     path = f"/api/setups/{first['id']}"

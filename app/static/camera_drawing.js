@@ -1,6 +1,6 @@
 /** What is drawn over a picture of the platform: spots of a colour, and where the feet are taken to be. */
 
-import { svg } from "./dom.js";
+import { h, svg } from "./dom.js";
 
 const ARM_PX = 9;
 const LEAST_RADIUS = 3;
@@ -17,4 +17,20 @@ export function drawFeet(drawing, feet) {
 export function drawSpots(drawing, { spots, chosen, feet }) {
   drawFeet(drawing, feet);
   drawing.prepend(...spots.map(({ pixel: [cx, cy], radius, fit }, index) => svg("circle", { class: `camera-spot ${index === chosen ? "chosen" : fit ? "fit" : "refused"}`, cx, cy, r: Math.max(radius, LEAST_RADIUS) })));
+}
+
+/** Numbers beside the spots, as they stand in the list; what it gives back shows those of other spots. */
+export function spotNumbers(picture) {
+  let labels = [];
+  const put = () => labels.forEach(({ element, place }) => {
+    const [x, y] = picture.toScreen(place);
+    element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+  });
+  picture.onView(put);
+  return (spots) => {
+    labels.forEach(({ element }) => element.remove());
+    labels = spots.map(({ pixel: [x, y], radius }, index) => ({ place: [x + radius * Math.SQRT1_2, y - radius * Math.SQRT1_2], element: h("span", { class: "camera-number", text: String(index + 1) }) }));
+    picture.layer.append(...labels.map(({ element }) => element));
+    put();
+  };
 }

@@ -1,13 +1,13 @@
 /** Colours of the feet, tuned on a picture: what has the colour stays lit, and every spot says why it is a foot or is none. */
 
-import { drawSpots } from "./camera_drawing.js";
+import { drawSpots, spotNumbers } from "./camera_drawing.js";
 import { limitFields, shareField } from "./camera_fields.js";
 import { hueRange } from "./camera_hue.js";
-import { rangeAt } from "./camera_pick.js";
+import { colourPicking } from "./camera_picking.js";
 import { FOOT_NAMES } from "./camera_words.js";
 import { h, setText } from "./dom.js";
 import { fixed } from "./format.js";
-import { announce, toast } from "./toasts.js";
+import { announce } from "./toasts.js";
 import { look } from "./video_api.js";
 
 const MOST_WIDTH = 1280;
@@ -21,8 +21,8 @@ function footButtons(choose) {
   };
 }
 
-function spotWords({ area, fill, fit, reason }, isChosen) {
-  return h("li", { data: { fit: isChosen ? "chosen" : fit ? "fit" : "refused" } }, h("span", { class: "number", text: `${fixed(area, 0)} px², filled ${fixed(fill * 100, 0)} %` }),
+function spotWords({ area, fill, fit, reason }, number, isChosen) {
+  return h("li", { data: { fit: isChosen ? "chosen" : fit ? "fit" : "refused" } }, h("b", { text: String(number) }), h("span", { class: "number", text: `${fixed(area, 0)} px², filled ${fixed(fill * 100, 0)} %` }),
     h("span", { class: isChosen ? "" : "quiet", text: isChosen ? "taken as the foot" : reason ?? "smaller than the one that is taken" }));
 }
 
@@ -40,8 +40,26 @@ function findings() {
       const fit = answer.spots.filter((spot) => spot.fit).length;
       const count = answer.spots.length + answer.more;
       setText(head, count ? `${count} ${count === 1 ? "spot has" : "spots have"} this colour, ${fit} could be a foot.` : `Nothing in this picture has the colour of foot ${foot + 1}.`);
-      spots.replaceChildren(...answer.spots.map((spot, index) => spotWords(spot, index === answer.chosen)), ...(answer.more ? [h("li", { class: "quiet", text: `and ${answer.more} smaller` })] : []));
+      spots.replaceChildren(...answer.spots.map((spot, index) => spotWords(spot, index + 1, index === answer.chosen)), ...(answer.more ? [h("li", { class: "quiet", text: `and ${answer.more} smaller` })] : []));
       feet.replaceChildren(...feetWords(answer.feet));
+    },
+  };
+}
+
+/** The fields of a foot's colour, and of the spots that may be any foot. */
+function colourFields(change, changeLimits) {
+  const hue = hueRange((range, last) => change({ hue: range }, last));
+  const saturation = shareField("Least saturation", "How colourful a pixel must be; light and grey pixels have little", (share, last) => change({ saturation: share }, last));
+  const value = shareField("Least brightness", "How bright a pixel must be; shade has little", (share, last) => change({ value: share }, last));
+  const limits = limitFields(changeLimits);
+  return {
+    elements: [hue.element, saturation.element, value.element, h("details", {}, h("summary", { text: "Which spots may be a foot" }), limits.element)],
+    show(setup, foot) {
+      const colour = setup.colours[foot];
+      hue.show(colour.hue, `Foot ${foot + 1}`);
+      saturation.show(colour.saturation);
+      value.show(colour.value);
+      limits.show(setup.limits);
     },
   };
 }
@@ -53,90 +71,65 @@ function findings() {
  * @returns {{element: HTMLElement, enter: () => void, leave: () => void}}
  */
 export function feetPart(draft, stage) {
-  let [foot, isOn, since, shows] = [0, false, null, "mask"];
-  const found = findings();
-  const colour = () => draft.state.setup.colours[foot];
+  let [foot, isOn, since, hasMask] = [0, false, null, true];
+  const [found, number] = [findings(), spotNumbers(stage.picture)];
 
-  function change(patch, last) {
+  function change(patch, last = true) {
     since ??= performance.now();
-    draft.change({ colours: draft.state.setup.colours.map((one, index) => (index === foot ? { ...one, ...patch } : one)) }, last);
+    draft.change(patch, last);
     stage.refresh();
   }
-
+  const changeColour = (patch, last) => change({ colours: draft.state.setup.colours.map((one, index) => (index === foot ? { ...one, ...patch } : one)) }, last);
   const buttons = footButtons((next) => { foot = next; show(); stage.refresh(); });
-  const hue = hueRange("Foot", (range, last) => change({ hue: range }, last));
-  const saturation = shareField("Least saturation", "How colourful a pixel must be; light and grey pixels have little", (value, last) => change({ saturation: value }, last));
-  const value = shareField("Least brightness", "How bright a pixel must be; shade has little", (next, last) => change({ value: next }, last));
-  const limits = limitFields((patch) => {
-    since ??= performance.now();
-    draft.change({ limits: { ...draft.state.setup.limits, ...patch } });
-    stage.refresh();
-  });
-  const pick = h("button", { type: "button", text: "Pick colour", "aria-pressed": "false", title: "Then click on this foot in the picture" });
-  const mask = h("button", { type: "button", text: "Mask", "aria-pressed": "true", title: "What has this colour stays lit, the rest is dim" });
-
-  const aim = (next) => {
-    pick.setAttribute("aria-pressed", String(next));
-    stage.picture.element.toggleAttribute("data-aims", next);
-    if (shows === "mask") mask.setAttribute("aria-pressed", String(!next));
-    if (isOn) stage.refresh();
-  };
-  const aims = () => pick.getAttribute("aria-pressed") === "true";
-  pick.addEventListener("click", () => aim(!aims()));
-  mask.addEventListener("click", () => {
-    shows = shows === "mask" ? "plain" : "mask";
-    mask.setAttribute("aria-pressed", String(shows === "mask"));
-    stage.refresh();
-  });
-  stage.picture.onClick((place) => {
-    if (!isOn || !aims()) return;
-    const range = rangeAt(stage.picture, place);
-    if (!range) {
-      toast("This place is grey, black or white: it has no hue to look for. Click on the foot's coloured sole.", { of: "studio" });
-      return;
-    }
-    aim(false);
-    change(range, true);
+  const fields = colourFields(changeColour, (patch) => change({ limits: { ...draft.state.setup.limits, ...patch } }));
+  const mask = h("button", { type: "button", text: "Mask", title: "What has this colour stays lit, the rest is dim", on: { click: () => { hasMask = !hasMask; showMask(); } } });
+  const picking = colourPicking(stage.picture, { changed: () => showMask(), take(range) {
+    changeColour(range);
     announce(`Colour of foot ${foot + 1} taken.`);
-  });
+  } });
+  const shows = () => (hasMask && !picking.isOn() ? "mask" : "plain");
+
+  function showMask() {
+    mask.setAttribute("aria-pressed", String(shows() === "mask"));
+    if (isOn) stage.refresh();
+  }
 
   async function fetching(frame) {
-    const began = since ?? performance.now();
-    const { setup } = draft.state;
-    const answer = await look(stage.source, frame, { foot: foot + 1, colours: setup.colours, limits: setup.limits, shows: aims() ? "plain" : shows, setup: draft.state.answer.view ? setup : null, most: MOST_WIDTH });
+    const [began, wanted, { setup, answer: { view } }] = [since ?? performance.now(), shows(), draft.state];
+    const answer = await look(stage.source, frame, { foot: foot + 1, colours: setup.colours, limits: setup.limits, shows: wanted, setup: view ? setup : null, most: MOST_WIDTH });
     if (!isOn) return null;
     await stage.picture.show(answer.picture, answer.size);
+    if (!isOn) return null;
     drawSpots(stage.picture.drawing, answer);
+    number(answer.spots);
     found.show(answer, foot);
     since = null;
+    picking.shown(wanted === "plain");
     requestAnimationFrame(() => performance.measure("colour to picture", { start: began, end: performance.now() }));
     return null;
   }
 
   function show() {
-    const { setup } = draft.state;
     buttons.show(foot);
-    hue.show(colour().hue);
-    saturation.show(colour().saturation);
-    value.show(colour().value);
-    limits.show(setup.limits);
+    fields.show(draft.state.setup, foot);
   }
 
   draft.watch(({ setup }) => [setup.colours, setup.limits], () => { if (isOn) show(); });
+  showMask();
   return {
     element: h("div", { class: "camera-part" },
       h("p", { class: "quiet", text: "Which colour each foot has. Pick it in the picture, then look through the frames and widen or narrow it." }),
-      h("div", { class: "camera-row" }, buttons.element, pick, mask), hue.element, saturation.element, value.element,
-      h("details", {}, h("summary", { text: "Which spots may be a foot" }), limits.element), found.element),
+      h("div", { class: "camera-row" }, buttons.element, picking.button, mask), ...fields.elements, found.element),
     enter() {
       isOn = true;
       show();
       stage.fetches(fetching);
     },
     leave() {
-      aim(false);
       isOn = false;
+      picking.end();
       stage.picture.drawing.replaceChildren();
+      number([]);
       stage.fetches(null);
     },
   };

@@ -14,8 +14,8 @@ function leftOut([low, high]) {
   return low <= high ? [[0, low], [high, 1]] : [[high, low], [0, 0]];
 }
 
-function end(strip, name, { read, moving, moved }) {
-  const element = h("div", { class: "hue-end", role: "slider", tabindex: "0", "aria-label": name, "aria-valuemin": "0", "aria-valuemax": String(CIRCLE), data: { arrows: "", keys: "" }, title: `${name}: drag, or arrow keys` });
+function end(strip, { read, moving, moved }) {
+  const element = h("div", { class: "hue-end", role: "slider", tabindex: "0", "aria-valuemin": "0", "aria-valuemax": String(CIRCLE), data: { arrows: "", keys: "" }, title: "Drag, or arrow keys; with Shift ten degrees" });
   const set = (degrees, last) => (last ? moved : moving)(around(degrees) / CIRCLE);
   let held = false;
   element.addEventListener("pointerdown", (event) => {
@@ -45,7 +45,8 @@ function end(strip, name, { read, moving, moved }) {
   });
   return {
     element,
-    show(share) {
+    show(share, name) {
+      element.setAttribute("aria-label", name);
       element.style.left = `${share * 100}%`;
       element.setAttribute("aria-valuenow", fixed(share * CIRCLE, 0));
       element.setAttribute("aria-valuetext", `${fixed(share * CIRCLE, 0)}°`);
@@ -55,33 +56,31 @@ function end(strip, name, { read, moving, moved }) {
 
 /**
  * Builds the strip.
- * @param {string} name of what has the colour, such as "Foot 1"
  * @param {(range: number[], last: boolean) => void} changed told (low, high) as shares of the circle; `last` is false while a
  *   finger drags
- * @returns {{element: HTMLElement, show: (range: number[]) => void}}
+ * @returns {{element: HTMLElement, show: (range: number[], name: string) => void}} `name` is of what has the colour, such as "Foot 1"
  */
-export function hueRange(name, changed) {
-  let range = [0, 1];
+export function hueRange(changed) {
+  let [range, owner] = [[0, 1], ""];
   const masks = [h("i"), h("i")];
   const strip = h("div", { class: "hue-strip" }, ...masks);
   const words = h("span", { class: "number quiet" });
   const change = (index, share, last) => {
     range = range.map((one, at) => (at === index ? share : one));
-    show(range);
+    show(range, owner);
     changed(range, last);
   };
-  const ends = ["from", "to"].map((side, index) => end(strip, `${name}, hue ${side}`, {
-    read: () => range[index], moving: (share) => change(index, share, false), moved: (share) => change(index, share, true),
-  }));
+  const ends = [0, 1].map((index) => end(strip, { read: () => range[index], moving: (share) => change(index, share, false), moved: (share) => change(index, share, true) }));
+  const element = h("div", { class: "hue", role: "group" }, h("div", { class: "hue-words" }, h("span", { text: "Hue" }), words), strip);
   strip.append(...ends.map(({ element }) => element));
 
-  function show(next) {
-    range = [...next];
+  function show(next, name) {
+    [range, owner] = [[...next], name];
+    element.setAttribute("aria-label", `${name}, hue`);
     leftOut(range).forEach(([from, to], index) => Object.assign(masks[index].style, { left: `${from * 100}%`, width: `${Math.max(0, to - from) * 100}%` }));
-    ends.forEach((one, index) => one.show(range[index]));
+    ends.forEach((one, index) => one.show(range[index], `${name}, hue ${["from", "to"][index]}`));
     words.textContent = `${fixed(range[0] * CIRCLE, 0)}° to ${fixed(range[1] * CIRCLE, 0)}°`;
   }
 
-  show(range);
-  return { element: h("div", { class: "hue", role: "group", "aria-label": `${name}, hue` }, h("div", { class: "hue-words" }, h("span", { text: "Hue" }), words), strip), show };
+  return { element, show };
 }

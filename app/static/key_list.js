@@ -56,6 +56,10 @@ const GROUPS = {
     ["K", "Fix the cell as it is"],
     ["↑ ↓", "In the best patterns: another one"],
   ],
+  "Pictures of videos and cameras": [
+    ["Wheel, + − F", "Closer, further, the whole picture; a drag or the arrows move it"],
+    ["Arrows", "On a point: 1 px; with Shift 10, with Alt 0.1. Delete takes it out"],
+  ],
   "Goal and numbers": [
     ["Arrows", "Goal in 3D: 0.5 mm, on its knob 1°; with Shift ten times as far. In a number: one step"],
   ],

@@ -55,11 +55,14 @@ def pixel_of(place_cm: tuple[float, float]) -> tuple[float, float]:
 
 
 def click_pixel(page: Page, pixel: tuple[float, float]) -> None:
-    """Clicks into the fitted picture."""
-    box = page.locator(".video-image").bounding_box()
-    assert box is not None
-    scale = box["width"] / rendered.SIZE[0]
-    page.mouse.click(box["x"] + (pixel[0] + 0.5) * scale, box["y"] + (pixel[1] + 0.5) * scale)
+    """Clicks into the fitted picture, which is another element for each frame."""
+    frame = page.locator(".video-frame").bounding_box()
+    assert frame is not None
+    size = np.array([frame["width"], frame["height"]])
+    scale = (size / rendered.SIZE).min()
+    corner = [frame["x"], frame["y"]] + (size - np.array(rendered.SIZE) * scale) / 2
+    x, y = corner + (np.array(pixel) + 0.5) * scale
+    page.mouse.click(float(x), float(y))
 
 
 def send_video(page: Page, video: Path) -> None:
@@ -90,7 +93,7 @@ def test_a_video_becomes_a_trial_through_a_setup_that_is_made_on_its_picture(pag
     feet = panel(page).get_by_role("list", name="Feet in this picture").get_by_role("listitem")
     expect(feet).to_contain_text(["Foot 1, green", "Foot 2, red", "Foot 3, orange", "Foot 4, blue"])
     expect(feet.filter(has_text="cm")).to_have_count(4)
-    panel(page).get_by_role("slider", name="Foot, hue to").press("Shift+ArrowLeft")
+    panel(page).get_by_role("slider", name="Foot 1, hue to").press("Shift+ArrowLeft")
     panel(page).get_by_role("button", name="Foot 2, red").click()
     panel(page).get_by_role("button", name="Pick colour").click()
     click_pixel(page, pixel_of((0, 4)))

@@ -13,7 +13,7 @@ from app.bench.bridge_process import Studio, Tap, emulator_process, wait_until
 from app.bench.bridge_stop import stop_latencies
 from app.bench.film import ACROSS, Film, draw_film, stepping_feet
 from app.bench.measure import Row, milliseconds
-from app.trials.eyes import Look, open_eyes
+from app.trials.eyes import open_eyes, seen
 from app.trials.footage import PICTURES
 from app.trials.picture_tasks import LookAt, Source
 from app.trials.setup_models import SetupDocument
@@ -85,7 +85,7 @@ def _looking(film: Film) -> Row:
             begun = time.perf_counter()
             width = 1280
             look = LookAt(Source(film.folder, 40), 0, setup.colours, setup.limits, setup, True, width)
-            found = eyes.near.ask(Look(look)).result(30.0)
+            found = seen(eyes.near, look, 30.0)
             if found["chosen"] is None:
                 raise StateError("A foot was not found in the film.", "video")
             if number:  # the first starts the process

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from starlette.concurrency import run_in_threadpool
 
 from app.studio import Studio
-from app.trials.eyes import Look
+from app.trials.eyes import seen
 from app.trials.picture_tasks import LookAt, Source
 from app.trials.setup_models import Colours, LimitsDocument, SetupDocument
 from app.trials.video_desk import LOOK_SECONDS
@@ -50,8 +50,7 @@ async def look_at(studio: Studio, source: Source, look: LookRequest) -> dict[str
         look.shows == "mask",
         look.most,
     )
-    asked = studio.seeing.eyes.near.ask(Look(task))
-    found: dict[str, Any] = await run_in_threadpool(lambda: asked.result(LOOK_SECONDS))
+    found: dict[str, Any] = await run_in_threadpool(lambda: seen(studio.seeing.eyes.near, task, LOOK_SECONDS))
     return found
 
 

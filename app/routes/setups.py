@@ -14,7 +14,7 @@ from starlette.concurrency import run_in_threadpool
 
 from app.routes.edge import studio_of
 from app.studio import Studio
-from app.trials.eyes import Look
+from app.trials.eyes import seen
 from app.trials.picture_tasks import BoardIn, LensOf, Source, Straighten, data_url
 from app.trials.setup_models import LensDocument, Number, SetupDocument, Side
 from core.errors import InputError
@@ -158,19 +158,20 @@ async def picture_in(request: Request) -> bytes:
 
 async def board_of(studio: Studio, task: BoardIn) -> dict[str, Any]:
     """Looks for a checkerboard."""
-    look = studio.seeing.eyes.boards.ask(Look(task))
-    found: dict[str, Any] = await run_in_threadpool(lambda: look.result(BOARD_SECONDS))
+    found: dict[str, Any] = await run_in_threadpool(
+        lambda: seen(studio.seeing.eyes.boards, task, BOARD_SECONDS)
+    )
     return found
 
 
 @router.post("/lens")
 async def make_lens(lens: LensRequest, studio: TheStudio) -> dict[str, Any]:
     """A camera's lens out of boards that were found; says how well it explains each of them."""
-    seen = [board for board in lens.boards if board.found]
-    sizes = {board.size for board in seen}
+    shown = [board for board in lens.boards if board.found]
+    sizes = {board.size for board in shown}
     if len(sizes) > 1:
         raise InputError("The pictures have different sizes; take all with one camera.", "boards")
-    for board in seen:
+    for board in shown:
         if len(board.points) != lens.columns * lens.rows:
             raise InputError(
                 f"{board.name} has {len(board.points)} corners; a board of {lens.columns} × {lens.rows} has "
@@ -178,15 +179,17 @@ async def make_lens(lens: LensRequest, studio: TheStudio) -> dict[str, Any]:
                 "boards",
             )
     size = next(iter(sizes), (16, 16))
-    boards = [np.array(board.points) for board in seen]
-    for board, points in zip(seen, boards, strict=True):
+    boards = [np.array(board.points) for board in shown]
+    for board, points in zip(shown, boards, strict=True):
         if (points < 0.0).any() or (points > size).any():
             raise InputError(f"{board.name} has corners outside its picture. Look for it again.", "boards")
-    look = studio.seeing.eyes.boards.ask(Look(LensOf(boards, size, (lens.columns, lens.rows))))
-    found: dict[str, Any] = await run_in_threadpool(lambda: look.result(BOARD_SECONDS))
+    task = LensOf(boards, size, (lens.columns, lens.rows))
+    found: dict[str, Any] = await run_in_threadpool(
+        lambda: seen(studio.seeing.eyes.boards, task, BOARD_SECONDS)
+    )
     each = iter(found.pop("each"))
     return {
-        "lens": {**found, "boards": len(seen)},
+        "lens": {**found, "boards": len(shown)},
         "size": list(size),
         "rms_px": found["rms_px"],
         "boards": [
@@ -204,5 +207,5 @@ async def straighten(asked: Straightening, studio: TheStudio) -> dict[str, Any]:
     except (binascii.Error, ValueError):
         raise InputError("The picture must be a data address of a JPEG or PNG file.", "picture") from None
     task = Straighten(Source(file=content), asked.lens.value())
-    look = studio.seeing.eyes.near.ask(Look(task))
-    return {"picture": data_url(await run_in_threadpool(lambda: look.result(BOARD_SECONDS)))}
+    file = await run_in_threadpool(lambda: seen(studio.seeing.eyes.near, task, BOARD_SECONDS))
+    return {"picture": data_url(file)}

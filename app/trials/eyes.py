@@ -63,6 +63,29 @@ class Eyes:
             service.close()
 
 
+def seen(service: QuestionService[Look], task: Task, seconds: float) -> Any:
+    """The answer to a question about pictures.
+
+    Args:
+        service: which process answers.
+        task: what is asked.
+        seconds: longest wait.
+
+    Raises:
+        FootfallError: it was refused.
+        StateError: the answer does not come in time; the question is ended.
+    """
+    look = service.ask(Look(task))
+    try:
+        return look.result(seconds)
+    except TimeoutError:
+        look.cancel()
+        raise StateError(
+            f"The pictures could not be read within {seconds:.0f} s: the computer is busy. Try again.",
+            "picture",
+        ) from None
+
+
 def open_eyes() -> Eyes:
     """The processes, none started yet."""
     return Eyes(

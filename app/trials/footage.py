@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -35,7 +35,7 @@ class Footage(Protocol):
 
     facts: Facts
 
-    def counted(self) -> Facts:
+    def counted(self, tell: Callable[[], object] = lambda: None) -> Facts:
         """The facts, with the number of pictures counted where nothing tells it."""
 
     def close(self) -> None:

@@ -65,7 +65,7 @@ class FactsOf:
 
     def answer(self, shelf: Shelf, report: Report) -> Facts:
         """Reads them."""
-        del shelf, report
+        del shelf
         footage = open_footage(self.path)
         try:
             for number in range(2):
@@ -75,7 +75,7 @@ class FactsOf:
                     raise InputError(
                         f"{self.path.name} holds {number} pictures; a track needs at least two.", "file"
                     ) from None
-            return footage.counted()
+            return footage.counted(lambda: report(0.0))
         finally:
             footage.close()
 

@@ -7,7 +7,7 @@ Both files only grow, so that whatever ends the program, what was written before
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -118,8 +118,9 @@ class Recording:
         height, width = self.picture(0).shape[:2]
         self.facts = Facts(self._table.rate, len(self._table.rows), (width, height))
 
-    def counted(self) -> Facts:
+    def counted(self, tell: Callable[[], object] = lambda: None) -> Facts:
         """What the table says."""
+        del tell
         return self.facts
 
     def close(self) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,6 +19,9 @@ Picture = NDArray[np.uint8]
 
 NEAR = 40
 """Pictures ahead that are sooner read one after the other than sought."""
+
+TELL_EVERY = 100
+"""Pictures between two signs of life while a file's pictures are counted."""
 
 QUALITY = 85
 """Of JPEG files, of 100."""
@@ -60,13 +63,18 @@ class VideoFile:
             raise InputError(f"{self._name} cannot be read as a video.", self._name)
         self._next = 0
 
-    def counted(self) -> Facts:
-        """What the file says, and where it does not say how many pictures it holds, as many as there are."""
+    def counted(self, tell: Callable[[], object] = lambda: None) -> Facts:
+        """What the file says, and where it does not say how many pictures it holds, as many as there are.
+
+        Args:
+            tell: called again and again meanwhile.
+        """
         if not self._is_row:
             return self.facts
         self._seek(0)
         while self.skip():
-            pass
+            if self._next % TELL_EVERY == 0:
+                tell()
         return replace(self.facts, count=self._next)
 
     def close(self) -> None:

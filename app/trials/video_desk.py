@@ -11,7 +11,7 @@ from typing import Any
 
 from app.store.database import Database
 from app.store.video_log import VideoLog
-from app.trials.eyes import Eyes, Look
+from app.trials.eyes import Eyes, Look, seen
 from app.trials.footage import PICTURES, Facts
 from app.trials.picture_tasks import FactsOf, PictureOf, Source
 from app.trials.video_files import MOST_RECORDED, Upload, VideoFiles
@@ -19,6 +19,9 @@ from core.errors import FootfallError, InputError, StateError
 
 LOOK_SECONDS = 30.0
 """Longest wait for a picture."""
+
+FACTS_SECONDS = 600.0
+"""Longest wait for a video's facts; the pictures of some are to be counted one by one."""
 
 MOST_DELETED = 30 * 86_400.0
 """A deleted video can be restored for so long, s."""
@@ -93,7 +96,7 @@ class VideoDesk:
 
     def _facts(self, path: Path, name: str) -> Facts:
         try:
-            facts: Facts = self._eyes.near.ask(Look(FactsOf(path))).result(LOOK_SECONDS)
+            facts: Facts = seen(self._eyes.boards, FactsOf(path), FACTS_SECONDS)
         except InputError as refusal:
             raise InputError(refusal.sentence.replace(path.name, name), "file") from None
         return facts
@@ -151,7 +154,7 @@ class VideoDesk:
         def failed(error: FootfallError) -> None:
             self.change(video, state="removed", sentence=f"{sentence} {error.sentence}")
 
-        self._eyes.near.ask(Look(FactsOf(path), done=done, failed=failed))
+        self._eyes.boards.ask(Look(FactsOf(path), done=done, failed=failed))
 
     def make_room(self) -> None:
         """Takes the oldest recordings' pictures away where all together are too many; trials stay."""
@@ -214,8 +217,8 @@ class VideoDesk:
 
     def picture(self, source: Source, most: int | None) -> bytes:
         """A picture as a JPEG file, no wider than so many pixels."""
-        answer: bytes = self._eyes.near.ask(Look(PictureOf(source, most))).result(LOOK_SECONDS)
-        return answer
+        file: bytes = seen(self._eyes.near, PictureOf(source, most), LOOK_SECONDS)
+        return file
 
     def _known(self, video: str) -> Content:
         content = self._log.get(video)

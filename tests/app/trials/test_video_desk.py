@@ -10,8 +10,9 @@ import pytest
 
 from app.store.database import Database
 from app.trials import video_desk
-from app.trials.eyes import Eyes, open_eyes
+from app.trials.eyes import Eyes, open_eyes, seen
 from app.trials.footage import PICTURES
+from app.trials.picture_tasks import FactsOf
 from app.trials.recording_file import Recording, RecordingWriter
 from app.trials.video import jpeg, read_picture
 from app.trials.video_desk import VideoDesk
@@ -116,3 +117,8 @@ def test_a_bare_row_of_pictures_is_counted_and_sought_in(desk: VideoDesk) -> Non
         assert shown.mean() == pytest.approx(20 * number, abs=2)
     with pytest.raises(InputError, match="there is no picture 12"):
         desk.source(video["id"], 12)
+
+
+def test_an_answer_that_does_not_come_in_time_is_a_sentence(desk: VideoDesk, eyes: Eyes) -> None:
+    with pytest.raises(StateError, match="the computer is busy"):
+        seen(eyes.near, FactsOf(desk.files.path(recorded(desk, 3))), 0.0)

@@ -132,14 +132,15 @@ def test_without_a_gpu_lines_are_drawn_in_one_go_where_they_are_told_to_be(page:
     page.evaluate("""() => preview.setOverlay({
       times: [0], com: [[0, 0, 0.07]], margins: [0.01], contact: [[true, true, true, false]],
       feet: [[[0.04, 0, 0], [0, 0.04, 0], [-0.04, 0, 0], [0, -0.04, 0.005]]] })""")
-    page.wait_for_function(f"({PLAIN_LINES})('/overlay/polygon_edge', 3)", timeout=START_MS)
-    moved = [[0.01 * value for value in range(6)] for _ in range(3)]
-    told = page.evaluate(
-        "points => preview.client.moveSegments('/overlay/polygon_edge', Float32Array.from(points.flat()))",
-        moved,
-    )
-    assert told == []
-    starts = page.evaluate(f"({PLAIN_LINES})('/overlay/polygon_edge', 3)")
+    moved = [0.01 * value for value in range(6)] * 3
+    starts = page.wait_for_function(
+        f"""points => {{
+          const told = preview.client.moveSegments("/overlay/polygon_edge", Float32Array.from(points));
+          return told.length ? null : ({PLAIN_LINES})("/overlay/polygon_edge", 3);
+        }}""",
+        arg=moved,
+        timeout=START_MS,
+    ).json_value()
     np.testing.assert_allclose(starts, np.tile([0.0, 0.01, 0.02], (len(starts), 1)), atol=1e-7)
     another = page.evaluate("preview.client.moveSegments('/overlay/polygon_edge', new Float32Array(12))")
     assert [message["type"] for message in another] == ["SceneNodeUpdateMessage"]

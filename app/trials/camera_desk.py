@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import threading
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -16,6 +17,8 @@ from core.errors import InputError
 
 DEVICES = Path("/sys/class/video4linux")
 """Where Linux lists cameras."""
+
+_DEVICE = re.compile(r"video\d+")
 
 PICTURE_SECONDS = 15.0
 """Longest wait for a picture; a camera takes seconds to start."""
@@ -65,12 +68,12 @@ class CameraDesk:
                 self._live(camera)
 
     def views(self) -> list[Content]:
-        """All cameras, and those that record with the run though they are unplugged."""
+        """All cameras, and those of the computer that record with the run though they are unplugged."""
         kept, addresses = self._log.cameras(), self._addresses()
         gone = {
             camera: CameraAddress(camera, one["name"], f"/dev/{camera}", False)
             for camera, one in kept.items()
-            if one["records"] and camera not in addresses
+            if one["records"] and camera not in addresses and _DEVICE.fullmatch(camera)
         }
         everything = {**addresses, **gone}
         return [self._view(everything[camera], kept.get(camera), camera in gone) for camera in everything]

@@ -51,7 +51,8 @@ class Fit:
 
     Args:
         z: (parameters,) best values; 0, the default, of those that cannot be told.
-        spread: (parameters,) standard deviations after the trials.
+        spread: (parameters,) standard deviations after the trials, all parameters being free: those that are
+            put back to their defaults may be elsewhere, and would take others along.
         before: (parameters,) standard deviations before.
         effect: (parameters,) largest change of any figure as each goes through its range by itself, in
             spreads of a trial.
@@ -72,6 +73,7 @@ def fit(
     measured: Measured,
     parameters: Sequence[FitParameter],
     left_out: frozenset[int] = frozenset(),
+    among: Bools | None = None,
 ) -> Fit:
     """The parameters after the trials: means over what was thought before, weighed by likelihood.
 
@@ -84,17 +86,19 @@ def fit(
         measured: the same figures of the real robot.
         parameters: what is fitted.
         left_out: gaits that do not count.
+        among: (parameters,) which may be told at all; None for every one.
     """
     gaits = np.setdiff1d(np.arange(measured.gait_count), list(left_out)).astype(np.int64)
     draws = prior_draws(tuple(parameters))
     effect = _effects(surfaces, measured, parameters, gaits)
     before = draws.std(axis=0)
-    told, spread = np.asarray(effect > LEAST_EFFECT), before.copy()
+    _, spread = _moments(draws, _weights(draws, surfaces, measured, gaits)[0])
+    told = np.asarray(effect > LEAST_EFFECT)
+    told = told if among is None else told & among
     while True:
         weights, noise = _weights(np.where(told, draws, 0.0), surfaces, measured, gaits)
         mean, after = _moments(draws, weights)
-        spread = np.where(told, after, spread)
-        left = np.where(told, spread / before, 0.0)
+        left = np.where(told, after / before, 0.0)
         if left.max() < MOST_LEFT:
             return Fit(np.where(told, mean, 0.0), spread, before, effect, told, noise)
         told[int(left.argmax())] = False

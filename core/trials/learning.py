@@ -23,6 +23,9 @@ POINTS = 40
 """Sets of parameters at which every gait is simulated; a quadratic surface of seven has 36 coefficients."""
 LEAST_GAITS = 3
 LEAST_POINTS = 8
+PARTS = 4
+"""So many times an equal part of the points is left out; a parameter must be told each time, since what is
+told with all of them alone hangs on where they happen to lie."""
 FALLEN = Travel(0.0, 0.0)
 """What a check foretells in whose simulation the robot falls: nothing; the whole way counts as error."""
 USUAL_SPREAD = (0.0021, float(np.radians(3.8)))
@@ -205,17 +208,32 @@ class _Course:
         self.spread = pooled_spread(known) or USUAL_SPREAD
         values = [walk.travel.distance for walk in known] + [walk.travel.angle for walk in known]
         self._measured = Measured(np.array(values), np.repeat(self.spread, len(known)))
-        self.surfaces = self._surfaces(points)
-        self.fit = fit(self.surfaces, self._measured, parameters)
+        self.surfaces, *self._parts = self._surfaces(points)
+        self.fit = self._fit()
         self.learned = self._set(self.fit)
 
-    def _surfaces(self, points: int) -> Surfaces:
+    def _surfaces(self, points: int) -> list[Surfaces]:
+        """Those through all points, then those without each part of them."""
         low, high = box(self._parameters)
         z = low + (high - low) * even_points(points, len(self._parameters))
         sets = [physics_at(self._physics, row, self._parameters) for row in z]
         travels = self._simulate([(gait, one) for one in sets for gait in range(len(self._walks))])
         figures = np.array([_row(travel) for travel in travels]).reshape(points, len(self._walks), 2)
-        return fitted_surfaces(low, high, z, np.concatenate([figures[..., 0], figures[..., 1]], axis=1))
+        values = np.concatenate([figures[..., 0], figures[..., 1]], axis=1)
+        without = [np.arange(points) % PARTS != part for part in range(PARTS)]
+        return [
+            fitted_surfaces(low, high, z[kept], values[kept])
+            for kept in (np.ones(points, dtype=np.bool_), *without)
+        ]
+
+    def _fit(self, left_out: frozenset[int] = frozenset()) -> Fit:
+        """The fit of what is told with all points and without each part of them."""
+        whole, *parts = (
+            fit(surfaces, self._measured, self._parameters, left_out)
+            for surfaces in (self.surfaces, *self._parts)
+        )
+        told = np.all([one.is_identifiable for one in (whole, *parts)], axis=0)
+        return fit(self.surfaces, self._measured, self._parameters, left_out, told)
 
     def _set(self, found: Fit) -> PhysicsSet:
         return physics_at(self._physics, found.z, self._parameters)
@@ -236,7 +254,7 @@ class _Course:
         count = len(self._walks)
         chosen, lines = [self._physics] * count, [(1.0, 0.0)] * count
         for group in groups:
-            without = fit(self.surfaces, self._measured, self._parameters, frozenset(group))
+            without = self._fit(frozenset(group))
             kept = np.setdiff1d(np.arange(count), group)
             said = self.surfaces.at(without.z[None])[0]
             for gait in group:

@@ -18,8 +18,11 @@ from core.errors import InputError, StateError
 from core.physics.parameters import physics_set
 from core.robot import load_robot
 from tests.app.learning.made import POINTS, Tier, made_walks
+from tests.core.trials.few_draws import few_draws
 from tests.simulated_walk import walk_plan
 from tests.studio_process import wait_for
+
+__all__ = ["few_draws"]
 
 ROBOT = load_robot("deltawalker")
 USUAL = physics_set("scales")

@@ -14,11 +14,14 @@ from core.physics.parameters import PhysicsSet, physics_set
 from core.trials.fit_parameters import FIT_PARAMETERS, physics_at
 from core.trials.learning import Learned, Simulate, Task, learn, simulation_count
 from core.trials.travel import MeasuredWalk, Travel, pooled_spread, walk_of_trials
+from tests.core.trials.few_draws import few_draws
+
+__all__ = ["few_draws"]
 
 DEFAULT = physics_set("scales")
 REAL = replace(DEFAULT, link_stiffness=2000.0, cable_drag=0.6, centre_offset=(0.004, 0.0), motor_speed=0.85)
 """A soft robot with a cable and slow motors; how fast motors are does not show in these figures."""
-STEPS = (0.03, 0.045, 0.06, 0.075)
+STEPS = (0.03, 0.05, 0.075)
 KINDS = ("walk", "amble", "s-gait")
 POINTS = 48
 TOLD = ("link_stiffness", "cable_drag", "centre_offset_x")
@@ -43,7 +46,7 @@ def made_walks(real: PhysicsSet = REAL, noise: float = 0.0) -> list[MadeWalk]:
     walks = []
     for place, (kind, wanted) in enumerate(product(KINDS, STEPS)):
         went = travel(wanted, real)
-        trials = [Travel(went.distance + off[place] + side, went.angle + side) for side in (-0.001, 0.001)]
+        trials = [Travel(went.distance + off[place] + side, went.angle + side) for side in (-0.002, 0.002)]
         walks.append(MadeWalk(walk_of_trials(f"{kind} {wanted}", kind, wanted, trials)))
     return walks
 
@@ -116,14 +119,14 @@ def test_a_gait_that_is_left_out_says_nothing_about_itself(learned: Learned) -> 
 
 
 def test_as_many_simulations_run_as_were_announced(learned: Learned, counted: list[Task]) -> None:
-    assert learned.simulations == len(counted) == simulation_count(12, 3, POINTS)
+    assert learned.simulations == len(counted) == simulation_count(9, 3, POINTS)
 
 
 def test_trials_that_agree_with_the_defaults_change_nothing_much() -> None:
     walks = made_walks(DEFAULT)
     result = learn(walks, DEFAULT, simulating(walks), POINTS)
     way = next(way for way in result.foretold if way.name == "fitted")
-    assert result.errors(way)[0] < 0.0015
+    assert result.errors(way)[0] < result.spread[0]
 
 
 def test_two_gaits_are_too_few() -> None:

@@ -9,29 +9,27 @@ const CONFLICT = 409;
 /** Whether two setups say the same. */
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 
+/** Shows a setup as somebody else has changed it meanwhile; other refusals are said as they are. */
+async function conflict(store, error) {
+  if (error.status !== CONFLICT) throw error;
+  const now = await setupApi.read(store.state.id);
+  store.set({ setup: now.setup, answer: now, revision: now.revision, kept: true });
+  toast(`The setup “${now.setup.name}” was changed elsewhere meanwhile; it is shown as it is now. Make your last change again.`, { tone: "bad", of: "studio" });
+}
+
 /**
  * Begins with a setup as the server tells it.
  * @param {object} first with `id`, `revision` and `setup`
  * @returns {object} `state` and `watch` as of a store: `setup` as it is on the page, `answer` what the server says of it, `kept`
- *   whether that is of this very setup; `change(patch, last)`, where `last` is false while a finger drags and nothing is kept; `check()` asks what the server says
+ *   whether that is of this very setup, `trouble` why it could not be kept; `change(patch, last)`, where `last` is false while a finger drags and nothing is kept; `check()` asks what the server says
  *   meanwhile; `settled()` resolves when all is kept
  */
 export function setupDraft(first) {
-  const store = watchable({ id: first.id, revision: first.revision, setup: first.setup, answer: first, kept: true });
+  const store = watchable({ id: first.id, revision: first.revision, setup: first.setup, answer: first, kept: true, trouble: null });
   let [working, checking, settled] = [false, false, []];
 
   function take(answer, asked) {
     store.set({ answer, revision: answer.revision || store.state.revision, kept: Boolean(answer.id) && same(asked, store.state.setup) });
-  }
-
-  async function conflict(error) {
-    if (error.status !== CONFLICT) {
-      report(error);
-      return;
-    }
-    const now = await setupApi.read(first.id);
-    store.set({ setup: now.setup, answer: now, revision: now.revision, kept: true });
-    toast(`The setup “${now.setup.name}” was changed elsewhere meanwhile; it is shown as it is now. Make your last change again.`, { tone: "bad", of: "studio" });
   }
 
   async function keep() {
@@ -44,7 +42,7 @@ export function setupDraft(first) {
         take(await setupApi.change(id, revision, setup), setup);
       } catch (error) {
         refused = setup;
-        await conflict(error).catch(report);
+        await conflict(store, error).catch((other) => { store.set({ trouble: other.message }); report(other); });
       }
     }
     working = false;
@@ -73,7 +71,7 @@ export function setupDraft(first) {
     change(patch, last = true) {
       const setup = { ...store.state.setup, ...patch };
       if (same(setup, store.state.setup) && (store.state.kept || !last)) return;
-      store.set({ setup, kept: false });
+      store.set({ setup, kept: false, trouble: null });
       if (last) keep();
     },
     check,

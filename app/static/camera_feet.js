@@ -7,6 +7,7 @@ import { colourPicking } from "./camera_picking.js";
 import { FOOT_NAMES } from "./camera_words.js";
 import { h, setText } from "./dom.js";
 import { fixed } from "./format.js";
+import { measured } from "./live.js";
 import { announce } from "./toasts.js";
 import { look } from "./video_api.js";
 
@@ -83,10 +84,7 @@ export function feetPart(draft, stage) {
   const buttons = footButtons((next) => { foot = next; show(); stage.refresh(); });
   const fields = colourFields(changeColour, (patch) => change({ limits: { ...draft.state.setup.limits, ...patch } }));
   const mask = h("button", { type: "button", text: "Mask", title: "What has this colour stays lit, the rest is dim", on: { click: () => { hasMask = !hasMask; showMask(); } } });
-  const picking = colourPicking(stage.picture, { changed: () => showMask(), take(range) {
-    changeColour(range);
-    announce(`Colour of foot ${foot + 1} taken.`);
-  } });
+  const picking = colourPicking(stage.picture, { changed: () => showMask(), take: (range) => { changeColour(range); announce(`Colour of foot ${foot + 1} taken.`); } });
   const shows = () => (hasMask && !picking.isOn() ? "mask" : "plain");
 
   function showMask() {
@@ -105,14 +103,11 @@ export function feetPart(draft, stage) {
     found.show(answer, foot);
     since = null;
     picking.shown(wanted === "plain");
-    requestAnimationFrame(() => performance.measure("colour to picture", { start: began, end: performance.now() }));
+    measured("colour to picture", began);
     return null;
   }
 
-  function show() {
-    buttons.show(foot);
-    fields.show(draft.state.setup, foot);
-  }
+  const show = () => { buttons.show(foot); fields.show(draft.state.setup, foot); };
 
   draft.watch(({ setup }) => [setup.colours, setup.limits], () => { if (isOn) show(); });
   showMask();

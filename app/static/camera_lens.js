@@ -1,7 +1,7 @@
 /** The lens: pictures of a checkerboard, which of them show it, how well they agree, and the picture straightened. */
 
 import { LEAST_BOARDS, boardBook, boardRow, boardSources } from "./camera_boards.js";
-import { h, setAllowed, setText } from "./dom.js";
+import { h, onPress, setAllowed, setText } from "./dom.js";
 import { fixed } from "./format.js";
 import { announce, attempt } from "./toasts.js";
 import { pictureOf, setupApi } from "./video_api.js";
@@ -34,6 +34,30 @@ async function dataOf(address) {
   });
 }
 
+/** The switch that straightens what is shown. */
+function straightening(draft, stage) {
+  const button = h("button", { type: "button", text: "Straighten the picture", "aria-pressed": "false" });
+  const isOn = () => button.getAttribute("aria-pressed") === "true";
+  const turn = (on) => {
+    button.setAttribute("aria-pressed", String(on));
+    stage.refresh();
+  };
+  onPress(button, () => turn(!isOn()));
+  return {
+    button,
+    /** A picture as the lens would have it, where that is wanted. */
+    async of(plain) {
+      if (!isOn()) return plain;
+      return (await setupApi.straight(draft.state.setup.lens, plain.startsWith("data:") ? plain : await dataOf(plain))).picture;
+    },
+    show({ lens }) {
+      setAllowed(button, lens ? null : "There is no lens yet.", "Lines that are straight in the world become straight");
+      if (!lens && isOn()) turn(false);
+    },
+    end: () => button.setAttribute("aria-pressed", "false"),
+  };
+}
+
 /**
  * Builds the part.
  * @param {object} draft of `setupDraft`
@@ -44,7 +68,7 @@ export function lensPart(draft, stage) {
   let [isOn, shown] = [false, null];
   const list = h("ul", { class: "camera-boards", "aria-label": "Pictures of the board found" });
   const [status, words] = [h("p", { class: "quiet", role: "status" }), h("p", { class: "quiet", role: "status" })];
-  const straight = h("button", { type: "button", text: "Straighten the picture", "aria-pressed": "false" });
+  const straight = straightening(draft, stage);
   const without = h("button", { type: "button", class: "link", text: "Without a lens", on: { click: () => draft.change({ lens: null }) } });
 
   const book = boardBook({
@@ -70,31 +94,20 @@ export function lensPart(draft, stage) {
 
   function show({ setup }) {
     setText(words, lensWords(setup));
-    setAllowed(straight, setup.lens ? null : "There is no lens yet.", "Lines that are straight in the world become straight");
+    straight.show(setup);
     without.hidden = !setup.lens;
-    if (!setup.lens && straight.getAttribute("aria-pressed") === "true") press(false);
-  }
-
-  function press(next) {
-    straight.setAttribute("aria-pressed", String(next));
-    stage.refresh();
   }
 
   async function fetching(frame) {
     if (shown?.frame !== frame) shown = null;
-    const plain = shown?.board.picture ?? pictureOf(stage.source, frame);
-    if (straight.getAttribute("aria-pressed") !== "true") return plain;
-    return (await setupApi.straight(draft.state.setup.lens, plain.startsWith("data:") ? plain : await dataOf(plain))).picture;
+    return straight.of(shown?.board.picture ?? pictureOf(stage.source, frame));
   }
 
-  straight.addEventListener("click", () => {
-    if (straight.getAttribute("aria-disabled") !== "true") press(straight.getAttribute("aria-pressed") !== "true");
-  });
   draft.watch(({ setup }) => [setup.lens], (state) => { if (isOn) { showBoards(); show(state); } });
   return {
     element: h("div", { class: "camera-part" },
       h("p", { class: "quiet", text: "Wide lenses bend straight lines. Pictures of a checkerboard in different places and slopes tell by how much; without them, go on with Place." }),
-      columns.label, rows.label, boardSources(stage, book, status), status, list, words, h("div", { class: "camera-row" }, straight, without)),
+      columns.label, rows.label, boardSources(stage, book, status), status, list, words, h("div", { class: "camera-row" }, straight.button, without)),
     enter() {
       isOn = true;
       showBoards();
@@ -104,7 +117,7 @@ export function lensPart(draft, stage) {
     leave() {
       isOn = false;
       shown = null;
-      straight.setAttribute("aria-pressed", "false");
+      straight.end();
       stage.fetches(null);
     },
   };

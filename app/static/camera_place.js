@@ -103,6 +103,8 @@ function pointTable({ change, remove, choose }) {
   };
 }
 
+const rounded = (pixel) => pixel.map((value) => Number(value.toFixed(2)));
+
 /**
  * Builds the part.
  * @param {object} draft of `setupDraft`
@@ -123,7 +125,6 @@ export function placePart(draft, stage) {
     if (!last) draft.check();
   }
   const replaced = (index, patch) => points().map((one, at) => (at === index ? { ...one, ...patch } : one));
-  const rounded = (pixel) => pixel.map((value) => Number(value.toFixed(2)));
   const remove = (index) => put(points().filter((_, at) => at !== index));
 
   const table = pointTable({

@@ -93,8 +93,9 @@ export function openSetup(page, { answer, source, frame = 0, back }) {
   const parts = Object.fromEntries(PARTS.map(([key, , build]) => [key, build(draft, stage)]));
   const tabs = partTabs(parts, firstPart(answer));
   const state = h("p", { class: "camera-state", role: "status", "aria-label": "Setup state" });
-  draft.watch(({ answer: now, kept, revision }) => [now, kept, revision], ({ answer: now, kept, revision }) => {
-    state.replaceChildren(h("span", { class: "dot", data: { tone: now.ready ? "good" : "caution" } }), h("span", { text: `${setupWords(now)} ${kept ? `Kept, version ${revision}.` : "Being kept…"}` }));
+  draft.watch(({ answer: now, kept, revision, trouble }) => [now, kept, revision, trouble], ({ answer: now, kept, revision, trouble }) => {
+    const keeping = kept ? `Kept, version ${revision}.` : trouble ? `The last change is not kept: ${trouble}` : "Being kept…";
+    state.replaceChildren(h("span", { class: "dot", data: { tone: trouble ? "bad" : now.ready ? "good" : "caution" } }), h("span", { text: `${setupWords(now)} ${keeping}` }));
   });
   const leave = attempt(async () => {
     await draft.settled();

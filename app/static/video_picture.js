@@ -70,6 +70,19 @@ function mountPointer(frame, { pan, zoom, click, hover }) {
   }, { passive: false });
 }
 
+function mountKeys(frame, { closer, further, fit, pan }) {
+  const acts = {
+    "+": closer, "=": closer, "-": further, "−": further, f: fit,
+    ArrowLeft: () => pan(PAN_PX, 0), ArrowRight: () => pan(-PAN_PX, 0), ArrowUp: () => pan(0, PAN_PX), ArrowDown: () => pan(0, -PAN_PX),
+  };
+  frame.addEventListener("keydown", (event) => {
+    const act = acts[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    if (!act || event.target !== frame || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    act();
+  });
+}
+
 function zoomButtons({ zoom, fit, middle }) {
   const button = (text, name, act) => h("button", { type: "button", class: "icon-only", "aria-label": name, title: name, text, on: { click: act } });
   const fitting = button("", "Fit the picture", fit);
@@ -142,17 +155,7 @@ export function pictureView(name) {
 
   mountPointer(frame, { pan: panned, zoom: zoomed, hover: (at) => told.hover.forEach((act) => act(at && isInside(toPlace(at)) ? toPlace(at) : null)),
     click: (at) => { if (isInside(toPlace(at))) told.click.forEach((act) => act(toPlace(at))); } });
-  frame.addEventListener("keydown", (event) => {
-    if (event.target !== frame || event.ctrlKey || event.metaKey || event.altKey) return;
-    const acts = {
-      "+": () => zoomed(STEP, middle()), "=": () => zoomed(STEP, middle()), "-": () => zoomed(1 / STEP, middle()), "−": () => zoomed(1 / STEP, middle()), f: fitted,
-      ArrowLeft: () => panned(PAN_PX, 0), ArrowRight: () => panned(-PAN_PX, 0), ArrowUp: () => panned(0, PAN_PX), ArrowDown: () => panned(0, -PAN_PX),
-    };
-    const act = acts[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-    if (!act) return;
-    event.preventDefault();
-    act();
-  });
+  mountKeys(frame, { closer: () => zoomed(STEP, middle()), further: () => zoomed(1 / STEP, middle()), fit: fitted, pan: panned });
   new ResizeObserver(() => { if (view.fitted) fitted(); else drawn(); }).observe(frame);
 
   return {

@@ -9,6 +9,17 @@ const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], Arrow
 
 const nameOf = (index, [x, y]) => `Point ${index + 1}, at ${fixed(x, 1)}, ${fixed(y, 1)} px`;
 
+function pressed(event, { nudge, remove }) {
+  const way = ARROWS[event.key];
+  const gone = event.key === "Delete" || event.key === "Backspace";
+  if ((!way && !gone) || event.ctrlKey || event.metaKey) return;
+  event.preventDefault();
+  event.stopPropagation();
+  const step = event.shiftKey ? STEPS.far : event.altKey ? STEPS.fine : STEPS.plain;
+  if (gone) remove();
+  else nudge(way.map((value) => value * step));
+}
+
 function dragging(handle, picture, lens, { moving, moved }) {
   let held = null;
   handle.addEventListener("pointerdown", (event) => {
@@ -71,18 +82,8 @@ export function picturePoints(picture, { add, move, remove, chosen }) {
     handles[index].setAttribute("aria-label", nameOf(index, places[index]));
   }
 
-  function pressed(event, index) {
-    if (event.key === "Delete" || event.key === "Backspace") {
-      event.preventDefault();
-      remove(index);
-      return;
-    }
-    const way = ARROWS[event.key];
-    if (!way || event.ctrlKey || event.metaKey) return;
-    event.preventDefault();
-    event.stopPropagation();
-    const step = event.shiftKey ? STEPS.far : event.altKey ? STEPS.fine : STEPS.plain;
-    const place = places[index].map((value, axis) => value + way[axis] * step);
+  function nudge(index, by) {
+    const place = places[index].map((value, axis) => value + by[axis]);
     if (!picture.isInside(place)) return;
     goTo(index, place, true);
     picture.reveal(place);
@@ -92,7 +93,7 @@ export function picturePoints(picture, { add, move, remove, chosen }) {
   function handle(index) {
     const element = h("button", { type: "button", class: "video-point", title: "Drag, or arrow keys: 1 px, with Shift 10, with Alt 0.1; Delete takes it out", data: { arrows: "", keys: "" } }, h("span", { text: String(index + 1) }));
     dragging(element, picture, lens, { moving: (place) => goTo(index, place, false), moved: () => move(index, places[index], true) });
-    element.addEventListener("keydown", (event) => pressed(event, index));
+    element.addEventListener("keydown", (event) => pressed(event, { nudge: (by) => nudge(index, by), remove: () => remove(index) }));
     element.addEventListener("focus", () => chosen(index));
     element.addEventListener("blur", () => lens.show(null));
     return element;

@@ -141,6 +141,29 @@ def test_videos_that_come_late_take_no_later_form_away(page: Page) -> None:
     expect(panel(page).get_by_label("Video file")).to_have_count(0)
 
 
+def test_a_setup_that_was_changed_elsewhere_is_shown_as_it_is_now(
+    page: Page, studio: StudioProcess, video: Path
+) -> None:
+    send_video(page, video)
+    panel(page).get_by_role("button", name="New setup…").click()
+    name = panel(page).get_by_label("Setup name")
+    expect(name).not_to_have_value("")
+    view = next(
+        one
+        for one in studio.ask("GET", "/api/setups").content["setups"]
+        if one["setup"]["name"] == name.input_value()
+    )
+    setup = {**view["setup"], "name": "from another desk"}
+    assert studio.ask("PUT", f"/api/setups/{view['id']}", {"revision": 1, "setup": setup}).status == 200
+    name.fill("mine")
+    name.press("Tab")
+    expect(page.get_by_role("alert").filter(has_text="changed elsewhere meanwhile")).to_be_visible()
+    expect(name).to_have_value("from another desk")
+    name.fill("mine")
+    name.press("Tab")
+    expect(panel(page).get_by_role("status", name="Setup state")).to_contain_text("Kept, version 3.")
+
+
 TURNS = ((0.0, 0.0, 0.0), (0.4, 0.0, 0.1), (-0.35, 0.2, 0.0), (0.1, -0.45, 0.2))
 """Slopes of the board before the camera, rad."""
 

@@ -18,18 +18,12 @@ function addStyles() {
   document.head.append(sheet("./trials.css"), sheet("./trial_beside.css"));
 }
 
-/**
- * Builds the panel, closed.
- * @param {object} store
- * @returns {{open: () => void, go: (wanted: object) => void, leave: () => boolean}} `leave` closes it; true where it was open
- */
-export function mountTrials(store) {
-  addStyles();
+/** The panel with what stands in it; `begin()` tells later whether something else was asked for. */
+function buildPanel() {
   const body = h("div", { class: "runs-body" });
   const close = h("button", { class: "plain icon-only", "aria-label": "Close trials", title: "Close (Esc)" }, icon("close"));
   const panel = h("section", { class: "runs-panel", "aria-label": "Trials", hidden: true }, h("header", {}, h("h2", { text: "Trials" }), close), body);
   document.querySelector("aside.right").append(panel);
-
   const begin = turns();
   let left = () => {};
 
@@ -58,6 +52,19 @@ export function mountTrials(store) {
     return true;
   }
 
+  close.addEventListener("click", leave);
+  document.querySelector('[role="tablist"][aria-label="Inspector"]').addEventListener("click", leave);
+  return { begin, show, leave };
+}
+
+/**
+ * Builds the panel, closed.
+ * @param {object} store
+ * @returns {{open: () => void, go: (wanted: object) => void, leave: () => boolean}} `leave` closes it; true where it was open
+ */
+export function mountTrials(store) {
+  addStyles();
+  const { begin, show, leave } = buildPanel();
   const tracks = tracksParts(store, attempt((gait) => selectGait(store, gait)));
   const page = { store, show, begin, all: () => all(), one: (id) => one(id) };
 
@@ -95,8 +102,6 @@ export function mountTrials(store) {
     toast(`The trial “${name}” is deleted.`, { action: { label: "Undo", act: attempt(async () => { await trialApi.restore(id); one(id); }) } });
   });
 
-  close.addEventListener("click", leave);
-  document.querySelector('[role="tablist"][aria-label="Inspector"]').addEventListener("click", leave);
   store.watch(({ robot }) => [runIsOn(robot)], ({ robot }) => { if (runIsOn(robot)) leave(); });
 
   /** Opens what another part of the page asks for: a trial, a video, a camera's picture or its setup. */

@@ -178,7 +178,8 @@ def _recorded_run(studio: Studio, laps: int) -> Row:
     return {
         "run to trial": f"{laps} walks",
         "run s": round(trial["seconds"], 1),
-        "frames": trial["frames"],
+        "pictures": video["frames"],
+        "frames with missing ones": trial["frames"],
         "frames/s": round(trial["frame_rate"], 1),
         "iterations by": trial["ends_from"],
         "video MB": round(video["bytes"] / 1e6, 1),

@@ -95,6 +95,7 @@ class _Camera:
         self._pipe, self._address = pipe, address
         self._source: CameraSource | None = None
         self._recorder: Recorder | None = None
+        self._last: Finish | None = None
         self._asked: list[Show] = []
         self._told: Standing | None = None
 
@@ -136,6 +137,7 @@ class _Camera:
             self._tell(Standing(False, f"The camera “{self._address.name}” is unplugged. Plug it in again."))
         if self._recorder is not None:
             self._recorder.miss(time.monotonic())
+        self._finish()
         sentence = "" if self._told is None else self._told.sentence
         for show in self._asked:
             self._pipe.send(Shown(show.number, b"", sentence))
@@ -145,6 +147,7 @@ class _Camera:
         self._tell(Standing(True, "", (picture.shape[1], picture.shape[0]), source.rate))
         if self._recorder is not None:
             self._recorder.add(when, picture)
+        self._finish()
         for show in self._asked:
             self._pipe.send(Shown(show.number, jpeg(scaled(picture, show.most))))
         self._asked.clear()
@@ -162,6 +165,13 @@ class _Camera:
                 self._source.begin_anew()
             self._recorder = Recorder(message.order)
         elif isinstance(message, Finish):
+            self._last = message
+            if self._source is None or self._recorder is None:
+                self._finish()
+
+    def _finish(self) -> None:
+        """Ends the recording where that was asked; one more picture was taken, so that it shows the end."""
+        if self._last is not None:
             recorded = None if self._recorder is None else self._recorder.finish()
-            self._recorder = None
-            self._pipe.send(Finished(message.number, recorded))
+            self._pipe.send(Finished(self._last.number, recorded))
+            self._recorder = self._last = None

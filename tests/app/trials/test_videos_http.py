@@ -215,6 +215,19 @@ def test_a_picture_without_a_board_is_said_and_few_boards_make_no_lens(
     assert "found in 0 pictures" in lens.content["error"]
 
 
+@pytest.mark.parametrize(
+    ("picture", "words"),
+    [
+        (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR" + (30_000).to_bytes(4, "big") * 2, "30000 × 30000 pixels"),
+        (b"no picture", "PNG or JPEG"),
+    ],
+)
+def test_a_picture_that_cannot_be_read_is_refused(studio: StudioProcess, picture: bytes, words: str) -> None:
+    answer = studio.ask("POST", "/api/boards?columns=8&rows=5&name=a.png", picture)
+    assert answer.status == 422
+    assert words in answer.content["error"]
+
+
 def test_a_straightened_picture_comes_back(studio: StudioProcess, video: dict[str, Any]) -> None:
     picture = studio.blob(f"/api/videos/{video['id']}/picture.jpg")
     address = "data:image/jpeg;base64," + base64.b64encode(picture).decode()

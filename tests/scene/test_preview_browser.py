@@ -100,7 +100,8 @@ def test_without_a_gpu_a_playing_robot_is_drawn_once_in_each_frame_of_the_page(p
           requestAnimationFrame(() => requestAnimationFrame(count));
         })"""
     )
-    assert frames - 2 <= drawn <= frames + 2
+    # The client's own way would draw twice in a frame, or in every second one; what settles late adds a few.
+    assert 0.75 * frames < drawn < 1.5 * frames
 
 
 def test_polygon_is_drawn_on_the_floor_in_the_colour_of_its_margin(page: Page) -> None:

@@ -79,6 +79,11 @@ class StudioProcess:
         """The text at a path."""
         return self.blob(path).decode()
 
+    def document(self, gait: str) -> dict[str, Any]:
+        """A gait's document."""
+        content: dict[str, Any] = self.ask("GET", f"/api/gaits/{gait}").content
+        return content
+
     def robot(self) -> dict[str, Any]:
         """The robot's view."""
         view: dict[str, Any] = self.ask("GET", "/api/robot").content

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from playwright.sync_api import Browser, BrowserContext, Page
+from playwright.sync_api import Browser, BrowserContext, Page, expect
 
 from app.bench.page import CHROMIUM_WORDS
 from tests.chromium import LONG_MS, chromium_path
@@ -54,3 +55,11 @@ def look(page: Page, name: str) -> None:
     folder = os.environ.get("FOOTFALL_SCREENSHOTS")
     if folder:
         page.screenshot(path=f"{folder}/{name}.png")
+
+
+def choose(page: Page, name: str) -> None:
+    """Shows a gait of the list, and waits until the live tier has answered for it."""
+    alone = re.compile(f"^{re.escape(name)}(?!,)")  # and not one of its other foot orders
+    page.get_by_role("list", name="Gaits").get_by_role("button", name=alone).click()
+    expect(page.get_by_label("Gait name")).to_have_value(name)
+    expect(page.get_by_role("status", name="Live answer")).to_contain_text("Feasible")

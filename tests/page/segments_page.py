@@ -25,11 +25,11 @@ def opened_segments(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
 
 def copy_of(studio: StudioProcess, gait: str, name: str, **changes: Any) -> str:
     """A saved gait of its own for a test, then edited in some fields; gives its id."""
-    answer = studio.ask("POST", "/api/gaits", {**document(studio, gait), "name": name})
+    answer = studio.ask("POST", "/api/gaits", {**studio.document(gait), "name": name})
     assert answer.status == 201
     gait_id: str = answer.content["id"]
     if changes:
-        edited = {**document(studio, gait_id), **changes}
+        edited = {**studio.document(gait_id), **changes}
         assert studio.ask("PUT", f"/api/gaits/{gait_id}?label=Prepare", edited).status == 200
     return gait_id
 
@@ -43,15 +43,9 @@ def choose(page: Page, name: str) -> None:
     page.get_by_role("tab", name="Segments").click()
 
 
-def document(studio: StudioProcess, gait: str) -> dict[str, Any]:
-    """A gait's document."""
-    content: dict[str, Any] = studio.ask("GET", f"/api/gaits/{gait}").content
-    return content
-
-
 def table(studio: StudioProcess, gait: str) -> dict[str, Any]:
     """A gait's segment table."""
-    content: dict[str, Any] = document(studio, gait)["segment_table"]
+    content: dict[str, Any] = studio.document(gait)["segment_table"]
     return content
 
 

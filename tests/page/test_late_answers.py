@@ -28,13 +28,8 @@ def made(studio: StudioProcess, name: str) -> str:
     return gait
 
 
-def document(studio: StudioProcess, gait: str) -> dict[str, Any]:
-    content: dict[str, Any] = studio.ask("GET", f"/api/gaits/{gait}").content
-    return content
-
-
 def change(studio: StudioProcess, gait: str, **options: Any) -> None:
-    changed = document(studio, gait)
+    changed = studio.document(gait)
     changed["options"] |= options
     assert studio.ask("PUT", f"/api/gaits/{gait}?label=Elsewhere", changed).status == 200
 
@@ -59,7 +54,7 @@ def test_edits_reach_the_gait_that_they_are_of_though_another_is_shown_by_then(
     page: Page, studio: StudioProcess, changed: str
 ) -> None:
     left, shown = made(studio, f"Left {changed}"), made(studio, f"Shown {changed}")
-    before = document(studio, shown)
+    before = studio.document(shown)
     choose(page, f"Left {changed}")
     late = LateRequests(page, "PUT", f"/api/gaits/{left}")
     fill(page, "Stability margin", "1")
@@ -71,12 +66,12 @@ def test_edits_reach_the_gait_that_they_are_of_though_another_is_shown_by_then(
     late.let_go()
 
     def arrived() -> bool:
-        options = document(studio, left)["options"]
+        options = studio.document(left)["options"]
         return bool(options["margin"] == 0.001 and options["clearance"] == 0.004)
 
     wait_for(arrived, "both edits are in the gait that was left")
-    assert document(studio, left)["options"]["stop_bound"] == (1.5 if changed == "elsewhere too" else 1.0)
-    assert document(studio, shown) == before
+    assert studio.document(left)["options"]["stop_bound"] == (1.5 if changed == "elsewhere too" else 1.0)
+    assert studio.document(shown) == before
     expect(page.get_by_label("Gait name")).to_have_value(f"Shown {changed}")
     expect(page.locator("#saved-state")).to_have_text("· edited, kept")
 
@@ -85,7 +80,7 @@ def test_undo_and_save_are_of_the_gait_that_was_shown_when_they_were_pressed(
     page: Page, studio: StudioProcess
 ) -> None:
     left, shown = made(studio, "Undone"), made(studio, "Not undone")
-    before = [document(studio, gait) for gait in (left, shown)]
+    before = [studio.document(gait) for gait in (left, shown)]
     choose(page, "Undone")
     late = LateRequests(page, "PUT", f"/api/gaits/{left}")
     fill(page, "Clearance", "4")
@@ -95,7 +90,7 @@ def test_undo_and_save_are_of_the_gait_that_was_shown_when_they_were_pressed(
     choose(page, "Not undone")
     late.let_go()
     wait_for(lambda: not view(studio, left)["edited"], "undone, and saved")
-    assert [document(studio, gait) for gait in (left, shown)] == before
+    assert [studio.document(gait) for gait in (left, shown)] == before
     assert view(studio, shown)["edited"]
 
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from math import hypot
-from typing import Any
 
 import pytest
 from playwright.sync_api import Browser, Locator, Page, Request, Route, expect
 
-from tests.page.opened import opened_page
+from tests.page.opened import choose, opened_page
 from tests.studio_process import StudioProcess, wait_for
 
 
@@ -21,13 +20,6 @@ def page(browser: Browser, studio: StudioProcess, request: pytest.FixtureRequest
         yield opened
 
 
-def choose(page: Page, name: str) -> None:
-    alone = re.compile(f"^{re.escape(name)}(?!,)")  # and not one of its other foot orders
-    page.get_by_role("list", name="Gaits").get_by_role("button", name=alone).click()
-    expect(page.get_by_label("Gait name")).to_have_value(name)
-    expect(live_line(page)).to_contain_text("Feasible")
-
-
 def live_line(page: Page) -> Locator:
     return page.get_by_role("status", name="Live answer")
 
@@ -35,11 +27,6 @@ def live_line(page: Page) -> Locator:
 def margin_curve(page: Page) -> str:
     drawn: str = page.locator('.strip[data-strip="margin"] canvas').evaluate("(canvas) => canvas.toDataURL()")
     return drawn
-
-
-def document(studio: StudioProcess, gait: str) -> dict[str, Any]:
-    content: dict[str, Any] = studio.ask("GET", f"/api/gaits/{gait}").content
-    return content
 
 
 def middle(place: Locator) -> tuple[float, float]:
@@ -78,17 +65,17 @@ def test_the_fastest_timing_stands_beside_the_drawn_one_and_can_be_used(page: Pa
 
 def test_the_plan_follows_a_drag_on_the_timeline_before_it_ends(page: Page, studio: StudioProcess) -> None:
     choose(page, "Walk 10 mm")
-    before, asked = margin_curve(page), document(studio, "walk")
+    before, asked = margin_curve(page), studio.document("walk")
     page.mouse.move(*middle(cell(page, 3, 11)))
     page.mouse.down()
     page.mouse.move(*middle(cell(page, 3, 12)))
     wait_for(lambda: margin_curve(page) not in ("", before), "the margin follows the drag")
     expect(page.get_by_role("status", name="Plan")).to_contain_text("edit under way")
-    assert document(studio, "walk") == asked
+    assert studio.document("walk") == asked
     page.keyboard.press("Escape")
     page.mouse.up()
     wait_for(lambda: margin_curve(page) == before, "the plan is the old one again")
-    assert document(studio, "walk") == asked
+    assert studio.document("walk") == asked
 
 
 def test_a_typed_number_is_answered_while_it_is_typed_and_is_one_edit(
@@ -99,10 +86,10 @@ def test_a_typed_number_is_answered_while_it_is_typed_and_is_one_edit(
     step = page.get_by_role("spinbutton", name="Step", exact=True)
     step.fill("12")
     wait_for(lambda: margin_curve(page) not in ("", before), "the margin follows the number")
-    assert document(studio, "amble")["step"][0] == pytest.approx(0.00707, abs=1e-5)
+    assert studio.document("amble")["step"][0] == pytest.approx(0.00707, abs=1e-5)
     step.press("Enter")
     expect(page.get_by_role("button", name=re.compile("^Undo"))).to_contain_text("step to 12 mm")
-    wait_for(lambda: document(studio, "amble")["step"][0] > 0.0084, "the edit has arrived")
+    wait_for(lambda: studio.document("amble")["step"][0] > 0.0084, "the edit has arrived")
     page.get_by_role("button", name=re.compile("^Undo")).click()
     expect(step).to_have_value("10")
 
@@ -111,7 +98,7 @@ def test_a_number_out_of_range_is_refused_with_a_sentence_and_nothing_changes(
     page: Page, studio: StudioProcess
 ) -> None:
     choose(page, "Amble 10 mm")
-    before = document(studio, "amble")
+    before = studio.document("amble")
     step = page.get_by_role("spinbutton", name="Step", exact=True)
     step.fill("-5")
     step.press("Enter")
@@ -121,7 +108,7 @@ def test_a_number_out_of_range_is_refused_with_a_sentence_and_nothing_changes(
     expect(step).to_have_value("-5")
     step.press("Escape")
     expect(step).to_have_value("10")
-    assert document(studio, "amble") == before
+    assert studio.document("amble") == before
 
 
 def test_an_infeasible_step_is_explained_where_it_happens_and_a_remedy_cures_it(page: Page) -> None:
@@ -167,11 +154,11 @@ def test_a_way_out_keeps_what_was_edited_since_although_the_plan_is_the_same(
     speed = page.get_by_role("spinbutton", name="Motor speed", exact=True)
     speed.fill("60")
     speed.press("Enter")
-    wait_for(lambda: document(studio, "c-gait")["options"]["motor_speed"] == 0.06, "the speed has arrived")
+    wait_for(lambda: studio.document("c-gait")["options"]["motor_speed"] == 0.06, "the speed has arrived")
     ways.get_by_role("button").first.click()
     expect(live_line(page)).to_contain_text("Feasible, checked")
-    assert document(studio, "c-gait")["options"]["motor_speed"] == 0.06
-    assert hypot(*document(studio, "c-gait")["step"][:2]) < 0.0275
+    assert studio.document("c-gait")["options"]["motor_speed"] == 0.06
+    assert hypot(*studio.document("c-gait")["step"][:2]) < 0.0275
 
 
 def test_a_search_for_ways_out_that_was_cut_short_says_so_and_goes_on(page: Page) -> None:
@@ -242,10 +229,10 @@ def test_dragging_the_goal_in_3d_changes_the_step_as_one_edit(page: Page, studio
     page.mouse.move(box["x"] + 12, box["y"])
     page.mouse.move(box["x"] + 24, box["y"] - 4)
     expect(goal).not_to_have_attribute("aria-valuetext", re.compile("step 10.0 mm"))
-    assert document(studio, "walk")["step"][0] == pytest.approx(0.00707, abs=1e-5)
+    assert studio.document("walk")["step"][0] == pytest.approx(0.00707, abs=1e-5)
     page.mouse.up()
-    wait_for(lambda: document(studio, "walk")["step"][0] > 0.009, "the edit has arrived")
-    dragged = document(studio, "walk")["step"]
+    wait_for(lambda: studio.document("walk")["step"][0] > 0.009, "the edit has arrived")
+    dragged = studio.document("walk")["step"]
     assert [value * 2000 for value in dragged[:2]] == pytest.approx([round(v * 2000) for v in dragged[:2]])
     assert dragged[0] != pytest.approx(dragged[1])
     page.get_by_role("button", name=re.compile("^Undo")).click()
@@ -255,15 +242,15 @@ def test_dragging_the_goal_in_3d_changes_the_step_as_one_edit(page: Page, studio
 @pytest.mark.scene
 def test_arrow_keys_move_the_goal_by_half_a_millimetre_and_turn_it(page: Page, studio: StudioProcess) -> None:
     choose(page, "Walk 10 mm")
-    before = document(studio, "walk")["step"]
+    before = studio.document("walk")["step"]
     goal = page.get_by_role("slider", name="Goal", exact=True)
     expect(goal).to_have_attribute("aria-valuetext", re.compile("step"))
     goal.press("ArrowRight")
-    wait_for(lambda: document(studio, "walk")["step"] != before, "the edit has arrived")
-    assert document(studio, "walk")["step"] == pytest.approx([before[0] + 0.0005, before[1], 0.0])
+    wait_for(lambda: studio.document("walk")["step"] != before, "the edit has arrived")
+    assert studio.document("walk")["step"] == pytest.approx([before[0] + 0.0005, before[1], 0.0])
     page.get_by_role("slider", name="Goal turn").press("ArrowRight")
-    wait_for(lambda: document(studio, "walk")["step"][2] > 0, "the turn has arrived")
-    assert document(studio, "walk")["step"][2] == pytest.approx(0.0174533, abs=1e-6)
+    wait_for(lambda: studio.document("walk")["step"][2] > 0, "the turn has arrived")
+    assert studio.document("walk")["step"][2] == pytest.approx(0.0174533, abs=1e-6)
     expect(page.get_by_role("spinbutton", name="Turn")).to_have_value("1")
 
 

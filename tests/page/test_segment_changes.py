@@ -13,7 +13,6 @@ from tests.page.segments_page import (
     cell,
     choose,
     copy_of,
-    document,
     note,
     opened_segments,
     put_on_clipboard,
@@ -96,7 +95,7 @@ def test_numbers_and_the_link_are_typed(page: Page, studio: StudioProcess) -> No
     samples = page.get_by_role("spinbutton", name="Samples a segment")
     samples.fill("3")
     samples.press("Enter")
-    wait_for(lambda: len(document(studio, gait)["timeline"]["feet"][0]) == 33, "the timeline follows")
+    wait_for(lambda: len(studio.document(gait)["timeline"]["feet"][0]) == 33, "the timeline follows")
     expect(undo_label(page)).to_have_text("samples a segment to 3")
     cell(page, "Link segment 1", 2).click()
     page.keyboard.type("lean a")
@@ -180,16 +179,16 @@ def test_a_table_is_made_of_a_drawing_with_room_for_steps(page: Page, studio: St
     expect(make).to_have_attribute("title", re.compile("such as 6"))
     page.get_by_role("button", name="Make one with phases of 6").click()
     expect(cell(page, 3, 3)).to_have_text("Lift A")
-    wait_for(lambda: document(studio, gait)["options"]["phase_knots"] == 6, "the phases are longer")
+    wait_for(lambda: studio.document(gait)["options"]["phase_knots"] == 6, "the phases are longer")
     assert table(studio, gait)["samples_per_segment"] == 3
     page.get_by_role("button", name=re.compile("^Undo")).click()
     expect(make).to_be_visible()
-    wait_for(lambda: document(studio, gait)["options"]["phase_knots"] == 5, "both are undone")
+    wait_for(lambda: studio.document(gait)["options"]["phase_knots"] == 5, "both are undone")
     order = {"order": [3, 2, 4, 1], "phase_knots": 6, "closing_knots": 6}
     assert studio.ask("POST", f"/api/gaits/{gait}/redraw", order).status == 200
     expect(make).not_to_have_attribute("aria-disabled", "true")
-    drawn = document(studio, gait)["timeline"]["feet"]
+    drawn = studio.document(gait)["timeline"]["feet"]
     make.click()
     expect(cell(page, 3, 3)).to_have_text("Lift A")
     expect(undo_label(page)).to_have_text("make a segment table")
-    assert document(studio, gait)["timeline"]["feet"] == drawn
+    assert studio.document(gait)["timeline"]["feet"] == drawn

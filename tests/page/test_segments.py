@@ -14,7 +14,6 @@ from tests.page.segments_page import (
     cell,
     choose,
     copy_of,
-    document,
     grid,
     note,
     opened_segments,
@@ -158,7 +157,7 @@ def test_what_does_not_fit_yet_survives_a_reload_and_goes_when_the_table_changed
     expect(cell(page, 5, 1)).to_have_attribute("aria-invalid", "true")
     expect(saved).to_have_text("· table does not fit")
     expect(undo_label(page)).to_have_text("foot 1, segment 4 to Lift A")
-    changed = document(studio, gait)
+    changed = studio.document(gait)
     changed["segment_table"]["definitions"]["z"]["Base"] = 0.006
     assert studio.ask("PUT", f"/api/gaits/{gait}?label=Elsewhere", changed).status == 200
     expect(cell(page, 4, 1)).to_have_text("Wait A")

@@ -5,12 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from functools import partial
-from typing import Any
 
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from tests.page.opened import opened_page
+from tests.page.opened import choose, opened_page
 from tests.studio_process import StudioProcess, wait_for
 
 ROOM_FOR_PLACEHOLDER = """field => {
@@ -28,18 +27,6 @@ def page(browser: Browser, studio: StudioProcess, request: pytest.FixtureRequest
     has_scene = "scene" in request.keywords
     with opened_page(browser, studio.url, 1024, 768, has_scene=has_scene) as opened:
         yield opened
-
-
-def choose(page: Page, name: str) -> None:
-    alone = re.compile(f"^{re.escape(name)}(?!,)")  # and not one of its other foot orders
-    page.get_by_role("list", name="Gaits").get_by_role("button", name=alone).click()
-    expect(page.get_by_label("Gait name")).to_have_value(name)
-    expect(page.get_by_role("status", name="Live answer")).to_contain_text("Feasible")
-
-
-def document(studio: StudioProcess, gait: str) -> dict[str, Any]:
-    content: dict[str, Any] = studio.ask("GET", f"/api/gaits/{gait}").content
-    return content
 
 
 def number(page: Page, name: str) -> Locator:
@@ -64,7 +51,7 @@ def drag(page: Page, foot: int, start: int, end: int) -> None:
 
 
 def swings(studio: StudioProcess, gait: str, foot: int) -> list[tuple[int, int]]:
-    row = document(studio, gait)["timeline"]["feet"][foot - 1]
+    row = studio.document(gait)["timeline"]["feet"][foot - 1]
     return [(match.start() + 1, match.end()) for match in re.finditer("0+", row)]
 
 
@@ -114,7 +101,7 @@ def test_an_end_of_a_swing_its_middle_and_alt_each_do_their_own(page: Page, stud
 
 
 def test_a_swing_stops_at_a_locked_sample_and_says_why(page: Page, studio: StudioProcess) -> None:
-    content = document(studio, "amble")
+    content = studio.document("amble")
     row = content["timeline"]["feet"][2]
     first = row.index("0") + 1
     last = row.rindex("0") + 1
@@ -136,8 +123,8 @@ def test_phases_of_a_timeline_drawn_by_hand_are_empty_until_one_is_typed(
     choose(page, "C-Gait 10 mm")
     phases = number(page, "Phase knots")
     expect(phases).to_have_value("5")
-    drawn = document(studio, "c-gait")["timeline"]["feet"]
-    foot = document(studio, "c-gait")["order"][0]
+    drawn = studio.document("c-gait")["timeline"]["feet"]
+    foot = studio.document("c-gait")["order"][0]
     drag(page, foot, 6, 7)
     expect(phases).to_have_value("")
     expect(phases).to_have_attribute("placeholder", "as drawn by hand")
@@ -145,7 +132,7 @@ def test_phases_of_a_timeline_drawn_by_hand_are_empty_until_one_is_typed(
     expect(number(page, "Closing knots")).to_have_value("")
     phases.fill("5")
     phases.press("Enter")
-    wait_for(lambda: document(studio, "c-gait")["timeline"]["feet"] == drawn, "it is drawn anew")
+    wait_for(lambda: studio.document("c-gait")["timeline"]["feet"] == drawn, "it is drawn anew")
     expect(phases).to_have_value("5")
     expect(number(page, "Closing knots")).to_have_value("5")
 
@@ -199,7 +186,7 @@ def test_no_number_is_rounded_or_put_back_in_silence(
     page: Page, studio: StudioProcess, name: str, typed: str, sentence: str
 ) -> None:
     choose(page, "S-Gait 10 mm")
-    before = document(studio, "s-gait")
+    before = studio.document("s-gait")
     field = number(page, name)
     kept = field.input_value()
     field.fill(typed)
@@ -207,7 +194,7 @@ def test_no_number_is_rounded_or_put_back_in_silence(
     expect(page.get_by_role("alert").filter(has_text=sentence)).to_be_visible()
     field.blur()
     expect(field).to_have_value(typed)
-    assert document(studio, "s-gait") == before
+    assert studio.document("s-gait") == before
     field.press("Escape")
     expect(field).to_have_value(kept)
 
@@ -282,11 +269,11 @@ def test_undo_in_a_number_is_the_pages_and_the_focused_number_follows(
     step = number(page, "Step")
     step.fill("12")
     step.press("Enter")
-    wait_for(lambda: abs(document(studio, "s-gait")["step"][0] - 0.012) < 1e-9, "the edit has arrived")
+    wait_for(lambda: abs(studio.document("s-gait")["step"][0] - 0.012) < 1e-9, "the edit has arrived")
     step.press("Control+z")
     expect(step).to_be_focused()
     expect(step).to_have_value("10")
-    wait_for(lambda: abs(document(studio, "s-gait")["step"][0] - 0.010) < 1e-9, "the undo has arrived")
+    wait_for(lambda: abs(studio.document("s-gait")["step"][0] - 0.010) < 1e-9, "the undo has arrived")
     step.fill("17")
     step.press("Control+z")
     expect(step).to_have_value("10")
@@ -347,7 +334,7 @@ def test_a_focused_number_follows_another_tab_but_not_while_it_is_typed(
 
 def change_elsewhere(studio: StudioProcess, margin: float) -> None:
     """Another margin for the gait that turns, as another tab would send it."""
-    content = document(studio, "rotate")
+    content = studio.document("rotate")
     content["options"]["margin"] = margin
     revision = studio.ask("GET", "/api/gaits/rotate/view").content["revision"]
     path = f"/api/gaits/rotate?label=Margin%20to%20{margin * 1000:.0f}%20mm&revision={revision}"

@@ -73,7 +73,9 @@ def test_what_was_learned_is_kept_chosen_in_simulate_deleted_and_brought_back(
         panel.get_by_role("button", name="Keep as a set").click()
         sets = panel.get_by_role("list", name="Sets of physics parameters")
         expect(sets).to_contain_text("Lab floor, version 1")
-        offered = page.get_by_label("Physics parameters", exact=True).locator("option", has_text="Lab floor, version 1")
+        offered = page.get_by_label("Physics parameters", exact=True).locator(
+            "option", has_text="Lab floor, version 1"
+        )
         expect(offered).to_have_count(1)
         sets.get_by_role("button", name="Delete Lab floor, version 1").click()
         expect(sets).to_have_count(0)

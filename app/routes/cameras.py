@@ -16,8 +16,8 @@ from app.routes.edge import studio_of
 from app.routes.looking import BOUNDARY, LookRequest, Width, look_at, part
 from app.routes.setups import CornersAsked, board_of
 from app.studio import Studio
-from app.trials.camera_link import CameraError
 from app.trials.picture_tasks import BoardIn, Source, data_url
+from core.errors import FootfallError
 
 router = APIRouter(prefix="/api/cameras", tags=["cameras"])
 TheStudio = Annotated[Studio, Depends(studio_of)]
@@ -75,7 +75,7 @@ async def stream_camera(
             await asyncio.sleep(due - time.monotonic())
             try:
                 yield part(await _answer(lambda: studio.seeing.cameras.picture(camera, most)))
-            except CameraError:
+            except FootfallError:
                 return
 
     return StreamingResponse(parts(), media_type=f"multipart/x-mixed-replace; boundary={BOUNDARY}")

@@ -24,6 +24,7 @@ from app.trials.footage import PICTURES
 from app.trials.picture_tasks import BoardIn, Source
 from app.trials.track_desk import TrackOrder
 from app.trials.video_files import MOST_BYTES, Upload
+from core.errors import FootfallError
 
 router = APIRouter(prefix="/api/videos", tags=["videos"])
 TheStudio = Annotated[Studio, Depends(studio_of)]
@@ -161,7 +162,10 @@ async def play_video(
         begun, number = time.monotonic(), from_frame
         while number < view["frames"] and not studio.hub.is_closed:
             source = Source(first.path, number, name=first.name)
-            yield part(await _answer(lambda source=source: studio.seeing.videos.picture(source, most)))  # type: ignore[misc]
+            try:
+                yield part(await _answer(lambda source=source: studio.seeing.videos.picture(source, most)))  # type: ignore[misc]
+            except FootfallError:  # a file may hold fewer pictures than it says
+                return
             number = max(number + 1, from_frame + int((time.monotonic() - begun) * pace))
             await asyncio.sleep(max(0.0, begun + (number - from_frame) / pace - time.monotonic()))
 

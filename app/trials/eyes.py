@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -9,6 +10,8 @@ from typing import Any
 from app.trials.picture_tasks import Task, run_picture_worker
 from core.errors import FootfallError, StateError
 from solver_jobs import Question, QuestionService
+
+_log = logging.getLogger(__name__)
 
 
 class Look(Question[Task, float, Any]):
@@ -36,14 +39,18 @@ class Look(Question[Task, float, Any]):
         raise StateError("It was cancelled." if self.is_ending else "The pictures could not be read in time.")
 
     def answer(self, result: Any) -> None:
-        """Ends the wait."""
-        super().answer(result)
+        """Ends the wait; where what is to be done with the answer fails, the service says so by `fail`."""
         self._done(result)
+        super().answer(result)
 
     def fail(self, error: FootfallError) -> None:
         """Ends the wait with a sentence."""
         super().fail(error)
-        self._failed(error)
+        try:
+            self._failed(error)
+        except Exception:
+            # The service's thread must live on for the questions that follow.
+            _log.exception("It could not be kept that there is no answer: %s", error)
 
 
 @dataclass(frozen=True)

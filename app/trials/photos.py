@@ -12,6 +12,7 @@ from app.store.database import Database
 from app.store.files import require_folder, write_atomically
 from app.store.photo_log import Content, PhotoLog
 from app.trials.desk import TrialDesk
+from app.trials.video import jpeg, read_picture, scaled, use_one_thread
 from core.errors import InputError
 from core.trials.picture_size import picture_size
 
@@ -70,8 +71,7 @@ class TrialPhotos:
                 "are read. Make it smaller.",
                 name,
             )
-        from app.trials.video import jpeg, read_picture, scaled  # only who adds a photo waits for OpenCV
-
+        use_one_thread()
         picture = scaled(read_picture(content, name), KEPT_WIDTH)
         photo: Content = {
             "id": uuid.uuid4().hex[:12],

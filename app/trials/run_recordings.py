@@ -157,13 +157,19 @@ class RunRecordings:
         recordings, self._recordings = self._recordings, []
         for one in recordings:
             try:
-                recorded = one.link.finish(FINISH_SECONDS)
-            except CameraError as error:
-                self._videos.salvage(one.video, error.sentence)
-                continue
-            trial, remarks = self._trial(run, one, recorded)
-            self._keep(one, recorded, trial, remarks)
+                self._finish_one(run, one)
+            except Exception:
+                _log.exception("The recording %s of the run %s failed.", one.video, run)
         self._cameras.tell()
+
+    def _finish_one(self, run: str, one: _Recording) -> None:
+        try:
+            recorded = one.link.finish(FINISH_SECONDS)
+        except CameraError as error:
+            self._videos.salvage(one.video, error.sentence)
+            return
+        trial, remarks = self._trial(run, one, recorded)
+        self._keep(one, recorded, trial, remarks)
 
     def _keep(self, one: _Recording, recorded: Recorded, trial: str, remarks: tuple[str, ...]) -> None:
         self._videos.change(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -25,6 +26,12 @@ TELL_EVERY = 100
 
 QUALITY = 85
 """Of JPEG files, of 100."""
+
+CONTAINERS = (
+    "mov,matroska,avi,mpegts,mpeg,mpegvideo,asf,flv,ogg,mjpeg,jpeg_pipe,h264,hevc,m4v,mxf,ivf,yuv4mpegpipe,dv"
+)
+"""Kinds of files that are read (FFmpeg's names): those that hold pictures. Lists that name other files, such
+as playlists, are left out, since whoever sends one would see what else is on the computer."""
 
 
 def use_one_thread() -> None:
@@ -57,6 +64,8 @@ class VideoFile:
         self._is_row = self.facts.count == 0
 
     def _open(self) -> None:
+        # OpenCV passes on to FFmpeg what stands in this variable, and has no other way to say it.
+        os.environ["OPENCV_FFMPEG_CAPTURE_OPTIONS"] = f"format_whitelist;{CONTAINERS}"
         # Other readers of OpenCV's take a file name with digits for a row of pictures.
         self._capture = cv2.VideoCapture(str(self._path), cv2.CAP_FFMPEG)
         if not self._capture.isOpened():

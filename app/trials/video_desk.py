@@ -173,7 +173,7 @@ class VideoDesk:
     def delete(self, video: str) -> None:
         """Takes a video out of the list; `restore` brings it back."""
         if self._known(video)["state"] == "recording":
-            raise StateError("This video is being recorded. Wait for the end of its run.", "video")
+            raise _still_recorded()
         self._log.put_deleted(video, time.time())
         self._changed(self.view(video))
 
@@ -189,9 +189,11 @@ class VideoDesk:
         """Where a video's pictures are.
 
         Raises:
-            StateError: they were taken away.
+            StateError: they were taken away, or are not all there yet.
         """
         content = self._known(video)
+        if content["state"] == "recording":
+            raise _still_recorded()
         path = self.files.path(content["file"])
         if content["state"] == "removed" or not path.exists():
             raise StateError(content["sentence"] or "The video's file is not on the disk any more.", "video")
@@ -225,6 +227,10 @@ class VideoDesk:
         if content is None:
             raise UnknownVideoError(f"There is no video {video}.", "video")
         return content
+
+
+def _still_recorded() -> StateError:
+    return StateError("This video is being recorded. Wait for the end of its run.", "video")
 
 
 def _new(video: str, name: str, kind: str, file: str) -> Content:

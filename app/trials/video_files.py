@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import shutil
@@ -52,21 +53,21 @@ class Upload:
         try:
             self._file.write(data)
         except OSError as error:
-            raise StateError(
-                f"The video cannot be written: {error.strerror}. Make room on the disk of the data folder.",
-                "file",
-            ) from error
+            raise _not_written(error) from error
 
     def finish(self) -> None:
         """Ends the writing.
 
         Raises:
-            InputError: what came is empty or text, which a reader of videos could take for a list of other
-                files.
+            InputError: what came is empty or text.
+            StateError: the disk does not take the last bytes.
         """
-        self._file.flush()
-        os.fsync(self._file.fileno())
-        self._file.close()
+        try:
+            self._file.flush()
+            os.fsync(self._file.fileno())
+            self._file.close()
+        except OSError as error:
+            raise _not_written(error) from error
         if not self.size:
             raise InputError(f"{self.name} is empty; choose a video.", "file")
         if b"\0" not in self._head:
@@ -74,8 +75,15 @@ class Upload:
 
     def discard(self) -> None:
         """Takes away what was written."""
-        self._file.close()
+        with contextlib.suppress(OSError):  # a full disk does not take the last bytes here either
+            self._file.close()
         self.partial.unlink(missing_ok=True)
+
+
+def _not_written(error: OSError) -> StateError:
+    return StateError(
+        f"The video cannot be written: {error.strerror}. Make room on the disk of the data folder.", "file"
+    )
 
 
 def too_large(size: int) -> InputError:

@@ -93,3 +93,17 @@ def test_a_file_that_is_no_video_is_refused(tmp_path: Path) -> None:
     (tmp_path / "notes.avi").write_text("no video")
     with pytest.raises(InputError, match="cannot be read as a video"):
         track_video(tmp_path / "notes.avi", SETUP)
+
+
+@pytest.mark.parametrize(
+    ("name", "head"),
+    [
+        ("list.m3u8", "#EXTM3U\n#EXT-X-TARGETDURATION:9\n#EXTINF:9.0,\n{}\n#EXT-X-ENDLIST\n"),
+        ("list.avi", "ffconcat version 1.0\nfile {}\n"),
+    ],
+)
+def test_a_list_that_names_another_video_is_none(video: Path, name: str, head: str) -> None:
+    named = video.with_name(name)
+    named.write_bytes(head.format(video.name).encode() + b"#\0\n")
+    with pytest.raises(InputError, match="cannot be read as a video"):
+        track_video(named, SETUP)

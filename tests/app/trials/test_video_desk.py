@@ -10,13 +10,14 @@ import pytest
 
 from app.store.database import Database
 from app.trials import video_desk
-from app.trials.eyes import Eyes, open_eyes, seen
+from app.trials.eyes import Eyes, Look, open_eyes, seen
 from app.trials.footage import PICTURES
 from app.trials.picture_tasks import FactsOf
 from app.trials.recording_file import Recording, RecordingWriter
 from app.trials.video import jpeg, read_picture
 from app.trials.video_desk import VideoDesk
-from core.errors import InputError, StateError
+from app.trials.video_files import Upload
+from core.errors import FootfallError, InputError, StateError
 from tests.studio_process import wait_for
 
 GREY = jpeg(np.full((48, 64, 3), 120, dtype=np.uint8))
@@ -104,6 +105,40 @@ def test_a_video_that_was_deleted_long_ago_goes(desk: VideoDesk, monkeypatch: py
 def test_a_video_that_is_being_recorded_cannot_be_deleted(desk: VideoDesk) -> None:
     with pytest.raises(StateError, match="being recorded"):
         desk.delete(recorded(desk, 1))
+
+
+def test_a_video_that_is_being_recorded_is_not_read_yet(desk: VideoDesk) -> None:
+    with pytest.raises(StateError, match="being recorded"):
+        desk.source(recorded(desk, 1), 0)
+
+
+def test_an_upload_that_the_disk_does_not_take_leaves_nothing(tmp_path: Path) -> None:
+    partial = tmp_path / "full"
+    partial.symlink_to("/dev/full")
+    upload = Upload(partial, "walk.mp4")
+    upload.add(b"\0few")
+    with pytest.raises(StateError, match="Make room"):
+        upload.finish()
+    upload.discard()
+    assert not partial.is_symlink()
+
+
+def test_an_answer_that_cannot_be_kept_is_told_and_the_next_one_comes(desk: VideoDesk, eyes: Eyes) -> None:
+    failures: list[FootfallError] = []
+
+    def broken(_: object) -> None:
+        raise OSError("The disk is full.")
+
+    def broken_again(error: FootfallError) -> None:
+        failures.append(error)
+        raise OSError("The disk is full.")
+
+    facts = FactsOf(desk.files.path(recorded(desk, 3)))
+    look = eyes.near.ask(Look(facts, done=broken, failed=broken_again))
+    with pytest.raises(StateError):
+        look.result(60.0)
+    assert seen(eyes.near, facts, 60.0).count == 3
+    assert len(failures) == 1
 
 
 def test_a_bare_row_of_pictures_is_counted_and_sought_in(desk: VideoDesk) -> None:

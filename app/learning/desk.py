@@ -188,5 +188,5 @@ class LearningDesk:
                     INTERRUPTED if was == "interrupted" else {"state": "cancelled", "sentence": "Cancelled."}
                 )
             work.content.update(end, ended=time.time())
-            self._log.put(work.content)
             self._on = None
+            self._log.put(work.content)

@@ -154,6 +154,8 @@ class TrialSimulations:
         except Exception as error:
             _log.exception("A trial's simulation broke off.")
             work.sentence, work.has_failed = f"The simulation broke off: {error!r}.", True
+        finally:
+            work.handle = None  # it holds the whole motion
 
     def _problem(self, trial: str) -> SimulationProblem | None:
         sent = self._log.sent(trial)

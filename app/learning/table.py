@@ -51,7 +51,12 @@ def walks_of_table(
     Raises:
         InputError: a row or a trajectory is missing or is none.
     """
-    rows = list(csv.DictReader(io.StringIO(table), skipinitialspace=True))
+    try:
+        rows = list(csv.DictReader(io.StringIO(table), skipinitialspace=True))
+    except csv.Error as error:
+        raise InputError(
+            f"The table cannot be read ({error}). Take trajectory_averages.csv.", "table"
+        ) from None
     if not rows or rows[0].get("Traj") is None:
         raise InputError(
             "The table has no column Traj, or no row below it. Take trajectory_averages.csv.", "table"

@@ -220,9 +220,10 @@ class _Course:
         travels = self._simulate([(gait, one) for one in sets for gait in range(len(self._walks))])
         figures = np.array([_row(travel) for travel in travels]).reshape(points, len(self._walks), 2)
         values = np.concatenate([figures[..., 0], figures[..., 1]], axis=1)
+        names = [walk.measured.name for walk in self._walks] * 2
         without = [np.arange(points) % PARTS != part for part in range(PARTS)]
         return [
-            fitted_surfaces(low, high, z[kept], values[kept])
+            fitted_surfaces(low, high, z[kept], values[kept], names)
             for kept in (np.ones(points, dtype=np.bool_), *without)
         ]
 

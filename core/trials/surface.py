@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,7 +40,7 @@ class Surfaces:
         return np.asarray(_terms(self.low, self.high, z) @ self.coefficients)
 
 
-def fitted_surfaces(low: Floats, high: Floats, z: Floats, values: Floats) -> Surfaces:
+def fitted_surfaces(low: Floats, high: Floats, z: Floats, values: Floats, gaits: Sequence[str]) -> Surfaces:
     """The surfaces of least squares, with a little ridge on all but the constant term.
 
     Args:
@@ -47,17 +48,19 @@ def fitted_surfaces(low: Floats, high: Floats, z: Floats, values: Floats) -> Sur
         high: (parameters,) the other.
         z: (n, parameters) where it was simulated.
         values: (n, figures) what came of it; nan where there is no answer.
+        gaits: (figures,) names of the gaits that the figures are of, for messages.
 
     Raises:
-        CheckError: too few simulations have an answer.
+        CheckError: too few simulations of a gait have an answer.
     """
     terms = _terms(low, high, z)
     known = np.isfinite(values)
-    least = float(known.mean(axis=0).min())
+    shares = known.mean(axis=0)
+    least = float(shares.min())
     if least < LEAST_SHARE:
         raise CheckError(
-            f"Only {least * 100:.0f} % of a gait's simulations came to their end, where "
-            f"{LEAST_SHARE * 100:.0f} % are needed: it falls. Leave it out.",
+            f"Only {least * 100:.0f} % of the simulations of “{gaits[int(shares.argmin())]}” came to their "
+            f"end, where {LEAST_SHARE * 100:.0f} % are needed: it falls. Leave it out.",
             "trials",
         )
     columns = [_coefficients(terms, values[:, j], known[:, j], len(low)) for j in range(values.shape[1])]

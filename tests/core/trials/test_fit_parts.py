@@ -27,7 +27,7 @@ def test_a_surface_goes_nearly_through_values_that_are_quadratic() -> None:
     low, high = np.full(3, -2.0), np.full(3, 2.0)
     z = 4.0 * even_points(60, 3) - 2.0
     values = np.stack([1.0 + z[:, 0] - 0.5 * z[:, 1] * z[:, 2], z[:, 2] ** 2], axis=1)
-    surfaces = fitted_surfaces(low, high, z, values)
+    surfaces = fitted_surfaces(low, high, z, values, ["Walk", "Amble"])
     assert np.abs(surfaces.at(z) - values).max() < 0.6
     assert surfaces.misfit.max() < 0.3
 
@@ -35,12 +35,13 @@ def test_a_surface_goes_nearly_through_values_that_are_quadratic() -> None:
 def test_points_without_an_answer_do_not_count_until_they_are_most() -> None:
     low, high = np.full(2, -2.0), np.full(2, 2.0)
     z = 4.0 * even_points(40, 2) - 2.0
-    values = z[:, :1].copy()
-    values[:10] = np.nan
-    assert fitted_surfaces(low, high, z, values).at(z)[20, 0] == pytest.approx(z[20, 0], abs=0.2)
-    values[:30] = np.nan
-    with pytest.raises(CheckError, match="25 % of a gait's simulations"):
-        fitted_surfaces(low, high, z, values)
+    values, gaits = z.copy(), ["Walk", "Amble"]
+    values[:10, 1] = np.nan
+    surfaces = fitted_surfaces(low, high, z, values, gaits)
+    assert surfaces.at(z)[20, 1] == pytest.approx(z[20, 1], abs=0.2)
+    values[:30, 1] = np.nan
+    with pytest.raises(CheckError, match="25 % of the simulations of “Amble” came to their end"):
+        fitted_surfaces(low, high, z, values, gaits)
 
 
 def test_defaults_are_at_zero_and_every_end_of_the_box_is_a_robot() -> None:

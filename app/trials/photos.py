@@ -14,12 +14,10 @@ from app.store.photo_log import Content, PhotoLog
 from app.trials.desk import TrialDesk
 from app.trials.video import jpeg, read_picture, scaled, use_one_thread
 from core.errors import InputError
-from core.trials.picture_size import picture_size
+from core.trials.picture_size import picture_size, require_readable
 
 MOST_BYTES = 20_000_000
 """Bytes of a picture file as it comes."""
-MOST_PIXELS = 50_000_000
-"""Pixels of a picture as it comes; unpacked it takes three bytes for each."""
 MOST_PHOTOS = 24
 """Photos of a trial."""
 KEPT_WIDTH, SMALL_WIDTH = 1600, 240
@@ -65,12 +63,7 @@ class TrialPhotos:
         self._desk.record(trial)
         check_bytes(len(content), name)
         size = picture_size(content, name)
-        if size.width * size.height > MOST_PIXELS:
-            raise InputError(
-                f"{name} has {size.width} × {size.height} pixels; at most {MOST_PIXELS // 1_000_000} million "
-                "are read. Make it smaller.",
-                name,
-            )
+        require_readable(size.width, size.height, name)
         use_one_thread()
         picture = scaled(read_picture(content, name), KEPT_WIDTH)
         photo: Content = {

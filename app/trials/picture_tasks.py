@@ -20,16 +20,12 @@ from app.trials.video import Picture, jpeg, read_picture, scaled, use_one_thread
 from core.arrays import Floats
 from core.errors import InputError
 from core.trials.camera import ColourRange, Lens, SpotLimits
-from core.trials.picture_size import picture_size
+from core.trials.picture_size import picture_size, require_readable
 from core.trials.setup import TrackingSetup
 from solver_jobs import Report, answer_questions
 
 MOST_OPEN = 3
 """Videos that are kept open to be looked at."""
-
-
-MOST_PIXELS = 50_000_000
-"""Of a picture that is sent; unpacked it takes three bytes for each."""
 
 
 class Shelf:
@@ -109,12 +105,7 @@ class Source:
         """
         if self.path is None:
             size = picture_size(self.file, self.name)
-            if size.width * size.height > MOST_PIXELS:
-                raise InputError(
-                    f"{self.name} has {size.width} × {size.height} pixels; at most {MOST_PIXELS / 1e6:g} "
-                    "million are read. Save it smaller.",
-                    "picture",
-                )
+            require_readable(size.width, size.height, self.name)
             return read_picture(self.file, self.name)
         return shelf.picture(self.path, self.number)
 

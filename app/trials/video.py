@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from app.trials.footage import Facts
 from core.errors import InputError
+from core.trials.picture_size import require_readable
 
 Picture = NDArray[np.uint8]
 """(height, width, 3) blue, green, red."""
@@ -46,20 +47,17 @@ class VideoFile:
         path: of the file.
 
     Raises:
-        InputError: the file is no video, or tells no frame rate.
+        InputError: the file is no video, tells no frame rate, or has pictures that are too large.
     """
 
     def __init__(self, path: Path) -> None:
         self._path, self._name = path, path.name
         self._open()
-        rate = self._capture.get(cv2.CAP_PROP_FPS)
-        if not (math.isfinite(rate) and rate > 0):
+        try:
+            self.facts = self._facts()
+        except InputError:
             self.close()
-            raise InputError(f"{path.name} tells no frame rate; save it again with one.", path.name)
-        wide, high = (
-            int(self._capture.get(p)) for p in (cv2.CAP_PROP_FRAME_WIDTH, cv2.CAP_PROP_FRAME_HEIGHT)
-        )
-        self.facts = Facts(rate, max(int(self._capture.get(cv2.CAP_PROP_FRAME_COUNT)), 0), (wide, high))
+            raise
         # A bare row of pictures says nothing of their number and cannot be sought in.
         self._is_row = self.facts.count == 0
 
@@ -71,6 +69,16 @@ class VideoFile:
         if not self._capture.isOpened():
             raise InputError(f"{self._name} cannot be read as a video.", self._name)
         self._next = 0
+
+    def _facts(self) -> Facts:
+        rate = self._capture.get(cv2.CAP_PROP_FPS)
+        if not (math.isfinite(rate) and rate > 0):
+            raise InputError(f"{self._name} tells no frame rate; save it again with one.", self._name)
+        wide, high = (
+            int(self._capture.get(p)) for p in (cv2.CAP_PROP_FRAME_WIDTH, cv2.CAP_PROP_FRAME_HEIGHT)
+        )
+        require_readable(wide, high, self._name)
+        return Facts(rate, max(int(self._capture.get(cv2.CAP_PROP_FRAME_COUNT)), 0), (wide, high))
 
     def counted(self, tell: Callable[[], object] = lambda: None) -> Facts:
         """What the file says, and where it does not say how many pictures it holds, as many as there are.

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 
 from core.errors import InputError
 
+MOST_PIXELS = 50_000_000
+"""Of a picture; unpacked it takes three bytes for each."""
+
 _PNG = b"\x89PNG\r\n\x1a\n"
 _JPEG = b"\xff\xd8"
 _SIZED = frozenset(range(0xC0, 0xD0)) - {0xC4, 0xC8, 0xCC}
@@ -28,6 +31,20 @@ class PictureSize:
     kind: str
     width: int
     height: int
+
+
+def require_readable(width: int, height: int, name: str) -> None:
+    """Refuses a picture that would take too much memory, before it is unpacked.
+
+    Raises:
+        InputError: it has too many pixels.
+    """
+    if width * height > MOST_PIXELS:
+        raise InputError(
+            f"{name} has {width} × {height} pixels; at most {MOST_PIXELS // 1_000_000} million are read. "
+            "Make it smaller.",
+            name,
+        )
 
 
 def picture_size(content: bytes, name: str) -> PictureSize:

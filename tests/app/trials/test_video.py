@@ -10,6 +10,7 @@ import pytest
 
 from app.trials.tracking import VideoTrack, track_of_pixels, track_video
 from core.errors import InputError
+from core.trials import picture_size
 from core.trials.camera import FOOT_COLOURS
 from core.trials.setup import TrackingSetup
 from tests.app.trials.rendered import LENS, VIEW, Hidden, write_video
@@ -87,6 +88,14 @@ def test_a_colour_that_no_foot_has_is_named_by_its_foot(video: Path) -> None:
     colours = (*FOOT_COLOURS[:3], replace(FOOT_COLOURS[3], hue=(0.8, 0.85)))
     with pytest.raises(InputError, match="foot 4 is seen in no frame"):
         track_video(video, replace(SETUP, colours=colours))
+
+
+def test_a_video_whose_pictures_are_too_large_is_refused(
+    video: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(picture_size, "MOST_PIXELS", 640 * 480 - 1)
+    with pytest.raises(InputError, match="640 × 480 pixels"):
+        track_video(video, SETUP)
 
 
 def test_a_file_that_is_no_video_is_refused(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from PIL import Image
 
 from core.errors import InputError
-from core.trials.picture_size import PictureSize, picture_size
+from core.trials.picture_size import MOST_PIXELS, PictureSize, picture_size, require_readable
 
 
 def picture(form: str, size: tuple[int, int], **options: object) -> bytes:
@@ -42,3 +42,9 @@ def test_what_is_no_picture_is_refused(content: bytes) -> None:
 def test_a_picture_that_is_cut_short_is_refused(form: str, kept: int) -> None:
     with pytest.raises(InputError, match="cut short"):
         picture_size(picture(form, (70, 30))[:kept], "it")
+
+
+def test_a_picture_that_takes_too_much_memory_is_refused() -> None:
+    require_readable(MOST_PIXELS, 1, "it")
+    with pytest.raises(InputError, match=r"it has 10000 × 5001 pixels; at most 50 million"):
+        require_readable(10_000, 5_001, "it")

@@ -53,7 +53,7 @@ class TrialReports:
             f'<p class="note">{text(summary["note"])}</p>' if summary["note"] else "",
             _beside_table(beside["rows"]),
             f'<p class="quiet">{text(beside["simulation"]["remark"])}</p>',
-            plot(ways_from_above(sources, self._colours), "above", f"From above, 1 cm grid. {key}"),
+            plot(ways_from_above(sources, self._colours), "above", f"From above, grid in cm. {key}"),
             plot(
                 ways_over_time(_along(record, sources), self._colours, "s"), "time", f"Ways over time. {key}"
             ),

@@ -16,7 +16,7 @@ MOST_BANDS = 40
 BandOf = Callable[[Sequence[str]], dict[str, Any]]
 """Trials over each other by their ids (`app.trials.bands.band_content`)."""
 
-_KEY = "Each trial thin, their mean solid, the plan dotted; 1 cm grid. Their ends lie apart by"
+_KEY = "Each trial thin, their mean solid, the plan dotted; grid in cm. Their ends lie apart by"
 
 
 def compared_parts(

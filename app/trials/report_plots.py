@@ -18,6 +18,8 @@ SIZE, EDGE = 300.0, 26.0
 WIDE, TALL = 640.0, 170.0
 MOST_POINTS = 800
 """Points of a line; a sheet of paper shows no more."""
+MOST_LINES = 100
+"""Lines of a grid; ways that go farther have lines 10 cm apart, or 1 m, and so on."""
 DASHES = {"planned": (1.5, 3.0), "simulated": (6.0, 3.0)}
 """Lengths of the pieces and of the gaps between them, px, by the source; what is not here is solid."""
 
@@ -26,7 +28,7 @@ Points = Sequence[tuple[float, float]]
 
 
 def ways_from_above(sources: Mapping[str, FootTrack], colours: Sequence[str]) -> Drawing:
-    """The feet from above, x to the right and y up, in equal scales on a 1 cm grid.
+    """The feet from above, x to the right and y up, in equal scales on a grid in cm.
 
     Args:
         sources: `tracked`, and where they are known `planned` and `simulated`, in one frame.
@@ -68,7 +70,7 @@ def ways_over_time(lines: Mapping[str, tuple[Floats, Floats]], colours: Sequence
         return EDGE + time / longest * (right - EDGE), bottom - share * (bottom - 10.0)
 
     shapes: list[Shape] = []
-    for level in range(math.ceil(low), math.floor(high) + 1):
+    for level in _levels(low, high):
         (left, y), (end, _) = place(0.0, level), place(longest, level)
         shapes += [Rule(left, y, end, y, GRID), Words(left - 4, y + 3, str(level), 9, QUIET, Anchor.END)]
     shapes.append(Words(right, TALL - 4, f"{longest:.0f} {unit}", 9, QUIET, Anchor.END))
@@ -123,18 +125,29 @@ def _ground(every: Floats) -> tuple[Place, list[Shape]]:
 
     half = SIZE / 2 / scale
     shapes: list[Shape] = []
-    for x in range(math.ceil(middle[0] - half), math.floor(middle[0] + half) + 1):
+    columns, rows = (_levels(float(at) - half, float(at) + half) for at in middle)
+    for x in columns:
         across, _ = place(x, 0.0)
-        shapes += [Rule(across, 0, across, SIZE, GRID), _number(x, across, SIZE + 12, Anchor.MIDDLE)]
-    for y in range(math.ceil(middle[1] - half), math.floor(middle[1] + half) + 1):
+        number = _number(x, columns.step, across, SIZE + 12, Anchor.MIDDLE)
+        shapes += [Rule(across, 0, across, SIZE, GRID), number]
+    for y in rows:
         _, down = place(0.0, y)
-        shapes += [Rule(EDGE, down, EDGE + SIZE, down, GRID), _number(y, EDGE - 4, down + 3, Anchor.END)]
+        number = _number(y, rows.step, EDGE - 4, down + 3, Anchor.END)
+        shapes += [Rule(EDGE, down, EDGE + SIZE, down, GRID), number]
     shapes.append(Words(EDGE + SIZE, SIZE + 24, "x right, y up, cm", 9, QUIET, Anchor.END))
     return place, shapes
 
 
-def _number(value: int, x: float, y: float, anchor: Anchor) -> Words:
-    return Words(x, y, str(value) if value % 2 == 0 else "", 9, QUIET, anchor)
+def _levels(low: float, high: float) -> range:
+    """Where the grid's lines are, cm."""
+    step = 1
+    while (high - low) / step > MOST_LINES:
+        step *= 10
+    return range(math.ceil(low / step) * step, math.floor(high / step) * step + 1, step)
+
+
+def _number(value: int, step: int, x: float, y: float, anchor: Anchor) -> Words:
+    return Words(x, y, str(value) if value // step % 2 == 0 else "", 9, QUIET, anchor)
 
 
 def _line(points: Points, colour: str, name: str) -> Iterator[Shape]:

@@ -21,7 +21,9 @@ from app.trials.desk import TrialDesk, TrialWords, UnknownTrialError
 from app.trials.photos import TrialPhotos
 from app.trials.report import TrialReports
 from app.trials.report_page import number
+from app.trials.report_plots import ways_from_above
 from app.trials.simulated import TrialSimulations
+from core.trials.track import FootTrack
 from solver_jobs import Simulator
 from tests.app.trials.walking import walk_planned, walked
 from tests.core.trials.test_picture_size import picture
@@ -157,3 +159,14 @@ def test_a_broken_line_has_pieces_and_gaps_of_their_lengths_round_corners() -> N
     assert lengths == pytest.approx([4.0, 4.0, 4.0, 2.0])
     assert (pieces[1].points[0], pieces[1].points[-1]) == ((6.0, 0.0), (10.0, 0.0))
     assert pieces[-1].points == ((10.0, 8.0), (10.0, 10.0))
+
+
+def test_ways_that_go_far_have_a_wider_grid() -> None:
+    counts = []
+    for metres in (0.1, 1e7):
+        feet = np.zeros((2, 4, 2))
+        feet[1, :, 0] = metres
+        track = FootTrack(np.array([0.0, 1.0]), feet, np.zeros((2, 4), dtype=np.bool_))
+        counts.append(len(ways_from_above({"tracked": track}, ["#2e9e5b"] * 4).shapes))
+    assert counts[0] < 120
+    assert counts[1] < 500

@@ -87,8 +87,12 @@ export async function trialDetail(id, { all, remove, tracks, video }) {
   const scene = tracks([id]);
   const photos = photosPart(id);
   let shown = trial;
+  let isLate = false;
 
+  /** Draws the plots, but not under a hand that holds a mark: when that lets go. */
   function drawPlots() {
+    isLate = plots.querySelector("[data-held]") !== null;
+    if (isLate) return;
     const moved = attempt(async (part, frame) => draw(await trialApi.change(id, { ends: shown.parts.map(({ end }, index) => (index === part ? frame : end)) })));
     keepingMark(plots, () => plots.replaceChildren(pathPlot(sources), wayPlot(sources, shown, moved)));
   }
@@ -112,6 +116,7 @@ export async function trialDetail(id, { all, remove, tracks, video }) {
     scene.refresh();
   }
 
+  plots.addEventListener("lostpointercapture", () => { if (isLate) drawPlots(); });
   draw(trial);
   return { element, leave() { beside.leave(); scene.leave(); } };
 }

@@ -12,14 +12,11 @@ export function wayFrame([low, high], most, words) {
   const toX = (value) => WAY.left + (value / most) * inner;
   const toY = (value) => WAY.height - WAY.bottom - ((value - low) / (high - low)) * (WAY.height - WAY.top - WAY.bottom);
   const text = (x, y, content, anchor) => { const label = svg("text", { x, y, "text-anchor": anchor }); label.textContent = content; return label; };
-  const drawing = svg("svg", { viewBox: `0 0 ${WAY.width} ${WAY.height}`, class: "way" },
+  const drawing = svg("svg", { viewBox: `0 0 ${WAY.width} ${WAY.height}`, class: "feet-ways" },
     svg("line", { class: "grid", x1: WAY.left, x2: WAY.width - WAY.right, y1: toY(0), y2: toY(0) }),
     text(WAY.left - 4, toY(high) + 4, fixed(high, 1), "end"), text(WAY.left - 4, toY(0) + 4, "0", "end"),
     text(WAY.width - WAY.right, WAY.height - 4, words.end, "end"), text(WAY.left, WAY.height - 4, words.begin, "start"));
-  const fromX = (client) => {
-    const { left, width } = drawing.getBoundingClientRect();
-    return (((client - left) / width) * WAY.width - WAY.left) / inner * most;
-  };
+  const fromX = (client) => (new DOMPoint(client, 0).matrixTransform(drawing.getScreenCTM().inverse()).x - WAY.left) / inner * most;
   return { drawing, toX, toY, fromX };
 }
 
@@ -46,16 +43,24 @@ function frameAt(share, ends) {
 function handle({ part, end, frames, rate, toX, fromX, top, bottom, moved }) {
   const line = svg("line", { y1: top, y2: bottom, x1: 0, x2: 0 });
   const grip = svg("rect", { x: -4, y: top - 4, width: 8, height: 12, rx: 2 });
-  const group = svg("g", { class: "end-handle", "data-arrows": "", role: "slider", tabindex: "0", "aria-label": `End of iteration ${part + 1}`, "aria-valuemin": "1", "aria-valuemax": String(frames - 1) }, line, grip);
-  let at = end;
+  const reach = svg("rect", { class: "reach", x: -8, y: top - 4, width: 16, height: bottom - top + 8 });
+  const group = svg("g", { class: "end-handle", "data-arrows": "", role: "slider", tabindex: "0", "aria-label": `End of iteration ${part + 1}`, "aria-valuemin": "1", "aria-valuemax": String(frames - 1) }, reach, line, grip);
+  let [at, held] = [end, 0];
   const place = () => {
     group.setAttribute("transform", `translate(${toX(at)} 0)`);
     group.setAttribute("aria-valuenow", String(at));
     group.setAttribute("aria-valuetext", `${fixed(at / rate, 1)} s`);
   };
   const go = (frame) => { at = Math.min(frames - 1, Math.max(1, Math.round(frame))); place(); };
-  group.addEventListener("pointerdown", (event) => { group.setPointerCapture(event.pointerId); event.preventDefault(); group.focus(); });
-  group.addEventListener("pointermove", (event) => { if (group.hasPointerCapture(event.pointerId)) go(fromX(event.clientX)); });
+  group.addEventListener("pointerdown", (event) => {
+    group.setPointerCapture(event.pointerId);
+    event.preventDefault();
+    group.focus();
+    group.toggleAttribute("data-held", true);
+    held = fromX(event.clientX) - at;
+  });
+  group.addEventListener("pointermove", (event) => { if (group.hasPointerCapture(event.pointerId)) go(fromX(event.clientX) - held); });
+  group.addEventListener("lostpointercapture", () => group.toggleAttribute("data-held", false));
   group.addEventListener("pointerup", () => { if (at !== end) moved(part, at); });
   group.addEventListener("keydown", (event) => {
     const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];

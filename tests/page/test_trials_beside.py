@@ -58,7 +58,7 @@ def test_physics_stands_beside_plan_and_track_once_it_is_there(
         simulated = table.get_by_role("row", name=re.compile(r"^simulated (0\.9|1\.0)\d "))
         expect(simulated).to_be_visible()
         expect(panel.get_by_role("status", name="Physics")).to_contain_text("Robot on the scales")
-        expect(panel.locator("svg.way polyline.way-simulated")).to_have_count(4)
+        expect(panel.locator("svg.feet-ways polyline.way-simulated")).to_have_count(4)
         with page.expect_download() as download:
             panel.get_by_role("link", name="Report").click()
         assert "Tracked solid, simulated dashed, planned dotted." in Path(download.value.path()).read_text()

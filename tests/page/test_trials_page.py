@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -48,3 +49,30 @@ def test_a_track_is_added_compared_moved_deleted_and_brought_back(
         expect(end).to_have_attribute("aria-valuenow", str(before - 1))
         panel.get_by_role("button", name="All trials").click()
         expect(panel.get_by_role("table", name="Gaits compared")).to_contain_text("Walk 10 mm, 1.0 cm")
+
+
+def test_the_whole_line_of_an_iterations_end_is_dragged_and_lies_where_the_hand_leaves_it(
+    browser: Browser, studio: StudioProcess
+) -> None:
+    csv = format_track_csv(stepping_track((0.0085, 0.0085), 2))
+    body = {"name": "dragged", "csv": csv, "expected_cm": 2.0, "iterations": 2}
+    trial = studio.ask("POST", "/api/trials", body).content
+    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
+        page.get_by_role("button", name="All trials").click()
+        panel = page.get_by_role("region", name="Trials")
+        panel.get_by_role("button", name=re.compile("^dragged")).click()
+        expect(panel.get_by_role("status", name="Physics")).to_contain_text("is not known of this trial")
+        end = panel.get_by_role("slider", name="End of iteration 1")
+        end.scroll_into_view_if_needed()
+        before = int(end.get_attribute("aria-valuenow") or 0)
+        box = panel.locator("svg.feet-ways .reach").bounding_box()
+        frame = panel.locator("svg.feet-ways .grid").bounding_box()
+        assert box is not None and frame is not None
+        x, y = box["x"] + box["width"] / 2 + 4, box["y"] + box["height"] * 0.75
+        page.mouse.move(x, y)
+        page.mouse.down()
+        page.mouse.move(x + 30, y, steps=3)
+        page.mouse.up()
+        expect(panel.get_by_role("button", name="Find them again")).to_be_visible()
+        moved = int(end.get_attribute("aria-valuenow") or 0) - before
+        assert abs(moved - 30 / frame["width"] * (trial["frames"] - 1)) <= 1.5

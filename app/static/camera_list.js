@@ -111,7 +111,7 @@ function feetList() {
   const rows = FOOT_NAMES.map((name, index) => ({ words: h("span", { class: "number" }), name, index }));
   return {
     element: h("ul", { class: "camera-feet", "aria-label": "Feet in this picture" }, ...rows.map(({ words, name, index }) => h("li", { data: { foot: index + 1 } }, h("i", { class: "foot-dot", "aria-hidden": "true" }), h("span", { text: name }), words))),
-    show: (feet) => rows.forEach(({ words }, index) => setText(words, !feet[index] ? "not seen" : feet[index].place_cm ? `${fixed(feet[index].place_cm[0], 1)}, ${fixed(feet[index].place_cm[1], 1)} cm` : "seen")),
+    show: (feet) => rows.forEach(({ words }, index) => setText(words, feet === null ? "" : !feet[index] ? "not seen" : feet[index].place_cm ? `${fixed(feet[index].place_cm[0], 1)}, ${fixed(feet[index].place_cm[1], 1)} cm` : "seen")),
   };
 }
 
@@ -120,19 +120,36 @@ export const watchCamera = attempt(async (page, camera) => {
   const isOld = page.begin();
   const kept = camera.use === "under" && camera.setup ? await setupApi.read(camera.setup) : null;
   if (isOld()) return;
-  const [stage, feet] = [openStage(cameraSource(camera)), feetList()];
+  const [feet, words] = [feetList(), h("p")];
+  const stage = openStage(cameraSource(camera), 0, lost);
+  const standing = camera.use === "under" && !camera.setup ? "Without a setup no feet are looked for." : "Live, as the studio sees it.";
+
+  function lost(why) {
+    words.className = why === null ? "quiet" : "why";
+    words.dataset.toneText = why === null ? "" : "caution";
+    setText(words, why ?? standing);
+    if (why === null) return;
+    stage.picture.drawing.replaceChildren();
+    feet.show(null);
+  }
+  lost(null);
+  const end = page.store.watch(({ cameras }) => [cameras], ({ cameras }) => {
+    const now = cameras?.find(({ id }) => id === camera.id);
+    stage.away(now?.state === "unplugged" ? now.sentence : null);
+  });
   if (kept) {
     const { setup, view } = kept;
     stage.fetches(async () => {
       const answer = await look(stage.source, 0, { foot: null, colours: setup.colours, limits: setup.limits, shows: "plain", setup: view ? setup : null, most: LOOK_WIDTH });
       await stage.picture.show(answer.picture, answer.size);
+      if (stage.isAway) return null;
       drawFeet(stage.picture.drawing, answer.feet);
       feet.show(answer.feet);
       return null;
     });
   } else feet.element.hidden = true;
   page.show(h("div", { class: "trial-form" }, h("button", { type: "button", class: "link", text: "Cameras", on: { click: () => openCameras(page) } }),
-    h("div", { class: "run-line run-title" }, h("b", { text: camera.name })), h("p", { class: "quiet", text: camera.use === "under" && !camera.setup ? "Without a setup no feet are looked for." : "Live, as the studio sees it." }), feet.element), () => stage.close());
+    h("div", { class: "run-line run-title" }, h("b", { text: camera.name })), words, feet.element), () => { end(); stage.close(); });
 });
 
 /** Opens the cameras in the trials' panel. */

@@ -54,7 +54,7 @@ export const createStore = (initial = {}) => watchable({ ...INITIAL, ...initial 
 export function watchable(initial) {
   let state = Object.freeze({ ...initial });
   let scheduled = false;
-  const watchers = [];
+  let watchers = [];
 
   function flush() {
     scheduled = false;
@@ -74,10 +74,12 @@ export function watchable(initial) {
       scheduled = true;
       queueMicrotask(flush);
     },
-    /** `select` returns the list of values that `render` depends on; renders at once and after each change. */
+    /** `select` returns the list of values that `render` depends on; renders at once and after each change. Gives what ends it. */
     watch(select, render) {
-      watchers.push({ select, render, last: select(state) });
+      const watcher = { select, render, last: select(state) };
+      watchers = [...watchers, watcher];
       render(state);
+      return () => { watchers = watchers.filter((other) => other !== watcher); };
     },
   };
 }

@@ -8,6 +8,8 @@ import { pictureOf } from "./video_api.js";
 import "./video_style.js";
 
 const LIVE_MS = 250;
+const RETRY_MS = 1000;
+const MOST_RETRY_MS = 10000;
 
 function frameSlider(moved) {
   const range = h("input", { type: "range", min: "0", step: "1", value: "0", "aria-label": "Frame" });
@@ -43,28 +45,46 @@ function frameSlider(moved) {
  * Opens the picture.
  * @param {object} source of `videoSource` or `cameraSource`
  * @param {number} [frame] that is shown first
+ * @param {(why: string|null) => void} [lost] told why there is no picture of now, and null when there is one again
  * @returns {object} `picture` of `pictureView`; `frame`; `fetches(act)`: another way to a picture, `act(frame)` gives a blob, an
- *   address or null where it is out of date; `refresh()`; `close()`; `source`
+ *   address or null where it is out of date; `away(why)`: what the server says of a camera that is gone, null where it is not;
+ *   `refresh()`; `close()`; `source`
  */
-export function openStage(source, frame = 0) {
+export function openStage(source, frame = 0, lost = () => {}) {
   const picture = pictureView(`Picture of ${source.name}`);
   const title = h("b", { text: source.name });
   const note = h("span", { class: "quiet", role: "status", text: "Waiting for the picture…" });
   const plain = (number) => pictureOf(source, number);
-  let [fetching, timer, closed] = [plain, 0, false];
+  let [fetching, timer, closed, retry] = [plain, 0, false, RETRY_MS];
+  let [said, failed, shown] = [null, null, null];
+
+  /** An old picture must not look like one of now. */
+  function standing() {
+    const why = said ?? failed;
+    setText(note, why ?? "");
+    note.dataset.toneText = why === null ? "" : "caution";
+    note.title = why ?? "";
+    element.toggleAttribute("data-gone", why !== null);
+    if (why === shown) return;
+    shown = why;
+    lost(why);
+  }
 
   const offer = lane(async (number) => {
     if (closed) return;
     try {
       const next = await fetching(number);
       if (next !== null && !closed) await picture.show(next);
-      setText(note, "");
+      failed = null;
     } catch (error) {
-      setText(note, error.message);
+      failed = error.message;
     }
-    if (source.kind !== "camera" || closed) return;
+    if (closed) return;
+    standing();
+    if (source.kind !== "camera") return;
     clearTimeout(timer);
-    timer = setTimeout(() => offer(0), LIVE_MS);
+    timer = setTimeout(() => offer(0), failed === null ? LIVE_MS : retry);
+    retry = failed === null ? RETRY_MS : Math.min(2 * retry, MOST_RETRY_MS);
   });
   const slider = frameSlider(offer);
   slider.open(source, frame);
@@ -77,11 +97,18 @@ export function openStage(source, frame = 0) {
   return {
     picture, source,
     get frame() { return slider.frame; },
+    get isAway() { return said !== null; },
     fetches(act) {
       fetching = act ?? plain;
       offer(slider.frame);
     },
     refresh: () => offer(slider.frame),
+    away(why) {
+      if (why === said) return;
+      said = why;
+      standing();
+      if (why === null) offer(0);
+    },
     close() {
       closed = true;
       clearTimeout(timer);

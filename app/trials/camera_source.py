@@ -43,7 +43,7 @@ class PlayedFile:
 
     def __init__(self, path: Path) -> None:
         if not path.exists():
-            raise InputError(f"{path} is not there.", str(path))
+            raise InputError(f"There is no file {path}.", str(path))
         self._path = path
         self._file = VideoFile(path)
         self.rate: float | None = self._file.facts.rate

@@ -127,7 +127,11 @@ class _Camera:
             self._source = open_source(self._address)
         except InputError as refusal:
             name = self._address.name
-            self._tell(Standing(False, f"{refusal.sentence} Plug the camera “{name}” in again."))
+            self._tell(
+                Standing(
+                    False, f"The camera “{name}” gives no pictures. Plug it in again. {refusal.sentence}"
+                )
+            )
 
     def _lose(self) -> None:
         """The camera is gone; whoever waits for a picture is told, and a recording has a gap."""

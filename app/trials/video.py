@@ -156,7 +156,7 @@ class Device:
     def __init__(self, path: str) -> None:
         self._capture = cv2.VideoCapture(path, cv2.CAP_V4L2)
         if not self._capture.isOpened():
-            raise InputError(f"{path} gives no pictures; is another program using it?", path)
+            raise InputError(f"Is another program using it? Nothing comes from {path}.", path)
         self._capture.set(cv2.CAP_PROP_FOURCC, cv2.VideoWriter.fourcc(*"MJPG"))
         self._capture.set(cv2.CAP_PROP_BUFFERSIZE, 1)
         self.rate = self._capture.get(cv2.CAP_PROP_FPS) or None

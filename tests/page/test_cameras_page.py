@@ -105,6 +105,27 @@ def test_a_camera_stands_beside_the_scene_and_says_that_it_was_unplugged(page: P
     expect(beside).to_have_count(0)
 
 
+def test_an_unplugged_camera_that_is_looked_at_is_grey_and_says_why_until_it_is_back(
+    page: Page, film: Path
+) -> None:
+    open_cameras(page)
+    page.get_by_label("Side, seen").select_option("from the side")
+    camera(page, "Side").get_by_role("button", name="Look").click()
+    stage = page.get_by_role("region", name="Picture", exact=True)
+    live = panel(page).get_by_text("Live, as the studio sees it.")
+    expect(live).to_be_visible()
+    away = film.with_suffix(".away")
+    film.rename(away)
+    try:
+        expect(panel(page).get_by_text("Plug it in again.")).to_be_visible()
+        expect(live).to_have_count(0)
+        expect(stage.locator("img")).to_have_css("filter", "grayscale(1)")
+    finally:
+        away.rename(film)
+    expect(live).to_be_visible()
+    expect(stage.locator("img")).to_have_css("filter", "none")
+
+
 def test_a_camera_without_a_setup_does_not_record_for_tracking_and_says_why(page: Page) -> None:
     open_cameras(page)
     page.get_by_label("Side, seen").select_option("under the platform")

@@ -39,6 +39,7 @@ from app.routes import (
     videos,
 )
 from app.routes.assets import REVALIDATED, Assets
+from app.routes.body_limit import BodyLimit
 from app.routes.edge import install_error_handlers
 from app.routes.module_page import ModulePage
 from app.routes.viser import make_viser_router
@@ -92,7 +93,7 @@ def make_app(studio: Studio, scenes: Scenes, access: Access) -> FastAPI:
         title="Footfall Studio",
         version=VERSION,
         redoc_url=None,
-        middleware=[Middleware(Guard, access=access)],
+        middleware=[Middleware(Guard, access=access), Middleware(BodyLimit)],
     )
     app.state.studio = studio
     install_error_handlers(app)

@@ -22,6 +22,7 @@ from app.learning.desk import UnknownLearningError
 from app.learning.sets import UnknownSetError
 from app.open_gait import OpenGait
 from app.pattern_desk import UnknownSearchError
+from app.routes.body_limit import BodyTooLargeError, body_refusal
 from app.runs.record import UnknownRunError
 from app.studio import Studio
 from app.trials.camera_desk import UnknownCameraError
@@ -143,6 +144,7 @@ def install_error_handlers(app: FastAPI) -> None:
     """Turns refusals into `{"error": sentence, "where": …}` with a fitting status."""
     app.add_exception_handler(FootfallError, _refused)
     app.add_exception_handler(RequestValidationError, _invalid)
+    app.add_exception_handler(BodyTooLargeError, _too_large)
 
 
 async def _refused(request: Request, error: Exception) -> JSONResponse:
@@ -160,6 +162,13 @@ async def _invalid(request: Request, error: Exception) -> JSONResponse:
     first = error.errors()[0]
     field = ".".join(str(part) for part in first["loc"])
     return _refusal(f"{field}: {first['msg']}.", field, 422)
+
+
+async def _too_large(request: Request, error: Exception) -> JSONResponse:
+    del request
+    if not isinstance(error, BodyTooLargeError):
+        raise error
+    return body_refusal(error)
 
 
 def _refusal(sentence: str, where: str | None, status: int) -> JSONResponse:

@@ -46,14 +46,13 @@ class SetupChange(_Body):
 
 
 class Board(_Body):
-    """Where a checkerboard's inner corners are in a picture; `picture` may be left out when it is sent."""
+    """Where a checkerboard's inner corners are in a picture."""
 
     name: str = Field(max_length=200)
     frame: int | None = None
     size: tuple[Side, Side]
     found: bool
     points: list[tuple[Number, Number]] = Field(max_length=900)
-    picture: str | None = Field(default=None, max_length=MOST_PICTURE)
 
 
 class LensRequest(_Body):
@@ -68,7 +67,7 @@ class Straightening(_Body):
     """A picture that is to be shown as a lens without distortion would have it."""
 
     lens: LensDocument
-    picture: str = Field(max_length=MOST_PICTURE * 4 // 3 + 100)
+    picture: str = Field(max_length=MOST_PICTURE)
 
 
 @router.get("/setups")
@@ -202,10 +201,17 @@ async def make_lens(lens: LensRequest, studio: TheStudio) -> dict[str, Any]:
 @router.post("/lens/look")
 async def straighten(asked: Straightening, studio: TheStudio) -> dict[str, Any]:
     """A picture as a lens without distortion would have it."""
+
+    def straight() -> bytes:
+        task = Straighten(Source(file=_content(asked.picture)), asked.lens.value())
+        file: bytes = seen(studio.seeing.eyes.near, task, BOARD_SECONDS)
+        return file
+
+    return {"picture": await run_in_threadpool(lambda: data_url(straight()))}
+
+
+def _content(address: str) -> bytes:
     try:
-        content = base64.b64decode(asked.picture.partition(",")[2], validate=True)
+        return base64.b64decode(address.partition(",")[2], validate=True)
     except (binascii.Error, ValueError):
         raise InputError("The picture must be a data address of a JPEG or PNG file.", "picture") from None
-    task = Straighten(Source(file=content), asked.lens.value())
-    file = await run_in_threadpool(lambda: seen(studio.seeing.eyes.near, task, BOARD_SECONDS))
-    return {"picture": data_url(file)}

@@ -28,7 +28,7 @@ export function boardBook({ changed, found }) {
     figures = new Map();
     changed();
     if (boards.filter((board) => board.found).length < LEAST_BOARDS) return;
-    const answer = await setupApi.lens({ ...corners, boards: boards.map(({ picture: _, ...board }) => ({ ...board, picture: null })) });
+    const answer = await setupApi.lens({ ...corners, boards: boards.map(({ picture: _, ...board }) => board) });
     if (asked !== number) return;
     answer.boards.forEach(({ rms_px: rms }, index) => figures.set(boards[index], rms));
     found(answer);

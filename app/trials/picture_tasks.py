@@ -220,7 +220,6 @@ class BoardIn:
             "size": [width, height],
             "found": found is not None,
             "points": [] if found is None else np.round(found.reshape(-1, 2).astype(float), 3).tolist(),
-            "picture": None,
         }
 
 

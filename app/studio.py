@@ -110,7 +110,9 @@ class Studio:
         )
         self.jog = JogDesk(self.robot.bridge)
         self.runs = RunDesk(self._database)
-        self.trials = TrialDesk(self._database)
+        self.trials = TrialDesk(
+            self._database, lambda change: self.hub.publish({"type": "trial", "trial": change})
+        )
         self._trial_simulations = TrialSimulations(TrialBesideLog(self._database), self._simulator)
         self.beside = TrialsBeside(self.trials, self._trial_simulations)
         self.photos = TrialPhotos(self.trials, self._database, data)

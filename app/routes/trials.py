@@ -51,9 +51,10 @@ class NewTrial(BaseModel):
 
 
 class TrialChanges(BaseModel):
-    """What is to be changed; what is left out stays. `ends` null finds the iterations' ends again."""
+    """What is to be changed of a revision; what is left out stays. `ends` null finds the ends again."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+    revision: int = Field(ge=1)
     name: Name | None = None
     note: str | None = Field(default=None, max_length=4000)
     expected_cm: Length | None = None
@@ -130,10 +131,10 @@ async def read_paths(trial: str, studio: TheStudio) -> dict[str, Any]:
 
 @router.put("/{trial}")
 async def change_trial(trial: str, changes: TrialChanges, studio: TheStudio) -> dict[str, Any]:
-    """Changes name, note, wanted distance, iterations or their ends."""
-    given = changes.model_dump(exclude_unset=True)
+    """Changes name, note, wanted distance, iterations or their ends; 409 where it was changed meanwhile."""
+    given = changes.model_dump(exclude_unset=True, exclude={"revision"})
     kept = {key: value for key, value in given.items() if value is not None or key == "ends"}
-    return await _answer(lambda: studio.trials.change(trial, kept))
+    return await _answer(lambda: studio.trials.change(trial, changes.revision, kept))
 
 
 @router.delete("/{trial}")

@@ -34,6 +34,7 @@ function receive(store, message, onHello) {
     case "cameras": store.set({ cameras: message.cameras }); break;
     case "video": store.set({ videoChanged: message.video }); break;
     case "trials": store.set({ trialMade: { id: message.trial } }); break;
+    case "trial": store.set({ trialChanges: { ...store.state.trialChanges, [message.trial.id]: message.trial } }); break;
     case "robot": acceptRobot(store, message.robot); break;
     default: break;
   }

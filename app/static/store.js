@@ -41,6 +41,7 @@ const INITIAL = Object.freeze({
   cameras: null,
   setups: null,
   trialMade: null,
+  trialChanges: Object.freeze({}),
   videoChanged: null,
   trialWanted: null,
   physicsSets: 0,

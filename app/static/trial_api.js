@@ -9,7 +9,7 @@ export const trialApi = {
   read: (id) => request("GET", trial(id)),
   paths: (id) => request("GET", `${trial(id)}/paths`),
   add: (body) => request("POST", "/api/trials", body),
-  change: (id, changes) => request("PUT", trial(id), changes),
+  change: (id, revision, changes) => request("PUT", trial(id), { revision, ...changes }),
   remove: (id) => request("DELETE", trial(id)),
   restore: (id) => request("POST", `${trial(id)}/restore`),
   runs: () => request("GET", "/api/runs?most=50"),

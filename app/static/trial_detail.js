@@ -2,9 +2,11 @@
 
 import { h, onPress } from "./dom.js";
 import { clockTime, fixed } from "./format.js";
-import { announce, attempt } from "./toasts.js";
+import { attempt } from "./toasts.js";
 import { trialApi } from "./trial_api.js";
 import { besidePart } from "./trial_beside.js";
+import { followTrial } from "./trial_kept.js";
+import { notePart } from "./trial_note.js";
 import { photosPart } from "./trial_photos.js";
 import { pathPlot } from "./trial_plot.js";
 import { sourcePart } from "./trial_source.js";
@@ -46,22 +48,30 @@ function facts(trial) {
   return h("dl", { class: "summary" }, ...rows.flatMap(([name, value, help]) => [h("dt", { text: name }), h("dd", { text: value, title: help ?? null })]));
 }
 
-function noteField(trial) {
-  const area = h("textarea", { "aria-label": "Note", rows: "2", maxlength: "4000", placeholder: "Note: floor, cable, what was seen" });
-  area.value = trial.note;
-  area.addEventListener("change", attempt(async () => { await trialApi.change(trial.id, { note: area.value.trim() }); announce("Note kept."); }));
-  return area;
-}
-
-function endsLine(trial, redraw) {
+function endsLine(trial, change) {
   if (trial.parts.length < 2) return null;
   if (trial.ends_from === "run") return h("p", { class: "quiet", text: "The ends of iterations are the run's own." });
   if (trial.ends_by_hand) {
     const again = h("button", { class: "link", text: "Find them again" });
-    onPress(again, attempt(async () => redraw(await trialApi.change(trial.id, { ends: null }))));
+    onPress(again, () => change({ ends: null }));
     return h("p", { class: "quiet" }, "The ends of iterations were moved by hand. ", again);
   }
   return h("p", { class: trial.is_clear ? "quiet" : "why", text: trial.is_clear ? "The ends of iterations were found from the feet's steps." : "The feet's steps overlap between iterations: look at their ends." });
+}
+
+/** That a trial is deleted, with a way back; nothing else can be done to it. */
+function deletedLine({ id, deleted }) {
+  if (!deleted) return null;
+  const back = h("button", { class: "link", text: "Bring it back" });
+  onPress(back, attempt(() => trialApi.restore(id)));
+  return h("p", { class: "why", role: "status", data: { toneText: "caution" } }, "This trial is deleted. ", back);
+}
+
+function filesLine(trial, remove) {
+  const at = `/api/trials/${encodeURIComponent(trial.id)}`;
+  const erase = h("button", { class: "link", text: "Delete", title: "Takes this trial out of the list; it can be brought back", on: { click: () => remove(trial) } });
+  return h("div", { class: "run-files" }, h("a", { href: `${at}/track.csv`, download: "", text: "Track as CSV", title: "cm; what was not seen is empty" }),
+    h("a", { href: `${at}/report`, download: "", text: "Report", title: "One HTML file with figures, plots, note, photos and origin, to open offline and to print" }), !trial.deleted && erase);
 }
 
 /** Redraws the plots; the mark that had the focus has it again. */
@@ -73,19 +83,19 @@ function keepingMark(plots, redraw) {
 
 /**
  * Builds a trial's page in the panel.
+ * @param {object} store
  * @param {string} id
  * @param {{all: () => void, remove: (trial: object) => void, tracks: Function, video: (id: string) => void}} acts `tracks` makes the
  *   switch of the 3D scene
  * @returns {Promise<{element: HTMLElement, leave: () => void}>}
  */
-export async function trialDetail(id, { all, remove, tracks, video }) {
+export async function trialDetail(store, id, { all, remove, tracks, video }) {
   const [trial, paths] = await Promise.all([trialApi.read(id), trialApi.paths(id)]);
   const sources = { tracked: paths.track, planned: paths.plan, simulated: null };
-  const element = h("div", { class: "run-detail" });
-  const plots = h("div", { class: "trial-plots" });
+  const [head, plots, tail] = ["trial-part", "trial-plots", "trial-part"].map((name) => h("div", { class: name }));
   const beside = besidePart(id, (simulated) => { sources.simulated = simulated; drawPlots(); });
   const scene = tracks([id]);
-  const photos = photosPart(id);
+  const note = notePart(async (text) => { if (!await kept.change({ note: text }, "Note kept.")) note.offer(); });
   let shown = trial;
   let isLate = false;
 
@@ -93,30 +103,29 @@ export async function trialDetail(id, { all, remove, tracks, video }) {
   function drawPlots() {
     isLate = plots.querySelector("[data-held]") !== null;
     if (isLate) return;
-    const moved = attempt(async (part, frame) => draw(await trialApi.change(id, { ends: shown.parts.map(({ end }, index) => (index === part ? frame : end)) })));
+    const moved = async (part, frame) => {
+      if (!await kept.change({ ends: shown.parts.map(({ end }, index) => (index === part ? frame : end)) })) drawPlots();
+    };
     keepingMark(plots, () => plots.replaceChildren(pathPlot(sources), wayPlot(sources, shown, moved)));
   }
 
   function draw(now) {
     shown = now;
-    const erase = h("button", { class: "link", text: "Delete", title: "Takes this trial out of the list; it can be brought back", on: { click: () => remove(now) } });
-    const parts = [
-      h("button", { class: "link", text: "All trials", on: { click: all } }),
-      h("div", { class: "run-line run-title" }, h("b", { text: now.name })),
-      facts(now), sourcePart(now, video) ?? "", noteField(now), photos, scene.element, plots, endsLine(now, draw) ?? "", beside.element,
-      iterationTable(now),
+    note.show(now.note);
+    head.replaceChildren(...[h("button", { class: "link", text: "All trials", on: { click: all } }),
+      h("div", { class: "run-line run-title" }, h("b", { text: now.name })), deletedLine(now), facts(now), sourcePart(now, video)].filter(Boolean));
+    tail.replaceChildren(...[endsLine(now, (changes) => kept.change(changes)), beside.element, iterationTable(now),
       movementTable("Movement as published", "Largest excursions from the first frame; never negative. The planned motion by the same definition", now.figures, now.plan, published),
       movementTable("Movement, first to last", "Last minus first frame", now.figures, now.plan, net),
-      slipTable(now),
-      h("div", { class: "run-files" }, h("a", { href: `/api/trials/${encodeURIComponent(id)}/track.csv`, download: "", text: "Track as CSV", title: "cm; what was not seen is empty" }),
-        h("a", { href: `/api/trials/${encodeURIComponent(id)}/report`, download: "", text: "Report", title: "One HTML file with figures, plots, note, photos and origin, to open offline and to print" }), erase),
-    ];
-    keepingMark(plots, () => { element.replaceChildren(...parts); drawPlots(); });
+      slipTable(now), filesLine(now, remove)].filter(Boolean));
+    drawPlots();
     attempt(beside.refresh)();
     scene.refresh();
   }
 
   plots.addEventListener("lostpointercapture", () => { if (isLate) drawPlots(); });
   draw(trial);
-  return { element, leave() { beside.leave(); scene.leave(); } };
+  const kept = followTrial(store, trial, draw);
+  const element = h("div", { class: "run-detail" }, head, note.element, photosPart(id), scene.element, plots, tail);
+  return { element, leave() { kept.leave(); beside.leave(); scene.leave(); } };
 }

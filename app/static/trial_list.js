@@ -2,6 +2,8 @@
 
 import { h, svg } from "./dom.js";
 import { clockTime, fixed } from "./format.js";
+import { turns } from "./lane.js";
+import { attempt } from "./toasts.js";
 import { trialApi } from "./trial_api.js";
 
 const COLUMNS = [
@@ -69,21 +71,43 @@ function trialRow(trial, open) {
   return h("li", {}, button);
 }
 
-/**
- * Builds the list.
- * @param {{open: (id: string) => void, add: () => void, band: (group: object) => void, videos: () => void, cameras: () => void, learn: () => void}} acts
- */
-export async function trialList({ open, add, band, videos, cameras, learn }) {
-  const { trials, compared } = await trialApi.list();
+function listParts({ trials, compared }, { open, band }) {
   const groups = compared.map((group) => ({ ...group, lines: trials.filter(({ id }) => group.trials.includes(id)) }));
   const file = (form, text, help) => h("a", { href: `/api/trials/table?form=${form}`, download: "", text, title: help });
-  return h("div", { class: "run-all" },
+  return [
+    trials.length ? comparedTable(groups, band) : h("p", { class: "teach", text: "No trial yet. Add the foot tracks of a recording: how far each foot went, which way, how fast, and how that compares with the plan." }),
+    ...(trials.length ? [h("div", { class: "run-files" }, file("csv", "CSV", "The table of gaits"), file("latex", "LaTeX", "The table of gaits for a paper"),
+      h("a", { href: "/api/trials/report", download: "", text: "Report", title: "One HTML file with the table, and the trials of each gait over each other" }))] : []),
+    h("ul", { class: "run-list", role: "list", "aria-label": "Trials" }, ...trials.map((trial) => trialRow(trial, open))),
+  ];
+}
+
+/**
+ * Builds the list, which follows what becomes of trials.
+ * @param {{store: object, open: (id: string) => void, add: () => void, band: (group: object) => void, videos: () => void, cameras: () => void, learn: () => void}} acts
+ * @returns {Promise<{element: HTMLElement, leave: () => void}>}
+ */
+export async function trialList({ store, open, add, band, videos, cameras, learn }) {
+  const first = store.state.trialChanges;
+  const body = h("div", { class: "trial-part" });
+  const begin = turns();
+
+  async function fill() {
+    const isOld = begin();
+    const content = await trialApi.list();
+    if (isOld()) return;
+    const held = body.contains(document.activeElement) ? document.activeElement.dataset.trial : null;
+    body.replaceChildren(...listParts(content, { open, band }));
+    if (held) body.querySelector(`[data-trial="${held}"]`)?.focus();
+  }
+
+  await fill();
+  const forget = store.watch(({ trialChanges }) => [trialChanges], ({ trialChanges }) => { if (trialChanges !== first) attempt(fill)(); });
+  const element = h("div", { class: "run-all" },
     h("div", { class: "trial-ways" }, h("button", { class: "primary", text: "Add trials…", on: { click: add } }),
       h("button", { text: "From a video…", title: "The feet are found in a video of the robot from under its glass platform", on: { click: videos } }),
       h("button", { class: "link", text: "Cameras", title: "The studio's cameras: live pictures, setups, recording with the run", on: { click: cameras } }),
       h("button", { class: "link", text: "Learn from trials", title: "Physics parameters that no data sheet gives, fitted to what the robot did", on: { click: learn } })),
-    trials.length ? comparedTable(groups, band) : h("p", { class: "teach", text: "No trial yet. Add the foot tracks of a recording: how far each foot went, which way, how fast, and how that compares with the plan." }),
-    trials.length ? h("div", { class: "run-files" }, file("csv", "CSV", "The table of gaits"), file("latex", "LaTeX", "The table of gaits for a paper"),
-      h("a", { href: "/api/trials/report", download: "", text: "Report", title: "One HTML file with the table, and the trials of each gait over each other" })) : null,
-    h("ul", { class: "run-list", role: "list", "aria-label": "Trials" }, ...trials.map((trial) => trialRow(trial, open))));
+    body);
+  return { element, leave() { begin(); forget(); } };
 }

@@ -87,8 +87,8 @@ export function mountTrials(store) {
   const [videos, oneVideo] = [later(ofVideos, "openVideos"), later(ofVideos, "openVideoOf")];
   const [cameras, look, setUp] = [later(ofCameras, "openCameras"), later(ofCameras, "watchCamera"), later(ofCameras, "setUpCamera")];
   const learn = later(() => import("./learning.js"), "openLearning");
-  const all = shown(async () => ({ element: await trialList({ open: one, add, band, videos: () => videos(), cameras: () => cameras(), learn: () => learn() }) }));
-  const one = shown((id) => trialDetail(id, { all, remove, tracks, video: oneVideo }));
+  const all = shown(() => trialList({ store, open: one, add, band, videos: () => videos(), cameras: () => cameras(), learn: () => learn() }));
+  const one = shown((id) => trialDetail(store, id, { all, remove, tracks, video: oneVideo }));
   const band = shown((group) => trialBand(group, { all, open: one, tracks }));
 
   function add() {

@@ -48,11 +48,21 @@ class TrialLog:
                 (content["id"], content["made"], json.dumps(content, allow_nan=False), track),
             )
 
-    def change(self, content: dict[str, Any]) -> None:
-        """Stores what is known of a trial now."""
+    def change(self, content: dict[str, Any], revision: int) -> bool:
+        """Stores what is known of a trial now; False where it is deleted, or no longer of this revision.
+
+        Args:
+            content: with the next revision.
+            revision: that the trial must have; trials that were never changed have 1.
+        """
         with self._database.writing() as connection:
             text = json.dumps(content, allow_nan=False)
-            connection.execute("UPDATE trial SET content=? WHERE id=?", (text, content["id"]))
+            changed = connection.execute(
+                "UPDATE trial SET content=? WHERE id=? AND deleted IS NULL "
+                "AND coalesce(json_extract(content, '$.revision'), 1)=?",
+                (text, content["id"], revision),
+            )
+            return changed.rowcount == 1
 
     def put_deleted(self, trial: str, deleted: float | None) -> None:
         """Takes a trial out of every list, or brings it back with None; nothing of it is lost."""

@@ -18,7 +18,7 @@ from app.trials.planned import PlannedFeet
 from app.trials.record import ROBOT, TrialRecord, kept_track, told_ends, trial_record
 from app.trials.sight import Sight, fit_content
 from core.arrays import Floats
-from core.errors import InputError
+from core.errors import InputError, StateError
 from core.robot import load_robot
 from core.trials.alignment import align, placed_motion
 from core.trials.iterations import find_iterations
@@ -63,9 +63,13 @@ class TrialDesk:
 
     Args:
         database: where trials are kept.
+        changed: told the id, revision and whether it is deleted, of a trial that is new or another now.
     """
 
-    def __init__(self, database: Database) -> None:
+    def __init__(
+        self, database: Database, changed: Callable[[dict[str, Any]], None] = lambda change: None
+    ) -> None:
+        self._changed = changed
         self._log = TrialLog(database)
         self._beside = TrialBesideLog(database)
         self._lines: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {}
@@ -97,7 +101,7 @@ class TrialDesk:
         self._log.add(content, format_track_csv(track))
         if planned is not None and planned.sent is not None:
             self._beside.put_sent(content["id"], dict(planned.sent))
-        return self.summary(content["id"])
+        return self._told(content["id"])
 
     def lines(self) -> list[dict[str, Any]]:
         """All trials, the newest first, each with its mean figures."""
@@ -126,32 +130,43 @@ class TrialDesk:
             content["plan"] = path_content(placed, MOST_PLACES)
         return content
 
-    def change(self, trial: str, changes: dict[str, Any]) -> dict[str, Any]:
+    def change(self, trial: str, revision: int, changes: dict[str, Any]) -> dict[str, Any]:
         """Changes name, note, wanted distance, iterations or their ends.
+
+        Args:
+            trial: its id.
+            revision: that the changes are made from.
+            changes: what is another now.
 
         Raises:
             UnknownTrialError: there is no such trial.
+            StateError: it is deleted, or somebody changed it meanwhile.
             InputError: the ends are no frames in order, or the iterations too many.
         """
-        row = self._known(trial)
-        content = {**row.content, **changes}
+        row = self.require_listed(trial)
+        if revision != revision_of(row.content):
+            raise _moved_on(row, revision)
+        content = {**row.content, **changes, "revision": revision + 1}
         if content["iterations"] != row.content["iterations"] and "ends" not in changes:
             content["ends"] = None
         changed = TrialRow(content, row.track, row.is_deleted)
         shown = _summary(changed)
-        self._log.change(content)
+        if not self._log.change(content, revision):
+            raise _moved_on(self.require_listed(trial), revision)
+        self._tell(changed)
         return shown
 
     def delete(self, trial: str) -> None:
         """Takes a trial out of the list; `restore` brings it back."""
         self._known(trial)
         self._log.put_deleted(trial, time.time())
+        self._tell(self._known(trial))
 
     def restore(self, trial: str) -> dict[str, Any]:
         """Brings a deleted trial back."""
         self._known(trial)
         self._log.put_deleted(trial, None)
-        return self.summary(trial)
+        return self._told(trial)
 
     def record(self, trial: str) -> TrialRecord:
         """A trial as it was kept, for what is laid over it."""
@@ -165,11 +180,44 @@ class TrialDesk:
         """The track as a file in centimetres; what was not seen is empty."""
         return self._known(trial).track
 
+    def require_listed(self, trial: str) -> TrialRow:
+        """A trial that may be changed.
+
+        Raises:
+            StateError: it is deleted.
+        """
+        row = self._known(trial)
+        if row.is_deleted:
+            raise StateError(f"The trial “{row.content['name']}” is deleted. Bring it back first.", "trial")
+        return row
+
+    def _told(self, trial: str) -> dict[str, Any]:
+        row = self._known(trial)
+        self._tell(row)
+        return _summary(row)
+
+    def _tell(self, row: TrialRow) -> None:
+        revision = revision_of(row.content)
+        self._changed({"id": row.content["id"], "revision": revision, "deleted": row.is_deleted})
+
     def _known(self, trial: str) -> TrialRow:
         row = self._log.get(trial)
         if row is None:
             raise UnknownTrialError(f"There is no trial {trial}.", "trial")
         return row
+
+
+def revision_of(content: dict[str, Any]) -> int:
+    """How often a trial was changed, from 1; trials kept before revisions were counted have 1."""
+    return int(content.get("revision", 1))
+
+
+def _moved_on(row: TrialRow, revision: int) -> StateError:
+    return StateError(
+        f"The trial was changed meanwhile: it has revision {revision_of(row.content)}, and you changed "
+        f"{revision}. Load it again and repeat your change.",
+        "revision",
+    )
 
 
 def _kept_plan(planned: PlannedFeet) -> dict[str, Any]:
@@ -196,6 +244,7 @@ def _summary(row: TrialRow) -> dict[str, Any]:
     length = load_robot(ROBOT).shape.plate_across
     summary = {
         **{key: content[key] for key in _WORDS},
+        "revision": revision_of(content),
         "frame_rate": content["frame_rate"],
         "deleted": row.is_deleted,
         "ends_by_hand": content["ends"] is not None,

@@ -59,8 +59,9 @@ class TrialPhotos:
 
         Raises:
             InputError: it is no such picture, too large, or one too many.
+            StateError: the trial is deleted.
         """
-        self._desk.record(trial)
+        self._desk.require_listed(trial)
         check_bytes(len(content), name)
         size = picture_size(content, name)
         require_readable(size.width, size.height, name)
@@ -89,17 +90,20 @@ class TrialPhotos:
 
     def caption(self, trial: str, photo: str, caption: str) -> Content:
         """Keeps what a person says of a photo."""
+        self._desk.require_listed(trial)
         content = {**self._known(trial, photo), "caption": caption}
         self._log.change(content)
         return content
 
     def delete(self, trial: str, photo: str) -> None:
         """Takes a photo away; `restore` brings it back."""
+        self._desk.require_listed(trial)
         self._known(trial, photo)
         self._log.put_deleted(photo, time.time())
 
     def restore(self, trial: str, photo: str) -> Content:
         """Brings a deleted photo back."""
+        self._desk.require_listed(trial)
         content = self._known(trial, photo)
         self._log.put_deleted(photo, None)
         return content

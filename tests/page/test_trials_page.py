@@ -67,7 +67,8 @@ def test_the_whole_line_of_an_iterations_end_is_dragged_and_lies_where_the_hand_
         before = int(end.get_attribute("aria-valuenow") or 0)
         box = panel.locator("svg.feet-ways .reach").bounding_box()
         frame = panel.locator("svg.feet-ways .grid").bounding_box()
-        assert box is not None and frame is not None
+        assert box is not None
+        assert frame is not None
         x, y = box["x"] + box["width"] / 2 + 4, box["y"] + box["height"] * 0.75
         page.mouse.move(x, y)
         page.mouse.down()
@@ -76,3 +77,39 @@ def test_the_whole_line_of_an_iterations_end_is_dragged_and_lies_where_the_hand_
         expect(panel.get_by_role("button", name="Find them again")).to_be_visible()
         moved = int(end.get_attribute("aria-valuenow") or 0) - before
         assert abs(moved - 30 / frame["width"] * (trial["frames"] - 1)) <= 1.5
+
+
+def test_a_trial_that_is_changed_elsewhere_is_followed_and_what_was_typed_stays(
+    browser: Browser, studio: StudioProcess
+) -> None:
+    csv = format_track_csv(stepping_track((0.0085, 0.0085), 1))
+    trial = studio.ask("POST", "/api/trials", {"name": "shared", "csv": csv, "expected_cm": 1.0}).content
+    at = f"/api/trials/{trial['id']}"
+    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
+        page.get_by_role("button", name="All trials").click()
+        panel = page.get_by_role("region", name="Trials")
+        panel.get_by_role("button", name=re.compile("^shared")).click()
+        note = panel.get_by_label("Note", exact=True)
+        studio.ask("PUT", at, {"revision": 1, "note": "old tape"})
+        expect(note).to_have_value("old tape")
+        note.fill("my tape")
+        studio.ask("PUT", at, {"revision": 2, "note": "their tape"})
+        two = panel.get_by_role("group", name="Two notes")
+        expect(two).to_contain_text("The note that is kept says “their tape”.")
+        expect(note).to_have_value("my tape")
+        two.get_by_role("button", name="Keep what I typed").click()
+        expect(two).to_be_hidden()
+        studio.ask("DELETE", at)
+        expect(panel.get_by_text("This trial is deleted.")).to_be_visible()
+        note.fill("too late")
+        note.blur()
+        expect(page.get_by_role("alert").filter(has_text="Bring it back first")).to_be_visible()
+        expect(note).to_have_value("too late")
+        panel.get_by_role("button", name="Bring it back").click()
+        two.get_by_role("button", name="Keep what I typed").click()
+        expect(two).to_be_hidden()
+        panel.get_by_role("button", name="All trials").click()
+        row = panel.get_by_role("button", name=re.compile("^shared"))
+        expect(row).to_contain_text("too late")
+        studio.ask("DELETE", at)
+        expect(row).to_have_count(0)

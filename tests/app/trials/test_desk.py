@@ -13,7 +13,7 @@ from app.store.database import Database
 from app.trials.desk import TrialDesk, TrialWords, UnknownTrialError, compared
 from app.trials.planned import PlannedFeet
 from app.trials.tables import COLUMNS, table_csv, table_latex
-from core.errors import InputError
+from core.errors import InputError, StateError
 from tests.core.trials.tracks import STANCE, stepping_track
 
 WORDS = TrialWords("first", "Ada", 3.0, 3, gait="walk", gait_name="Walk 10 mm")
@@ -55,10 +55,10 @@ def test_a_trial_outlasts_the_program(desk: TrialDesk, database: Database) -> No
 def test_ends_that_were_set_by_hand_count_until_they_are_found_again(desk: TrialDesk) -> None:
     summary = desk.add(TRACK, WORDS, None)
     moved = [summary["parts"][0]["end"] - 40, *summary["found_ends"][1:]]
-    changed = desk.change(summary["id"], {"ends": moved})
+    changed = desk.change(summary["id"], 1, {"ends": moved})
     assert changed["ends_by_hand"]
     assert changed["parts"][0]["end"] == moved[0]
-    assert not desk.change(summary["id"], {"ends": None})["ends_by_hand"]
+    assert not desk.change(summary["id"], 2, {"ends": None})["ends_by_hand"]
 
 
 @pytest.mark.parametrize("changes", [{"ends": [400, 300, 900]}, {"ends": [10, 20]}, {"iterations": 50}])
@@ -67,7 +67,7 @@ def test_a_change_that_does_not_fit_leaves_the_trial_as_it_was(
 ) -> None:
     before = desk.add(TRACK, WORDS, None)
     with pytest.raises(InputError):
-        desk.change(before["id"], changes)
+        desk.change(before["id"], 1, changes)
     assert desk.summary(before["id"]) == before
 
 
@@ -77,6 +77,33 @@ def test_a_deleted_trial_comes_back(desk: TrialDesk) -> None:
     assert desk.lines() == []
     desk.restore(trial)
     assert [line["id"] for line in desk.lines()] == [trial]
+
+
+def test_a_change_of_an_old_revision_is_refused_and_changes_nothing(desk: TrialDesk) -> None:
+    trial = desk.add(TRACK, WORDS, None)["id"]
+    assert desk.change(trial, 1, {"note": "one"})["revision"] == 2
+    with pytest.raises(StateError, match="has revision 2, and you changed 1"):
+        desk.change(trial, 1, {"note": "two"})
+    assert desk.summary(trial)["note"] == "one"
+
+
+def test_a_deleted_trial_takes_no_changes(desk: TrialDesk) -> None:
+    trial = desk.add(TRACK, WORDS, None)["id"]
+    desk.delete(trial)
+    with pytest.raises(StateError, match="Bring it back first"):
+        desk.change(trial, 1, {"note": "lost"})
+    desk.restore(trial)
+    assert desk.change(trial, 1, {"note": "kept"})["note"] == "kept"
+
+
+def test_whoever_listens_is_told_of_each_trial_that_is_another_now(database: Database) -> None:
+    told: list[tuple[int, bool]] = []
+    desk = TrialDesk(database, lambda change: told.append((change["revision"], change["deleted"])))
+    trial = desk.add(TRACK, WORDS, None)["id"]
+    desk.change(trial, 1, {"note": "one"})
+    desk.delete(trial)
+    desk.restore(trial)
+    assert told == [(1, False), (2, False), (2, True), (2, False)]
 
 
 def test_an_unknown_trial_is_refused(desk: TrialDesk) -> None:

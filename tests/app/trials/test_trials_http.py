@@ -31,10 +31,13 @@ def test_a_trial_is_kept_beside_its_gaits_plan_and_can_be_changed(studio: Studio
     assert trial["figures"]["net_distance"] == pytest.approx(1.2, abs=0.02)
     assert trial["plan"]["figures"]["net_distance"] == pytest.approx(1.0, abs=0.01)
     path = f"/api/trials/{trial['id']}"
-    assert studio.ask("PUT", path, {"note": "new tape"}).content["note"] == "new tape"
+    change = {"revision": trial["revision"], "note": "new tape"}
+    assert studio.ask("PUT", path, change).content["note"] == "new tape"
+    assert studio.ask("PUT", path, change).status == 409
     assert [line["id"] for line in studio.ask("GET", "/api/trials").content["trials"]] == [trial["id"]]
     assert studio.ask("DELETE", path).status == 200
     assert studio.ask("GET", "/api/trials").content["trials"] == []
+    assert "Bring it back" in studio.ask("PUT", path, {**change, "revision": 2}).content["error"]
     assert studio.ask("POST", f"{path}/restore").content["note"] == "new tape"
 
 

@@ -47,7 +47,8 @@ def bench_learning(reference: Path | None = None, points: int = POINTS) -> list[
     tiers = [TravelSimulator() for _ in range(PROCESSES)]
     try:
         runner = WalkRunner(tiers, walks, lambda done: None)
-        content = learned_content(learn(walks, default_physics(model), runner, points))
+        learned = learn(walks, default_physics(model), runner, points)
+        content = learned_content(learned, [walk.cut for walk in walks])
     finally:
         for tier in tiers:
             tier.close()
@@ -60,6 +61,7 @@ def _ways(content: dict[str, Any]) -> list[Row]:
             "foretold by": way["title"],
             "distance_off_cm": round(way["error_cm"], 2),
             "angle_off_deg": None if way["error_deg"] is None else round(way["error_deg"], 1),
+            "angles": way["angles"],
             "falls": way["falls"],
         }
         for way in content["foretold"]
@@ -93,6 +95,7 @@ def _gaits(content: dict[str, Any]) -> list[Row]:
                 for way in content["foretold"]
                 if way["name"] in SHOWN
             },
+            "cut_mm": round(gait["cut_mm"], 1),
             "measured_deg": round(gait["angle_deg"]),
             "default_deg": _degrees(content, "default", place),
             "left out_deg": _degrees(content, "left out", place),
@@ -101,9 +104,10 @@ def _gaits(content: dict[str, Any]) -> list[Row]:
     ]
 
 
-def _degrees(content: dict[str, Any], name: str, place: int) -> int:
+def _degrees(content: dict[str, Any], name: str, place: int) -> int | None:
     way = next(way for way in content["foretold"] if way["name"] == name)
-    return round(float(way["angles_deg"][place]))
+    angle = way["angles_deg"][place]
+    return None if angle is None else round(float(angle))
 
 
 def _conditions(content: dict[str, Any], points: int) -> Row:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from app.finite import finite
@@ -26,8 +26,13 @@ WAYS = {
 """Ways of foretelling in words; a line is measured = a × wanted + b, or a × simulated + b."""
 
 
-def learned_content(learned: Learned) -> dict[str, Any]:
-    """Everything of it as JSON content."""
+def learned_content(learned: Learned, cuts: Sequence[float]) -> dict[str, Any]:
+    """Everything of it as JSON content.
+
+    Args:
+        learned: what was learned.
+        cuts: (gaits,) most that was cut off a stroke of each, m.
+    """
     content: dict[str, Any] = finite(
         {
             "defaults": learned.defaults.name,
@@ -37,7 +42,7 @@ def learned_content(learned: Learned) -> dict[str, Any]:
             "noise": list(learned.fit.noise),
             "simulations": learned.simulations,
             "parameters": [_parameter(learned, place) for place in range(len(learned.parameters))],
-            "gaits": [_gait(learned, gait) for gait in range(len(learned.measured))],
+            "gaits": [_gait(learned, gait, cut) for gait, cut in enumerate(cuts)],
             "foretold": [_foretold(learned, way) for way in learned.foretold],
             "physics": physics_content(learned.physics),
         }
@@ -72,7 +77,7 @@ def _ends(learned: Learned, parameter: FitParameter, place: int) -> tuple[float,
     return low, high
 
 
-def _gait(learned: Learned, gait: int) -> dict[str, Any]:
+def _gait(learned: Learned, gait: int, cut: float) -> dict[str, Any]:
     walk = learned.measured[gait]
     return {
         "name": walk.name,
@@ -82,6 +87,7 @@ def _gait(learned: Learned, gait: int) -> dict[str, Any]:
         "angle_deg": math.degrees(walk.travel.angle),
         "trials": walk.trials,
         "surface_cm": float(learned.misfit[gait]) * CM,
+        "cut_mm": cut * 1000.0,
     }
 
 
@@ -94,6 +100,7 @@ def _foretold(learned: Learned, way: Foretold) -> dict[str, Any]:
         "angles_deg": [math.degrees(travel.angle) for travel in way.travels],
         "error_cm": distance * CM,
         "error_deg": math.degrees(angle),
+        "angles": way.angles,
         "falls": way.falls,
     }
 

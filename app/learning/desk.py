@@ -174,7 +174,8 @@ class LearningDesk:
     def _learn(self, work: _Work) -> None:
         end: Content
         try:
-            result = learned_content(learn(work.walks, work.physics, work.runner, self._points))
+            learned = learn(work.walks, work.physics, work.runner, self._points)
+            result = learned_content(learned, [walk.cut for walk in work.walks])
             end = {"state": "done", "sentence": learned_sentence(result), "result": result}
         except FootfallError as error:
             end = {"state": "failed", "sentence": error.sentence}

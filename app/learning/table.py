@@ -81,7 +81,7 @@ def _walk(
         raise InputError(f"Row {label} needs the trajectory {stem}.csv; give that file too.", "trajectories")
     name, text = files[stem]
     motion = parse_trajectory_csv(text, name).trajectory
-    problem, _ = problem_within_range(model, motion, default_physics(model))
+    problem, cut = problem_within_range(model, motion, default_physics(model))
     feet = motion.feet_world[..., :2]
     heading = heading_of(feet, name)
     wanted = iterations * float(np.hypot(*(feet[-1] - feet[0]).mean(axis=0)))
@@ -89,7 +89,7 @@ def _walk(
     travel = Travel(distance / CM, math.atan2(dy, dx))
     step_cm = wanted * CM / iterations
     measured = MeasuredWalk(f"{kind}, {step_cm:.1f} cm", kind, wanted, travel, TRIALS)
-    return Walk(measured, problem, iterations, heading)
+    return Walk(measured, problem, iterations, heading, cut)
 
 
 def _number(row: Mapping[str, str | None], column: str, label: str) -> float:

@@ -5,10 +5,12 @@ import { clockTime, fixed } from "./format.js";
 import { learningApi } from "./learning_api.js";
 import { tableChoice, trialChoice } from "./learning_choice.js";
 import { learnedResult } from "./learning_result.js";
-import { announce, attempt, toast } from "./toasts.js";
+import { announce, attempt, report, toast } from "./toasts.js";
 import { trialApi } from "./trial_api.js";
 
 const POLL_MS = 1000;
+/** Longest wait between two questions to a studio that does not answer. */
+const MOST_POLL_MS = 30000;
 const PURPOSE = "Fits what no data sheet gives (soft links, friction, cable, backlash, centre of mass) to how far and which way the robot really went. Nothing changes until you choose the result in Simulate.";
 const OPEN = new Set(["running", "cancelling"]);
 
@@ -27,6 +29,7 @@ function progressPart(cancel) {
       bar.style.transform = `scaleX(${done / Math.max(total, 1)})`;
       setText(text, state === "running" ? `${fixed((100 * done) / Math.max(total, 1), 0)} %` : "cancelling");
     },
+    say(sentence) { setText(text, sentence); },
   };
 }
 
@@ -73,21 +76,30 @@ export async function openLearning(page) {
   function following(course) {
     const progress = progressPart(attempt(async () => progress.show(await learningApi.cancel(course.id))));
     progress.show(course);
-    const again = () => { timer = setTimeout(look, POLL_MS); };
+    let wait = POLL_MS;
+    const again = () => { timer = setTimeout(look, wait); };
     async function look() {
       try {
         const now = await learningApi.course(course.id);
         if (timer === null) return;
         if (OPEN.has(now.state)) {
           progress.show(now);
+          wait = POLL_MS;
           again();
           return;
         }
         announce(now.sentence);
         if (now.state === "done") show(learnedResult(now, { back: list, keep }), leave);
         else await list();
-      } catch {
-        if (timer !== null) again();
+      } catch (error) {
+        if (timer === null) return;
+        progress.say(error.message);
+        if (error.status === 0) {
+          wait = Math.min(2 * wait, MOST_POLL_MS);
+          again();
+        } else {
+          report(error);
+        }
       }
     }
     // Not before it is shown: what was shown until then ends its own following.

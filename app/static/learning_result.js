@@ -22,14 +22,21 @@ function parameterRow({ title, unit, default: usual, fitted, low, high, is_ident
 const parameterTable = ({ parameters }) => table("Parameters", "Fitted values with one standard deviation below and above; what the trials cannot tell stays as it was", ["", "usual", "fitted"], parameters.map(parameterRow));
 
 const wayTable = ({ foretold }) => table("How far foretold travel is off", "Mean over gaits, without sign. A gait that is left out is foretold by what was fitted to the others", ["", "cm", "°"],
-  foretold.map(({ title, error_cm: distance, error_deg: angle, falls }) => h("tr", {},
-    h("th", { scope: "row", text: falls ? `${title} (${falls} fall)` : title }), h("td", { text: fixed(distance, 2) }), h("td", { text: fixed(angle) }))));
+  foretold.map(({ title, error_cm: distance, error_deg: angle, angles, falls }) => h("tr", falls ? { title: `Of a gait that falls the whole way counts, and no angle: the angle is a mean of ${angles}` } : {},
+    h("th", { scope: "row", text: falls ? `${title} (${falls} fall, angle of ${angles})` : title }), h("td", { text: fixed(distance, 2) }), h("td", { text: fixed(angle) }))));
 
 function gaitTable({ gaits, foretold }) {
   const way = (name) => foretold.find((one) => one.name === name).distances_cm;
   const columns = [gaits.map((gait) => gait.distance_cm), way("as planned"), way("default"), way("left out")];
   return table("Gaits, cm", "Distance by the published definition", ["", "real", "plan", "usual", "left out"],
     gaits.map(({ name }, place) => h("tr", {}, h("th", { scope: "row", text: name }), ...columns.map((values) => h("td", { text: fixed(values[place]) })))));
+}
+
+/** Says that strokes were cut to the motors' range, as those of published trajectories are. */
+function cutNote({ gaits }) {
+  const cut = gaits.filter((gait) => gait.cut_mm > 0).sort((a, b) => b.cut_mm - a.cut_mm);
+  if (!cut.length) return null;
+  return h("p", { class: "quiet learned-cut", title: cut.map(({ name, cut_mm: most }) => `${name}: ${fixed(most)} mm`).join("\n"), text: `The strokes of ${cut.length} of ${gaits.length} gaits were cut to the motors’ range, at most by ${fixed(cut[0].cut_mm)} mm (${cut[0].name}).` });
 }
 
 function keeping(course, keep) {
@@ -51,6 +58,6 @@ export function learnedResult(course, { back, keep }) {
     h("div", { class: "run-line run-title" }, h("b", { text: `Learned from ${course.source}` })),
     h("p", { class: "quiet", text: [course.by, clockTime(course.made), `${result.simulations} simulations`].filter(Boolean).join(" · ") }),
     h("p", { text: course.sentence }), parameterTable(result), wayTable(result), foretoldPlot(result),
-    h("details", { class: "run-states" }, h("summary", { text: "Every gait" }), gaitTable(result)),
+    h("details", { class: "run-states" }, h("summary", { text: "Every gait" }), gaitTable(result)), cutNote(result),
     keeping(course, keep));
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
@@ -26,8 +27,8 @@ LEAST_POINTS = 8
 PARTS = 4
 """So many times an equal part of the points is left out; a parameter must be told each time, since what is
 told with all of them alone hangs on where they happen to lie."""
-FALLEN = Travel(0.0, 0.0)
-"""What a check foretells in whose simulation the robot falls: nothing; the whole way counts as error."""
+FALLEN = Travel(0.0, math.nan)
+"""What a check foretells in whose simulation the robot falls: no angle, and no way, all of which is error."""
 USUAL_SPREAD = (0.0021, float(np.radians(3.8)))
 """Of one trial, m and rad, where none was repeated: that of the published trials."""
 
@@ -46,12 +47,14 @@ class Walk:
         problem: exactly what it was sent, once.
         laps: how often that was sent.
         heading: of the wanted direction in the plan's frame, rad.
+        cut: most that was cut off a stroke of what it was sent, to keep it in the motors' range, m.
     """
 
     measured: MeasuredWalk
     problem: SimulationProblem
     laps: int
     heading: float
+    cut: float = 0.0
 
 
 class Named(Protocol):
@@ -68,13 +71,18 @@ class Foretold:
 
     Args:
         name: of the way.
-        travels: a gait each; an angle is nan where the way says nothing of it.
+        travels: a gait each; an angle is nan where the way says nothing of it, or the robot falls.
         falls: how many simulations fell.
     """
 
     name: str
     travels: tuple[Travel, ...]
     falls: int = 0
+
+    @property
+    def angles(self) -> int:
+        """Of how many gaits it tells an angle."""
+        return sum(not math.isnan(travel.angle) for travel in self.travels)
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,10 +112,11 @@ class Learned:
     simulations: int
 
     def errors(self, way: Foretold) -> tuple[float, float]:
-        """Mean absolute error of a way's distances, m, and of its angles, rad."""
+        """Mean absolute error of a way's distances, m, and of the angles that it tells, rad."""
         pairs = [(one, walk.travel) for one, walk in zip(way.travels, self.measured, strict=True)]
         distance = float(np.mean([abs(one.distance - real.distance) for one, real in pairs]))
-        return distance, float(np.mean([abs(one.angle - real.angle) for one, real in pairs]))
+        angles = [abs(one.angle - real.angle) for one, real in pairs if not math.isnan(one.angle)]
+        return distance, float(np.mean(angles)) if angles else math.nan
 
 
 def simulation_count(gaits: int, kinds: int, points: int = POINTS) -> int:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Browser, expect
+from playwright.sync_api import Browser, Route, expect
 
 from app.store.database import Database
 from core.trials.track_csv import format_track_csv
@@ -54,6 +54,31 @@ def test_a_course_runs_in_the_background_and_can_be_cancelled(
         expect(learn).to_be_visible()
 
 
+def test_a_course_is_asked_for_again_only_where_the_studio_does_not_answer(
+    browser: Browser, studio: StudioProcess
+) -> None:
+    on = {"id": "made", "state": "running", "done": 1, "total": 9, "source": "", "by": "", "made": 0.0}
+    asked: list[str] = []
+
+    def answer(route: Route) -> None:
+        asked.append(route.request.url)
+        if len(asked) == 1:
+            route.abort()
+        else:
+            route.fulfill(status=500, json={"error": "The disk is full.", "where": None})
+
+    with opened_page(browser, studio.url, 1024, 768, has_scene=False) as page:
+        page.route("**/api/learning", lambda route: route.fulfill(json={"courses": [on]}))
+        page.route("**/api/learning/made", answer)
+        page.get_by_role("button", name="All trials").click()
+        panel = page.get_by_role("region", name="Trials")
+        panel.get_by_role("button", name="Learn from trials").click()
+        progress = panel.get_by_role("status", name="Learning")
+        expect(progress).to_have_text("The studio does not answer. Is it still running?")
+        expect(progress).to_have_text("The disk is full.")
+        assert len(asked) == 2
+
+
 def test_what_was_learned_is_kept_chosen_in_simulate_deleted_and_brought_back(
     browser: Browser, studio: StudioProcess
 ) -> None:
@@ -68,6 +93,8 @@ def test_what_was_learned_is_kept_chosen_in_simulate_deleted_and_brought_back(
         expect(speed).to_contain_text("not identifiable")
         ways = panel.get_by_role("table", name="How far foretold travel is off")
         expect(ways.get_by_role("row", name="Physics, gait left out")).to_be_visible()
+        cut = "The strokes of 1 of 3 gaits were cut to the motors’ range, at most by 4.2 mm (Walk, 3 cm)."
+        expect(panel.get_by_text(cut)).to_be_visible()
         panel.get_by_label("Name of the set").fill("Lab floor")
         look(page, "learning-result")
         panel.get_by_role("button", name="Keep as a set").click()

@@ -65,6 +65,7 @@ def test_a_course_tells_how_far_it_is_and_what_came_of_it(desk: LearningDesk, le
     assert drag["is_identifiable"]
     assert drag["low"] - 0.1 <= 0.6 <= drag["high"] + 0.1
     assert "cable drag" in content["sentence"]
+    assert [gait["cut_mm"] for gait in content["result"]["gaits"]] == pytest.approx([4.2, 0.0, 0.0])
     assert [(one["id"], "result" in one) for one in desk.found()] == [(learned, False)]
 
 

@@ -152,6 +152,29 @@ def test_a_gait_that_falls_in_most_simulations_is_to_be_left_out() -> None:
         learn(walks, DEFAULT, falling, POINTS)
 
 
+def test_a_gait_that_falls_when_foretold_counts_its_whole_way_and_no_angle() -> None:
+    walks = made_walks()
+    simulate = simulating(walks)
+
+    def falling(tasks: Sequence[Task]) -> list[Travel | None]:
+        travels = simulate(tasks)
+        return travels if len(tasks) > len(walks) else [travels[0], None, *travels[2:]]
+
+    result = learn(walks, DEFAULT, falling, POINTS)
+    way = next(way for way in result.foretold if way.name == "default")
+    distance, angle = result.errors(way)
+    others = [
+        (abs(said.distance - walk.measured.travel.distance), abs(said.angle - walk.measured.travel.angle))
+        for place, (said, walk) in enumerate(zip(way.travels, walks, strict=True))
+        if place != 1
+    ]
+    assert (way.falls, way.angles) == (1, 8)
+    assert angle == pytest.approx(np.mean([off for _, off in others]))
+    whole = walks[1].measured.travel.distance
+    assert distance == pytest.approx((sum(off for off, _ in others) + whole) / 9)
+    assert np.isnan(result.errors(result.foretold[5])[1])
+
+
 def test_the_spread_of_a_trial_is_pooled_over_gaits_that_were_repeated() -> None:
     two = walk_of_trials("a", "a", 0.03, [Travel(0.028, 0.0), Travel(0.032, 0.2)])
     one = walk_of_trials("b", "b", 0.03, [Travel(0.03, 0.0)])

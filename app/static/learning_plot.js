@@ -2,8 +2,12 @@
 
 import { h, svg } from "./dom.js";
 import { fixed } from "./format.js";
+import { gridPlaces, gridStep } from "./trial_plot.js";
 
 const SIZE = { width: 276, height: 220, left: 30, right: 8, top: 8, bottom: 30 };
+
+/** Numbers need so many times the room of lines. */
+const TICK_ROOM = 5;
 
 /** Ways of foretelling that are drawn, each with a mark of its own, so that colour says nothing alone. */
 const MARKS = [
@@ -33,7 +37,7 @@ export function foretoldPlot({ gaits, foretold }) {
   const scale = (from, to) => (value) => Number((from + ((value - low) / Math.max(high - low, 1)) * (to - from)).toFixed(1));
   const toX = scale(SIZE.left, SIZE.width - SIZE.right);
   const toY = scale(SIZE.height - SIZE.bottom, SIZE.top);
-  const ticks = Array.from({ length: high - low + 1 }, (_, index) => low + index);
+  const ticks = gridPlaces(low, high, gridStep((high - low) * TICK_ROOM));
   const said = gaits.map(({ name, distance_cm: distance }, place) => `${name}: ${fixed(distance)} measured, ${drawn.map(({ way }) => `${fixed(way.distances_cm[place])} ${way.title}`).join(", ")}`);
   return h("figure", { class: "trial-plot" },
     svg("svg", { viewBox: `0 0 ${SIZE.width} ${SIZE.height}`, class: "said-plot", role: "img", "aria-label": `Distances in cm. ${said.join("; ")}` },

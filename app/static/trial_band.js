@@ -25,7 +25,7 @@ function cover({ low, high }, toX, toY) {
 /** The feet from above, and how far the trials lie apart as a pale area. */
 function bandFromAbove(band) {
   const places = band.feet.map(({ place }) => place);
-  const { toX, toY, size, lines } = ground(places.flatMap(({ low, high, plan }) => [low, high, ...(plan ? [plan] : [])]));
+  const { toX, toY, size, step, lines } = ground(places.flatMap(({ low, high, plan }) => [low, high, ...(plan ? [plan] : [])]));
   const line = (kind, foot, { x, y }) => svg("polyline", { class: `way-${kind}`, "data-foot": foot + 1, points: points(x.map(toX), y.map(toY)) });
   const drawn = places.flatMap((place, foot) => [
     svg("path", { class: "spread", "data-foot": foot + 1, d: cover(place, toX, toY) }),
@@ -34,7 +34,7 @@ function bandFromAbove(band) {
   const text = band.feet.map(({ end_spread_cm: spread }, foot) => `foot ${foot + 1} ends ± ${fixed(spread, 2)} cm`).join("; ");
   return h("figure", { class: "trial-plot" },
     svg("svg", { viewBox: `0 0 ${size} ${size}`, role: "img", "aria-label": `Trials from above: ${text}` }, ...lines, ...drawn),
-    h("figcaption", { class: "quiet" }, "From above, 1 cm grid; pale is where the trials lie", legend(kindsOf(band), WORDS)));
+    h("figcaption", { class: "quiet" }, `From above, ${step} cm grid; pale is where the trials lie`, legend(kindsOf(band), WORDS)));
 }
 
 /** How far the feet are along the way, iteration by iteration. */

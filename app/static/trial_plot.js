@@ -6,6 +6,9 @@ import { fixed } from "./format.js";
 const SIZE = 276;
 const PAD = 16;
 
+/** Lines of a grid; ways that go farther have lines 10 cm apart, or 1 m, and so on. */
+const MOST_LINES = 100;
+
 /** Sources in the order of painting; the first lies lowest. */
 export const SOURCES = ["planned", "simulated", "tracked"];
 
@@ -22,15 +25,29 @@ export function ground(ways) {
   const scale = (SIZE - 2 * PAD) / Math.max(right - left, high - low, 1);
   const toX = (x) => SIZE / 2 + (x - (left + right) / 2) * scale;
   const toY = (y) => SIZE / 2 - (y - (low + high) / 2) * scale;
-  return { toX, toY, size: SIZE, lines: grid({ left, right, low, high }, toX, toY) };
+  const step = gridStep(Math.max(right - left, high - low));
+  return { toX, toY, size: SIZE, step, lines: grid({ left, right, low, high, step }, toX, toY) };
 }
 
-/** Lines of the platform's grid, 1 cm apart. */
-function grid({ left, right, low, high }, toX, toY) {
-  const lines = [];
-  for (let x = Math.ceil(left); x <= right; x += 1) lines.push(svg("line", { class: "grid", x1: toX(x), x2: toX(x), y1: toY(low), y2: toY(high) }));
-  for (let y = Math.ceil(low); y <= high; y += 1) lines.push(svg("line", { class: "grid", x1: toX(left), x2: toX(right), y1: toY(y), y2: toY(y) }));
-  return lines;
+/** How far lines are apart, cm, so that they can be told apart. */
+export function gridStep(range) {
+  let step = 1;
+  while (range / step > MOST_LINES) step *= 10;
+  return step;
+}
+
+/** Where lines are between two places, cm. */
+export function gridPlaces(low, high, step) {
+  const first = Math.ceil(low / step);
+  return Array.from({ length: Math.max(Math.floor(high / step) - first + 1, 0) }, (_, index) => (first + index) * step);
+}
+
+/** Lines of the platform's grid. */
+function grid({ left, right, low, high, step }, toX, toY) {
+  return [
+    ...gridPlaces(left, right, step).map((x) => svg("line", { class: "grid", x1: toX(x), x2: toX(x), y1: toY(low), y2: toY(high) })),
+    ...gridPlaces(low, high, step).map((y) => svg("line", { class: "grid", x1: toX(left), x2: toX(right), y1: toY(y), y2: toY(y) })),
+  ];
 }
 
 /** What the lines mean: one line a source, colours are the feet's. */
@@ -42,7 +59,7 @@ export function legend(kinds, words = {}) {
 /** The feet from above: a ring at the beginning and a dot at the end of what was tracked. */
 export function pathPlot(sources) {
   const kinds = SOURCES.filter((kind) => sources[kind]);
-  const { toX, toY, size, lines } = ground(kinds.flatMap((kind) => sources[kind].feet));
+  const { toX, toY, size, step, lines } = ground(kinds.flatMap((kind) => sources[kind].feet));
   const way = (kind) => ({ x, y }, index) => svg("polyline", { class: `way-${kind}`, "data-foot": index + 1, points: points(x.map(toX), y.map(toY)) });
   const { feet } = sources.tracked;
   const marks = feet.flatMap(({ x, y }, index) => [
@@ -53,5 +70,5 @@ export function pathPlot(sources) {
   return h("figure", { class: "trial-plot" },
     svg("svg", { viewBox: `0 0 ${size} ${size}`, role: "img", "aria-label": `Feet from above: ${text}` },
       ...lines, ...kinds.flatMap((kind) => sources[kind].feet.map(way(kind))), ...marks),
-    h("figcaption", { class: "quiet" }, "From above, 1 cm grid", legend([...kinds].reverse())));
+    h("figcaption", { class: "quiet" }, `From above, ${step} cm grid`, legend([...kinds].reverse())));
 }

@@ -194,3 +194,15 @@ def test_where_a_stroke_is_not_known_the_strip_is_marked(page: Page, studio: Stu
     wait_for(lambda: strip(page, "strokes").evaluate(BANDS) > 0, "what is not known is marked")
     assert studio.ask("POST", "/api/gaits/walk/undo").status == 200
     wait_for(lambda: strip(page, "strokes").evaluate(BANDS) == 0, "all is known again")
+
+
+def test_a_grid_has_at_most_a_hundred_lines_a_side(page: Page) -> None:
+    said = page.evaluate(
+        """async () => {
+            const { ground, gridPlaces } = await import("/static/trial_plot.js");
+            const drawn = ({ lines, step }) => [lines.length, step];
+            const far = (end) => drawn(ground([{ x: [-1.5, end], y: [0, 2] }]));
+            return [far(3), far(5000), gridPlaces(-1.5, 2, 1), gridPlaces(-15, 25, 10)];
+        }"""
+    )
+    assert said == [[8, 1], [52, 100], [-1, 0, 1, 2], [-10, 0, 10, 20]]

@@ -77,15 +77,24 @@ async def list_videos(
 
 @router.post("", status_code=201)
 async def upload(
-    request: Request, studio: TheStudio, name: Annotated[str, Query(min_length=1, max_length=200)]
+    request: Request,
+    response: Response,
+    studio: TheStudio,
+    name: Annotated[str, Query(min_length=1, max_length=200)],
 ) -> dict[str, Any]:
-    """Keeps the video that is the request's body; what is no video or breaks off leaves nothing."""
+    """Keeps the video that is the request's body; what is no video or breaks off leaves nothing.
+
+    A file that is kept already is not kept twice: the answer is 200 with `again` and the video that is there.
+    """
     said = request.headers.get("content-length", "")
     size = int(said) if said.isdigit() else None
     taken = await _answer(lambda: studio.seeing.videos.begin(name, size))
     try:
         await _take(request, taken)
-        return await _answer(lambda: studio.seeing.videos.keep(taken))
+        kept = await _answer(lambda: studio.seeing.videos.keep(taken))
+        if kept["again"]:
+            response.status_code = 200
+        return kept
     except ClientDisconnect:
         return {}  # nobody is there to read it
     finally:

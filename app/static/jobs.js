@@ -3,7 +3,7 @@
 import { api } from "./api.js";
 import { byId, h, setText } from "./dom.js";
 import { clockTime, compact, fixed, seconds } from "./format.js";
-import { announce, attempt } from "./toasts.js";
+import { announce, attempt, toast } from "./toasts.js";
 
 const TONES = {
   queued: "quiet", running: "accent", cancelling: "caution", done: "good", infeasible: "caution",
@@ -26,7 +26,12 @@ export function jobOf({ jobs, shownJob, selected }) {
 const isTiming = (job) => job.kind === "timing";
 const isSimulation = (job) => job.kind === "simulate";
 const isTracking = (job) => job.kind === "track";
-const NAMES = { timing: "Fastest timing of", simulate: "Simulate", track: "Tracking of" };
+const NAMES = { timing: "Fastest timing of", simulate: "Simulate" };
+
+/** What a job is called in the list: a tracking by its video, all others by their gait. */
+const titleOf = (job) => (isTracking(job) ? `Tracking ${job.video_name ?? job.gait_name}` : job.gait_name);
+const spoken = (job) => (isTracking(job) ? titleOf(job) : `${NAMES[job.kind] ?? "Optimise"} ${job.gait_name}`);
+const titleHelp = (job) => (!isTracking(job) ? "Show its curve and result" : job.result?.trial ? "Open its trial" : "Open its video");
 
 function figures(job) {
   const last = job.progress?.at(-1);
@@ -39,7 +44,7 @@ function figures(job) {
 }
 
 function item(store, id) {
-  const title = h("button", { class: "link", title: "Show its curve and result" });
+  const title = h("button", { class: "link" });
   const dot = h("span", { class: "dot" });
   const word = h("span", { class: "word" });
   const text = h("p");
@@ -62,7 +67,8 @@ async function pick(store, id) {
 }
 
 function show(part, job, shown) {
-  setText(part.title, job.gait_name);
+  setText(part.title, titleOf(job));
+  part.title.title = titleHelp(job);
   part.dot.dataset.tone = jobTone(job);
   setText(part.word, job.state);
   part.word.dataset.toneText = jobTone(job);
@@ -76,10 +82,18 @@ function show(part, job, shown) {
   part.element.toggleAttribute("data-shown", shown);
 }
 
-function tellEnded(before, jobs) {
+/** Offers the trial of a tracking that nobody follows beside its video: the page was reloaded, or shows something else. */
+function offerTrial(store, job) {
+  if (document.querySelector(`[data-tracks="${job.video}"]`)) return;
+  toast(`${titleOf(job)} is done: there is a trial of it.`, { action: { label: "Open the trial", act: () => store.set({ trialWanted: { trial: job.result.trial } }) } });
+}
+
+function tellEnded(store, before, jobs) {
   for (const job of jobs) {
     const known = before.get(job.id);
-    if (known && jobIsOn(known) && !jobIsOn(job)) announce(`${NAMES[job.kind] ?? "Optimise"} ${job.gait_name}: ${job.state}. ${job.sentence}`);
+    if (!known || !jobIsOn(known) || jobIsOn(job)) continue;
+    announce(`${spoken(job)}: ${job.state}. ${job.sentence}`);
+    if (isTracking(job) && job.result?.trial) offerTrial(store, job);
   }
   return new Map(jobs.map((job) => [job.id, job]));
 }
@@ -90,7 +104,7 @@ export function mountJobs(store) {
   const parts = new Map();
   let before = new Map();
   store.watch(({ jobs, shownJob, selected }) => [jobs, shownJob, selected], (state) => {
-    before = tellEnded(before, state.jobs);
+    before = tellEnded(store, before, state.jobs);
     const shown = jobOf(state);
     const visible = state.jobs.slice(0, SHOWN);
     const kept = new Set(visible.map(({ id }) => id));

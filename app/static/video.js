@@ -22,7 +22,7 @@ export const openVideos = attempt(async (page) => {
     h("button", { type: "button", class: "link", text: "All trials", on: { click: page.all } }),
     h("p", { class: "quiet", text: "A video of the robot from under its glass platform: the four coloured feet are found in every frame." }), upload,
     h("h3", { text: "Videos" }), kept.length ? null : h("p", { class: "teach", text: "No video yet. What is sent here and what cameras record is kept in the data folder." }),
-    h("ul", { class: "run-list", role: "list", "aria-label": "Videos" }, ...kept.map((video) => videoRow(video, open)))));
+    h("ul", { class: "run-list", role: "list", "aria-label": "Videos" }, ...kept.map((video) => videoRow(video, { open, trial: page.one })))));
 });
 
 /** Opens one video by its id. */

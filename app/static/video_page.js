@@ -80,7 +80,7 @@ export async function openVideo(page, video, { back, chosen = "", frame = 0, kep
     h("button", { type: "button", class: "link", text: "All videos", on: { click: back } }),
     h("div", { class: "run-line run-title" }, h("b", { text: video.name })), h("p", { class: "quiet", text: videoFacts(video) }),
     video.sentence ? h("p", { class: "why", data: { toneText: "caution" }, text: video.sentence }) : null,
-    video.trial ? h("button", { type: "button", class: "link", text: "Open its trial", on: { click: () => page.one(video.trial) } }) : null,
+    ...video.trials.map(({ id, name: of }) => h("button", { type: "button", class: "link", text: video.trials.length > 1 ? `Open its trial “${of}”` : "Open its trial", title: of, on: { click: () => page.one(id) } })),
     choice.element, h("label", {}, h("span", { text: "Trial name" }), name), ...walk.labels, progress, track,
     h("div", { class: "run-files" }, h("a", { href: `/api/videos/${encodeURIComponent(video.id)}/file`, download: "", text: "The file" }), removeButton(video, back)));
   onPress(track, () => { if (form.reportValidity()) begin(); }, (why) => toast(why, { of: "studio" }));

@@ -10,12 +10,16 @@ import "./video_style.js";
 /** Size, rate and length of a video. */
 export const videoFacts = ({ size, rate, seconds, bytes }) => `${size.join(" × ")} px · ${fixed(rate, 1)} frames/s · ${lengthWords(seconds)} · ${sizeWords(bytes)}`;
 
-/** A kept video in the list. */
-export function videoRow(video, open) {
+const trialsWord = ({ trials }) => (trials.length > 1 ? `has ${trials.length} trials` : trials.length ? "has a trial" : "");
+
+/** A kept video in the list, with the ways to what was tracked in it. */
+export function videoRow(video, { open, trial }) {
   const state = video.state === "kept" ? (video.kind === "recording" ? `of a run, camera ${video.camera}` : "") : video.state;
+  const { trials } = video;
+  const ways = trials.map(({ id, name }) => h("button", { type: "button", class: "link", text: trials.length > 1 ? `Trial: ${name}` : "Open its trial", title: name, on: { click: () => trial(id) } }));
   return h("li", {}, h("button", { type: "button", class: "run-row", data: { video: video.id }, title: video.sentence || "Track the feet in this video", on: { click: () => open(video) } },
     h("span", { class: "run-line" }, h("b", { text: video.name }), h("span", { text: lengthWords(video.seconds) })),
-    h("span", { class: "run-line quiet" }, h("span", { text: [clockTime(video.made), state, video.trial ? "has a trial" : ""].filter(Boolean).join(" · ") }))));
+    h("span", { class: "run-line quiet" }, h("span", { text: [clockTime(video.made), state, trialsWord(video)].filter(Boolean).join(" · ") }))), ways.length ? h("div", { class: "video-trials" }, ...ways) : null);
 }
 
 /** A field for a file, which is sent when it is chosen, with its progress and Cancel. */
@@ -47,6 +51,7 @@ function buildUpload() {
     }
     ending = null;
     [going.hidden, file.disabled, file.value] = [true, false, ""];
+    if (video?.again) toast(`${chosen.name} is here already, sent ${clockTime(video.made)} as “${video.name}”; it is not kept twice.`, { of: "studio" });
     if (video && field.element.isConnected) field.done(video);
     else if (video) toast(`${video.name} is sent.`, { action: { label: "Track its feet", act: () => field.done(video) } });
   }

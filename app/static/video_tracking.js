@@ -32,6 +32,7 @@ export function trackingPart(store, video, { done, changed }) {
     const on = jobIsOn(job);
     const ended = followed === job.id && !on;
     if (on) followed = job.id;
+    element.dataset.tracks = on ? video : "";
     element.hidden = !on && !ended && job.state !== "failed";
     [progress.hidden, cancel.hidden] = [!on, !on];
     bar.style.transform = `scaleX(${job.share ?? 0})`;

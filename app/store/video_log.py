@@ -39,6 +39,27 @@ class VideoLog:
         rows = self._database.rows("SELECT content, deleted FROM video WHERE id=?", video)
         return _content(*rows[0]) if rows else None
 
+    def trials(self, video: str = "") -> dict[str, list[dict[str, str]]]:
+        """The trials that are not deleted, by the video that their feet were seen in, the newest first.
+
+        Args:
+            video: those of one video; empty for all.
+
+        Returns:
+            Id and name of each trial, under the video's id.
+        """
+        rows = self._database.rows(
+            "SELECT json_extract(content, '$.sight.source.video') AS video, id, "
+            "json_extract(content, '$.name') FROM trial "
+            "WHERE deleted IS NULL AND video<>'' AND (?='' OR video=?) ORDER BY made DESC, id",
+            video,
+            video,
+        )
+        found: dict[str, list[dict[str, str]]] = {}
+        for source, trial, name in rows:
+            found.setdefault(source, []).append({"id": trial, "name": name})
+        return found
+
     def put(self, content: dict[str, Any]) -> None:
         """Stores what is known of a video now; whether it is deleted stays as it is."""
         kept = {key: value for key, value in content.items() if key != "deleted"}

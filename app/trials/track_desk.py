@@ -91,8 +91,8 @@ class TrackDesk:
         source = SightSource(order.video, video["camera"], order.setup, setup.name, revision)
         job_id = uuid.uuid4().hex[:12]
         words = order.words
-        name = words.gait_name or video["name"]
-        job = self._book.begin(job_id, KIND, words.gait, name, "", video=order.video, share=0.0)
+        seen = {"video": order.video, "video_name": video["name"], "share": 0.0}
+        job = self._book.begin(job_id, KIND, words.gait, words.gait_name or video["name"], "", **seen)
         look = Look(
             TrackIn(path, tracking),
             self._running.teller(job_id),

@@ -58,11 +58,13 @@ class VideoDesk:
 
     def views(self, run: str = "", *, is_deleted: bool = False) -> list[Content]:
         """Videos, the newest first, of one run or all."""
-        return [_view(content) for content in self._log.found(run, is_deleted=is_deleted)]
+        trials = self._log.trials()
+        found = self._log.found(run, is_deleted=is_deleted)
+        return [_view(content, trials.get(content["id"], [])) for content in found]
 
     def view(self, video: str) -> Content:
         """One video."""
-        return _view(self._known(video))
+        return _view(self._known(video), self._log.trials(video).get(video, []))
 
     def begin(self, name: str, size: int | None) -> Upload:
         """Starts an upload; `keep` or `Upload.discard` ends it.
@@ -74,7 +76,10 @@ class VideoDesk:
         return self.files.begin(uuid.uuid4().hex[:12], name, size)
 
     def keep(self, upload: Upload) -> Content:
-        """Keeps an upload that has come whole.
+        """Keeps an upload that has come whole; a file that is kept already is not kept twice.
+
+        Returns:
+            The video; `again` says that it was there before.
 
         Raises:
             InputError: it is no video; nothing is left of it.
@@ -86,13 +91,30 @@ class VideoDesk:
             upload.discard()
             raise
         file = upload.partial.name.removeprefix(".").removesuffix(".partial")
-        upload.partial.replace(self.files.path(file))
-        content = {
-            **_new(file.partition(".")[0], upload.name, "upload", file),
-            **facts_content(facts),
-            "bytes": upload.size,
-        }
-        return self.put(content)
+        with self._lock:
+            twin = self._twin(upload.content_hash)
+            if twin is not None:
+                upload.discard()
+                return {**self.view(twin), "again": True}
+            upload.partial.replace(self.files.path(file))
+            content = {
+                **_new(file.partition(".")[0], upload.name, "upload", file),
+                **facts_content(facts),
+                "bytes": upload.size,
+                "hash": upload.content_hash,
+            }
+            return {**self.put(content), "again": False}
+
+    def _twin(self, content_hash: str) -> str | None:
+        """The kept video of the same content; None where there is none."""
+        return next(
+            (
+                str(content["id"])
+                for content in self._log.found()
+                if content.get("hash") == content_hash and self.files.path(content["file"]).exists()
+            ),
+            None,
+        )
 
     def _facts(self, path: Path, name: str) -> Facts:
         try:
@@ -263,5 +285,6 @@ def facts_content(facts: Facts) -> Content:
     }
 
 
-def _view(content: Content) -> Content:
-    return {key: value for key, value in content.items() if key != "file"}
+def _view(content: Content, trials: list[dict[str, str]]) -> Content:
+    shown = {key: value for key, value in content.items() if key not in ("file", "hash")}
+    return {**shown, "trials": trials}

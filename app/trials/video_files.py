@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import os
 import re
 import shutil
@@ -36,6 +37,7 @@ class Upload:
         self.partial, self.name = partial, name
         self.size = 0
         self._head = b""
+        self._hash = hashlib.sha256()
         self._file = partial.open("wb")
 
     def add(self, data: bytes) -> None:
@@ -46,6 +48,7 @@ class Upload:
             StateError: the disk does not take them.
         """
         self.size += len(data)
+        self._hash.update(data)
         if self.size > MOST_BYTES:
             raise too_large(self.size)
         if len(self._head) < _HEAD:
@@ -54,6 +57,11 @@ class Upload:
             self._file.write(data)
         except OSError as error:
             raise _not_written(error) from error
+
+    @property
+    def content_hash(self) -> str:
+        """SHA-256 of what came, hexadecimal."""
+        return self._hash.hexdigest()
 
     def finish(self) -> None:
         """Ends the writing.

@@ -13,6 +13,7 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from app.trials.video import jpeg
 from tests.app.trials import rendered
 from tests.app.trials.test_lens import CORNERS, seen_from
+from tests.app.trials.test_videos_http import SETUP
 from tests.core.trials.tracks import RATE, stepping_track
 from tests.page.late_answers import LateRequests
 from tests.page.opened import opened_page
@@ -108,6 +109,33 @@ def test_a_video_becomes_a_trial_through_a_setup_that_is_made_on_its_picture(pag
     mean = published.get_by_role("row", name="mean").get_by_role("cell")
     assert float(mean.nth(0).inner_text()) == pytest.approx(1.2, abs=0.08)
     assert float(mean.nth(1).inner_text()) == pytest.approx(45.0, abs=3.0)
+
+
+def test_a_tracking_that_nobody_follows_offers_its_trial_and_its_video_leads_there(
+    page: Page, studio: StudioProcess, video: Path
+) -> None:
+    setup = studio.ask("POST", "/api/setups", SETUP).content["id"]
+    kept = studio.ask("POST", "/api/videos?name=aside.avi", video.read_bytes() + b"\0").content["id"]
+    order = {"setup": setup, "name": "tracked aside", "expected_cm": 1.0}
+    studio.ask("POST", f"/api/videos/{kept}/track", order)
+    expect(page.get_by_role("button", name="Tracking aside.avi")).to_be_visible()
+    page.get_by_role("button", name="Open the trial").click()
+    published = panel(page).get_by_role("table", name="Movement as published")
+    expect(published).to_be_visible()
+    expect(panel(page)).to_contain_text("tracked aside")
+    panel(page).get_by_role("button", name="All trials").click()
+    panel(page).get_by_role("button", name="From a video…").click()
+    row = panel(page).get_by_role("list", name="Videos").get_by_role("listitem").filter(has_text="aside.avi")
+    expect(row).to_contain_text("has a trial")
+    row.get_by_role("button", name="Open its trial").click()
+    expect(published).to_be_visible()
+
+
+def test_a_video_that_is_sent_twice_is_said_to_be_there(page: Page, video: Path) -> None:
+    send_video(page, video)
+    panel(page).get_by_role("button", name="All videos").click()
+    panel(page).get_by_label("Video file").set_input_files(video)
+    expect(page.get_by_role("status").filter(has_text="it is not kept twice")).to_be_visible()
 
 
 def test_a_file_on_its_way_goes_on_where_its_panel_is_left_until_it_is_cancelled(

@@ -77,6 +77,19 @@ def test_an_uploaded_video_tells_its_facts_and_shows_any_picture(
     assert [one["id"] for one in studio.ask("GET", "/api/videos").content["videos"]] == [video["id"]]
 
 
+def test_a_file_that_is_sent_again_is_not_kept_twice(
+    studio: StudioProcess, video: dict[str, Any], data: Path
+) -> None:
+    content = studio.blob(f"/api/videos/{video['id']}/file")
+    again = studio.ask("POST", "/api/videos?name=other%20name.avi", content)
+    assert (again.status, again.content["again"], again.content["id"]) == (200, True, video["id"])
+    assert len(studio.ask("GET", "/api/videos").content["videos"]) == 1
+    assert len(list((data / "videos").iterdir())) == 1
+    other = studio.ask("POST", "/api/videos?name=longer.avi", content + b"\0")
+    assert (other.status, other.content["again"]) == (201, False)
+    studio.ask("DELETE", f"/api/videos/{other.content['id']}")
+
+
 def test_what_tracking_finds_in_a_picture_is_told_with_places_and_refusals(
     studio: StudioProcess, video: dict[str, Any], colours: list[Any]
 ) -> None:
@@ -104,6 +117,9 @@ def test_a_video_becomes_a_trial_beside_its_gaits_plan(
     assert trial["figures"]["net_distance"] == pytest.approx(1.2, abs=0.03)
     assert trial["source"]["setup_revision"] == 1
     assert trial["ends_from"] == "tracks"
+    assert ended["video_name"] == "walk on glass.avi"
+    (listed,) = studio.ask("GET", "/api/videos").content["videos"]
+    assert listed["trials"] == [{"id": trial["id"], "name": "filmed"}]
 
 
 def test_tracking_that_is_cancelled_leaves_no_trial(

@@ -25,6 +25,7 @@ from app.trials.recorder import Recorded, RecordOrder
 from app.trials.run_trial import run_trial
 from app.trials.setup_desk import SetupDesk
 from app.trials.sight import Sight, SightSource
+from app.trials.tracking import missing_remarks
 from app.trials.video_desk import VideoDesk
 from core.errors import FootfallError, StateError
 from core.trials.setup import CameraSetup
@@ -197,7 +198,9 @@ class RunRecordings:
             self._await_record(run)
             made = run_trial(self._runs.record(run), recorded.found)
             source = replace(one.source, video=one.video)
-            sight = Sight(made.found, source, (*remarks, *made.remarks), made.ends)
+            sight = Sight(
+                made.found, source, (*remarks, *missing_remarks(made.found), *made.remarks), made.ends
+            )
             trial = self._trials.add(made.found.track, made.words, made.planned, sight)
         except FootfallError as error:
             return "", (*remarks, f"There is no trial: {error.sentence}")

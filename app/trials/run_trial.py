@@ -89,7 +89,11 @@ def _from(found: VideoTrack, began: float) -> VideoTrack:
     if last - first < 1:
         raise InputError("The camera saw nothing of the walk after its first waypoint.", "run")
     return replace(
-        found, track=found.track.between(first, last), unseen=found.unseen[first:], false=found.false[first:]
+        found,
+        track=found.track.between(first, last),
+        unseen=found.unseen[first:],
+        false=found.false[first:],
+        missing=found.missing[first:],
     )
 
 

@@ -20,7 +20,7 @@ from app.trials.planned import PlannedFeet
 from app.trials.run_trial import run_trial
 from app.trials.setup_desk import SetupDesk
 from app.trials.sight import Sight, SightSource
-from app.trials.tracking import VideoTrack
+from app.trials.tracking import VideoTrack, missing_remarks
 from app.trials.video_desk import VideoDesk
 from core.errors import FootfallError
 
@@ -126,9 +126,10 @@ class TrackDesk:
         """The trial; that of a recorded run counts from the run's first waypoint, as the run's log tells."""
         words, video = order.words, self._videos.view(order.video)
         if video["kind"] != "recording" or words.run != video["run"]:
-            return self._trials.add(found.track, words, order.planned, Sight(found, source))
+            sight = Sight(found, source, missing_remarks(found))
+            return self._trials.add(found.track, words, order.planned, sight)
         made = run_trial(self._runs.record(words.run), found)
-        sight = Sight(made.found, source, made.remarks, made.ends)
+        sight = Sight(made.found, source, (*missing_remarks(made.found), *made.remarks), made.ends)
         return self._trials.add(made.found.track, words, made.planned, sight)
 
 
@@ -138,6 +139,7 @@ def track_figures(trial: str, found: VideoTrack) -> Content:
         "trial": trial,
         "frames": int(found.track.times.size),
         "seconds": float(found.track.times[-1] - found.track.times[0]),
+        "missing": int(found.missing.sum()),
         "unseen": int(found.unseen.sum()),
         "false": int(found.false.sum()),
     }
@@ -149,4 +151,5 @@ def track_sentence(found: VideoTrack) -> str:
     return (
         f"{frames} frames at {found.frame_rate:.1f} a second; {int(found.unseen.sum())} foot positions were "
         f"not seen and {int(found.false.sum())} were false, all filled by straight lines and marked."
+        + "".join(f" {remark}" for remark in missing_remarks(found))
     )

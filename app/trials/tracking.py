@@ -32,15 +32,17 @@ class VideoTrack:
 
     Args:
         track: with its gaps filled and marked.
-        unseen: (n, feet) no spot of the foot's colour was fit, or there was no picture.
+        unseen: (n, feet) no spot of the foot's colour was fit, though another foot is in the picture.
         false: (n, feet) a spot was found where the foot cannot have been.
         frame_rate: of the video, 1/s.
+        missing: (n,) there was no picture, or none of the feet is in it.
     """
 
     track: FootTrack
     unseen: Bools
     false: Bools
     frame_rate: float
+    missing: Bools
 
 
 def open_footage(path: Path) -> Footage:
@@ -104,10 +106,20 @@ def track_of_pixels(times: Floats, pixels: Floats, setup: TrackingSetup, name: s
     every, seen = _with_missing(times, pixels)
     feet = setup.places(seen)
     unseen = np.asarray(np.isnan(feet).any(axis=2))
+    missing = unseen.all(axis=1)
     false = false_sights(every, feet)
     feet[false] = math.nan
     rate = float(1.0 / np.median(np.diff(times)))
-    return VideoTrack(filled_track(every, feet, name), unseen, false, rate)
+    return VideoTrack(filled_track(every, feet, name), unseen & ~missing[:, None], false, rate, missing)
+
+
+def missing_remarks(found: VideoTrack) -> tuple[str, ...]:
+    """How many of a track's pictures are missing, in a sentence; nothing where none is."""
+    count = int(found.missing.sum())
+    if not count:
+        return ()
+    what = "1 picture is" if count == 1 else f"{count} pictures are"
+    return (f"{what} missing or without any foot; the feet are filled by straight lines there and marked.",)
 
 
 def _with_missing(times: Floats, pixels: Floats) -> tuple[Floats, Floats]:

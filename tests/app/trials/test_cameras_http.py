@@ -125,7 +125,7 @@ def test_a_run_that_was_recorded_becomes_a_trial_beside_its_plan(studio: StudioP
     assert (trial["run"], trial["source"]["video"]) == (run, recorded["id"])
     assert trial["ends_from"] == "run"
     assert "gave no pictures from" in trial["remarks"][0]
-    assert trial["unseen"]
+    assert "missing or without any foot" in trial["remarks"][1]
     assert trial["expected_cm"] == pytest.approx(1.0, abs=0.05)
     assert trial["first_seconds"] > 0.0
     picture = read_picture(studio.blob(f"/api/videos/{recorded['id']}/picture.jpg?frame=3"), "3")

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.trials.tracking import VideoTrack, track_of_pixels, track_video
+from app.trials.tracking import VideoTrack, missing_remarks, track_of_pixels, track_video
 from core.errors import InputError
 from core.trials import picture_size
 from core.trials.camera import FOOT_COLOURS
@@ -71,6 +71,19 @@ def test_pictures_that_are_missing_are_a_gap_of_every_foot() -> None:
     found = track_of_pixels(times, pixels, replace(SETUP, lens=None), "camera")
     assert found.track.gaps == tuple((foot, 8, 13) for foot in range(4))
     np.testing.assert_allclose(found.track.times, np.arange(26) / RATE, atol=1e-9)
+
+
+def test_pictures_that_are_missing_or_show_no_foot_are_said_and_are_no_feet_that_were_not_seen() -> None:
+    pixels = np.full((20, 4, 2), 100.0)
+    pixels[3] = np.nan
+    pixels[12, 1] = np.nan
+    found = track_of_pixels(
+        np.delete(np.arange(22) / RATE, [8, 9]), pixels, replace(SETUP, lens=None), "camera"
+    )
+    assert np.flatnonzero(found.missing).tolist() == [3, 8, 9]
+    assert [tuple(place) for place in np.argwhere(found.unseen)] == [(14, 1)]
+    assert missing_remarks(found)[0].startswith("3 pictures are missing or without any foot;")
+    assert missing_remarks(replace(found, missing=found.missing & False)) == ()
 
 
 def test_tracking_ends_when_it_is_told_to(video: Path) -> None:

@@ -115,8 +115,6 @@ class Studio:
         )
         self._trial_simulations = TrialSimulations(TrialBesideLog(self._database), self._simulator)
         self.beside = TrialsBeside(self.trials, self._trial_simulations)
-        self.photos = TrialPhotos(self.trials, self._database, data)
-        self.reports = TrialReports(self.trials, self.beside, self.photos, self.runs)
         self.seeing = Seeing(
             data,
             self._database,
@@ -128,6 +126,8 @@ class Studio:
             self._show_tracking,
             self.hub.publish,
         )
+        self.photos = TrialPhotos(self.trials, self._database, data, self.seeing.eyes)
+        self.reports = TrialReports(self.trials, self.beside, self.photos, self.runs)
         self.robot.bridge.subscribe(self.seeing.recordings.follow)
         self._told_sources: dict[str, tuple[int, list[str]]] = {}
         self.stop_lane = ThreadPoolExecutor(max_workers=2, thread_name_prefix="stop")

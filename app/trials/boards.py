@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from app.trials.opencv import cv2
 from app.trials.video import Picture
 from core.errors import InputError
 from core.trials.camera import Lens

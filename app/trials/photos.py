@@ -12,9 +12,9 @@ from app.store.database import Database
 from app.store.files import require_folder, write_atomically
 from app.store.photo_log import Content, PhotoLog
 from app.trials.desk import TrialDesk
-from app.trials.video import jpeg, read_picture, scaled, use_one_thread
+from app.trials.eyes import Eyes, seen
+from app.trials.picture_tasks import PhotoFiles, PhotoOf, Source
 from core.errors import InputError
-from core.trials.picture_size import picture_size, require_readable
 
 MOST_BYTES = 20_000_000
 """Bytes of a picture file as it comes."""
@@ -22,6 +22,8 @@ MOST_PHOTOS = 24
 """Photos of a trial."""
 KEPT_WIDTH, SMALL_WIDTH = 1600, 240
 """Widest that a photo and its thumbnail are kept, px."""
+LOOK_SECONDS = 60.0
+"""Longest wait for a picture that is made smaller."""
 
 
 class UnknownPhotoError(InputError):
@@ -35,12 +37,14 @@ class TrialPhotos:
         desk: the trials.
         database: where is kept what is known of photos.
         data: the data folder; pictures lie in its folder `trial-photos`.
+        eyes: what reads pictures.
     """
 
-    def __init__(self, desk: TrialDesk, database: Database, data: Path) -> None:
+    def __init__(self, desk: TrialDesk, database: Database, data: Path, eyes: Eyes) -> None:
         self._desk = desk
         self._log = PhotoLog(database)
         self._folder = data / "trial-photos"
+        self._eyes = eyes
         self._lock = threading.Lock()
 
     def photos(self, trial: str) -> list[Content]:
@@ -63,10 +67,8 @@ class TrialPhotos:
         """
         self._desk.require_listed(trial)
         check_bytes(len(content), name)
-        size = picture_size(content, name)
-        require_readable(size.width, size.height, name)
-        use_one_thread()
-        picture = scaled(read_picture(content, name), KEPT_WIDTH)
+        task = PhotoOf(Source(file=content, name=name), KEPT_WIDTH, SMALL_WIDTH)
+        made: PhotoFiles = seen(self._eyes.near, task, LOOK_SECONDS)
         photo: Content = {
             "id": uuid.uuid4().hex[:12],
             "trial": trial,
@@ -74,8 +76,8 @@ class TrialPhotos:
             "by": by,
             "name": name,
             "caption": "",
-            "width": picture.shape[1],
-            "height": picture.shape[0],
+            "width": made.size[0],
+            "height": made.size[1],
         }
         with self._lock:
             if len(self._log.of_trial(trial)) >= MOST_PHOTOS:
@@ -83,8 +85,8 @@ class TrialPhotos:
                     f"This trial has {MOST_PHOTOS} photos, and no more are kept. Delete one.", name
                 )
             require_folder(self._folder)
-            write_atomically(self._path(photo["id"]), jpeg(picture))
-            write_atomically(self._path(photo["id"], is_small=True), jpeg(scaled(picture, SMALL_WIDTH)))
+            write_atomically(self._path(photo["id"]), made.file)
+            write_atomically(self._path(photo["id"], is_small=True), made.small)
             self._log.add(photo)
         return photo
 

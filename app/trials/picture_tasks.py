@@ -123,6 +123,37 @@ class PictureOf:
         return jpeg(scaled(self.source.picture(shelf), self.most))
 
 
+@dataclass(frozen=True)
+class PhotoFiles:
+    """A photo and its thumbnail as JPEG files.
+
+    Args:
+        size: width and height of the photo, px.
+        file: the photo.
+        small: the thumbnail.
+    """
+
+    size: tuple[int, int]
+    file: bytes
+    small: bytes
+
+
+@dataclass(frozen=True)
+class PhotoOf:
+    """A picture and its thumbnail, each no wider than so many pixels and nothing but the picture."""
+
+    source: Source
+    most: int
+    most_small: int
+
+    def answer(self, shelf: Shelf, report: Report) -> PhotoFiles:
+        """Writes them."""
+        del report
+        picture = scaled(self.source.picture(shelf), self.most)
+        size = (picture.shape[1], picture.shape[0])
+        return PhotoFiles(size, jpeg(picture), jpeg(scaled(picture, self.most_small)))
+
+
 @dataclass(frozen=True, eq=False)
 class LookAt:
     """A picture with what tracking would find in it.

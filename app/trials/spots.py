@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from app.trials.opencv import cv2
 from app.trials.video import Picture, scaled
 from core.arrays import Floats
 from core.trials.camera import ColourRange, SpotLimits

@@ -8,11 +8,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from app.trials.footage import Facts
+from app.trials.opencv import cv2
 from core.errors import InputError
 from core.trials.picture_size import require_readable
 

@@ -11,6 +11,7 @@ from PIL import Image
 from app.store.database import Database
 from app.trials import photos as limits
 from app.trials.desk import TrialDesk, TrialWords, UnknownTrialError
+from app.trials.eyes import Eyes
 from app.trials.photos import TrialPhotos, UnknownPhotoError
 from core.errors import InputError
 from tests.core.trials.test_picture_size import picture
@@ -29,8 +30,8 @@ def trial(desk: TrialDesk) -> str:
 
 
 @pytest.fixture
-def photos(desk: TrialDesk, database: Database, tmp_path: Path) -> TrialPhotos:
-    return TrialPhotos(desk, database, tmp_path)
+def photos(desk: TrialDesk, database: Database, tmp_path: Path, eyes: Eyes) -> TrialPhotos:
+    return TrialPhotos(desk, database, tmp_path, eyes)
 
 
 def test_a_photo_is_kept_smaller_with_a_thumbnail_and_nothing_but_the_picture(

@@ -18,6 +18,7 @@ from app.store.trial_beside import TrialBesideLog
 from app.trials import beside as limits
 from app.trials.beside import TrialsBeside
 from app.trials.desk import TrialDesk, TrialWords, UnknownTrialError
+from app.trials.eyes import Eyes
 from app.trials.photos import TrialPhotos
 from app.trials.report import TrialReports
 from app.trials.report_page import number
@@ -39,8 +40,8 @@ def desk(database: Database) -> TrialDesk:
 
 
 @pytest.fixture
-def photos(desk: TrialDesk, database: Database, tmp_path: Path) -> TrialPhotos:
-    return TrialPhotos(desk, database, tmp_path)
+def photos(desk: TrialDesk, database: Database, tmp_path: Path, eyes: Eyes) -> TrialPhotos:
+    return TrialPhotos(desk, database, tmp_path, eyes)
 
 
 @pytest.fixture

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +9,7 @@ import pytest
 
 from app.store.database import Database
 from app.trials import video_desk
-from app.trials.eyes import Eyes, Look, open_eyes, seen
+from app.trials.eyes import Eyes, Look, seen
 from app.trials.footage import PICTURES
 from app.trials.picture_tasks import FactsOf
 from app.trials.recording_file import Recording, RecordingWriter
@@ -21,13 +20,6 @@ from core.errors import FootfallError, InputError, StateError
 from tests.studio_process import wait_for
 
 GREY = jpeg(np.full((48, 64, 3), 120, dtype=np.uint8))
-
-
-@pytest.fixture(scope="module")
-def eyes() -> Iterator[Eyes]:
-    opened = open_eyes()
-    yield opened
-    opened.close()
 
 
 @pytest.fixture

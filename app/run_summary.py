@@ -15,7 +15,7 @@ from core.errors import StateError
 from core.path_merging import WaypointPlan
 from core.waypoint_path import estimate_seconds
 from core.waypoints import Waypoints
-from core.wire_timing import largest_moves, longest_start_move
+from core.wire_timing import largest_moves, longest_start_move, stop_time
 
 
 def run_summary(plan: Plan, course: Course, snapshot: RobotSnapshot, reason: str | None) -> dict[str, Any]:
@@ -50,7 +50,9 @@ def run_summary(plan: Plan, course: Course, snapshot: RobotSnapshot, reason: str
         "start_moves": moves,
         "estimated_seconds": estimate_seconds(sent),
         "largest_move_mm": float(largest_moves(sent).max(initial=0.0)) * 1000.0,
-        "stop_seconds": stop_seconds(sent, snapshot, way.waypoints),
+        "stop_seconds": round(stop_seconds(sent, snapshot, way.waypoints), 2),
+        "checked_stop_seconds": round(stop_time(way.waypoints), 2),
+        "scan_seconds": snapshot.measured_scan,
         "robot_ready": reason is None,
         "reason": reason,
         "unwired": unwired(plan),

@@ -125,7 +125,7 @@ export function mountCheck(store, edits, goTo) {
     setAllowed(approveButton, blocked, "Allow exactly these waypoints to be sent");
     checkButton.classList.toggle("primary", !view?.verdict?.passed);
     approveButton.classList.toggle("primary", !blocked);
-    why.textContent = view?.approval ? "" : (blocked ?? "Any later edit takes the approval away.");
+    why.textContent = view?.approval ? "" : (blocked ?? "Any later edit takes the approval away, and so does a newer simulation.");
     if (!view) return;
     head.replaceChildren(summary(view, checked[view.id]));
     foot.replaceChildren(approvalBox(view));

@@ -6,6 +6,9 @@ import { simulationOver, traceOf } from "./simulation.js";
 /** What of a run stands over which strip: its rows, and how many values of a row belong to a foot; none where they are the body's. */
 const OVER = { strokes: { of: "measured_mm", aFoot: 3 }, heights: { of: "foot_heights_mm", aFoot: 1 }, margin: { of: "margins_mm", aFoot: 0 } };
 
+/** Long dashes, in every strip: what was measured is solid, what was planned dotted. */
+const SIMULATED_DASH = [8, 3];
+
 /** A run's telemetry an iteration of the plan: the plan's times, which grow, with what was measured then. */
 function iterations({ plan_times: times, laps }, values) {
   const byLap = new Map();
@@ -39,7 +42,7 @@ export function runOver({ run, trace, selected, iterate }) {
 /** What stands over a strip, the run's on top: each with what it is called and how its lines are broken. */
 export function oversOf(state, strip) {
   const [simulated, measured] = [measuredOf(traceOf(simulationOver(state)), strip), measuredOf(runOver(state), strip)];
-  return [simulated && { ...simulated, word: measured ? "simulated dashed" : "simulated solid", dash: measured ? [6, 3] : [] }, measured && { ...measured, word: "measured solid", dash: [] }].filter(Boolean);
+  return [simulated && { ...simulated, word: "simulated dashed", dash: SIMULATED_DASH }, measured && { ...measured, word: "measured solid", dash: [] }].filter(Boolean);
 }
 
 /** Least and greatest measured value, mm. */

@@ -52,13 +52,20 @@ function progressOf(run) {
   return { fraction: run.count ? run.reached / run.count : 0, text: `${what}${again}${run.reached} of ${run.count} reached, ${run.sent} sent${time}` };
 }
 
+/** Check knows no robot; where its number is another one, both stand there with why. */
+function stopWords({ stop_seconds: stop, checked_stop_seconds: checked, scan_seconds: scan }) {
+  if (seconds(stop) === seconds(checked)) return `${seconds(stop)} s`;
+  const why = scan === null ? "of all waypoints" : `with the slowest scan known; this robot's took ${seconds(scan)} s`;
+  return `${seconds(stop)} s (Check: ${seconds(checked)} s, ${why})`;
+}
+
 function summaryRows({ runSummary: run, view, selected }) {
   if (!run || run.gait !== selected || !view) return [];
   const rows = [["Waypoints", `${run.waypoints}`], ["Takes about", `${fixed(run.estimated_seconds, 0)} s`]];
   if (run.start_distance_mm !== null && run.start_distance_mm !== undefined) {
     rows.push(["To the start pose", `${fixed(run.start_distance_mm)} mm${run.start_moves ? ` in ${run.start_moves} move${run.start_moves === 1 ? "" : "s"}` : ""}`]);
   }
-  rows.push(["Largest move", `${fixed(run.largest_move_mm)} mm`], ["Stop acts within", `${seconds(run.stop_seconds)} s`], ["Hash", shortHash(run.waypoints_hash), run.waypoints_hash]);
+  rows.push(["Largest move", `${fixed(run.largest_move_mm)} mm`], ["Stop acts within", stopWords(run)], ["Hash", shortHash(run.waypoints_hash), run.waypoints_hash]);
   return rows.flatMap(([name, value, help]) => [h("dt", { text: name }), h("dd", { class: help ? "mono" : null, text: value, title: help ?? null })]);
 }
 

@@ -106,7 +106,7 @@ def track_of_pixels(times: Floats, pixels: Floats, setup: TrackingSetup, name: s
     every, seen = _with_missing(times, pixels)
     feet = setup.places(seen)
     unseen = np.asarray(np.isnan(feet).any(axis=2))
-    missing = unseen.all(axis=1)
+    missing = np.asarray(unseen.all(axis=1))
     false = false_sights(every, feet)
     feet[false] = math.nan
     rate = float(1.0 / np.median(np.diff(times)))

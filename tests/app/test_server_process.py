@@ -105,6 +105,8 @@ def test_a_gait_goes_all_the_way_and_the_robot_parses_exactly_what_was_approved(
     summary = studio.ask("GET", "/api/gaits/s-gait/run").content
     assert summary["robot_ready"]
     assert summary["waypoints_hash"] == approval["waypoints_hash"]
+    plan = studio.ask("GET", "/api/gaits/s-gait/view").content["plan"]
+    assert summary["checked_stop_seconds"] == plan["stop_seconds"]
     first = len(robot.firmware.messages)
     studio.ask("POST", "/api/robot/send", {"gait": "s-gait", "by": "Ada"})
     wait_for(lambda: studio.robot()["robot"] in ("done", "fault"), "the run ended", 60)

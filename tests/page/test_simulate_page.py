@@ -50,7 +50,7 @@ def test_a_gait_is_simulated_shown_over_its_plan_and_stale_after_an_edit(page: P
     assert time is not None
     expect(page.get_by_label("Time", exact=True)).to_contain_text(time.group(1))
 
-    expect(page.locator(".measured-key")).to_have_text(["simulated solid, planned dotted"] * 3)
+    expect(page.locator(".measured-key")).to_have_text(["simulated dashed, planned dotted"] * 3)
     page.wait_for_function(GHOST)
     found = Axe().run(page, context={"include": [["#simulate"]]}).response["violations"]
     assert [one["id"] for one in found if one["impact"] in ("serious", "critical")] == []
@@ -130,6 +130,6 @@ OVERS = """async () => {
 def test_a_run_and_a_simulation_lie_over_each_other_and_a_stale_one_over_nothing(page: Page) -> None:
     shown = page.evaluate(OVERS)
     assert shown["both"] == ["simulated dashed", "measured solid"]
-    assert shown["simulated"] == ["simulated solid"]
+    assert shown["simulated"] == ["simulated dashed"]
     assert shown["stale"] == ["measured solid"]
     assert shown["iterate"] == []

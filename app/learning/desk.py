@@ -92,6 +92,7 @@ class LearningDesk:
             "state": "running",
             "sentence": "Gaits are being simulated.",
             "done": 0,
+            "left_seconds": None,
             "total": simulation_count(len(walks), kinds, self._points),
             "result": None,
         }
@@ -169,7 +170,10 @@ class LearningDesk:
 
     def _now(self) -> Content | None:
         with self._lock:
-            return None if self._on is None else dict(self._on.content)
+            if self._on is None:
+                return None
+            content = dict(self._on.content)
+        return {**content, "left_seconds": _left(content, time.time())}
 
     def _learn(self, work: _Work) -> None:
         end: Content
@@ -191,3 +195,9 @@ class LearningDesk:
             work.content.update(end, ended=time.time())
             self._on = None
             self._log.put(work.content)
+
+
+def _left(content: Content, now: float) -> float | None:
+    """Seconds that a course still takes, as fast as until now; None before its first simulation."""
+    done, total = content["done"], content["total"]
+    return None if not done else (now - content["made"]) / done * max(total - done, 0)

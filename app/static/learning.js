@@ -19,15 +19,25 @@ function addStyles() {
   if (!document.querySelector(`link[href="${href}"]`)) document.head.append(h("link", { rel: "stylesheet", href }));
 }
 
-/** The course that is on: a bar, how many simulations are done, and Cancel. */
+/** A time that is only known roughly. */
+const aboutTime = (seconds) => (seconds < 90 ? `${fixed(seconds, 0)} s` : seconds < 5400 ? `${fixed(seconds / 60, 0)} min` : `${fixed(seconds / 3600, 1)} h`);
+
+function progressWords({ state, done, total, left_seconds: left = null }) {
+  if (state !== "running") return "cancelling";
+  return `${done} of ${total} simulations${left === null ? "" : `, about ${aboutTime(left)} left`}`;
+}
+
+/** The course that is on: from what is learned, a bar, how many simulations are done, and Cancel. */
 function progressPart(cancel) {
-  const [bar, text] = [h("i"), h("span", { class: "number quiet", role: "status", "aria-label": "Learning" })];
-  const element = h("div", { class: "simulating" }, h("div", { class: "progress" }, bar), text, h("button", { text: "Cancel", "aria-label": "Cancel learning", on: { click: cancel } }));
+  const [bar, source, text] = [h("i"), h("p"), h("p", { class: "number quiet", role: "status", "aria-label": "Learning" })];
+  const element = h("div", {}, source, h("div", { class: "simulating" }, h("div", { class: "progress" }, bar), h("button", { text: "Cancel", "aria-label": "Cancel learning", on: { click: cancel } })), text);
   return {
     element,
-    show({ state, done, total }) {
+    show(course) {
+      const { done, total } = course;
       bar.style.transform = `scaleX(${done / Math.max(total, 1)})`;
-      setText(text, state === "running" ? `${fixed((100 * done) / Math.max(total, 1), 0)} %` : "cancelling");
+      setText(source, course.source && `Learning from ${course.source}`);
+      setText(text, progressWords(course));
     },
     say(sentence) { setText(text, sentence); },
   };

@@ -47,7 +47,10 @@ def test_a_course_runs_in_the_background_and_can_be_cancelled(
         expect(learn).to_have_attribute("title", re.compile("^The ticked trials are of 2 gaits; 3 different"))
         panel.get_by_role("checkbox", name=GAITS[2]).check()
         learn.click()
-        expect(panel.get_by_role("status", name="Learning")).to_have_text("0 %")
+        expect(panel.get_by_role("status", name="Learning")).to_have_text(
+            re.compile(r"^\d+ of \d+ simulations")
+        )
+        expect(panel).to_contain_text("Learning from 3 trials of 3 gaits")
         look(page, "learning-on")
         panel.get_by_role("button", name="Cancel learning").click()
         expect(panel.get_by_role("list", name="Courses of learning")).to_contain_text("cancelled")

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from app.trials.camera_address import CameraAddress
+from app.trials.camera_address import DEVICE, CameraAddress
 from core.errors import InputError
 
 
@@ -17,7 +17,8 @@ def served_cameras(words: Sequence[str]) -> tuple[CameraAddress, ...]:
         words: each a name, an equals sign and a file.
 
     Raises:
-        InputError: a word is none, a file is not there, or two have one name.
+        InputError: a word is none, a file is not there, two have one name, or one that cameras of the
+            computer have.
     """
     found: dict[str, CameraAddress] = {}
     for word in words:
@@ -25,6 +26,11 @@ def served_cameras(words: Sequence[str]) -> tuple[CameraAddress, ...]:
         key = re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-")
         if not key or not path:
             raise InputError(f"“{word}” is no camera; write NAME=VIDEO, as in under=walk.avi.", "--camera")
+        if DEVICE.fullmatch(key):
+            raise InputError(
+                f"“{name}” is the name of a camera of this computer; give “{path}” another name.",
+                "--camera",
+            )
         if key in found:
             raise InputError(f"Two cameras are called “{key}”; give each a name of its own.", "--camera")
         file = Path(path).expanduser().resolve()

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
+
+DEVICE = re.compile(r"video\d+")
+"""Ids of the computer's own cameras, as Linux names them."""
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import threading
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -10,15 +9,13 @@ from typing import Any
 
 from app.store.database import Database
 from app.store.setup_log import SetupLog
-from app.trials.camera_address import CameraAddress
+from app.trials.camera_address import DEVICE, CameraAddress
 from app.trials.camera_link import CameraLink
 from app.trials.setup_desk import SetupDesk
 from core.errors import InputError
 
 DEVICES = Path("/sys/class/video4linux")
 """Where Linux lists cameras."""
-
-_DEVICE = re.compile(r"video\d+")
 
 PICTURE_SECONDS = 15.0
 """Longest wait for a picture; a camera takes seconds to start."""
@@ -73,7 +70,7 @@ class CameraDesk:
         gone = {
             camera: CameraAddress(camera, one["name"], f"/dev/{camera}", False)
             for camera, one in kept.items()
-            if one["records"] and camera not in addresses and _DEVICE.fullmatch(camera)
+            if one["records"] and camera not in addresses and DEVICE.fullmatch(camera)
         }
         everything = {**addresses, **gone}
         return [self._view(everything[camera], kept.get(camera), camera in gone) for camera in everything]

@@ -38,6 +38,9 @@ FINISH_SECONDS = 20.0
 KEPT_SECONDS = 10.0
 """Longest wait for the record of the run after its end."""
 
+BROKEN = "An error of the studio broke the recording off."
+"""Said of a recording that the studio failed to end."""
+
 LOOK_SECONDS = 0.02
 """Between two looks for that."""
 
@@ -139,6 +142,9 @@ class RunRecordings:
                 self._recordings.append(self._record(video, view, row.content))
             except FootfallError as error:
                 self._videos.change(video, state="removed", sentence=error.sentence)
+            except Exception:
+                _log.exception("A recording of the run %s could not begin.", run)
+                self._break_off(video)
         self._cameras.tell()
 
     def _record(self, video: str, view: dict[str, Any], run: dict[str, Any]) -> _Recording:
@@ -161,7 +167,16 @@ class RunRecordings:
                 self._finish_one(run, one)
             except Exception:
                 _log.exception("The recording %s of the run %s failed.", one.video, run)
+                self._break_off(one.video)
         self._cameras.tell()
+
+    def _break_off(self, video: str) -> None:
+        """Keeps what there is of a recording that is not ended as it should be."""
+        try:
+            if self._videos.view(video)["state"] == "recording":
+                self._videos.salvage(video, BROKEN)
+        except Exception:
+            _log.exception("What became of the recording %s could not be kept.", video)
 
     def _finish_one(self, run: str, one: _Recording) -> None:
         try:

@@ -83,6 +83,7 @@ class VideoDesk:
 
         Raises:
             InputError: it is no video; nothing is left of it.
+            sqlite3.Error: the database refuses it; nothing is left of it.
         """
         try:
             upload.finish()
@@ -103,7 +104,12 @@ class VideoDesk:
                 "bytes": upload.size,
                 "hash": upload.content_hash,
             }
-            return {**self.put(content), "again": False}
+            try:
+                self._log.put(content)
+            except Exception:
+                self.files.remove(file)
+                raise
+            return {**self._tell(content["id"]), "again": False}
 
     def _twin(self, content_hash: str) -> str | None:
         """The kept video of the same content; None where there is none."""
@@ -137,7 +143,10 @@ class VideoDesk:
     def put(self, content: Content) -> Content:
         """Keeps what is known of a video now, and tells of it."""
         self._log.put(content)
-        view = self.view(content["id"])
+        return self._tell(content["id"])
+
+    def _tell(self, video: str) -> Content:
+        view = self.view(video)
         self._changed(view)
         return view
 
@@ -203,9 +212,7 @@ class VideoDesk:
         """Brings a deleted video back."""
         self._known(video)
         self._log.put_deleted(video, None)
-        view = self.view(video)
-        self._changed(view)
-        return view
+        return self._tell(video)
 
     def path(self, video: str) -> Path:
         """Where a video's pictures are.

@@ -24,6 +24,7 @@ def test_a_file_is_served_under_its_name(tmp_path: Path) -> None:
         (["walk.avi"], "write NAME=VIDEO"),
         (["under=/none/walk.avi"], "There is no file"),
         (["=a"], "no camera"),
+        (["Video0=walk.avi"], "give “walk.avi” another name"),
     ],
 )
 def test_a_camera_that_cannot_be_served_is_refused(words: list[str], said: str) -> None:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import sqlite3
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from app.store.database import Database
+from app.store.video_log import VideoLog
 from app.trials import video_desk
 from app.trials.eyes import Eyes, Look, seen
 from app.trials.footage import PICTURES
@@ -113,6 +115,20 @@ def test_an_upload_that_the_disk_does_not_take_leaves_nothing(tmp_path: Path) ->
         upload.finish()
     upload.discard()
     assert not partial.is_symlink()
+
+
+def test_an_upload_that_the_database_refuses_leaves_nothing(
+    desk: VideoDesk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(log: VideoLog, content: object) -> None:
+        raise sqlite3.OperationalError("The database is locked.")
+
+    monkeypatch.setattr(VideoLog, "put", refuse)
+    upload = desk.begin("row.mjpeg", None)
+    upload.add(GREY * 3)
+    with pytest.raises(sqlite3.OperationalError):
+        desk.keep(upload)
+    assert list(desk.files.folder.iterdir()) == []
 
 
 def test_an_answer_that_cannot_be_kept_is_told_and_the_next_one_comes(desk: VideoDesk, eyes: Eyes) -> None:

@@ -11,7 +11,7 @@ import "./video_style.js";
 export const tellTrial = attempt(async (id, open) => {
   const trial = await trialApi.read(id);
   if (!trial.run || !trial.source?.camera) return;
-  toast(`The run of ${trial.gait_name} was recorded: ${fixed(trial.figures.distance, 1)} of ${fixed(trial.expected_cm, 1)} cm.`, { action: { label: "Trial of this run", act: () => open({ trial: id }) } });
+  toast(`The run of ${trial.gait_name} was recorded: ${fixed(trial.figures.distance, 1)} of ${fixed(trial.expected_cm, 1)} cm.${trial.plan?.astray_sentence ? ` ${trial.plan.astray_sentence}` : ""}`, { action: { label: "Trial of this run", act: () => open({ trial: id }) } });
 });
 
 /** Tells once what is to be known of a recording, such as why there is no trial of it. */

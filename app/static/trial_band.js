@@ -34,7 +34,7 @@ function bandFromAbove(band) {
   const text = band.feet.map(({ end_spread_cm: spread }, foot) => `foot ${foot + 1} ends ± ${fixed(spread, 2)} cm`).join("; ");
   return h("figure", { class: "trial-plot" },
     svg("svg", { viewBox: `0 0 ${size} ${size}`, role: "img", "aria-label": `Trials from above: ${text}` }, ...lines, ...drawn),
-    h("figcaption", { class: "quiet" }, `From above, ${step} cm grid; pale is where the trials lie`, legend(kindsOf(band), WORDS)));
+    h("figcaption", { class: "quiet" }, `From above in the robot's frame, ${step} cm grid; pale is where the trials lie`, legend(kindsOf(band), WORDS)));
 }
 
 /** How far the feet are along the way, iteration by iteration. */
@@ -50,7 +50,7 @@ function bandOverIterations({ feet, iterations, ...band }) {
     svg("polygon", { class: "spread", "data-foot": foot + 1, points: `${points(xs, way.low.map(toY))} ${points([...xs].reverse(), way.high.map(toY).reverse())}` }),
     ...(way.plan ? [line("plan", foot, way.plan)] : []), ...way.trials.map((one) => line("trial", foot, one)), line("mean", foot, way.mean),
   ]));
-  return h("figure", { class: "trial-plot" }, drawing, h("figcaption", { class: "quiet" }, "Way of each foot along its direction", legend(kindsOf(band), WORDS)));
+  return h("figure", { class: "trial-plot" }, drawing, h("figcaption", { class: "quiet" }, `Way of each foot along the ${band.has_plan ? "wanted" : "mean"} direction`, legend(kindsOf(band), WORDS)));
 }
 
 const HELP = "Mean of the trials from begin to end along their direction; how far their ends lie from their mean (root of the mean square); and the plan";

@@ -115,8 +115,8 @@ export async function trialDetail(store, id, { all, remove, tracks, video }) {
     head.replaceChildren(...[h("button", { class: "link", text: "All trials", on: { click: all } }),
       h("div", { class: "run-line run-title" }, h("b", { text: now.name })), deletedLine(now), facts(now), sourcePart(now, video)].filter(Boolean));
     tail.replaceChildren(...[endsLine(now, (changes) => kept.change(changes)), beside.element, iterationTable(now),
-      movementTable("Movement as published", "Largest excursions from the first frame; never negative. The planned motion by the same definition", now.figures, now.plan, published),
-      movementTable("Movement, first to last", "Last minus first frame", now.figures, now.plan, net),
+      movementTable("Movement as published", "Largest excursions from the first frame; never negative. Angles on the platform. The planned motion by the same definition", now.figures, now.plan, published),
+      movementTable("Movement, first to last", "Last minus first frame; angles on the platform", now.figures, now.plan, net),
       slipTable(now), filesLine(now, remove)].filter(Boolean));
     drawPlots();
     attempt(beside.refresh)();

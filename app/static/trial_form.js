@@ -32,6 +32,12 @@ export function walkFields(store, kept = {}) {
   const { view } = store.state;
   const expected = number("Wanted distance, cm", "Of the whole walk, all iterations together", kept.expected_cm ?? wantedCm(view) ?? "");
   const iterations = number("Iterations", "How often every foot steps in the track", kept.iterations ?? view?.document?.iterations ?? 3, { step: "1", min: "1", max: "50" });
+  let isTyped = expected.input.value === "" || kept.expected_cm !== undefined;
+  expected.input.addEventListener("input", () => { isTyped = true; });
+  iterations.input.addEventListener("input", () => {
+    const step = wantedCm(view) / (view?.document?.iterations || 1);
+    if (!isTyped && iterations.input.valueAsNumber > 0) expected.input.value = Number((step * iterations.input.valueAsNumber).toFixed(2));
+  });
   const over = h("select", { "aria-label": "Laid over", title: "The plan that the tracks are compared with; it is kept with the trial" });
   const option = (value, text) => h("option", { value, text });
   let [runs, touched] = [[], false];

@@ -7,10 +7,10 @@ import { attempt } from "./toasts.js";
 import { trialApi } from "./trial_api.js";
 
 const COLUMNS = [
-  { key: "gait_name", text: "gait", help: "Gait, and its step an iteration in cm" },
+  { key: "gait_name", text: "gait", help: "Gait, and its step an iteration in cm: as planned, or without a plan as wanted" },
   { key: "distance", text: "cm", help: "Distance as in the published tables: largest excursions; mean over trials" },
-  { key: "error_percent", text: "error", help: "Distance beside what was wanted, %" },
-  { key: "angle_deg", text: "angle", help: "Direction of the largest excursions, degrees" },
+  { key: "error_percent", text: "error %", help: "Distance beside what was wanted, %" },
+  { key: "angle_deg", text: "angle °", help: "Direction of the largest excursions on the platform, degrees" },
   { key: "speed_mm_s", text: "mm/s", help: "Mean speed of an iteration" },
 ];
 
@@ -30,8 +30,14 @@ function sparkline({ distances, expected_cm: wanted }) {
 
 const spread = (value, by, decimals) => (by === null ? fixed(value, decimals) : `${fixed(value, decimals)} ± ${fixed(by, decimals)}`);
 
-function compareRow(group, band) {
-  const name = `${group.gait_name}, ${fixed(group.step_cm, 1)} cm`;
+/** A gait's name with its step, and with the iterations where only they tell it from another row. */
+function nameOf(group, groups) {
+  const isTwin = groups.some((other) => other !== group && other.gait_name === group.gait_name && fixed(other.step_cm, 1) === fixed(group.step_cm, 1));
+  return `${group.gait_name}, ${fixed(group.step_cm, 1)} cm${isTwin ? `, ${group.iterations} iterations` : ""}`;
+}
+
+function compareRow(group, groups, band) {
+  const name = nameOf(group, groups);
   const show = h("button", { class: "link", text: "Show band", "aria-label": `Show band of ${name}`, title: "The trials over each other: their mean way, how far they lie apart, and the plan", on: { click: () => band(group) } });
   return h("tr", {},
     h("th", { scope: "row" }, h("span", { text: name }), h("span", { class: "more quiet" }, `× ${group.trials.length}`, sparkline(group), show)),
@@ -56,7 +62,7 @@ function comparedTable(groups, band) {
     return { key, cell: h("th", { scope: "col" }, button) };
   });
   function fill() {
-    rows.replaceChildren(...sorted(groups).map((group) => compareRow(group, band)));
+    rows.replaceChildren(...sorted(groups).map((group) => compareRow(group, groups, band)));
     for (const { key, cell } of heads) cell.setAttribute("aria-sort", key !== order.key ? "none" : order.up ? "ascending" : "descending");
   }
   fill();

@@ -17,7 +17,7 @@ function sights({ unseen, false: wrong }) {
  */
 export function sourcePart(trial, open) {
   const { source, remarks, plan } = trial;
-  const doubts = [...remarks, source ? sights(trial) : null, plan && !plan.fits ? plan.fit_sentence : null].filter(Boolean);
+  const doubts = [...remarks, source ? sights(trial) : null, plan && !plan.fits ? plan.fit_sentence : null, plan?.astray_sentence].filter(Boolean);
   if (!source && !doubts.length) return null;
   const video = source?.video && h("button", { class: "link", text: source.camera ? `Recording of ${source.camera}` : "Its video", title: "The frames that the feet were found in", on: { click: () => open(source.video) } });
   return h("div", { class: "trial-source" },

@@ -95,6 +95,6 @@ export function wayPlot(sources, trial, moved) {
   drawing.append(
     ...drawn.flatMap(({ kind, ways, frames }) => ways.map((way, index) => svg("polyline", { class: `way-${kind}`, "data-foot": index + 1, points: points(frames.map(toX), way.map(toY)) }))),
     ...ends.slice(0, -1).map((end, part) => handle({ part, end, frames: trial.frames, rate: trial.frame_rate, toX, fromX, top: WAY.top, bottom: WAY.height - WAY.bottom, moved })));
-  const help = ends.length > 1 ? "Way of each foot; drag a mark, or use the arrow keys, to move the end of an iteration" : "Way of each foot";
+  const help = ends.length > 1 ? "Way of each foot along the tracked direction; drag a mark, or use the arrow keys, to move the end of an iteration" : "Way of each foot along the tracked direction";
   return h("figure", { class: "trial-plot" }, drawing, h("figcaption", { class: "quiet" }, help, kinds.length > 1 && legend([...kinds].reverse())));
 }

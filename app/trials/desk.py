@@ -16,7 +16,7 @@ from app.store.trial_log import TrialLog, TrialRow
 from app.trials.figures import path_content, plan_content, track_content
 from app.trials.planned import PlannedFeet
 from app.trials.record import ROBOT, TrialRecord, kept_track, told_ends, trial_record
-from app.trials.sight import Sight, fit_content
+from app.trials.sight import Sight, astray_content, fit_content
 from core.arrays import Floats
 from core.errors import InputError, StateError
 from core.robot import load_robot
@@ -256,7 +256,8 @@ def _summary(row: TrialRow) -> dict[str, Any]:
     if content["plan"] is not None:
         times, feet = _plan_arrays(content["plan"])
         plan = plan_content(times, feet, align(track, feet[0]), expected)
-        summary["plan"] = {**plan, **fit_content(plan["gaps_cm"])}
+        astray = astray_content(summary["figures"], plan["figures"])
+        summary["plan"] = {**plan, **fit_content(plan["gaps_cm"]), **astray}
     return summary
 
 
@@ -273,8 +274,11 @@ def _line(row: TrialRow) -> dict[str, Any]:
     summary = _summary(row)
     mean = summary["figures"]
     speeds = [part["speed_mm_s"] for part in summary["parts"]]
+    plan = summary["plan"]
+    walk = summary["expected_cm"] if plan is None else plan["figures"]["net_distance"]
     return {
         **{key: summary[key] for key in _WORDS},
+        "step_cm": round(walk / summary["iterations"], 2),
         **{key: mean[key] for key in ("distance", "angle_deg", "error_percent")},
         **{key: mean[key] for key in ("net_distance", "net_angle_deg", "net_error_percent")},
         "part_distances": [part["net_distance"] for part in summary["parts"]],
@@ -286,15 +290,16 @@ def _line(row: TrialRow) -> dict[str, Any]:
 
 
 def compared(lines: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Trials of one gait and step together: how many, mean and spread of their figures, sorted by name.
+    """Trials of one gait, step and count of iterations together: mean and spread of their figures, by name.
+
+    The step is the plan's that is kept with a trial; without a plan it is what was wanted.
 
     Args:
         lines: of the list.
     """
     groups: dict[tuple[str, float, int], list[dict[str, Any]]] = {}
     for line in lines:
-        step = round(line["expected_cm"] / line["iterations"], 4)
-        key = (line["gait_name"] or line["name"], step, line["iterations"])
+        key = (line["gait_name"] or line["name"], line["step_cm"], line["iterations"])
         groups.setdefault(key, []).append(line)
     return [_group(*key, groups[key]) for key in sorted(groups)]
 
@@ -318,7 +323,7 @@ def _group(name: str, step: float, iterations: int, trials: Sequence[dict[str, A
         "step_cm": step,
         "iterations": iterations,
         "trials": [trial["id"] for trial in trials],
-        "expected_cm": trials[0]["expected_cm"],
+        "expected_cm": folded("expected_cm", np.mean),
         **{key: folded(key, np.mean) for key in keys},
         **{f"{key}_spread": spread.get(f"{key}_spread") for key in keys},
         "distances": [trial["distance"] for trial in reversed(trials)],

@@ -26,6 +26,13 @@ from core.trials.track import FootTrack
 _LINES = {"tracked": "solid", "simulated": "dashed", "planned": "dotted"}
 
 
+_ENDS = {
+    "hand": "moved by hand",
+    "run": "by the log of the run",
+    "tracks": "found from the steps of the tracked feet",
+}
+
+
 class TrialReports:
     """Writes reports; every method may be called from any thread.
 
@@ -53,13 +60,22 @@ class TrialReports:
             f'<p class="note">{text(summary["note"])}</p>' if summary["note"] else "",
             _beside_table(beside["rows"]),
             f'<p class="quiet">{text(beside["simulation"]["remark"])}</p>',
-            plot(ways_from_above(sources, self._colours), "above", f"From above, grid in cm. {key}"),
+            *_astray(summary),
             plot(
-                ways_over_time(_along(record, sources), self._colours, "s"), "time", f"Ways over time. {key}"
+                ways_from_above(sources, self._colours),
+                "above",
+                f"From above, in the platform's frame, cm. {key}",
+            ),
+            plot(
+                ways_over_time(_along(record, sources), self._colours, "s"),
+                "time",
+                f"Ways over time, along the direction in which the tracked feet went. {key}",
             ),
             _iterations(summary["parts"]),
-            self._movements("Movement as published (largest excursions)", summary, ""),
-            self._movements("Movement, first to last frame", summary, "net_"),
+            self._movements(
+                "Movement as published (largest excursions), angles on the platform", summary, ""
+            ),
+            self._movements("Movement, first to last frame, angles on the platform", summary, "net_"),
             self._slips(summary["slip"]),
             *self._gaps(summary, record),
             *self._pictures(trial),
@@ -143,6 +159,7 @@ def _words(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     yield "Added", moment(summary["made"])
     yield "Gait", summary["gait_name"] or "–"
     yield "Wanted", f"{number(summary['expected_cm'], 2)} cm in {summary['iterations']} iterations"
+    yield "Ends of iterations", _ENDS[summary["ends_from"]]
     yield "Frames", f"{summary['frames']}, {number(summary['frame_rate'], 1)} a second"
     yield (
         "Gaps",
@@ -171,7 +188,7 @@ def _beside_table(rows: Sequence[Mapping[str, Any]]) -> str:
         for row in rows
     ]
     head = ["", "cm", "angle °", "error %", "feet from tracked, mm"]
-    return table("Mean of the feet, first to last frame", head, cells)
+    return table("Mean of the feet, first to last frame, angles on the platform", head, cells)
 
 
 def _iterations(parts: Sequence[Mapping[str, Any]]) -> str:
@@ -183,6 +200,11 @@ def _iterations(parts: Sequence[Mapping[str, Any]]) -> str:
         for index, part in enumerate(parts)
     ]
     return table("Iterations, first to last", ["", "cm", "s", "mm/s"], rows)
+
+
+def _astray(summary: Mapping[str, Any]) -> Iterator[str]:
+    if summary["plan"] is not None and summary["plan"]["astray_sentence"]:
+        yield f"<p>{text(summary['plan']['astray_sentence'])}</p>"
 
 
 def _key(record: TrialRecord, sources: Mapping[str, FootTrack]) -> str:

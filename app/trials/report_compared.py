@@ -16,7 +16,7 @@ MOST_BANDS = 40
 BandOf = Callable[[Sequence[str]], dict[str, Any]]
 """Trials over each other by their ids (`app.trials.bands.band_content`)."""
 
-_KEY = "Each trial thin, their mean solid, the plan dotted; grid in cm. Their ends lie apart by"
+_KEY = "Each trial thin, their mean solid, the plan dotted; in the robot's frame, cm. Their ends lie apart by"
 
 
 def compared_parts(
@@ -81,7 +81,9 @@ def _compared_table(groups: Sequence[Mapping[str, Any]]) -> str:
     ]
     head = ["", "trials", "wanted cm", "cm", "angle °", "error %", "first to last cm", "mm/s", "slip cm"]
     return table(
-        "Distance, angle and error as published; ± is the standard deviation of the trials", head, rows
+        "Distance, angle on the platform and error as published; ± is the standard deviation of the trials",
+        head,
+        rows,
     )
 
 
@@ -100,4 +102,4 @@ def _trials_table(lines: Sequence[Mapping[str, Any]]) -> str:
         )
         for line in lines
     ]
-    return table("Trials", ["", "by", "added", "cm", "angle °", "error %"], rows)
+    return table("Trials, angles on the platform", ["", "by", "added", "cm", "angle °", "error %"], rows)

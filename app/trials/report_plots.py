@@ -20,8 +20,12 @@ MOST_POINTS = 800
 """Points of a line; a sheet of paper shows no more."""
 MOST_LINES = 100
 """Lines of a grid; ways that go farther have lines 10 cm apart, or 1 m, and so on."""
-DASHES = {"planned": (1.5, 3.0), "simulated": (6.0, 3.0)}
-"""Lengths of the pieces and of the gaps between them, px, by the source; what is not here is solid."""
+MOST_TICKS = 10
+"""Ticks of an axis of time."""
+DASHES = {"planned": (2.0, 5.0, 2.2), "simulated": (7.0, 3.0, 0.9)}
+"""Length of the pieces, of the gaps between them, and width, px, by the source; the others are solid."""
+PAINTED = ("simulated", "planned", "tracked")
+"""The first lies lowest: the plan's wide dots can be seen on the thin dashes of a simulation that agrees."""
 
 Place = Callable[[float, float], tuple[float, float]]
 Points = Sequence[tuple[float, float]]
@@ -36,10 +40,10 @@ def ways_from_above(sources: Mapping[str, FootTrack], colours: Sequence[str]) ->
     """
     ways = {name: _thinned(track.feet * CM) for name, track in sources.items()}
     every = np.concatenate([way.reshape(-1, 2) for way in ways.values()])
-    place, grid = _ground(every)
+    place, grid = _ground(every, "on the platform")
     shapes: list[Shape] = [*grid]
     filled = _thinned(sources["tracked"].filled.astype(np.float64)) > 0
-    for name in ("planned", "simulated", "tracked"):
+    for name in PAINTED:
         for foot, colour in enumerate(colours if name in ways else ()):
             points = [place(float(x), float(y)) for x, y in ways[name][:, foot]]
             shapes += (
@@ -56,7 +60,7 @@ def ways_over_time(lines: Mapping[str, tuple[Floats, Floats]], colours: Sequence
     """How far the feet are along the way.
 
     Args:
-        lines: by source, in the order of painting, (n,) times and (n, feet) ways in cm.
+        lines: by source, (n,) times and (n, feet) ways in cm.
         colours: a colour a foot.
         unit: of the times.
     """
@@ -73,9 +77,12 @@ def ways_over_time(lines: Mapping[str, tuple[Floats, Floats]], colours: Sequence
     for level in _levels(low, high):
         (left, y), (end, _) = place(0.0, level), place(longest, level)
         shapes += [Rule(left, y, end, y, GRID), Words(left - 4, y + 3, str(level), 9, QUIET, Anchor.END)]
-    shapes.append(Words(right, TALL - 4, f"{longest:.0f} {unit}", 9, QUIET, Anchor.END))
-    shapes.append(Words(EDGE, TALL - 4, "cm along the way", 9, QUIET))
-    for name, (times, ways) in lines.items():
+    for time in _ticks(longest):
+        x, words = place(time, low)[0], f"{time} {unit}"
+        shapes += [Rule(x, bottom, x, bottom + 4, QUIET), Words(x, TALL - 4, words, 9, QUIET, Anchor.MIDDLE)]
+    shapes.append(Words(EDGE + 4, 8, "cm along the tracked direction", 9, QUIET))
+    for name in (name for name in PAINTED if name in lines):
+        times, ways = lines[name]
         for foot, colour in enumerate(colours):
             rows = _thinned(np.column_stack([times, ways[:, foot]]))
             shapes += _line([place(float(t), float(way)) for t, way in rows], colour, name)
@@ -95,7 +102,7 @@ def band_from_above(feet: Sequence[Mapping[str, Any]], colours: Sequence[str]) -
         for foot, content in enumerate(feet)
         for name, way in _layers(content["place"])
     ]
-    place, grid = _ground(np.concatenate([way for _, _, way in ways]))
+    place, grid = _ground(np.concatenate([way for _, _, way in ways]), "from the robot")
     shapes: list[Shape] = [*grid]
     for foot, name, way in ways:
         shapes += _line([place(float(x), float(y)) for x, y in way], colours[foot], name)
@@ -112,8 +119,8 @@ def _layers(place: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
     yield "mean", place["mean"]
 
 
-def _ground(every: Floats) -> tuple[Place, list[Shape]]:
-    """Where places in cm lie on the sheet, and the grid's lines with their numbers."""
+def _ground(every: Floats, frame: str) -> tuple[Place, list[Shape]]:
+    """Where places in cm lie on the sheet, and the grid's lines with their numbers; `frame` says of what."""
     low, high = every.min(axis=0), every.max(axis=0)
     middle, scale = (low + high) / 2, (SIZE - 20.0) / max(float((high - low).max()), 1.0)
 
@@ -134,7 +141,7 @@ def _ground(every: Floats) -> tuple[Place, list[Shape]]:
         _, down = place(0.0, y)
         number = _number(y, rows.step, EDGE - 4, down + 3, Anchor.END)
         shapes += [Rule(EDGE, down, EDGE + SIZE, down, GRID), number]
-    shapes.append(Words(EDGE + SIZE, SIZE + 24, "x right, y up, cm", 9, QUIET, Anchor.END))
+    shapes.append(Words(EDGE + SIZE, SIZE + 24, f"x right, y up {frame}, cm", 9, QUIET, Anchor.END))
     return place, shapes
 
 
@@ -146,13 +153,22 @@ def _levels(low: float, high: float) -> range:
     return range(math.ceil(low / step) * step, math.floor(high / step) * step + 1, step)
 
 
+def _ticks(longest: float) -> range:
+    """Moments with a tick: whole 1, 2 or 5, or tens of those."""
+    step = next(
+        one * 10**power for power in range(10) for one in (1, 2, 5) if longest <= one * 10**power * MOST_TICKS
+    )
+    return range(0, math.floor(longest) + 1, step)
+
+
 def _number(value: int, step: int, x: float, y: float, anchor: Anchor) -> Words:
     return Words(x, y, str(value) if value // step % 2 == 0 else "", 9, QUIET, anchor)
 
 
 def _line(points: Points, colour: str, name: str) -> Iterator[Shape]:
     if name in DASHES:
-        yield from dashed(points, colour, 1.2, *DASHES[name])
+        length, gap, width = DASHES[name]
+        yield from dashed(points, colour, width, length, gap)
     else:
         yield Trace(tuple(points), colour, 0.6 if name == "trial" else 1.6)
 

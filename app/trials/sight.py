@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,6 +13,12 @@ from core.arrays import Bools, stretches
 
 FITTING = 0.015
 """Feet that stand farther from the plan's than this at the first frame are not those feet, m."""
+
+
+ASTRAY_DEG = 15.0
+"""A walk that went farther than this to a side of its plan is remarked on."""
+LEAST_WAY_CM = 0.3
+"""Feet that end nearer than this to where they began went in no direction."""
 
 
 @dataclass(frozen=True)
@@ -85,3 +92,21 @@ def fit_content(gaps_cm: list[float]) -> dict[str, Any]:
         "has it. Are the colours of two feet exchanged, is the picture mirrored, or is this another gait?"
     )
     return {"residual_cm": worst, "fits": fits, "fit_sentence": sentence}
+
+
+def astray_content(tracked: Mapping[str, Any], planned: Mapping[str, Any]) -> dict[str, Any]:
+    """How far to the left of the plan's direction a trial went, and a sentence where that is far.
+
+    Args:
+        tracked: figures of the trial (`app.trials.figures.feet_content`).
+        planned: those of its plan, in the same frame.
+    """
+    if min(tracked["net_distance"], planned["net_distance"]) < LEAST_WAY_CM:
+        return {"astray_deg": None, "astray_sentence": None}
+    left = (tracked["net_angle_deg"] - planned["net_angle_deg"] + 180.0) % 360.0 - 180.0
+    side = "left" if left > 0 else "right"
+    sentence = (
+        f"The robot went {abs(left):.0f}° to the {side} of the plan. Did a foot slip or the cable pull, or "
+        "are these the tracks of another gait?"
+    )
+    return {"astray_deg": left, "astray_sentence": sentence if abs(left) > ASTRAY_DEG else None}

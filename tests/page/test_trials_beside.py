@@ -95,11 +95,12 @@ def test_tracks_lie_over_the_gait_in_3d_follow_the_playhead_and_go_with_the_pane
 
 
 def test_trials_of_one_gait_lie_over_each_other_as_a_band(browser: Browser, studio: StudioProcess) -> None:
-    add_trial(studio, "short", 0.0080, expected_cm=1.5)
-    add_trial(studio, "long", 0.0100, expected_cm=1.5)
+    gait = studio.ask("POST", "/api/gaits?copy_of=walk&name=Apart").content["id"]
+    add_trial(studio, "short", 0.0080, gait=gait)
+    add_trial(studio, "long", 0.0100, gait=gait, expected_cm=1.5)
     with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
         panel = open_trials(page)
-        panel.get_by_role("button", name="Show band of Walk 10 mm, 1.5 cm").click()
+        panel.get_by_role("button", name="Show band of Apart, 1.0 cm").click()
         above = panel.get_by_role("img", name=re.compile("^Trials from above: foot 1 ends ± 0.14 cm"))
         expect(above).to_be_visible()
         expect(above.locator("polyline.way-trial")).to_have_count(8)

@@ -31,6 +31,8 @@ def test_a_track_is_added_compared_moved_deleted_and_brought_back(
         panel.get_by_role("button", name="Add trials…").click()
         panel.get_by_label("Track files").set_input_files(track)
         expect(panel.get_by_label("Wanted distance, cm")).to_have_value("1")
+        panel.get_by_label("Iterations").fill("3")
+        expect(panel.get_by_label("Wanted distance, cm")).to_have_value("3")
         panel.get_by_label("Wanted distance, cm").fill("2")
         panel.get_by_label("Iterations").fill("2")
         panel.get_by_role("button", name="Add trials", exact=True).click()

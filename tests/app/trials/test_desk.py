@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -109,6 +110,29 @@ def test_whoever_listens_is_told_of_each_trial_that_is_another_now(database: Dat
 def test_an_unknown_trial_is_refused(desk: TrialDesk) -> None:
     with pytest.raises(UnknownTrialError, match="There is no trial"):
         desk.summary("none")
+
+
+@pytest.mark.parametrize(
+    ("degrees", "words"), [(38, "38° to the left"), (-20, "20° to the right"), (10, None)]
+)
+def test_a_trial_that_went_far_to_a_side_of_its_plan_is_remarked_on(
+    desk: TrialDesk, degrees: float, words: str | None
+) -> None:
+    angle = np.radians(degrees)
+    track = stepping_track((0.012 * np.cos(angle), 0.012 * np.sin(angle)), 3)
+    plan = desk.add(track, WORDS, straight_plan())["plan"]
+    assert plan["astray_deg"] == pytest.approx(degrees, abs=0.5)
+    assert (plan["astray_sentence"] is None) if words is None else words in plan["astray_sentence"]
+
+
+def test_a_plan_tells_the_step_that_trials_are_compared_by_and_a_mistyped_distance_does_not(
+    desk: TrialDesk,
+) -> None:
+    desk.add(TRACK, WORDS, straight_plan())
+    desk.add(TRACK, replace(WORDS, expected_cm=30.0), straight_plan())
+    desk.add(TRACK, replace(WORDS, expected_cm=4.5), None)
+    groups = [(group["step_cm"], len(group["trials"])) for group in compared(desk.lines())]
+    assert groups == [(1.0, 2), (1.5, 1)]
 
 
 def test_trials_of_one_gait_and_step_stand_in_one_row_of_the_tables(desk: TrialDesk) -> None:

@@ -103,12 +103,28 @@ def test_a_trials_report_has_figures_plots_note_photos_and_origin(
         "Placement",
         "Walk (walk)",
         "1, 40 places",
+        "found from the steps of the tracked feet",
+        "x right, y up on the platform, cm",
+        "10 s",
     ):
         assert words in report.words
     assert walk_problem().waypoints.content_hash in report.words
     assert re.search(r"Gaps, filled by straight lines.*foot 3 *7\.\d\d *10\.\d\d", report.words, re.DOTALL)
     assert (report.tags.count("svg"), report.tags.count("img")) == (2, 1)
     assert report.tags.count("polyline") > 100
+
+
+def test_a_report_says_that_ends_were_moved_by_hand_and_that_a_walk_went_astray(
+    desk: TrialDesk, reports: TrialReports
+) -> None:
+    track = stepping_track((0.0, 0.01), 2)
+    trial = desk.add(track, TrialWords("by hand", "Ada", 2.0, 2), walk_planned())
+    ends = [trial["found_ends"][0] - 20, trial["found_ends"][1]]
+    assert "moved by hand" not in whole(reports.trial(trial["id"])).words
+    desk.change(trial["id"], 1, {"ends": ends})
+    report = whole(reports.trial(trial["id"])).words
+    assert "moved by hand" in report
+    assert "of the plan. Did a foot slip" in report
 
 
 def test_a_trial_without_plan_photos_or_note_has_a_shorter_report(

@@ -1,18 +1,34 @@
 /** A camera's live picture in a corner of the 3D scene, so that the robot is seen while it walks. */
 
 import { cameraTone, cameraWord } from "./camera_words.js";
+import { remember } from "./check_menu.js";
 import { byId, h, icon, setText } from "./dom.js";
 import { streamOf } from "./video_api.js";
 import "./video_style.js";
 
 const WIDTH = 480;
 const STEP_PX = 16;
+const KEY = "camera-float";
+const LEAST_PX = 96;
 
 let open = null;
 
-/** Moves the picture within the stage by its title: dragged, or by arrow keys. */
+/** Place and width as they were left, px; without them the style's. */
+function recalled() {
+  try {
+    const { x, y, width } = JSON.parse(localStorage.getItem(`footfall.${KEY}`) ?? "{}");
+    return [x, y, width].map((value) => (Number.isFinite(value) ? value : null));
+  } catch {
+    return [null, null, null];
+  }
+}
+
+/** Moves the picture within the stage by its title, dragged or by arrow keys, and makes it larger by its corner; both are kept. */
 function movable(element, title) {
-  let [x, y, held] = [0, 0, null];
+  const [keptX, keptY, width] = recalled();
+  let [x, y, held] = [keptX ?? 0, keptY ?? 0, null];
+  if (width !== null) element.style.width = `${width}px`;
+  const put = () => remember(KEY, { x, y, width: element.style.width ? element.offsetWidth : null });
   const place = (nextX, nextY) => {
     const [stage, { offsetLeft, offsetTop, offsetWidth, offsetHeight }] = [element.parentElement, element];
     x = Math.min(Math.max(nextX, -offsetLeft), stage.clientWidth - offsetLeft - offsetWidth);
@@ -25,13 +41,22 @@ function movable(element, title) {
     title.setPointerCapture(event.pointerId);
   });
   title.addEventListener("pointermove", (event) => { if (held) place(event.clientX + held.dx, event.clientY + held.dy); });
-  for (const kind of ["pointerup", "pointercancel"]) title.addEventListener(kind, () => { held = null; });
+  for (const kind of ["pointerup", "pointercancel"]) title.addEventListener(kind, () => { held = null; put(); });
   title.addEventListener("keydown", (event) => {
+    const size = { "+": 1, "=": 1, "-": -1, "−": -1 }[event.key];
+    if (size && event.target === title) element.style.width = `${Math.max(element.offsetWidth + size * STEP_PX, LEAST_PX)}px`;
     const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
     if (!way || event.target !== title) return;
     event.preventDefault();
     place(x + way[0] * STEP_PX, y + way[1] * STEP_PX);
+    put();
   });
+  // Its corner is the browser's own handle; a new size may push it over the stage's edge, as a smaller window may.
+  new ResizeObserver(() => {
+    if (!element.isConnected) return;
+    place(x, y);
+    if (element.style.width) put();
+  }).observe(element);
 }
 
 function build(store, id) {
@@ -39,7 +64,7 @@ function build(store, id) {
   const image = h("img", { alt: "", draggable: "false" });
   const note = h("p", { class: "quiet", role: "status" });
   const close = h("button", { type: "button", class: "plain icon-only", "aria-label": "Close the camera's picture", on: { click: () => shut() } }, icon("close"));
-  const title = h("header", { tabindex: "0", role: "group", data: { arrows: "" }, title: "Drag, or arrow keys, to move it" }, dot, name, word, close);
+  const title = h("header", { tabindex: "0", role: "group", data: { arrows: "" }, title: "Drag, or arrow keys, to move it; its corner, or plus and minus, for its size" }, dot, name, word, close);
   const element = h("section", { class: "camera-float" }, title, image, note);
   let [isClosed, streams] = [false, false];
 
@@ -48,7 +73,7 @@ function build(store, id) {
     const camera = cameras?.find((one) => one.id === id);
     if (!camera) return;
     element.setAttribute("aria-label", `Camera ${camera.name}`);
-    title.setAttribute("aria-label", `Camera ${camera.name}, moved by the arrow keys`);
+    title.setAttribute("aria-label", `Camera ${camera.name}, moved by the arrow keys, sized by plus and minus`);
     setText(name, camera.name);
     dot.dataset.tone = cameraTone(camera);
     setText(word, cameraWord(camera));

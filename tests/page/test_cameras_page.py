@@ -14,7 +14,7 @@ from tests.app.trials.rendered import SIZE, write_video
 from tests.app.trials.test_cameras_http import walked
 from tests.app.trials.test_videos_http import SETUP, TRACK
 from tests.core.trials.tracks import RATE
-from tests.page.opened import opened_page
+from tests.page.opened import look, opened_page
 from tests.page.test_accessibility import serious_findings
 from tests.studio_process import StudioProcess, running_studio
 
@@ -22,6 +22,14 @@ SPEED = 3.0
 """Of the robot: its walk lasts long enough for a track, and no longer."""
 EVERY = 4
 """Every so many frames of the track are filmed, so fast that the film lasts about as long as the run."""
+
+
+LEFT = """(width) => {
+  const element = document.querySelector(".camera-float");
+  const isThere = element && Math.abs(element.offsetWidth - width) < 2;
+  return isThere && element.style.transform.startsWith("translate(16px") && element.style.transform;
+}"""
+"""Where the picture is once it is so wide and has been moved."""
 
 
 @pytest.fixture(scope="module")
@@ -105,6 +113,29 @@ def test_a_camera_stands_beside_the_scene_and_says_that_it_was_unplugged(page: P
     expect(beside).to_have_count(0)
 
 
+def test_the_picture_beside_the_scene_is_small_and_comes_back_where_and_as_large_as_it_was_left(
+    page: Page,
+) -> None:
+    open_cameras(page)
+    float_button = camera(page, "Side").get_by_role("button", name="Beside the scene")
+    float_button.click()
+    beside = page.get_by_role("region", name="Camera Side")
+    expect(beside.locator("img")).to_have_js_property("naturalWidth", min(480, SIZE[0]))
+    first, scene = beside.bounding_box(), page.locator("section.stage").bounding_box()
+    assert first is not None
+    assert scene is not None
+    assert first["width"] <= 0.2 * scene["width"] + 1
+    title = beside.get_by_role("group")
+    look(page, "camera-beside")
+    for key in ("ArrowRight", "ArrowUp", "+"):
+        title.press(key)
+    left = page.wait_for_function(LEFT, arg=first["width"] + 16).json_value()
+    float_button.click()
+    expect(beside).to_have_count(0)
+    float_button.click()
+    assert page.wait_for_function(LEFT, arg=first["width"] + 16).json_value() == left
+
+
 def test_an_unplugged_camera_that_is_looked_at_is_grey_and_says_why_until_it_is_back(
     page: Page, film: Path
 ) -> None:
@@ -120,6 +151,7 @@ def test_an_unplugged_camera_that_is_looked_at_is_grey_and_says_why_until_it_is_
         expect(panel(page).get_by_text("Plug it in again.")).to_be_visible()
         expect(live).to_have_count(0)
         expect(stage.locator("img")).to_have_css("filter", "grayscale(1)")
+        look(page, "camera-gone")
     finally:
         away.rename(film)
     expect(live).to_be_visible()

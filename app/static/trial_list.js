@@ -33,7 +33,7 @@ const spread = (value, by, decimals) => (by === null ? fixed(value, decimals) : 
 /** A gait's name with its step, and with the iterations where only they tell it from another row. */
 function nameOf(group, groups) {
   const isTwin = groups.some((other) => other !== group && other.gait_name === group.gait_name && fixed(other.step_cm, 1) === fixed(group.step_cm, 1));
-  return `${group.gait_name}, ${fixed(group.step_cm, 1)} cm${isTwin ? `, ${group.iterations} iterations` : ""}`;
+  return `${group.gait_name}, ${fixed(group.step_cm, 1)} cm${isTwin ? `, ${group.iterations} iteration${group.iterations === 1 ? "" : "s"}` : ""}`;
 }
 
 function compareRow(group, groups, band) {

@@ -29,7 +29,7 @@ function progressWords({ state, done, total, left_seconds: left = null }) {
 
 /** The course that is on: from what is learned, a bar, how many simulations are done, and Cancel. */
 function progressPart(cancel) {
-  const [bar, source, text] = [h("i"), h("p"), h("p", { class: "number quiet", role: "status", "aria-label": "Learning" })];
+  const [bar, source, text] = [h("i"), h("p"), h("p", { class: "quiet", role: "status", "aria-label": "Learning" })];
   const element = h("div", {}, source, h("div", { class: "simulating" }, h("div", { class: "progress" }, bar), h("button", { text: "Cancel", "aria-label": "Cancel learning", on: { click: cancel } })), text);
   return {
     element,

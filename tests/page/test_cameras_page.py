@@ -145,6 +145,7 @@ def test_an_unplugged_camera_that_is_looked_at_is_grey_and_says_why_until_it_is_
     stage = page.get_by_role("region", name="Picture", exact=True)
     live = panel(page).get_by_text("Live, as the studio sees it.")
     expect(live).to_be_visible()
+    expect(stage.locator("img")).to_have_js_property("naturalWidth", SIZE[0])
     away = film.with_suffix(".away")
     film.rename(away)
     try:

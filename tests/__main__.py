@@ -1,6 +1,5 @@
 """Runs all tests, the browser tests included: `python -m tests [PYTEST ARGUMENTS]`.
 
-Without arguments two files of tests run at a time; with arguments, as these say.
 Where Chromium is absent it is installed on Debian and Ubuntu by their package manager, as root; elsewhere it
 says what to install.
 """
@@ -17,9 +16,6 @@ from tests.chromium import chromium_path
 
 PROJECT = Path(__file__).resolve().parents[1]
 
-TWO_AT_A_TIME = ("-n", "2", "--dist", "loadfile")
-"""Most tests wait for browsers, robots and solvers of their own; more at a time would hinder each other."""
-
 
 def main() -> int:
     """Provides Chromium, then hands over to pytest."""
@@ -32,8 +28,7 @@ def main() -> int:
             "FOOTFALL_CHROMIUM. Then run this again.\n"
         )
         return 2
-    words = sys.argv[1:] or TWO_AT_A_TIME
-    return subprocess.call([sys.executable, "-m", "pytest", *words], cwd=PROJECT)
+    return subprocess.call([sys.executable, "-m", "pytest", *sys.argv[1:]], cwd=PROJECT)
 
 
 def install_chromium() -> None:

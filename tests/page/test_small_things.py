@@ -302,8 +302,9 @@ def test_the_legend_is_of_the_iteration_looked_at_and_escape_leaves(page: Page) 
     legend = page.locator(".curve-key")
     last = legend.text_content() or ""
     assert "violation" in last
-    slider.press("Home")
     note = page.get_by_role("status", name="Plan")
+    expect(note).to_contain_text("Optimised in")
+    slider.press("Home")
     expect(note).to_contain_text("not the plan")
     expect(legend).not_to_have_text(last)
     word = page.get_by_role("status", name="Live answer").locator("b")

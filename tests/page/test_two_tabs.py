@@ -109,9 +109,13 @@ def test_edits_at_the_same_moment_are_both_there(
         before = undo(bob).get_attribute("title")
         undo(bob).click()
         expect(undo(bob)).not_to_have_attribute("title", before or "")
-    feet = studio.ask("GET", f"/api/gaits/{gait}").content["timeline"]["feet"]
-    assert feet[1][29:33] == "0000"
-    assert feet[2][29:33] == "1111"
+
+    def bobs_are_taken_back() -> bool:
+        feet = studio.ask("GET", f"/api/gaits/{gait}").content["timeline"]["feet"]
+        assert feet[1][29:33] == "0000"
+        return bool(feet[2][29:33] == "1111")
+
+    wait_for(bobs_are_taken_back, "Bob's cells stand again, Ada's swing")
 
 
 def test_undo_says_who_changed_the_same_and_leaves_it(

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from datetime import date, datetime, timedelta
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Query
 from fastapi.responses import Response
@@ -20,7 +19,6 @@ from app.studio import Studio
 
 router = APIRouter(prefix="/api/runs", tags=["runs"])
 TheStudio = Annotated[Studio, Depends(studio_of)]
-Result = TypeVar("Result")
 Word = Annotated[str, Query(max_length=200)]
 
 MOST_NOTE = 4000
@@ -32,10 +30,6 @@ class Note(BaseModel):
 
     model_config = ConfigDict(extra="forbid")
     note: str = Field(max_length=MOST_NOTE)
-
-
-async def _answer(action: Callable[[], Result]) -> Result:
-    return await run_in_threadpool(action)
 
 
 @router.get("")
@@ -57,13 +51,13 @@ async def list_runs(
         None if since is None else _begin(since),
         None if until is None else _begin(until + timedelta(days=1)),
     )
-    return await _answer(lambda: studio.runs.found(wanted, offset, most))
+    return await run_in_threadpool(studio.runs.found, wanted, offset, most)
 
 
 @router.get("/{run}")
 async def read_run(run: str, studio: TheStudio) -> dict[str, Any]:
     """A run with its states and errors."""
-    return await _answer(lambda: studio.runs.summary(run))
+    return await run_in_threadpool(studio.runs.summary, run)
 
 
 @router.get("/{run}/strokes")
@@ -71,31 +65,31 @@ async def read_strokes(
     run: str, studio: TheStudio, most: Annotated[int, Query(ge=10, le=100_000)] = 2000
 ) -> dict[str, Any]:
     """Measured and commanded strokes over time, thinned for plots; mm."""
-    return await _answer(lambda: studio.runs.strokes(run, most))
+    return await run_in_threadpool(studio.runs.strokes, run, most)
 
 
 @router.put("/{run}/note")
 async def write_note(run: str, note: Note, studio: TheStudio) -> dict[str, Any]:
     """Keeps a note with a run."""
-    return await _answer(lambda: studio.runs.note(run, note.note.strip()))
+    return await run_in_threadpool(lambda: studio.runs.note(run, note.note.strip()))
 
 
 @router.delete("/{run}")
 async def delete_run(run: str, studio: TheStudio) -> dict[str, Any]:
     """Takes a run out of the list; it can be restored."""
-    return await _answer(lambda: studio.runs.delete(run))
+    return await run_in_threadpool(studio.runs.delete, run)
 
 
 @router.post("/{run}/restore")
 async def restore_run(run: str, studio: TheStudio) -> dict[str, Any]:
     """Brings a deleted run back."""
-    return await _answer(lambda: studio.runs.restore(run))
+    return await run_in_threadpool(studio.runs.restore, run)
 
 
 @router.get("/{run}/run.csv", response_class=Response)
 async def csv_of_run(run: str, studio: TheStudio) -> Response:
     """The run as CSV: t in s, state, commanded and measured strokes in mm."""
-    text = await _answer(lambda: run_csv(studio.runs.record(run)))
+    text = await run_in_threadpool(lambda: run_csv(studio.runs.record(run)))
     return _file(text.encode(), f"run-{run}.csv", "text/csv")
 
 
@@ -104,7 +98,7 @@ async def mcap_of_run(run: str, studio: TheStudio) -> Response:
     """The run as MCAP: strokes, commands, states and raw bytes."""
     from app.runs.mcap_file import run_mcap  # only who asks for it waits for the package
 
-    content = await _answer(lambda: run_mcap(studio.runs.record(run)))
+    content = await run_in_threadpool(lambda: run_mcap(studio.runs.record(run)))
     return _file(content, f"run-{run}.mcap", "application/octet-stream")
 
 
@@ -116,7 +110,7 @@ async def ghost_of_run(run: str, studio: TheStudio) -> Response:
         record = studio.runs.record(run)
         return ghost_blob(record.plan.model, measured_trajectory(record)).to_bytes()
 
-    return Response(await _answer(blob), media_type="application/octet-stream")
+    return Response(await run_in_threadpool(blob), media_type="application/octet-stream")
 
 
 def _begin(day: date) -> float:

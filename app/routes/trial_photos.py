@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Query, Request, Response
 from pydantic import BaseModel, ConfigDict, Field
@@ -15,7 +14,6 @@ from app.trials.photos import check_bytes
 
 router = APIRouter(prefix="/api/trials/{trial}/photos", tags=["trials"])
 TheStudio = Annotated[Studio, Depends(studio_of)]
-Result = TypeVar("Result")
 
 _PICTURE = {
     "requestBody": {
@@ -34,14 +32,10 @@ class Caption(BaseModel):
     caption: str = Field(max_length=500)
 
 
-async def _answer(action: Callable[[], Result]) -> Result:
-    return await run_in_threadpool(action)
-
-
 @router.get("")
 async def list_photos(trial: str, studio: TheStudio) -> dict[str, Any]:
     """A trial's photos, in the order in which they came."""
-    return {"photos": await _answer(lambda: studio.photos.photos(trial))}
+    return {"photos": await run_in_threadpool(studio.photos.photos, trial)}
 
 
 @router.post("", status_code=201, openapi_extra=_PICTURE)
@@ -57,31 +51,31 @@ async def add_photo(
     async for chunk in request.stream():
         gathered += chunk
         check_bytes(len(gathered), name)
-    return await _answer(lambda: studio.photos.add(trial, bytes(gathered), name, author.name))
+    return await run_in_threadpool(lambda: studio.photos.add(trial, bytes(gathered), name, author.name))
 
 
 @router.put("/{photo}")
 async def caption_photo(trial: str, photo: str, words: Caption, studio: TheStudio) -> dict[str, Any]:
     """Keeps a caption."""
-    return await _answer(lambda: studio.photos.caption(trial, photo, words.caption.strip()))
+    return await run_in_threadpool(lambda: studio.photos.caption(trial, photo, words.caption.strip()))
 
 
 @router.delete("/{photo}")
 async def delete_photo(trial: str, photo: str, studio: TheStudio) -> dict[str, Any]:
     """Takes a photo away; it can be restored."""
-    await _answer(lambda: studio.photos.delete(trial, photo))
+    await run_in_threadpool(studio.photos.delete, trial, photo)
     return {"id": photo, "deleted": True}
 
 
 @router.post("/{photo}/restore")
 async def restore_photo(trial: str, photo: str, studio: TheStudio) -> dict[str, Any]:
     """Brings a deleted photo back."""
-    return await _answer(lambda: studio.photos.restore(trial, photo))
+    return await run_in_threadpool(studio.photos.restore, trial, photo)
 
 
 @router.get("/{photo}/picture", response_class=Response)
 async def read_picture(trial: str, photo: str, studio: TheStudio, small: bool = False) -> Response:
     """The photo as JPEG, or its thumbnail."""
-    content = await _answer(lambda: studio.photos.picture(trial, photo, is_small=small))
+    content = await run_in_threadpool(studio.photos.picture, trial, photo, is_small=small)
     headers = {"cache-control": "private, max-age=31536000, immutable"}
     return Response(content, media_type="image/jpeg", headers=headers)

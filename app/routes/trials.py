@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Annotated, Any, Literal, TypeVar
+from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Depends, Query, Response
 from pydantic import BaseModel, ConfigDict, Field
@@ -18,7 +17,6 @@ from core.trials.track_csv import FRAME_RATE, PixelScale, parse_track_csv
 
 router = APIRouter(prefix="/api/trials", tags=["trials"])
 TheStudio = Annotated[Studio, Depends(studio_of)]
-Result = TypeVar("Result")
 
 MOST_TEXT = 20_000_000
 """Characters of a track file."""
@@ -62,10 +60,6 @@ class TrialChanges(BaseModel):
     ends: list[int] | None = None
 
 
-async def _answer(action: Callable[[], Result]) -> Result:
-    return await run_in_threadpool(action)
-
-
 @router.post("", status_code=201)
 async def add_trial(trial: NewTrial, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
     """Keeps a track as a trial and tells its figures."""
@@ -74,12 +68,12 @@ async def add_trial(trial: NewTrial, studio: TheStudio, author: TheAuthor) -> di
     def read() -> Any:
         return parse_track_csv(trial.csv, trial.name, frame_rate=trial.frame_rate, pixels=scale)
 
-    track = await _answer(read)
+    track = await run_in_threadpool(read)
     gait, gait_name, planned = await planned_for(studio, trial.run, trial.gait, trial.iterations)
     words = TrialWords(
         trial.name, author.name, trial.expected_cm, trial.iterations, trial.note, gait, gait_name, trial.run
     )
-    return await _answer(lambda: studio.trials.add(track, words, planned))
+    return await run_in_threadpool(studio.trials.add, track, words, planned)
 
 
 async def planned_for(
@@ -87,8 +81,8 @@ async def planned_for(
 ) -> tuple[str, str, PlannedFeet | None]:
     """Id and name of the gait of a trial, and where its feet were to be: by its run, or else by its gait."""
     if run:
-        record = await _answer(lambda: studio.runs.record(run))
-        planned = await _answer(lambda: planned_of_run(record))
+        record = await run_in_threadpool(studio.runs.record, run)
+        planned = await run_in_threadpool(planned_of_run, record)
         return record.content["gait"], record.content["gait_name"], planned
     if not gait_id:
         return "", "", None
@@ -103,14 +97,14 @@ async def planned_for(
 @router.get("")
 async def list_trials(studio: TheStudio) -> dict[str, Any]:
     """All trials, the newest first, and gaits by steps compared."""
-    lines = await _answer(studio.trials.lines)
+    lines = await run_in_threadpool(studio.trials.lines)
     return {"trials": lines, "compared": compared(lines)}
 
 
 @router.get("/table", response_class=Response)
 async def table(studio: TheStudio, form: Annotated[Literal["csv", "latex"], Query()] = "csv") -> Response:
     """Gaits by steps compared, as CSV or as a LaTeX tabular."""
-    groups = compared(await _answer(studio.trials.lines))
+    groups = compared(await run_in_threadpool(studio.trials.lines))
     text = table_csv(groups) if form == "csv" else table_latex(groups)
     return _file(
         text, "trials.csv" if form == "csv" else "trials.tex", "text/csv" if form == "csv" else "text/x-tex"
@@ -120,13 +114,13 @@ async def table(studio: TheStudio, form: Annotated[Literal["csv", "latex"], Quer
 @router.get("/{trial}")
 async def read_trial(trial: str, studio: TheStudio) -> dict[str, Any]:
     """A trial's figures, each foot's and each iteration's, beside its plan's."""
-    return await _answer(lambda: studio.trials.summary(trial))
+    return await run_in_threadpool(studio.trials.summary, trial)
 
 
 @router.get("/{trial}/paths")
 async def read_paths(trial: str, studio: TheStudio) -> dict[str, Any]:
     """The feet's ways, tracked and planned, for a plot; cm in the track's frame."""
-    return await _answer(lambda: studio.trials.paths(trial))
+    return await run_in_threadpool(studio.trials.paths, trial)
 
 
 @router.put("/{trial}")
@@ -134,26 +128,26 @@ async def change_trial(trial: str, changes: TrialChanges, studio: TheStudio) -> 
     """Changes name, note, wanted distance, iterations or their ends; 409 where it was changed meanwhile."""
     given = changes.model_dump(exclude_unset=True, exclude={"revision"})
     kept = {key: value for key, value in given.items() if value is not None or key == "ends"}
-    return await _answer(lambda: studio.trials.change(trial, changes.revision, kept))
+    return await run_in_threadpool(studio.trials.change, trial, changes.revision, kept)
 
 
 @router.delete("/{trial}")
 async def delete_trial(trial: str, studio: TheStudio) -> dict[str, Any]:
     """Takes a trial out of the list; it can be restored."""
-    await _answer(lambda: studio.trials.delete(trial))
+    await run_in_threadpool(studio.trials.delete, trial)
     return {"id": trial, "deleted": True}
 
 
 @router.post("/{trial}/restore")
 async def restore_trial(trial: str, studio: TheStudio) -> dict[str, Any]:
     """Brings a deleted trial back."""
-    return await _answer(lambda: studio.trials.restore(trial))
+    return await run_in_threadpool(studio.trials.restore, trial)
 
 
 @router.get("/{trial}/track.csv", response_class=Response)
 async def track_of_trial(trial: str, studio: TheStudio) -> Response:
     """The track in centimetres; what was not seen is empty."""
-    return _file(await _answer(lambda: studio.trials.track(trial)), f"track-{trial}.csv", "text/csv")
+    return _file(await run_in_threadpool(studio.trials.track, trial), f"track-{trial}.csv", "text/csv")
 
 
 def _file(text: str, name: str, kind: str) -> Response:

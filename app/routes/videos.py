@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import AsyncIterator, Callable
-from typing import Annotated, Any, TypeVar
+from collections.abc import AsyncIterator
+from typing import Annotated, Any
 from urllib.parse import quote
 
 from fastapi import APIRouter, Depends, Query, Request
@@ -28,7 +28,6 @@ from core.errors import FootfallError
 
 router = APIRouter(prefix="/api/videos", tags=["videos"])
 TheStudio = Annotated[Studio, Depends(studio_of)]
-Result = TypeVar("Result")
 Frame = Annotated[int | None, Query(ge=0)]
 
 GATHER = 1 << 20
@@ -62,16 +61,12 @@ class BoardsRequest(_Body):
     frames: list[Annotated[int, Field(ge=0)]] | None = Field(default=None, min_length=1, max_length=100)
 
 
-async def _answer(action: Callable[[], Result]) -> Result:
-    return await run_in_threadpool(action)
-
-
 @router.get("")
 async def list_videos(
     studio: TheStudio, run: Annotated[str, Query(max_length=200)] = "", deleted: bool = False
 ) -> dict[str, Any]:
     """Videos, the newest first, of one run or all."""
-    views = await _answer(lambda: studio.seeing.videos.views(run, is_deleted=deleted))
+    views = await run_in_threadpool(studio.seeing.videos.views, run, is_deleted=deleted)
     return {"videos": views, "most_bytes": MOST_BYTES}
 
 
@@ -88,17 +83,17 @@ async def upload(
     """
     said = request.headers.get("content-length", "")
     size = int(said) if said.isdigit() else None
-    taken = await _answer(lambda: studio.seeing.videos.begin(name, size))
+    taken = await run_in_threadpool(studio.seeing.videos.begin, name, size)
     try:
         await _take(request, taken)
-        kept = await _answer(lambda: studio.seeing.videos.keep(taken))
+        kept = await run_in_threadpool(studio.seeing.videos.keep, taken)
         if kept["again"]:
             response.status_code = 200
         return kept
     except ClientDisconnect:
         return {}  # nobody is there to read it
     finally:
-        await _answer(taken.discard)
+        await run_in_threadpool(taken.discard)
 
 
 async def _take(request: Request, taken: Upload) -> None:
@@ -107,27 +102,27 @@ async def _take(request: Request, taken: Upload) -> None:
         gathered += chunk
         if len(gathered) >= GATHER:
             data, gathered = bytes(gathered), bytearray()
-            await _answer(lambda data=data: taken.add(data))  # type: ignore[misc]
-    await _answer(lambda: taken.add(bytes(gathered)))
+            await run_in_threadpool(taken.add, data)
+    await run_in_threadpool(lambda: taken.add(bytes(gathered)))
 
 
 @router.get("/{video}")
 async def read_video(video: str, studio: TheStudio) -> dict[str, Any]:
     """A video."""
-    return await _answer(lambda: studio.seeing.videos.view(video))
+    return await run_in_threadpool(studio.seeing.videos.view, video)
 
 
 @router.delete("/{video}")
 async def delete_video(video: str, studio: TheStudio) -> dict[str, Any]:
     """Takes a video out of the list; it can be restored."""
-    await _answer(lambda: studio.seeing.videos.delete(video))
+    await run_in_threadpool(studio.seeing.videos.delete, video)
     return {"id": video, "deleted": True}
 
 
 @router.post("/{video}/restore")
 async def restore_video(video: str, studio: TheStudio) -> dict[str, Any]:
     """Brings a deleted video back."""
-    return await _answer(lambda: studio.seeing.videos.restore(video))
+    return await run_in_threadpool(studio.seeing.videos.restore, video)
 
 
 @router.get("/{video}/picture.jpg", response_class=Response)
@@ -140,14 +135,16 @@ async def picture_of_video(
 ) -> Response:
     """One picture, by its number or by the video's time."""
     videos = studio.seeing.videos
-    content = await _answer(lambda: videos.picture(videos.source(video, frame, seconds), most))
+    content = await run_in_threadpool(lambda: videos.picture(videos.source(video, frame, seconds), most))
     return Response(content, media_type="image/jpeg", headers={"cache-control": "no-cache"})
 
 
 @router.get("/{video}/file", response_class=Response)
 async def file_of_video(video: str, studio: TheStudio) -> FileResponse:
     """The video as it is kept; a recording as JPEG pictures one after the other (MJPEG)."""
-    path, view = await _answer(lambda: (studio.seeing.videos.path(video), studio.seeing.videos.view(video)))
+    path, view = await run_in_threadpool(
+        lambda: (studio.seeing.videos.path(video), studio.seeing.videos.view(video))
+    )
     is_recording = path.is_dir()
     name = quote(f"{view['name']}.mjpeg" if is_recording else view["name"])
     headers = {"content-disposition": f"attachment; filename*=UTF-8''{name}"}
@@ -163,8 +160,8 @@ async def play_video(
     most: Width = 960,
 ) -> StreamingResponse:
     """The video's pictures in real time (multipart), to its end; late ones are left out."""
-    view = await _answer(lambda: studio.seeing.videos.view(video))
-    first = await _answer(lambda: studio.seeing.videos.source(video, from_frame))
+    view = await run_in_threadpool(studio.seeing.videos.view, video)
+    first = await run_in_threadpool(studio.seeing.videos.source, video, from_frame)
     pace = max(view["rate"], 1.0) * speed
 
     async def parts() -> AsyncIterator[bytes]:
@@ -172,7 +169,7 @@ async def play_video(
         while number < view["frames"] and not studio.hub.is_closed:
             source = Source(first.path, number, name=first.name)
             try:
-                yield part(await _answer(lambda source=source: studio.seeing.videos.picture(source, most)))  # type: ignore[misc]
+                yield part(await run_in_threadpool(studio.seeing.videos.picture, source, most))
             except FootfallError:  # a file may hold fewer pictures than it says
                 return
             number = max(number + 1, from_frame + int((time.monotonic() - begun) * pace))
@@ -186,21 +183,21 @@ async def look_at_video(
     video: str, look: LookRequest, studio: TheStudio, frame: Frame = None
 ) -> dict[str, Any]:
     """A picture with what tracking would find in it."""
-    source = await _answer(lambda: studio.seeing.videos.source(video, frame))
+    source = await run_in_threadpool(studio.seeing.videos.source, video, frame)
     return await look_at(studio, source, look)
 
 
 @router.post("/{video}/boards")
 async def find_boards(video: str, asked: BoardsRequest, studio: TheStudio) -> dict[str, Any]:
     """Where a checkerboard is in some of a video's pictures."""
-    view = await _answer(lambda: studio.seeing.videos.view(video))
+    view = await run_in_threadpool(studio.seeing.videos.view, video)
     frames = asked.frames
     if frames is None:
         count = min(BOARD_FRAMES, max(view["frames"], 1))
         frames = [number * max(view["frames"] - 1, 0) // max(count - 1, 1) for number in range(count)]
     boards = []
     for frame in frames:
-        source = await _answer(lambda frame=frame: studio.seeing.videos.source(video, frame))  # type: ignore[misc]
+        source = await run_in_threadpool(studio.seeing.videos.source, video, frame)
         boards.append(await board_of(studio, BoardIn(source, (asked.columns, asked.rows))))
     return {"boards": boards}
 

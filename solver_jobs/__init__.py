@@ -15,6 +15,7 @@ from core.physics.variations import VariedRun
 from core.trajectory import Trajectory
 from solver_jobs.frontier import Frontier, FrontierSearch
 from solver_jobs.handle import WorkerEndedError, WorkerHandle
+from solver_jobs.interrupts import interrupts_held
 from solver_jobs.jobs import OPEN_STATES, Job, JobKind, JobState, result_sentence
 from solver_jobs.live_service import LiveSolver
 from solver_jobs.pattern_service import PatternSearch, PatternSolver
@@ -158,7 +159,8 @@ def simulate(
         SimulationCancelledError: `progress` said so.
         CheckError: a leg's chain opened, or the engine diverged.
     """
-    from solver_jobs.physics.simulate import simulate as run
+    with interrupts_held():
+        from solver_jobs.physics.simulate import simulate as run
 
     return run(problem, progress)
 
@@ -181,6 +183,7 @@ def simulate_variations(
         SimulationCancelledError: `progress` said so.
         CheckError: a leg's chain opened, or the engine diverged.
     """
-    from solver_jobs.physics.simulate import simulate_variations as run
+    with interrupts_held():
+        from solver_jobs.physics.simulate import simulate_variations as run
 
     return run(problem, count, seed, progress)

@@ -128,11 +128,13 @@ def test_what_cannot_be_simulated_is_refused_with_a_sentence(
     assert sentence in answer["error"]
 
 
-def test_an_interrupted_simulation_ends_cleanly(bow: str) -> None:
+@pytest.mark.parametrize("moment", ["while the engine loads", "while it runs"])
+def test_an_interrupted_simulation_ends_cleanly(bow: str, moment: str) -> None:
     command = [sys.executable, "-m", "app", "simulate", bow, "--variations", "1000"]
     terminal, its_end = pty.openpty()
     with subprocess.Popen(command, cwd=PROJECT, stdout=subprocess.DEVNULL, stderr=its_end) as process:
         os.close(its_end)
+        maps = Path(f"/proc/{process.pid}/maps")
         said = b""
 
         def hear() -> bytes:
@@ -141,7 +143,10 @@ def test_an_interrupted_simulation_ends_cleanly(bow: str) -> None:
                 said += os.read(terminal, 1000)
             return said
 
-        wait_for(lambda: b"%" in hear(), "the simulation runs")
+        if moment == "while it runs":
+            wait_for(lambda: b"%" in hear(), "the simulation runs")
+        else:
+            wait_for(lambda: "mujoco" in maps.read_text(), "the engine is being loaded")
         os.kill(process.pid, signal.SIGINT)
         wait_for(lambda: b"Interrupted." in hear(), "it ends")
         process.wait(60)

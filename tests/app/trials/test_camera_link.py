@@ -78,7 +78,7 @@ def test_a_process_that_ends_leaves_what_it_recorded(film: Film, tmp_path: Path)
 def test_a_camera_that_is_not_there_says_so(tmp_path: Path) -> None:
     link = CameraLink(CameraAddress("under", "Under", str(tmp_path / "none.avi"), True), lambda: None)
     try:
-        with pytest.raises(CameraError, match=r"Plug the camera “Under” in again"):
+        with pytest.raises(CameraError, match=r"The camera “Under” gives no pictures\. Plug it in again\."):
             link.picture(None, 90.0)
     finally:
         link.close()

@@ -44,6 +44,22 @@ def frozen_bools(values: ArrayLike, shape: Sequence[int | None], name: str) -> B
     return array
 
 
+def interpolated(times: Floats, knots: Floats, values: Floats) -> Floats:
+    """Values at some times, straight between their knots and constant beyond the first and the last.
+
+    Args:
+        times: (n,) wanted.
+        knots: (m,) rising.
+        values: (m, …) at the knots.
+
+    Returns:
+        (n, …) in the unit of `values`.
+    """
+    columns = values.reshape(len(knots), -1).T
+    found = [np.interp(times, knots, column) for column in columns]
+    return np.stack(found, axis=-1).reshape(len(times), *values.shape[1:])
+
+
 def stretches(flags: Bools) -> list[tuple[int, int]]:
     """First and last index of each run of true values in (n,) flags."""
     edges = np.diff(np.concatenate([[0], flags.astype(np.int8), [0]]))

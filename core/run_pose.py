@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Bools, Floats
+from core.arrays import Bools, Floats, interpolated
 from core.kinematics import BodyPose, feet_in_world, walker_feet
 from core.leg import foot_from_strokes
 from core.robot import RobotModel
@@ -66,21 +66,15 @@ def measured_motion(plan: RanPlan, strokes: Floats, times: Floats, before: Float
 
 def planned_feet(trajectory: Trajectory, times: Floats) -> Floats:
     """(n, legs, 3) the plan's feet at some times, straight between its knots, m."""
-    return _interpolated(times, trajectory.times, trajectory.feet_world)
+    return interpolated(times, trajectory.times, trajectory.feet_world)
 
 
 def planned_pose(plan: RanPlan, times: Floats) -> BodyPose:
     """The plan's pose of the robot's frame at some times, straight between its knots."""
     pose, knots = plan.trajectory.pose(plan.model), plan.trajectory.times
     return BodyPose(
-        _interpolated(times, knots, pose.position_world), np.interp(times, knots, np.unwrap(pose.heading))
+        interpolated(times, knots, pose.position_world), np.interp(times, knots, np.unwrap(pose.heading))
     )
-
-
-def _interpolated(times: Floats, knots: Floats, values: Floats) -> Floats:
-    columns = values.reshape(len(knots), -1)
-    found = [np.interp(times, knots, column) for column in columns.T]
-    return np.stack(found, axis=-1).reshape(len(times), *values.shape[1:])
 
 
 def standing_feet(trajectory: Trajectory, times: Floats) -> Bools:

@@ -12,7 +12,7 @@ from app.judgement import judge
 from app.learning.table import problem_within_range
 from app.simulations import way_problem
 from app.trajectory_files import read_text
-from core.arrays import Floats
+from core.arrays import Floats, interpolated
 from core.gait import drawn_timeline, motion_problem
 from core.library import library, manual_entry
 from core.manual import manual_motion
@@ -112,9 +112,8 @@ def tipping(motion: Trajectory, margin: float = TIPPING) -> Trajectory:
         shift[knot] = _shift_out(motion, int(knot), margin)
     shift[[0, -1]] = 0.0
     known = np.isfinite(shift[:, 0])
-    eased = [np.interp(motion.times, motion.times[known], column[known]) for column in shift.T]
     body = motion.body_world.copy()
-    body[:, :2] += np.stack(eased, axis=-1)
+    body[:, :2] += interpolated(motion.times, motion.times[known], shift[known])
     return Trajectory(motion.times, body, motion.heading, motion.feet_world, motion.contact)
 
 

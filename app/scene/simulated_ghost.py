@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from app.scene.ghost import ghost_blob
 from app.scene.poses import PoseBlob
-from core.arrays import Floats
+from core.arrays import Floats, interpolated
 from core.physics.reporting import rotations
 from core.robot import RobotModel
 from core.trajectory import Trajectory
@@ -45,7 +45,7 @@ def simulated_blob(model: RobotModel, motion: dict[str, Any]) -> PoseBlob:
     feet_body = np.einsum("nji,nlj->nli", rotation, feet - origin[:, None])
     blob = _in_body(model, times, feet_body, contact)
     after = np.clip(np.searchsorted(times, blob.times, side="right"), 1, len(times) - 1)
-    at = np.stack([np.interp(blob.times, times, column) for column in origin.T], axis=-1)
+    at = interpolated(blob.times, times, origin)
     frames = _placed(blob.frames, at, _mixed(blob.times, times, attitude, after))
     nearest = np.where(blob.times - times[after - 1] < times[after] - blob.times, after - 1, after)
     floor = np.array([0.0, 0.0, -model.sole_depth])

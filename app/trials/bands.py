@@ -9,7 +9,7 @@ import numpy as np
 
 from app.trials.figures import CM
 from app.trials.record import TrialRecord
-from core.arrays import Floats
+from core.arrays import Floats, interpolated
 from core.trials.alignment import track_of_motion
 from core.trials.band import TrialBand, trial_band
 
@@ -45,9 +45,7 @@ def _plan_ways(record: TrialRecord, iterations: Floats) -> Floats | None:
         return None
     share = iterations / iterations[-1]
     times = planned.times[0] + share * (planned.times[-1] - planned.times[0])
-    flat = (planned.feet - planned.feet[0]).reshape(planned.times.size, -1).T
-    columns = [np.interp(times, planned.times, column) for column in flat]
-    return np.stack(columns, axis=-1).reshape(len(times), planned.feet.shape[1], 2)
+    return interpolated(times, planned.times, planned.feet - planned.feet[0])
 
 
 def _feet(band: TrialBand, plan: Floats | None, begin: Floats) -> list[dict[str, Any]]:

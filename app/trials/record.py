@@ -12,6 +12,7 @@ import numpy as np
 
 from app.store.trial_log import TrialRow
 from app.trials.planned import PlannedFeet
+from core.arrays import interpolated
 from core.errors import InputError
 from core.robot import load_robot
 from core.trials.alignment import Alignment, align, align_feet, placed_motion
@@ -91,9 +92,8 @@ class TrialRecord:
         if lap == 1 or plan is None or self.planned is None:
             return self.alignment
         later = plan.times[0] + (lap - 1) * self.lap_seconds
-        columns = plan.feet.reshape(plan.times.size, -1).T
-        place = np.array([np.interp(later, plan.times, column) for column in columns])
-        return align_feet(place.reshape(-1, 2), self.planned.feet[0])
+        (place,) = interpolated(np.array([later]), plan.times, plan.feet)
+        return align_feet(place, self.planned.feet[0])
 
     @property
     def placed_plan(self) -> FootTrack | None:

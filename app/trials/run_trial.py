@@ -11,7 +11,7 @@ from app.runs.record import RunRecord
 from app.trials.desk import TrialWords
 from app.trials.planned import PlannedFeet, planned_of_run
 from app.trials.tracking import VideoTrack
-from core.arrays import Floats
+from core.arrays import Floats, interpolated
 from core.errors import InputError, StateError
 from core.run_iterations import iteration_arrivals
 
@@ -109,15 +109,9 @@ def _planned(record: RunRecord) -> tuple[PlannedFeet, tuple[str, ...]]:
         return planned, ()
     inside = (planned.times > begin) & (planned.times < end)
     times = np.concatenate([[begin], planned.times[inside], [end]])
-    cut = replace(planned, times=times, feet=_at(planned, times), sent=None)
+    cut = replace(planned, times=times, feet=interpolated(times, planned.times, planned.feet), sent=None)
     count = content.get("count", len(reached))
     return cut, (f"The plan counts as far as the robot did it: {len(reached)} of {count} waypoints.",)
-
-
-def _at(planned: PlannedFeet, times: Floats) -> Floats:
-    flat = planned.feet.reshape(len(planned.times), -1)
-    found = [np.interp(times, planned.times, column) for column in flat.T]
-    return np.stack(found, axis=-1).reshape(len(times), *planned.feet.shape[1:])
 
 
 def _ends(record: RunRecord, times: Floats) -> tuple[int, ...] | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from core.arrays import Bools, Floats, stretches
+from core.arrays import Bools, Floats, interpolated, stretches
 from core.physics.motion import SimulatedMotion
 from core.physics.motors import motor_force_limits
 from core.physics.problem import Rig, SimulationProblem
@@ -131,7 +131,7 @@ def _planned_at(problem: SimulationProblem, reached: int) -> tuple[Floats, Float
     columns = np.concatenate(
         [plan.body_world, plan.heading[:, None], plan.feet_world.reshape(plan.knot_count, -1)], axis=1
     )
-    there = np.stack([np.interp(times, plan.times, column) for column in columns.T], axis=-1)
+    there = interpolated(times, plan.times, columns)
     return there[:, :3], there[:, 3], there[:, 4:].reshape(reached, plan.leg_count, 3)
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Floats, frozen_floats
+from core.arrays import Floats, frozen_floats, interpolated
 from core.errors import InputError
 from core.trials.track import FootTrack
 
@@ -142,9 +142,7 @@ def foot_gaps(track: FootTrack, ends: Sequence[int], motion: FootTrack) -> Float
         raise InputError(f"The motion has {motion.foot_count} feet, the track {track.foot_count}.", "motion")
     shares = np.interp(np.arange(track.times.size), [0, *ends], np.linspace(0.0, 1.0, len(ends) + 1))
     wanted = motion.times[0] + shares * (motion.times[-1] - motion.times[0])
-    flat = motion.feet.reshape(motion.times.size, -1).T
-    places = np.stack([np.interp(wanted, motion.times, column) for column in flat], axis=-1)
-    gaps = np.linalg.norm(places.reshape(track.feet.shape) - track.feet, axis=-1)
+    gaps = np.linalg.norm(interpolated(wanted, motion.times, motion.feet) - track.feet, axis=-1)
     counted = np.where(track.filled.all(axis=0), True, ~track.filled)
     return np.asarray((gaps * counted).sum(axis=0) / counted.sum(axis=0))
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.arrays import Floats
+from core.arrays import Floats, interpolated
 from core.errors import InputError
 from core.trials.track import FootTrack
 
@@ -72,7 +72,6 @@ def trial_band(tracks: Sequence[FootTrack], ends: Sequence[Sequence[int]], place
     moved = []
     for track, last in zip(tracks, ends, strict=True):
         frames = np.interp(iterations, np.arange(count + 1), [0, *last])
-        ways = (track.feet - track.feet[0]).reshape(track.times.size, -1).T
-        columns = [np.interp(frames, np.arange(track.times.size), way) for way in ways]
-        moved.append(np.stack(columns, axis=-1).reshape(len(frames), track.foot_count, 2))
+        numbers = np.arange(track.times.size, dtype=np.float64)
+        moved.append(interpolated(frames, numbers, track.feet - track.feet[0]))
     return TrialBand(iterations, np.array(moved))

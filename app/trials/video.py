@@ -136,11 +136,18 @@ class VideoFile:
             self._open()
 
     def pictures(self) -> Iterator[tuple[float, Picture]]:
-        """Every picture with its time, s."""
-        number = 0
+        """Every picture with its time after the first, s.
+
+        Times are the file's own, since many phones take pictures as the light allows. A picture without one,
+        or with one that does not follow, comes a usual interval after the picture before.
+        """
+        first: float | None = None
+        time = -1.0 / self.facts.rate
         while (frame := self.read()) is not None:
-            yield number / self.facts.rate, frame
-            number += 1
+            told = self._capture.get(cv2.CAP_PROP_POS_MSEC) / 1e3
+            first = told if first is None else first
+            time = told - first if told - first > time else time + 1.0 / self.facts.rate
+            yield time, frame
 
 
 class Device:

@@ -55,9 +55,15 @@ def distorting_maps() -> tuple[NDArray[np.float32], NDArray[np.float32]]:
 
 
 def write_video(
-    path: Path, feet: Floats, rate: float, hidden: tuple[Hidden, ...] = (), *, false_spot: int | None = None
+    path: Path,
+    feet: Floats,
+    rate: float,
+    hidden: tuple[Hidden, ...] = (),
+    *,
+    false_spot: int | None = None,
+    code: str = "MJPG",
 ) -> None:
-    """Draws (n, 4, 2) feet in m through the lens, with noise, into an MJPEG file.
+    """Draws (n, 4, 2) feet in m through the lens, with noise, into a file.
 
     Args:
         path: of the file.
@@ -65,10 +71,11 @@ def write_video(
         rate: frames a second.
         hidden: feet that are covered.
         false_spot: a frame with a large patch of foot 1's colour elsewhere while foot 1 is covered.
+        code: how pictures are packed (FourCC).
     """
     maps = distorting_maps()
     noise = np.random.default_rng(3).normal(0.0, 6.0, (8, SIZE[1], SIZE[0], 3)).astype(np.int16)
-    writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), rate, SIZE)
+    writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*code), rate, SIZE)
     try:
         for number, places in enumerate(feet):
             covered = {h.foot for h in hidden if h.first <= number < h.last}

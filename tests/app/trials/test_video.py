@@ -9,11 +9,13 @@ import numpy as np
 import pytest
 
 from app.trials.tracking import VideoTrack, missing_remarks, track_of_pixels, track_video
+from app.trials.video import VideoFile
 from core.errors import InputError
 from core.trials import picture_size
 from core.trials.camera import FOOT_COLOURS
 from core.trials.setup import TrackingSetup
 from tests.app.trials.rendered import LENS, VIEW, Hidden, write_video
+from tests.app.trials.retimed import retimed
 from tests.core.trials.tracks import RATE, stepping_track
 
 SETUP = TrackingSetup(VIEW, LENS)
@@ -84,6 +86,19 @@ def test_pictures_that_are_missing_or_show_no_foot_are_said_and_are_no_feet_that
     assert [tuple(place) for place in np.argwhere(found.unseen)] == [(14, 1)]
     assert missing_remarks(found)[0].startswith("3 pictures are missing or without any foot;")
     assert missing_remarks(replace(found, missing=found.missing & False)) == ()
+
+
+def test_pictures_of_a_film_whose_rate_varies_have_the_times_that_it_says(tmp_path: Path) -> None:
+    even, path = tmp_path / "even.mp4", tmp_path / "phone.mp4"
+    write_video(even, TRACK.feet[:30], RATE, code="mp4v")
+    usual = np.diff([time for time, _ in VideoFile(even).pictures()])
+    np.testing.assert_allclose(usual, 1.0 / RATE, atol=1e-4)
+    path.write_bytes(retimed(even.read_bytes(), [1] * 10 + [2] * 20))
+    found = track_video(path, SETUP)
+    assert found is not None
+    between = np.concatenate([np.ones(10), np.full(19, 2.0)]) / RATE
+    np.testing.assert_allclose(np.diff(found.track.times), between, atol=1e-4)
+    assert not found.missing.any()
 
 
 def test_tracking_ends_when_it_is_told_to(video: Path) -> None:

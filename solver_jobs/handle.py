@@ -7,7 +7,7 @@ from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
 from typing import Any
 
-from solver_jobs.spawning import start_process
+from solver_jobs.spawning import NICENESS, start_process
 from solver_jobs.worker import run_worker
 
 JOIN_SECONDS = 5.0
@@ -25,6 +25,7 @@ class WorkerHandle:
         warm_up: what the worker solves ahead; None for nothing.
         body: what the process runs, given its end of the pipe and `warm_up`.
         name: of the process.
+        niceness: how far it stands back where cores are scarce.
     """
 
     def __init__(
@@ -32,10 +33,12 @@ class WorkerHandle:
         warm_up: Any,
         body: Callable[[Connection, Any], None] = run_worker,
         name: str = "footfall-solver",
+        niceness: int = NICENESS,
     ) -> None:
         self._warm_up = warm_up
         self._body = body
         self._name = name
+        self._niceness = niceness
         self._process: SpawnProcess | None = None
         self._pipe: Connection | None = None
 
@@ -50,7 +53,7 @@ class WorkerHandle:
         if self.process_id is not None:
             return
         self.kill()
-        self._process, self._pipe = start_process(self._body, self._warm_up, self._name)
+        self._process, self._pipe = start_process(self._body, self._warm_up, self._name, self._niceness)
 
     def send(self, message: object) -> None:
         """Sends a message.

@@ -20,6 +20,7 @@ from typing import Any, ClassVar, Generic, TypeVar
 from core.errors import FootfallError, StateError
 from solver_jobs.handle import WorkerEndedError, WorkerHandle
 from solver_jobs.question_worker import Answer, Ask, Halt, Told
+from solver_jobs.spawning import NICENESS
 
 _log = logging.getLogger(__name__)
 
@@ -114,11 +115,18 @@ class QuestionService(Generic[Asked]):
         name: of what answers, as in a sentence: "pattern solver".
         body: what the process runs, given its end of the pipe and `warm_up` (see `answer_questions`).
         warm_up: what it does ahead of questions; None for what `body` makes of that.
+        niceness: how far it stands back where cores are scarce.
     """
 
-    def __init__(self, name: str, body: Callable[[Connection, Any], None], warm_up: Any = None) -> None:
+    def __init__(
+        self,
+        name: str,
+        body: Callable[[Connection, Any], None],
+        warm_up: Any = None,
+        niceness: int = NICENESS,
+    ) -> None:
         self._name = name
-        self._worker = WorkerHandle(warm_up, body, f"footfall {name}")
+        self._worker = WorkerHandle(warm_up, body, f"footfall {name}", niceness)
         self._numbers = itertools.count(1)
         self._waiting: queue.SimpleQueue[Asked | None] = queue.SimpleQueue()
         self._lock = threading.Lock()

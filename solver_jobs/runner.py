@@ -17,6 +17,7 @@ from core.motion_problem import MotionProblem
 from solver_jobs.handle import WorkerHandle
 from solver_jobs.jobs import Job, JobKind, JobState
 from solver_jobs.service import JobService
+from solver_jobs.spawning import BACKGROUND_NICENESS
 
 OnChange = Callable[[Job], None]
 """Told of every change with a snapshot, in order, from one thread of the runner's."""
@@ -58,7 +59,10 @@ class JobRunner:
         self._closing = False
         self._news: queue.SimpleQueue[Job | None] = queue.SimpleQueue()
         self._notifier = threading.Thread(target=self._notify, name="footfall-jobs-news", daemon=True)
-        self._services = [JobService(self, WorkerHandle(warm_up), time_limit) for _ in range(workers)]
+        self._services = [
+            JobService(self, WorkerHandle(warm_up, niceness=BACKGROUND_NICENESS), time_limit)
+            for _ in range(workers)
+        ]
         self._notifier.start()
         for service in self._services:
             service.start()

@@ -9,6 +9,7 @@ from core.errors import SimulationCancelledError, StateError
 from core.physics.problem import SimulationProblem
 from solver_jobs.questions import Question, QuestionService
 from solver_jobs.simulation_worker import Simulate, Simulated, run_simulation_worker
+from solver_jobs.spawning import BACKGROUND_NICENESS
 
 
 class Simulation(Question[Simulate, float, Simulated]):
@@ -36,7 +37,7 @@ class Simulator(QuestionService[Simulation]):
     """
 
     def __init__(self, warm_up: SimulationProblem | None = None) -> None:
-        super().__init__("simulator", run_simulation_worker, warm_up)
+        super().__init__("simulator", run_simulation_worker, warm_up, BACKGROUND_NICENESS)
 
     def submit(
         self,

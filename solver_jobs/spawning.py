@@ -13,9 +13,12 @@ from typing import Any
 NICENESS = 5
 """How far a solver stands back where cores are scarce, so that a stop of the robot never waits for one."""
 
+BACKGROUND_NICENESS = 10
+"""How far one stands back whose work has a progress bar, so that page and live answers go on beside it."""
+
 
 def start_process(
-    body: Callable[[Connection, Any], None], warm_up: Any, name: str
+    body: Callable[[Connection, Any], None], warm_up: Any, name: str, niceness: int = NICENESS
 ) -> tuple[SpawnProcess, Connection]:
     """Starts a fresh interpreter that runs `body`; it ends at the latest with this one.
 
@@ -23,21 +26,26 @@ def start_process(
         body: gets the worker's end of the pipe and the problem to warm up with.
         warm_up: a problem, or None.
         name: of the process.
+        niceness: how far it stands back.
 
     Returns:
         The process and our end of the pipe.
     """
     context = multiprocessing.get_context("spawn")
     ours, theirs = context.Pipe()
-    process = context.Process(target=_stand_back, args=(body, theirs, warm_up), name=name, daemon=True)
+    process = context.Process(
+        target=_stand_back, args=(body, theirs, warm_up, niceness), name=name, daemon=True
+    )
     process.start()
     theirs.close()
     return process, ours
 
 
-def _stand_back(body: Callable[[Connection, Any], None], pipe: Connection, warm_up: Any) -> None:
+def _stand_back(
+    body: Callable[[Connection, Any], None], pipe: Connection, warm_up: Any, niceness: int
+) -> None:
     # Ctrl-C in a terminal reaches the whole group; the parent decides when a worker ends.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if hasattr(os, "nice"):
-        os.nice(NICENESS)
+        os.nice(niceness)
     body(pipe, warm_up)

@@ -9,6 +9,7 @@ from core.physics.parameters import PhysicsSet
 from core.trials.learning import Walk
 from core.trials.travel import Travel
 from solver_jobs.questions import Question, QuestionService
+from solver_jobs.spawning import BACKGROUND_NICENESS
 from solver_jobs.travel_worker import Travels, run_travel_worker
 
 
@@ -31,7 +32,7 @@ class TravelSimulator(QuestionService[TravelQuestion]):
     """Travels of gaits under sets of parameters, one question after the other."""
 
     def __init__(self) -> None:
-        super().__init__("simulator of gaits", run_travel_worker)
+        super().__init__("simulator of gaits", run_travel_worker, niceness=BACKGROUND_NICENESS)
 
     def submit(
         self,

@@ -1,5 +1,6 @@
 """The preview in a real browser: it fails when the way into Viser's client breaks."""
 
+import time
 from collections.abc import Iterator
 from io import BytesIO
 
@@ -167,6 +168,28 @@ def test_without_a_gpu_the_feet_keep_their_colours(page: Page) -> None:
         ("blue", (blue > red + 60) & (blue > green + 40)),
     ):
         assert seen.sum() > 200, name
+
+
+def test_without_a_gpu_the_backdrop_is_drawn_with_the_scene(page: Page) -> None:
+    if not page.evaluate("preview.client.drawsInSoftware"):
+        pytest.skip("this browser draws with a GPU")
+    canvas = "document.querySelector('iframe').contentDocument.querySelector('canvas[data-engine]')"
+    assert page.evaluate(f"{canvas}.getContext('webgl2').getContextAttributes().alpha") is False
+    await_backdrop(page, [238, 241, 245], [253, 253, 254])
+    page.evaluate("preview.setDark(true)")
+    await_backdrop(page, [27, 33, 43], [17, 21, 27])
+
+
+def await_backdrop(page: Page, high: list[int], low: list[int]) -> None:
+    """Waits until the uppermost and the lowest pixels have mostly these colours, to a step of eight bits."""
+    wanted, latest = np.array([high, low]), time.monotonic() + START_MS / 1e3
+    while True:
+        with Image.open(BytesIO(page.screenshot())) as picture:
+            seen = np.median(np.asarray(picture.convert("RGB"), dtype=int)[[0, -1]], axis=1)
+        if abs(seen - wanted).max() <= 1:
+            return
+        assert time.monotonic() < latest, seen
+        page.wait_for_timeout(100)
 
 
 def test_the_scene_comes_back_with_the_present_pose_after_a_lost_connection(

@@ -1,8 +1,28 @@
 /**
- * Lines drawn as plain triangles where there is no GPU. Viser draws a line's pieces as instances of one piece, and
- * software drawing takes as long for each instance as for a whole part of the robot. The client lives in a window of its
- * own, so arrays and classes are made of those that its objects have.
+ * Lines drawn as plain triangles where there is no GPU, with the tone curve at their corners. Viser draws a line's pieces
+ * as instances of one piece, and software drawing takes as long for each instance as for a whole part of the robot; and it
+ * rounds ends and computes the tone curve pixel by pixel. The client lives in a window of its own, so arrays and classes
+ * are made of those that its objects have.
  */
+
+const CORNERS = `
+  #include <tonemapping_pars_fragment>
+  #include <colorspace_pars_fragment>
+  uniform vec3 diffuse;
+  varying vec3 plainColour;
+  void main() {
+    plainColour = diffuse;
+    #ifdef USE_COLOR
+      plainColour *= position.y < 0.5 ? instanceColorStart : instanceColorEnd;
+    #endif
+    plainColour = sRGBTransferOETF(vec4(ACESFilmicToneMapping(plainColour), 1.0)).rgb;`;
+
+const PIXELS = `
+  uniform float opacity;
+  varying vec3 plainColour;
+  void main() { gl_FragColor = vec4(plainColour, opacity); }`;
+
+const plainMaterials = new WeakSet();
 
 const ends = ["instanceStart", "instanceEnd"];
 const colours = ["instanceColorStart", "instanceColorEnd"];
@@ -68,9 +88,20 @@ function plainGeometry(lines) {
   return plain;
 }
 
+/** Gives a line's material the plain shading, once; broken lines keep the client's. */
+function shadePlainly(material) {
+  if (plainMaterials.has(material) || material.dashed) return;
+  plainMaterials.add(material);
+  material.onBeforeCompile = (shader) => Object.assign(shader, { vertexShader: shader.vertexShader.replace("void main() {", CORNERS), fragmentShader: PIXELS });
+  material.customProgramCacheKey = () => "plain line";
+  material.needsUpdate = true;
+}
+
 /** Makes a line plain that the client draws as instances; anything else is left alone. */
 export function drawLinePlainly(part) {
-  if (!part.isLineSegments2 || !part.geometry.isInstancedBufferGeometry) return;
+  if (!part.isLineSegments2) return;
+  shadePlainly(part.material);
+  if (!part.geometry.isInstancedBufferGeometry) return;
   part.geometry = plainGeometry(part.geometry);
   // What is seen of a geometry is told by its positions, which are those of the one piece here.
   part.frustumCulled = false;

@@ -28,3 +28,9 @@ export function drawSurfacePlainly({ isMesh, material }) {
   material.customProgramCacheKey = () => "plain surface";
   material.needsUpdate = true;
 }
+
+/** Leaves out the client's picture behind the scene where there is none: it runs over every pixel to draw nothing. */
+export function leaveOutNoPicture(part) {
+  const { enabled, colorMap } = part.material?.uniforms ?? {};
+  if (colorMap && enabled?.value === false) part.visible = false;
+}

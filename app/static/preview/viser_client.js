@@ -9,7 +9,7 @@
 
 import { groundView } from "./ground.js";
 import { drawLinePlainly, moveEnds } from "./plain_lines.js";
-import { drawSurfacePlainly } from "./plain_surfaces.js";
+import { drawSurfacePlainly, leaveOutNoPicture } from "./plain_surfaces.js";
 
 const SETTLE_MS = 250;
 
@@ -113,6 +113,7 @@ export class ViserClient {
     scene.onBeforeRender = () => scene.traverseVisible((part) => {
       drawLinePlainly(part);
       drawSurfacePlainly(part);
+      leaveOutNoPicture(part);
     });
   }
 

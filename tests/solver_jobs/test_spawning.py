@@ -1,0 +1,58 @@
+"""How far each kind of process stands back where cores are scarce."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable
+
+import pytest
+
+from solver_jobs import JobRunner, LiveSolver, PatternSolver, Simulator, TravelSimulator
+from solver_jobs.spawning import BACKGROUND_NICENESS, NICENESS
+
+PATIENCE = 60.0
+"""Longest wait for a process, s."""
+
+
+def job_process(runner: JobRunner) -> int | None:
+    return next(iter(runner.process_ids()), None)
+
+
+def niceness_of(process: Callable[[], int | None], wanted: int) -> int:
+    """Waits until the process has set it, or for `PATIENCE`."""
+    latest = time.monotonic() + PATIENCE
+    own = os.getpriority(os.PRIO_PROCESS, 0)
+    while True:
+        number = process()
+        found = own if number is None else os.getpriority(os.PRIO_PROCESS, number)
+        if found - own == wanted or time.monotonic() > latest:
+            return found - own
+        time.sleep(0.01)
+
+
+@pytest.mark.parametrize("service", [PatternSolver, LiveSolver])
+def test_what_answers_a_hand_stands_back_behind_the_bridge(service: type[PatternSolver | LiveSolver]) -> None:
+    solver = service()
+    solver.start()
+    try:
+        assert niceness_of(lambda: solver.process_id, NICENESS) == NICENESS
+    finally:
+        solver.close()
+
+
+@pytest.mark.parametrize("service", [Simulator, TravelSimulator])
+def test_simulations_stand_back_behind_what_answers_a_hand(
+    service: type[Simulator | TravelSimulator],
+) -> None:
+    simulator = service()
+    simulator.start()
+    try:
+        assert niceness_of(lambda: simulator.process_id, BACKGROUND_NICENESS) == BACKGROUND_NICENESS
+    finally:
+        simulator.close()
+
+
+def test_jobs_stand_back_behind_what_answers_a_hand() -> None:
+    with JobRunner() as runner:
+        assert niceness_of(lambda: job_process(runner), BACKGROUND_NICENESS) == BACKGROUND_NICENESS

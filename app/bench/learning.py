@@ -37,7 +37,8 @@ def bench_learning(reference: Path | None = None, points: int = POINTS) -> list[
     """
     if reference is None:
         raise InputError(
-            "Learning needs the published trials; name the folder with the published data.", "--reference"
+            "Learning needs the published trials; name their folder after --reference.",
+            "--reference",
         )
     model, data = load_robot(ROBOT), Reference(reference)
     table = data.folder / "robot_trials" / "trajectory_averages.csv"

@@ -125,7 +125,7 @@ class Reference:
         missing = [name for name in _FOLDERS if not (self.folder / name).is_dir()]
         if missing:
             raise InputError(
-                f"{self.folder} holds no {missing[0]}; name the folder with the published data.",
+                f"{self.folder} holds no {missing[0]}; name the published data's folder after --reference.",
                 "--reference",
             )
 

@@ -101,10 +101,11 @@ def make_parser() -> argparse.ArgumentParser:
     text = "How far recorded foot tracks went, in cm and degrees, beside what was wanted."
     _trial_words(command("trial", commands_trial.run_trial, text))
     bench = command("bench", commands_bench.run_bench, "Measure what users feel.")
-    bench.add_argument("names", nargs="*", metavar="NAME", help="none: all but those in a browser")
+    bench.add_argument("names", nargs="*", metavar="NAME", help="none: all but page, gaits, scene and learning")
     bench.add_argument("--count", type=whole(1, 100_000), default=EDITS, help="edits to try (edits)")
     bench.add_argument("--seed", type=whole(0, 2**31), default=SEED, help="of the edits (edits)")
-    bench.add_argument("--reference", type=Path, default=None, help="folder of published data (physics)")
+    help_words = "folder of published data (physics, learning)"
+    bench.add_argument("--reference", type=Path, default=None, help=help_words)
     bench.add_argument("--report", type=Path, default=None, help="HTML page with plots to write (physics)")
     bench.add_argument("--markdown", action="store_true", help="print tables as Markdown")
     return parser

@@ -101,7 +101,8 @@ def make_parser() -> argparse.ArgumentParser:
     text = "How far recorded foot tracks went, in cm and degrees, beside what was wanted."
     _trial_words(command("trial", commands_trial.run_trial, text))
     bench = command("bench", commands_bench.run_bench, "Measure what users feel.")
-    bench.add_argument("names", nargs="*", metavar="NAME", help="none: all but page, gaits, scene and learning")
+    help_words = "none: all but page, gaits, scene and learning"
+    bench.add_argument("names", nargs="*", metavar="NAME", help=help_words)
     bench.add_argument("--count", type=whole(1, 100_000), default=EDITS, help="edits to try (edits)")
     bench.add_argument("--seed", type=whole(0, 2**31), default=SEED, help="of the edits (edits)")
     help_words = "folder of published data (physics, learning)"

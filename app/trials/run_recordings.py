@@ -1,6 +1,7 @@
 """Recording with the run: cameras begin and end with it, and what they saw becomes its trial.
 
-The bridge only puts a word on a queue; everything else is done by a thread of its own.
+The bridge only puts a word on a queue. One thread begins and ends recordings; another makes trials of them, so
+that a run that follows at once is recorded from its beginning.
 """
 
 from __future__ import annotations
@@ -9,7 +10,8 @@ import logging
 import queue
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -55,13 +57,22 @@ class _Turn:
 
 @dataclass(frozen=True, eq=False)
 class _Recording:
-    """A recording that is on."""
+    """A recording that is on, or was."""
 
     video: str
     link: CameraLink
     camera: str
     setup: CameraSetup | None
     source: SightSource
+
+
+@dataclass(frozen=True, eq=False)
+class _Ended:
+    """What a camera recorded of a run."""
+
+    run: str
+    recording: _Recording
+    recorded: Recorded
 
 
 class RunRecordings:
@@ -94,8 +105,13 @@ class RunRecordings:
         self._run = ""
         self._is_on = False
         self._recordings: list[_Recording] = []
-        self._thread = threading.Thread(target=self._work, name="run recordings", daemon=True)
-        self._thread.start()
+        self._ended: queue.SimpleQueue[_Ended | None] = queue.SimpleQueue()
+        self._threads = [
+            threading.Thread(target=self._work, name="run recordings", daemon=True),
+            threading.Thread(target=self._file, name="trials of recordings", daemon=True),
+        ]
+        for thread in self._threads:
+            thread.start()
 
     def follow(self, snapshot: RobotSnapshot) -> None:
         """Hears from the bridge; only puts a word on a queue."""
@@ -119,7 +135,8 @@ class RunRecordings:
         """Ends the recordings that are on, and keeps them."""
         self._end()
         self._turns.put(None)
-        self._thread.join()
+        for thread in self._threads:
+            thread.join()
 
     def _work(self) -> None:
         while (turn := self._turns.get()) is not None:
@@ -130,6 +147,14 @@ class RunRecordings:
                     self._finish(turn.run)
             except Exception:
                 _log.exception("A recording of the run %s failed.", turn.run)
+        self._ended.put(None)
+
+    def _file(self) -> None:
+        while (ended := self._ended.get()) is not None:
+            with self._kept_whatever_comes(ended.run, ended.recording):
+                trial, remarks = self._trial(ended.run, ended.recording, ended.recorded)
+                self._keep(ended.recording, ended.recorded, trial, remarks)
+            self._cameras.tell()
 
     def _begin(self, run: str) -> None:
         row = self._log.get(run)
@@ -163,12 +188,17 @@ class RunRecordings:
     def _finish(self, run: str) -> None:
         recordings, self._recordings = self._recordings, []
         for one in recordings:
-            try:
+            with self._kept_whatever_comes(run, one):
                 self._finish_one(run, one)
-            except Exception:
-                _log.exception("The recording %s of the run %s failed.", one.video, run)
-                self._break_off(one.video)
         self._cameras.tell()
+
+    @contextmanager
+    def _kept_whatever_comes(self, run: str, one: _Recording) -> Iterator[None]:
+        try:
+            yield
+        except Exception:
+            _log.exception("The recording %s of the run %s failed.", one.video, run)
+            self._break_off(one.video)
 
     def _break_off(self, video: str) -> None:
         """Keeps what there is of a recording that is not ended as it should be."""
@@ -184,8 +214,7 @@ class RunRecordings:
         except CameraError as error:
             self._videos.salvage(one.video, error.sentence)
             return
-        trial, remarks = self._trial(run, one, recorded)
-        self._keep(one, recorded, trial, remarks)
+        self._ended.put(_Ended(run, one, recorded))
 
     def _keep(self, one: _Recording, recorded: Recorded, trial: str, remarks: tuple[str, ...]) -> None:
         self._videos.change(

@@ -1,7 +1,7 @@
 """Recording with the run: cameras begin and end with it, and what they saw becomes its trial.
 
-The bridge only puts a word on a queue. One thread begins and ends recordings; another makes trials of them, so
-that a run that follows at once is recorded from its beginning.
+The bridge only puts a word on a queue. One thread begins and ends recordings; another makes trials of them,
+so that a run that follows at once is recorded from its beginning.
 """
 
 from __future__ import annotations

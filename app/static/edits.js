@@ -39,6 +39,7 @@ export function paintLabel(cells, swing) {
 export function createEdits(store) {
   let sending = null;
   let turn = Promise.resolve();
+  let acts = 0;
 
   const isShown = (gait) => store.state.selected === gait;
 
@@ -95,7 +96,8 @@ export function createEdits(store) {
 
   /** Requests that change the gait reach the studio one at a time, in the order of the acts behind them. */
   function inTurn(act) {
-    const mine = turn.then(act);
+    acts += 1;
+    const mine = turn.then(act).finally(() => { acts -= 1; });
     turn = mine.catch(() => {});
     return mine;
   }
@@ -156,8 +158,12 @@ export function createEdits(store) {
     return inTurn(() => act(selected, ...values));
   }
 
+  /** Whether the studio lacks something that was done here, which a reload would lose. */
+  const areUnsent = () => acts + store.state.pending.length + store.state.left.length > 0;
+
   return {
     edit,
+    areUnsent,
     dropRefused,
     paint: (cells, swing) => edit((document) => paintCells(document, cells, swing), paintLabel(cells, swing), { drawing: true }),
     redraw: (body) => pass(passRedraw, body),

@@ -63,6 +63,7 @@ function panelsAfterPaint(page) {
 export function start(store) {
   const playback = new Playback();
   const edits = createEdits(store);
+  window.addEventListener("beforeunload", (event) => { if (edits.areUnsent()) event.preventDefault(); });
   recallOperator(store);
   mountDecimalComma();
   store.watch(({ operator }) => [operator], ({ operator }) => nameAuthor(operator));

@@ -8,7 +8,7 @@ from typing import Any
 from urllib.parse import quote
 
 import pytest
-from playwright.sync_api import Browser, Locator, Page, expect
+from playwright.sync_api import Browser, Dialog, Locator, Page, expect
 
 from tests.page.late_answers import LateAnswers, LateList, LateRequests
 from tests.page.opened import opened_page
@@ -92,6 +92,33 @@ def test_undo_and_save_are_of_the_gait_that_was_shown_when_they_were_pressed(
     wait_for(lambda: not view(studio, left)["edited"], "undone, and saved")
     assert [studio.document(gait) for gait in (left, shown)] == before
     assert view(studio, shown)["edited"]
+
+
+def test_the_page_asks_before_it_is_left_with_edits_that_the_studio_lacks(
+    page: Page, studio: StudioProcess
+) -> None:
+    gait = made(studio, "Hasty")
+    choose(page, "Hasty")
+    kept: list[str] = []
+
+    def stay(dialog: Dialog) -> None:
+        kept.append(dialog.type)
+        dialog.dismiss()
+
+    page.on("dialog", stay)
+    late = LateRequests(page, "PUT", f"/api/gaits/{gait}")
+    fill(page, "Clearance", "4")
+    fill(page, "Stability margin", "1")
+    wait_for(lambda: late.count == 1, "the first edit is on its way")
+    page.evaluate("() => { setTimeout(() => location.reload()); }")
+    wait_for(lambda: late.count == 1 and kept == ["beforeunload"], "the page has asked")
+    late.let_go()
+    expect(page.locator("#saved-state")).to_have_text("· edited, kept")
+    assert studio.document(gait)["options"]["margin"] == 0.001
+    page.reload()
+    expect(page.get_by_label("Gait name")).to_have_value("Hasty")
+    assert kept == ["beforeunload"]
+    page.remove_listener("dialog", stay)
 
 
 def view(studio: StudioProcess, gait: str) -> dict[str, Any]:

@@ -8,15 +8,18 @@
 import { errorsOf, sheetOf, tableOf } from "./sheet.js";
 import { shownDocument } from "./store.js";
 
-const NONE = Object.freeze({ steps: Object.freeze([]), kept: Object.freeze([]) });
+const NONE = Object.freeze({ steps: Object.freeze([]) });
 
-/** The changes of the shown gait that do not fit yet: `{steps, kept}`. */
+/** The changes of the shown gait that do not fit yet: `{steps}`. */
 export const draftOf = ({ tableDrafts, view }) => tableDrafts[view?.id] ?? NONE;
 
 const applied = (sheet, steps) => steps.reduce((now, { change }) => change(now), sheet);
 
 /** The sheets after each of the steps, on top of a document. */
 export const sheetsOf = (document, steps) => steps.map((_, index) => applied(sheetOf(document), steps.slice(0, index + 1)));
+
+/** The cells, `[row, foot]`, that steps have set and a repair leaves alone, where later steps have moved them. */
+export const keptCells = (steps) => steps.reduce((cells, { kept = [], moved }) => [...(moved ? cells.map(moved).filter(Boolean) : cells), ...kept], []);
 
 let last = { parts: [], sheet: null };
 
@@ -31,35 +34,33 @@ export function shownSheet(state) {
   return last.sheet;
 }
 
-function keep(store, steps, kept) {
+function keep(store, steps) {
   const { view, tableDrafts } = store.state;
   const { [view.id]: _, ...others } = tableDrafts;
-  store.set({ tableDrafts: steps.length ? { ...others, [view.id]: { steps, kept } } : others });
+  store.set({ tableDrafts: steps.length ? { ...others, [view.id]: { steps } } : others });
 }
 
 /** Takes the last change back that does not fit; false where there is none. */
 export function undoDraft(store) {
-  const { steps, kept } = draftOf(store.state);
+  const { steps } = draftOf(store.state);
   if (!steps.length) return false;
-  const gone = steps.at(-1).kept ?? [];
-  keep(store, steps.slice(0, -1), kept.filter((cell) => !gone.includes(cell)));
+  keep(store, steps.slice(0, -1));
   return true;
 }
 
 /** Takes all of them back. */
-export const dropDraft = (store) => keep(store, [], []);
+export const dropDraft = (store) => keep(store, []);
 
 /**
  * Makes a change: one edit of the gait where everything fits then, else one more step of the draft.
- * @param {{change: (sheet: object) => object, label: string, kept?: number[][]}} step `kept` are the cells, `[row, foot]`, that a
- *   repair leaves alone
+ * @param {{change: (sheet: object) => object, label: string, kept?: number[][], moved?: (cell: number[]) => number[]|null}} step `kept`
+ *   are the cells, `[row, foot]`, that a repair leaves alone; `moved` tells where the change takes a cell, null where it is gone
  */
 export function commit(store, edits, step) {
-  const draft = draftOf(store.state);
-  const steps = [...draft.steps, step];
+  const steps = [...draftOf(store.state).steps, step];
   const sheet = applied(sheetOf(shownDocument(store.state)), steps);
-  if (errorsOf(sheet).some(({ stops }) => stops)) return keep(store, steps, [...draft.kept, ...(step.kept ?? [])]);
-  keep(store, [], []);
+  if (errorsOf(sheet).some(({ stops }) => stops)) return keep(store, steps);
+  keep(store, []);
   const apply = (document) => (document.segment_table ? { ...document, segment_table: tableOf(applied(sheetOf(document), steps)) } : document);
   return edits.edit(apply, step.label, { drawing: true });
 }

@@ -1,4 +1,4 @@
-/** Changes of the segment table: each gives `{change, label, kept}`, `change` from sheet to sheet, or `{reason}`. */
+/** Changes of the segment table: each gives `{change, label, kept, moved}` (see `commit`), `change` from sheet to sheet, or `{reason}`. */
 
 import { errorSentence, errorsOf, placeAfter, placeBefore, rowName, waitAt, walked } from "./sheet.js";
 
@@ -81,21 +81,23 @@ export function paste(sheet, range, names) {
   return { ...outcome, range: filled, note: missing.length ? `${missing.join(" and ")} did not fit and were left out.` : null };
 }
 
-/** A new row after a row (−1: before the first), in which every foot waits where it is. */
-export function insertRow(sheet, after) {
+/** A new row after a row (−1: before the first), in which every foot waits where it is; `inLink` says whether it is the link's. */
+export function insertRow(sheet, after, inLink = false) {
   const names = [];
+  const before = inLink && after < sheet.count ? sheet.to - 1 : after;
   for (let foot = 0; foot < sheet.legs; foot += 1) {
-    const place = after < 0 ? sheet.words.segments[sheet.rows[0][foot]]?.start : placeAfter(sheet, after, foot);
+    const place = before < 0 ? sheet.words.segments[sheet.rows[0][foot]]?.start : placeAfter(sheet, before, foot);
     const name = waitAt(sheet, place);
-    if (!name) return { reason: `Nothing can be inserted there: foot ${foot + 1} is in mid-air at ${place} after ${rowName(sheet, Math.max(after, 0))}, and no segment waits there. Insert before or after its step.` };
+    if (!name) return { reason: `Nothing can be inserted there: foot ${foot + 1} is in mid-air at ${place} after ${rowName(sheet, Math.max(before, 0))}, and no segment waits there. Insert before or after its step.` };
     names.push(name);
   }
   const change = (now) => {
     const rows = [...now.rows.slice(0, after + 1), names, ...now.rows.slice(after + 1)];
-    if (after >= now.count) return { ...now, rows };
+    if (inLink) return { ...now, rows };
     return { ...now, rows, count: now.count + 1, from: now.from + Number(after + 2 <= now.from), to: now.to + Number(after + 1 <= now.to) };
   };
-  return { change, label: after < 0 ? "Insert a segment at the beginning" : `Insert after ${rowName(sheet, after)}`, kept: [] };
+  const moved = ([row, foot]) => [row + Number(row > after), foot];
+  return { change, moved, label: after < 0 ? "Insert a segment at the beginning" : `Insert ${inLink && after < sheet.count ? `before ${rowName(sheet, after + 1)}` : `after ${rowName(sheet, after)}`}`, kept: [] };
 }
 
 const within = (value, least, most) => Math.min(Math.max(value, least), most);
@@ -112,7 +114,8 @@ export function removeRows(sheet, [first, last]) {
     const from = within(now.from - gone(now.from - 1), 1, count);
     return { ...now, rows, count, from, to: within(now.to - gone(now.to), from, count) };
   };
-  return { change, label: first === last ? `Remove ${rowName(sheet, first)}` : `Remove ${rowName(sheet, first)} to ${rowName(sheet, last)}`, kept: [] };
+  const moved = ([row, foot]) => (row < first ? [row, foot] : row > last ? [row - (last - first + 1), foot] : null);
+  return { change, moved, label: first === last ? `Remove ${rowName(sheet, first)}` : `Remove ${rowName(sheet, first)} to ${rowName(sheet, last)}`, kept: [] };
 }
 
 /** A first row of the link, in which every foot goes or waits so that the table goes on. */

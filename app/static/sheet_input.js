@@ -68,8 +68,9 @@ export function mountSheetInput(store, edits, grid, cells) {
     wait: () => run(setWaits(sheet(), range())),
     addLink: () => run(addLinkRow(sheet())),
     insert(above = false) {
-      const after = above ? range().rows[0] - 1 : range().rows[1];
-      const outcome = insertRow(sheet(), after);
+      const [first, last] = range().rows;
+      const after = above ? first - 1 : last;
+      const outcome = insertRow(sheet(), after, (above ? first : last) >= sheet().count);
       run(outcome);
       if (!outcome.reason) go([after + 1, head[1]]);
     },

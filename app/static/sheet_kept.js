@@ -1,6 +1,6 @@
 /** Changes of the segment table that do not fit yet, kept in this tab so that a reload brings them back. */
 
-import { draftOf, sheetsOf } from "./sheet_draft.js";
+import { draftOf, keptCells, sheetsOf } from "./sheet_draft.js";
 import { toast } from "./toasts.js";
 
 const keyOf = (id) => `footfall.table-draft.${id}`;
@@ -25,8 +25,8 @@ function write(id, content) {
   }
 }
 
-/** A change as it was kept: the whole sheet after it. */
-const stepOf = ({ label, kept, sheet }) => ({ label, kept, change: ({ iterations }) => ({ ...sheet, iterations }), restored: true });
+/** A change as it was kept: the whole sheet after it, with all cells that repairs leave alone by then. */
+const stepOf = ({ label, kept, sheet }) => ({ label, kept, moved: () => null, change: ({ iterations }) => ({ ...sheet, iterations }), restored: true });
 
 /** Keeps the drafts of `store.tableDrafts`, and puts them back when their gait is shown again. */
 export function mountKept(store) {
@@ -47,7 +47,7 @@ export function mountKept(store) {
     const content = read(view.id);
     if (!content) return;
     if (content.base !== base) drop(view);
-    else put(view.id, { steps: content.steps.map(stepOf), kept: content.kept });
+    else put(view.id, { steps: content.steps.map(stepOf) });
   }
 
   store.watch(({ view, tableDrafts }) => [view, tableDrafts], (state) => {
@@ -59,12 +59,13 @@ export function mountKept(store) {
       recall(view, base);
       return;
     }
-    const { steps, kept } = draftOf(state);
-    if (base !== before && steps.some(({ restored }) => restored)) {
+    const { steps } = draftOf(state);
+    // Restored changes are whole sheets, which stand on the table that they were made on; all of them need one.
+    if (view.document.segment_table ? base !== before && steps.some(({ restored }) => restored) : steps.length) {
       drop(view);
       return;
     }
     const sheets = steps.length ? sheetsOf(view.document, steps) : [];
-    write(view.id, steps.length ? { base, kept, steps: steps.map((step, index) => ({ label: step.label, kept: step.kept ?? [], sheet: sheets[index] })) } : null);
+    write(view.id, steps.length ? { base, steps: steps.map(({ label }, index) => ({ label, kept: keptCells(steps.slice(0, index + 1)), sheet: sheets[index] })) } : null);
   });
 }

@@ -2,7 +2,7 @@
 
 import { api } from "./api.js";
 import { h } from "./dom.js";
-import { commit, draftOf, dropDraft, shownSheet } from "./sheet_draft.js";
+import { commit, draftOf, dropDraft, keptCells, shownSheet } from "./sheet_draft.js";
 import { errorSentence, errorsOf, ownRow, sheetOf, tableOf } from "./sheet.js";
 import { lane } from "./lane.js";
 import { shownDocument } from "./store.js";
@@ -17,7 +17,8 @@ function offerOf({ foot, first, names, inserted, table }, sheet, document) {
   const label = !names.length ? "Make the link fit" : inserted ? `Insert ${words}` : `${range(first, names.length).replace(/^s/, "S")} to ${words}`;
   const help = inserted ? `New ${range(first, names.length)}; the other feet wait meanwhile` : `Of foot ${own + 1}; nothing else changes but the link where it must`;
   const mended = sheetOf({ ...document, segment_table: table });
-  return { label, help, step: { change: (now) => ({ ...mended, iterations: now.iterations }), label: `Foot ${own + 1}: ${label.charAt(0).toLowerCase()}${label.slice(1)}`, kept: [] } };
+  const moved = inserted && names.length ? ([row, column]) => [row + (row >= first ? names.length : 0), column] : undefined;
+  return { label, help, step: { moved, change: (now) => ({ ...mended, iterations: now.iterations }), label: `Foot ${own + 1}: ${label.charAt(0).toLowerCase()}${label.slice(1)}`, kept: [] } };
 }
 
 /**
@@ -42,7 +43,7 @@ export function mountNote(store, edits, note, focus) {
   });
 
   function request(sheet) {
-    const kept = draftOf(store.state).kept.map(([row, foot]) => [ownRow(sheet, foot), row]);
+    const kept = keptCells(draftOf(store.state).steps).map(([row, foot]) => [ownRow(sheet, foot), row]);
     const body = { table: tableOf(sheet), kept };
     const text = JSON.stringify(body);
     if (text === asked) return;

@@ -3,11 +3,11 @@
 /** Rows of names as lines with tabs. */
 export const textOf = (rows) => rows.map((row) => row.join("\t")).join("\n");
 
-/** The fields of one line of CSV; a quoted field may hold the separator, and doubled quotes. */
+/** The fields of one line of CSV, also those in which nothing stands; a quoted field may hold the separator, and doubled quotes. */
 function fieldsOf(line, separator) {
   const fields = [];
-  const pattern = new RegExp(`(?:^|${separator})\\s*(?:"((?:[^"]|"")*)"|([^${separator}]*))`, "g");
-  for (const [, quoted, plain] of line.matchAll(pattern)) fields.push((quoted === undefined ? plain : quoted.replaceAll('""', '"')).trim());
+  const pattern = new RegExp(`${separator}[^\\S${separator}]*(?:"((?:[^"]|"")*)"|([^${separator}]*))`, "g");
+  for (const [, quoted, plain] of `${separator}${line}`.matchAll(pattern)) fields.push((quoted === undefined ? plain : quoted.replaceAll('""', '"')).trim());
   return fields;
 }
 

@@ -176,11 +176,12 @@ export const isTyped = (control) => control?.matches("input:not([type=checkbox])
  */
 export function createWords(panel, acts) {
   let shown = "";
-  let next = null;
+  let latest = null;
+  let awaited = false;
   const controls = () => [...panel.querySelectorAll("input, select, button")];
   function draw() {
-    const sheet = next;
-    next = null;
+    const sheet = latest;
+    awaited = false;
     const text = JSON.stringify([sheet.words, sheet.rows]);
     const focused = panel.contains(document.activeElement) ? document.activeElement : null;
     if (shown === text || isTyped(focused)) return;
@@ -189,8 +190,13 @@ export function createWords(panel, acts) {
     panel.replaceChildren(axisPart(sheet, "xy", acts), axisPart(sheet, "z", acts), segmentPart(sheet, acts));
     if (place >= 0) controls()[place]?.focus();
   }
+  function soon() {
+    if (!awaited) setTimeout(draw);
+    awaited = true;
+  }
+  panel.addEventListener("focusout", () => { if (latest) soon(); });
   return (sheet) => {
-    if (next === null) setTimeout(draw);
-    next = sheet;
+    latest = sheet;
+    soon();
   };
 }

@@ -62,6 +62,10 @@ def test_a_paste_that_does_not_fit_is_refused_with_the_place_and_the_table_stays
     expect(page.locator("#toasts")).to_contain_text("Foot 3, segment 2: “Step A” starts at Home-None")
     expect(note(page)).to_be_hidden()
     assert table(studio, gait) == before
+    for text, place in (("Wait A\t\tWait A", "Foot 3"), ("\tWait A", "Foot 2")):
+        put_on_clipboard(page, text)
+        page.keyboard.press("Control+v")
+        expect(page.locator("#toasts")).to_contain_text(f"{place}, segment 2: there is no segment “”")
     put_on_clipboard(page, "Wait A\tWait A\tWait A\tWait A\tWait A")
     page.keyboard.press("Control+v")
     expect(page.locator("#toasts")).to_contain_text("2 columns behind the last foot did not fit")
@@ -111,6 +115,17 @@ def test_numbers_and_the_link_are_typed(page: Page, studio: StudioProcess) -> No
     assert table(studio, gait)["repeat_to"] == 10
 
 
+def test_a_segment_before_the_links_first_is_the_links(page: Page, studio: StudioProcess) -> None:
+    gait = copy_of(studio, WALK, "Longer link")
+    before = table(studio, gait)
+    choose(page, "Longer link")
+    cell(page, "Link segment 1", 1).click()
+    page.keyboard.press("Alt+Insert")
+    wait_for(lambda: len(table(studio, gait)["link"][0]) == 2, "the link is longer")
+    assert table(studio, gait)["feet"] == before["feet"]
+    expect(undo_label(page)).to_have_text("insert before link segment 1")
+
+
 def test_segments_and_positions_of_ones_own(page: Page, studio: StudioProcess) -> None:
     gait = copy_of(studio, WALK, "Words")
     choose(page, "Words")
@@ -149,6 +164,23 @@ def test_segments_and_positions_of_ones_own(page: Page, studio: StudioProcess) -
     expect(height).to_have_value("6")
     words.get_by_role("button", name="Delete the segment Hover A").click()
     wait_for(lambda: "Hover A" not in table(studio, gait)["definitions"]["segments"], "deleted")
+
+
+def test_words_that_changed_while_one_types_are_there_afterwards(page: Page, studio: StudioProcess) -> None:
+    gait = copy_of(studio, WALK, "Two at it")
+    choose(page, "Two at it")
+    words = page.get_by_role("region", name="Vocabulary")
+    if not words.is_visible():
+        page.get_by_role("button", name="Vocabulary").click()
+    words.get_by_label("Name of the place Step").fill("Stepp")
+    changed = studio.document(gait)
+    changed["segment_table"]["definitions"]["z"]["Base"] = 0.006
+    assert studio.ask("PUT", f"/api/gaits/{gait}?label=Elsewhere", changed).status == 200
+    expect(undo_label(page)).to_have_text("elsewhere")
+    page.keyboard.press("Escape")
+    page.keyboard.press("Tab")
+    expect(words.get_by_label("Motor stroke of a centred foot at Base, mm")).to_have_value("6")
+    assert "Step" in table(studio, gait)["definitions"]["xy"]
 
 
 def test_a_drawing_goes_into_the_table_or_the_page_says_why_not(page: Page, studio: StudioProcess) -> None:

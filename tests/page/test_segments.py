@@ -165,6 +165,46 @@ def test_what_does_not_fit_yet_survives_a_reload_and_goes_when_the_table_changed
     expect(note(page)).to_be_hidden()
 
 
+def test_what_does_not_fit_yet_goes_with_its_table(page: Page, studio: StudioProcess) -> None:
+    gait = copy_of(studio, WALK, "No table")
+    choose(page, "No table")
+    cell(page, 4, 1).click()
+    page.keyboard.type("lift")
+    page.keyboard.press("Enter")
+    expect(note(page)).to_be_visible()
+    drawn = page.get_by_role("grid", name="Footfall timeline")
+    drawn.get_by_role("gridcell", name="foot 2, sample 21: swing", exact=True).click()
+    expect(page.locator("#toasts")).to_contain_text("“No table” that did not fit yet are dropped")
+    assert table(studio, gait) is None
+    page.get_by_role("button", name=re.compile("^Undo")).click()
+    expect(cell(page, 4, 1)).to_have_text("Wait A")
+
+
+def test_a_repair_leaves_alone_what_was_typed_also_where_rows_moved(
+    page: Page, studio: StudioProcess
+) -> None:
+    copy_of(studio, WALK, "Moved rows")
+    choose(page, "Moved rows")
+    cell(page, 4, 1).click()
+    page.keyboard.type("lift")
+    page.keyboard.press("Enter")
+    expect(note(page)).to_be_visible()
+    cell(page, 1, 1).click()
+    assert kept_after(page, "Insert") == [[0, 4]]
+    page.reload()
+    choose(page, "Moved rows")
+    expect(cell(page, 5, 1)).to_have_text("Lift A")
+    assert kept_after(page, "Control+z") == [[0, 3]]
+
+
+def kept_after(page: Page, key: str) -> list[list[int]]:
+    """The cells, foot and segment from 0, that repairs are to leave alone after a key."""
+    with page.expect_request("**/api/tables/repairs") as asked:
+        page.keyboard.press(key)
+    kept: list[list[int]] = (asked.value.post_data_json or {})["kept"]
+    return kept
+
+
 def test_message_and_numbers_stand_beside_the_table(page: Page, studio: StudioProcess) -> None:
     copy_of(studio, WALK, "Room")
     choose(page, "Room")

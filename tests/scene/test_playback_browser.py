@@ -96,3 +96,21 @@ def test_the_current_sample_is_the_last_one_not_after_the_playhead(
     page: Page, time: float, sample: int
 ) -> None:
     assert page.evaluate("time => overlay.sampleAt([0, 0.4, 0.8], time)", time) == sample
+
+
+def test_a_slow_way_that_is_closed_while_it_waits_is_not_opened_again(page: Page) -> None:
+    opened = """async () => {
+      const { ServerRoute } = await import("/static/preview/server_route.js");
+      const [{ WebSocket, setTimeout, clearTimeout }, sockets, waits] = [window, [], new Map()];
+      window.WebSocket = class { constructor() { sockets.push(this); } close() {} };
+      window.setTimeout = (callback) => { waits.set(waits.size + 1, callback); return waits.size; };
+      window.clearTimeout = (timer) => waits.delete(timer);
+      const route = new ServerRoute("deltawalker");
+      sockets[0].onclose();
+      if (CLOSED) route.close();
+      waits.forEach((callback) => callback());
+      Object.assign(window, { WebSocket, setTimeout, clearTimeout });
+      return sockets.length;
+    }"""
+    assert page.evaluate(opened.replace("CLOSED", "false")) == 2
+    assert page.evaluate(opened.replace("CLOSED", "true")) == 1

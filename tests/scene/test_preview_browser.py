@@ -192,6 +192,37 @@ def await_backdrop(page: Page, high: list[int], low: list[int]) -> None:
         page.wait_for_timeout(100)
 
 
+def test_reach_that_is_shown_again_is_of_the_present_height(page: Page) -> None:
+    times = walk().times
+    said = page.evaluate(
+        """async ({ samples, time }) => {
+          preview.setReach({
+            radii: Array(samples).fill([Array(6).fill(0.02)]), layers: [0], sole: 0,
+            azimuths: [0], radius: 0, colours: [[9, 9, 9]],
+            planes: Array.from({ length: samples }, (_, sample) => 0.05 + sample / 1000),
+          });
+          const { client } = preview;
+          const [push, heights] = [client.push.bind(client), []];
+          client.push = (messages, ...rest) => {
+            for (const { name, updates } of messages) {
+              if (name === "/robot/body/reach" && updates) heights.push(updates.points[2]);
+            }
+            return push(messages, ...rest);
+          };
+          for (const at of [0, time]) {
+            playback.setTime(at);
+            await preview.drawn();
+            preview.show("reach", true);
+            await preview.drawn();
+            preview.show("reach", false);
+          }
+          return heights;
+        }""",
+        {"samples": times.size, "time": float(times[11])},
+    )
+    np.testing.assert_allclose(sorted(set(said)), [-0.061, -0.05], atol=1e-6)
+
+
 def test_the_scene_comes_back_with_the_present_pose_after_a_lost_connection(
     page: Page, scenes: Scenes
 ) -> None:

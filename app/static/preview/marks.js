@@ -68,6 +68,8 @@ export class Marks {
   }
 
   show(part, visible) {
+    // What is hidden does not follow the playhead.
+    if (part === "reach" && visible && !this.#visible.reach) this.#sample = -1;
     this.#visible[part] = visible;
   }
 

@@ -182,6 +182,7 @@ export class Preview extends EventTarget {
   show(part, visible) {
     this.#marks.show(part, visible);
     if (this.#bodyNode) this.#client.push(this.#marks.visibleMessages());
+    if (part === "reach" && visible) this.#request();
   }
 
   setCaution(metres) {

@@ -7,6 +7,7 @@ export class ServerRoute {
   #socket = null;
   #waiting = true;
   #nodes = null;
+  #again = 0;
   #address;
 
   /** @param {string} robot whose scene it is */
@@ -27,6 +28,7 @@ export class ServerRoute {
   }
 
   close() {
+    clearTimeout(this.#again);
     this.#socket.onclose = null;
     this.#socket.close();
     this.#waiting = true;
@@ -40,7 +42,7 @@ export class ServerRoute {
     socket.onmessage = () => { this.#waiting = false; };
     socket.onclose = () => {
       this.#waiting = true;
-      setTimeout(() => this.#open(), 2000);
+      this.#again = setTimeout(() => this.#open(), 2000);
     };
   }
 }

@@ -22,6 +22,9 @@ from core.trials.track import FootTrack, filled_track
 MISSED = 2.5
 """Pictures that are farther apart than so many usual intervals have others missing between them."""
 
+MOST_FRAMES = 1_000_000
+"""Frames of a track, those that are put in included: four hours at 60 pictures a second, and a guard."""
+
 TELL_EVERY = 20
 """Pictures between two reports of progress."""
 
@@ -103,7 +106,7 @@ def track_of_pixels(times: Floats, pixels: Floats, setup: TrackingSetup, name: s
     """
     if len(times) < 2:
         raise InputError(f"{name} holds {len(times)} pictures; a track needs at least two.", name)
-    every, seen = _with_missing(times, pixels)
+    every, seen = _with_missing(times, pixels, name)
     feet = setup.places(seen)
     unseen = np.asarray(np.isnan(feet).any(axis=2))
     missing = np.asarray(unseen.all(axis=1))
@@ -122,10 +125,17 @@ def missing_remarks(found: VideoTrack) -> tuple[str, ...]:
     return (f"{what} missing or without any foot; the feet are filled by straight lines there and marked.",)
 
 
-def _with_missing(times: Floats, pixels: Floats) -> tuple[Floats, Floats]:
+def _with_missing(times: Floats, pixels: Floats, name: str) -> tuple[Floats, Floats]:
     gaps = np.diff(times)
     usual = float(np.median(gaps))
-    missing = np.where(gaps > MISSED * usual, np.rint(gaps / usual) - 1, 0).astype(np.int64)
+    missing = np.where(gaps > MISSED * usual, np.rint(gaps / usual) - 1, 0)
+    if (frames := len(times) + missing.sum()) > MOST_FRAMES:
+        raise InputError(
+            f"By its pictures' times {name} lasts {np.ptp(times) / 3600:.1f} h, {frames:.0f} frames; at "
+            f"most {MOST_FRAMES} are tracked. Save it again with a constant frame rate, or cut it.",
+            name,
+        )
+    missing = missing.astype(np.int64)
     places = np.concatenate([[0], np.cumsum(1 + missing)])
     every = np.interp(np.arange(places[-1] + 1), places, times)
     seen = np.full((len(every), *pixels.shape[1:]), math.nan)

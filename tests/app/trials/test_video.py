@@ -101,6 +101,11 @@ def test_pictures_of_a_film_whose_rate_varies_have_the_times_that_it_says(tmp_pa
     assert not found.missing.any()
 
 
+def test_a_film_whose_times_jump_by_days_is_refused() -> None:
+    with pytest.raises(InputError, match=r"walk\.mp4 lasts 11\.1 h, 1200001 frames; at most"):
+        track_of_pixels(np.array([0.0, 1 / 30, 2 / 30, 40_000.0]), np.zeros((4, 4, 2)), SETUP, "walk.mp4")
+
+
 def test_tracking_ends_when_it_is_told_to(video: Path) -> None:
     shares: list[float] = []
 

@@ -25,6 +25,8 @@ DEFAULT_INTERVAL = 0.4
 """Time between knots where no companion says otherwise, s."""
 FARTHEST = 10_000.0
 """Numbers beyond this are no m or m/s of a gait; a guard against a slip of the pen in a file."""
+RINGS = (4, 6, 12)
+"""Numbers of feet that a file may have without a companion; how many rows it has tells which."""
 STANDING_HEIGHT = 0.00025 + 1e-6
 """A foot at rest below this height stands, where no companion says: 0.25 mm and the checks' tolerance, m."""
 
@@ -134,18 +136,16 @@ def parse_trajectory_csv(text: str, name: str, companion_text: str | None = None
     header, table = _parse_table(text, name)
     first_line = 1 if header is None else 2
     companion, assumptions = _companion(companion_text, text, name)
-    legs = _leg_count(companion, name)
+    rows = table.shape[0]
+    legs = _leg_count(companion, rows, name)
     size = 3 + 3 * legs
-    if table.shape[0] not in (size, 2 * size):
-        raise InputError(
-            f"{name}: {table.shape[0]} rows of numbers from line {first_line} on; {legs} feet "
-            f"have {size} (positions) or {2 * size} (positions and velocities).",
-            name,
-        )
+    if rows not in (size, 2 * size):
+        possible = RINGS if companion is None else (legs,)
+        raise InputError(f"{name}: {rows} rows of numbers from line {first_line} on; {_wanted(possible)}.", name)
     if table.shape[1] < 2:
         raise InputError(f"{name}: one knot; a trajectory needs at least two columns.", name)
     try:
-        layout = CsvLayout(header, has_velocities=table.shape[0] == 2 * size)
+        layout = CsvLayout(header, has_velocities=rows == 2 * size)
         return _assemble(table, legs, companion, assumptions, layout)
     except (KeyError, TypeError, ValueError, OverflowError) as error:
         raise InputError(
@@ -153,8 +153,19 @@ def parse_trajectory_csv(text: str, name: str, companion_text: str | None = None
         ) from error
 
 
-def _leg_count(companion: dict[str, Any] | None, name: str) -> int:
-    legs = 4 if companion is None else companion.get("legs")
+def _wanted(possible: tuple[int, ...]) -> str:
+    """How many rows a file of so many feet has, in words."""
+    return "; ".join(
+        f"{legs} feet have {3 + 3 * legs} (positions) or {6 + 6 * legs} (positions and velocities)"
+        for legs in possible
+    )
+
+
+def _leg_count(companion: dict[str, Any] | None, rows: int, name: str) -> int:
+    """The companion's number of feet; without one that of the rows, and 4 where they fit no ring."""
+    if companion is None:
+        return next((legs for legs in RINGS if rows in (3 + 3 * legs, 6 + 6 * legs)), RINGS[0])
+    legs = companion.get("legs")
     if not isinstance(legs, int) or not 1 <= legs <= 100:
         raise InputError(f"The companion of {name} says {legs!r} legs; it must be a whole number.", name)
     return legs

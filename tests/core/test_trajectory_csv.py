@@ -44,6 +44,16 @@ def test_a_trajectory_with_its_companion_comes_back_to_the_last_bit(trajectory: 
         assert (before is None and after is None) or np.array_equal(before, after), name
 
 
+@given(trajectories(), st.booleans())
+def test_without_a_companion_the_number_of_rows_tells_how_many_feet_there_are(
+    trajectory: Trajectory, has_velocities: bool
+) -> None:
+    text = format_trajectory_csv(trajectory, CsvLayout("Column1", has_velocities))
+    read = parse_trajectory_csv(text, "t.csv")
+    assert np.array_equal(read.trajectory.feet_world, trajectory.feet_world)
+    assert format_trajectory_csv(read.trajectory, read.layout) == text
+
+
 def published_names() -> list[str]:
     folder = REFERENCE / "trajectories"
     return sorted(str(p.relative_to(REFERENCE)) for p in folder.rglob("*.csv")) or ["trajectories/absent.csv"]
@@ -121,6 +131,7 @@ ROW = "0.0,0.1,0.2"
     [
         ("", "holds no numbers"),
         ("\n".join([ROW] * 14), "14 rows of numbers"),
+        ("\n".join([ROW] * 41), r"41 rows .* 6 feet have 21 \(positions\) or 42 .*; 12 feet have 39"),
         ("\n".join([*[ROW] * 14, "0.0,0.1"]), "line 15: 2 numbers"),
         ("\n".join([*[ROW] * 14, "0.0,nan,0.2"]), "t.csv:15, column 2: nan is not a finite"),
         ("\n".join([*[ROW] * 14, "0.0,x,0.2"]), "t.csv:15, column 2: “x” is not a number"),

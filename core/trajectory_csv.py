@@ -141,7 +141,8 @@ def parse_trajectory_csv(text: str, name: str, companion_text: str | None = None
     size = 3 + 3 * legs
     if rows not in (size, 2 * size):
         possible = RINGS if companion is None else (legs,)
-        raise InputError(f"{name}: {rows} rows of numbers from line {first_line} on; {_wanted(possible)}.", name)
+        found = f"{rows} rows of numbers from line {first_line} on"
+        raise InputError(f"{name}: {found}; {_wanted(possible)}.", name)
     if table.shape[1] < 2:
         raise InputError(f"{name}: one knot; a trajectory needs at least two columns.", name)
     try:

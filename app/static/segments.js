@@ -57,7 +57,7 @@ export function mountSegments(store, edits) {
     panel.hidden = !panel.hidden;
     setAttribute(button, "aria-expanded", String(!panel.hidden));
     show(store.state);
-    if (!panel.hidden) panel.scrollIntoView({ block: "nearest" });
+    if (!panel.hidden) setTimeout(() => panel.scrollIntoView({ block: "nearest" })); // once it has been filled
   });
   panel.addEventListener("keydown", (event) => {
     const key = event.key.toLowerCase();
@@ -82,6 +82,7 @@ export function mountSegments(store, edits) {
     if (!sheet) {
       setText(title.lastChild, "");
       cells.forget();
+      input.escape();
       grid.hidden = true;
       return;
     }
@@ -91,7 +92,7 @@ export function mountSegments(store, edits) {
     const hadFocus = input.hasFocus();
     const isNew = cells.draw(sheet, view.roles ?? [], errorsOf(sheet));
     input.show();
-    if (isNew && hadFocus) input.focus();
+    if (isNew && (input.escape() || hadFocus)) input.focus();
     numbers.forEach((one) => one.show(document));
     if (!panel.hidden) drawWords(sheet);
   }

@@ -39,5 +39,5 @@ export function moved(document, from, to) {
 /** Lets a part run so often. */
 export function repeated(document, index, times) {
   const apply = withParts((parts) => parts.map((part, at) => (at === index ? { ...part, times } : part)));
-  return { apply, label: `${document.sequence[index].gait.name}: ${times}×` };
+  return { apply, label: `Run ${document.sequence[index].gait.name} ${times}×` };
 }

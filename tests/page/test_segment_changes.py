@@ -131,6 +131,7 @@ def test_segments_and_positions_of_ones_own(page: Page, studio: StudioProcess) -
     choose(page, "Words")
     page.get_by_role("button", name="Vocabulary").click()
     words = page.get_by_role("region", name="Vocabulary")
+    expect(words.get_by_label("Name of the height None")).to_be_in_viewport()
     words.get_by_role("button", name="Add a segment").click()
     expect(words.get_by_label("Name of the segment Segment 1")).to_be_focused()
     page.keyboard.type("Hover A")

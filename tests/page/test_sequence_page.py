@@ -79,7 +79,7 @@ def test_a_sequence_is_made_from_the_shown_gait_and_grows(page: Page, studio: St
     expect(rows(page)).to_have_count(1)
     page.get_by_label("Times of part 1").fill("3")
     page.get_by_label("Times of part 1").press("Enter")
-    expect(undo(page)).to_contain_text("rotate 15°: 3×", ignore_case=True)
+    expect(undo(page)).to_contain_text("run Rotate 15° 3×")
     page.get_by_label("Gait to add").select_option("walk")
     place = page.get_by_role("button", name="Add", exact=True).bounding_box()
     page.get_by_role("button", name="Add", exact=True).click()

@@ -17,8 +17,8 @@ function option(choice, index) {
  * @param {HTMLElement} cell
  * @param {object} sheet
  * @param {[number, number]} place row and foot of the cell
- * @param {{text: string, choose: (name: string, way: string|null) => void, close: () => void}} acts `text` is what was typed;
- *   `way` is "right" after Tab, "down" after Enter; `close` follows on every end
+ * @param {{text: string, choose: (name: string, way: string|null) => void, close: (isLeft: boolean) => void}} acts `text` is what was typed;
+ *   `way` is "right" after Tab, "down" after Enter; `close` follows on every end, and is told whether the focus went elsewhere
  */
 export function openChooser(cell, sheet, [row, foot], { text, choose, close }) {
   const list = h("ul", { role: "listbox", id: "segment-options", "aria-label": "Segments" });
@@ -34,11 +34,11 @@ export function openChooser(cell, sheet, [row, foot], { text, choose, close }) {
   let active = 0;
   let ended = false;
 
-  function end() {
+  function end(isLeft = false) {
     if (ended) return false;
     ended = true;
     element.remove();
-    close();
+    close(isLeft);
     return true;
   }
 
@@ -74,7 +74,7 @@ export function openChooser(cell, sheet, [row, foot], { text, choose, close }) {
     else return;
     event.preventDefault();
   });
-  input.addEventListener("blur", end);
+  input.addEventListener("blur", ({ relatedTarget }) => end(relatedTarget !== null));
   list.addEventListener("pointerdown", (event) => event.preventDefault());
   list.addEventListener("click", (event) => {
     const index = [...list.children].indexOf(event.target.closest("[role=option]"));
@@ -93,5 +93,5 @@ export function openChooser(cell, sheet, [row, foot], { text, choose, close }) {
   element.style.setProperty("--cell-width", `${box.width}px`);
   input.focus();
   if (!text) input.select();
-  return { close: end };
+  return { close: () => end() };
 }

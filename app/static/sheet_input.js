@@ -24,6 +24,7 @@ export function mountSheetInput(store, edits, grid, cells) {
   let own = null;
   let chooser = null;
   let dragging = false;
+  let pressed = false;
   const sheet = () => shownSheet(store.state);
   const range = () => ({ rows: ordered(anchor[0], head[0]), feet: ordered(anchor[1], head[1]) });
 
@@ -94,9 +95,9 @@ export function mountSheetInput(store, edits, grid, cells) {
         const to = next[way] ?? place;
         go([held(to[0], sheet().rows.length - 1), held(to[1], sheet().legs - 1)]);
       },
-      close() {
+      close(isLeft) {
         chooser = null;
-        takeFocus();
+        if (!isLeft) takeFocus();
       },
     });
   }
@@ -135,6 +136,7 @@ export function mountSheetInput(store, edits, grid, cells) {
 
   function begin(event) {
     if (event.button !== 0) return undefined;
+    pressed = cells.placeOf(event.target) !== null;
     const row = cells.rowOf(event.target);
     const place = cells.placeOf(event.target) ?? (row === null ? null : [row, 0]);
     if (!place) return undefined;
@@ -159,13 +161,17 @@ export function mountSheetInput(store, edits, grid, cells) {
   grid.addEventListener("pointerdown", begin);
   grid.addEventListener("pointermove", drag);
   for (const end of ["pointerup", "pointercancel"]) grid.addEventListener(end, () => { dragging = false; });
-  grid.addEventListener("dblclick", (event) => { if (cells.placeOf(event.target)) choose(""); });
+  // A double click comes from the grid, which holds the pointer.
+  grid.addEventListener("dblclick", () => { if (pressed) choose(""); });
   mountClipboard(grid, sheet, range, run, (filled) => {
     anchor = [filled.rows[0], filled.feet[0]];
     go([filled.rows[1], filled.feet[1]], true);
   });
 
-  store.watch(({ selected }) => [selected], () => { [anchor, head, own] = [[0, 0], [0, 0], null]; });
+  store.watch(({ selected }) => [selected], () => {
+    chooser?.close();
+    [anchor, head, own] = [[0, 0], [0, 0], null];
+  });
   store.watch((state) => [state.selection], ({ selection }) => {
     const now = sheet();
     if (!now || selection === own) return;

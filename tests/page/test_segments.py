@@ -165,6 +165,25 @@ def test_what_does_not_fit_yet_survives_a_reload_and_goes_when_the_table_changed
     expect(note(page)).to_be_hidden()
 
 
+def test_the_list_leaves_the_focus_where_the_pointer_takes_it_and_goes_with_its_table(
+    page: Page, studio: StudioProcess
+) -> None:
+    gait = copy_of(studio, WALK, "List left")
+    choose(page, "List left")
+    names = page.get_by_role("listbox", name="Segments", exact=True)
+    cell(page, 4, 1).dblclick()
+    expect(names).to_be_visible()
+    samples = page.get_by_role("spinbutton", name="Samples a segment")
+    samples.click()
+    expect(samples).to_be_focused()
+    expect(names).to_have_count(0)
+    cell(page, 4, 1).dblclick()
+    expect(names).to_be_visible()
+    drawn = {**studio.document(gait), "segment_table": None}
+    assert studio.ask("PUT", f"/api/gaits/{gait}?label=Elsewhere", drawn).status == 200
+    expect(names).to_have_count(0)
+
+
 def test_what_does_not_fit_yet_goes_with_its_table(page: Page, studio: StudioProcess) -> None:
     gait = copy_of(studio, WALK, "No table")
     choose(page, "No table")

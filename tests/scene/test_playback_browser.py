@@ -114,3 +114,23 @@ def test_a_slow_way_that_is_closed_while_it_waits_is_not_opened_again(page: Page
     }"""
     assert page.evaluate(opened.replace("CLOSED", "false")) == 2
     assert page.evaluate(opened.replace("CLOSED", "true")) == 1
+
+
+def test_rings_of_a_track_follow_a_plan_of_another_length(page: Page) -> None:
+    places = page.evaluate(
+        """async () => {
+          const { Tracks } = await import("/static/preview/tracks.js");
+          const middles = [];
+          const tell = (points) => middles.push((points[0] + points[60]) / 2);
+          const tracks = new Tracks({
+            node: () => ({}), updateMessage: () => ({}),
+            moveSegments: (_, points) => { tell(points); return []; },
+          });
+          const track = { feet: [[[0, 0], [1, 0]]], filled: [[false, false]], colours: ["#ff0000"] };
+          tracks.set([{ ...track, shares: [0, 1], playing: [0, 1] }]);
+          tracks.messages(0, 10, 0);
+          for (const duration of [10, 20, 20]) tracks.messages(2, duration, 0);
+          return middles;
+        }"""
+    )
+    assert places == pytest.approx([0.2, 0.1])

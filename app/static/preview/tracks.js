@@ -61,7 +61,7 @@ export class Tracks {
   #client;
   #tracks = [];
   #isNew = false;
-  #time = null;
+  #share = null;
   #points = new Float32Array(6);
   /** How often the marks were placed. */
   moves = 0;
@@ -81,7 +81,7 @@ export class Tracks {
   /** The client's scene is a new one: everything has to be said again. */
   forget() {
     this.#isNew = true;
-    this.#time = null;
+    this.#share = null;
   }
 
   get #feet() { return this.#tracks.flatMap((track) => track.feet.map((places, foot) => ({ track, places, filled: track.filled[foot], colour: rgb(track.colours[foot]) }))); }
@@ -93,10 +93,11 @@ export class Tracks {
    * @param {number} floor its height, m
    */
   messages(time, duration, floor) {
-    if (!this.#client.node(WAYS) || !this.#client.node(MARKS) || (!this.#isNew && (time === this.#time || !this.#tracks.length))) return [];
+    const share = duration > 0 ? time / duration : 0;
+    if (!this.#client.node(WAYS) || !this.#client.node(MARKS) || (!this.#isNew && (share === this.#share || !this.#tracks.length))) return [];
     const messages = this.#isNew ? this.#newMessages(floor + LIFT) : [];
-    this.#time = time;
-    if (this.#tracks.length) messages.push(...this.#markMessages(duration > 0 ? time / duration : 0, floor + LIFT));
+    this.#share = share;
+    if (this.#tracks.length) messages.push(...this.#markMessages(share, floor + LIFT));
     this.#isNew = false;
     return messages;
   }

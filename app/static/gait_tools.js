@@ -25,18 +25,38 @@ async function exportFile(store, form) {
 /** What the list or the shown view says of the selected gait: one that was just made is shown before it is listed. */
 const lineOf = ({ selected, gaits, view }) => gaits.find(({ id }) => id === selected) ?? (view?.id === selected ? view : null);
 
-async function remove(store, show) {
+function sayDeleted(sentence, id, show) {
+  const restore = attempt(async () => {
+    await api.restore(id);
+    await show(id);
+  });
+  toast(sentence, { action: { label: "Bring it back", act: restore } });
+}
+
+async function remove(store, show, deletedHere) {
   const { selected } = store.state;
   const { name } = lineOf(store.state);
-  await api.remove(selected);
-  const restore = attempt(async () => {
-    await api.restore(selected);
-    await show(selected);
-  });
-  toast(`${name} is deleted.`, { action: { label: "Bring it back", act: restore } });
+  deletedHere.add(selected);
+  try {
+    await api.remove(selected);
+  } catch (error) {
+    deletedHere.delete(selected);
+    throw error;
+  }
+  sayDeleted(`${name} is deleted.`, selected, show);
   if (store.state.selected !== selected) return;
   const next = store.state.gaits.find(({ id }) => id !== selected) ?? null;
   await show(store.state.gaits.some(({ id }) => id === selected) ? selected : next?.id);
+}
+
+/** Says so where somebody else has deleted the gait that this page showed; the list goes on to another one. */
+function watchDeleted(store, show, deletedHere) {
+  let last = null;
+  store.watch(({ gaits, selected }) => [gaits, selected], ({ gaits, selected }) => {
+    const gone = last && !gaits.some(({ id }) => id === last.id) ? last : null;
+    last = gaits.find(({ id }) => id === selected) ?? null;
+    if (gone && !deletedHere.delete(gone.id)) sayDeleted(`${gone.name} was deleted in another tab.`, gone.id, show);
+  });
 }
 
 async function duplicate(store, show) {
@@ -60,7 +80,9 @@ export async function makeGait(store, show, preset = {}) {
  */
 export function mountGaitTools(store, show) {
   const link = (text, title, act) => h("button", { class: "link", text, title, on: { click: attempt(() => act(store, show)) } });
-  const deletion = link("Delete", "Delete this saved gait; it can be brought back", remove);
+  const deletedHere = new Set();
+  const deletion = link("Delete", "Delete this saved gait; it can be brought back", () => remove(store, show, deletedHere));
+  watchDeleted(store, show, deletedHere);
   const news = actMenu({ name: "New", help: "A new gait, or one from a file", entries: [
     { text: "New gait…", help: "Robot, foot order, step and phase lengths", act: attempt(() => makeGait(store, show)) },
     { text: "Import…", help: "Read gaits, trajectories with their companions, waypoints or phase lists", act: () => importFiles(show) },

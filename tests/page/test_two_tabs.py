@@ -155,3 +155,20 @@ def test_a_tab_that_the_browser_copied_is_another_author(
     is_(ada, 2, 31, "swing")
     says(undo(copy), "Foot 2, sample 31")
     says(undo(ada), "Nothing to undo")
+
+
+def test_a_gait_that_was_deleted_in_another_tab_is_missed_and_can_be_brought_back(
+    context: BrowserContext, studio: StudioProcess, gait: str
+) -> None:
+    here, there = tab(context, studio, gait), tab(context, studio, gait)
+    paint(here, 1, 12)
+    is_(there, 1, 12, "swing")
+    there.get_by_role("button", name="Delete", exact=True).click()
+    expect(there.locator("#toasts")).to_contain_text("Shared is deleted.")
+    said = here.locator("#toasts")
+    expect(said).to_contain_text("Shared was deleted in another tab.")
+    expect(here.get_by_label("Gait name")).not_to_have_value("Shared")
+    said.get_by_role("button", name="Bring it back").click()
+    expect(here.get_by_label("Gait name")).to_have_value("Shared")
+    is_(here, 1, 12, "swing")
+    expect(there.locator("#toasts")).not_to_contain_text("in another tab")

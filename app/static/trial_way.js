@@ -40,16 +40,30 @@ function frameAt(share, ends) {
   return begin + (place - part) * (ends[part] - begin);
 }
 
-function handle({ part, end, frames, rate, toX, fromX, top, bottom, moved }) {
+/** The value at a place, straight between rising knots and on beyond them. */
+function between(knots, values, at) {
+  const beyond = knots.findIndex((knot) => knot >= at);
+  const after = beyond < 0 ? knots.length - 1 : Math.max(1, beyond);
+  const share = (at - knots[after - 1]) / (knots[after] - knots[after - 1]);
+  return values[after - 1] + share * (values[after] - values[after - 1]);
+}
+
+/** Seconds of a track's frames and back; pictures need not come evenly. */
+function clockOf({ frames, shares }, seconds) {
+  const times = shares.map((share) => share * seconds);
+  return { timeOf: (frame) => between(frames, times, frame), frameOf: (time) => between(times, frames, time) };
+}
+
+function handle({ part, end, frames, rate, clock, toX, fromX, top, bottom, moved }) {
   const line = svg("line", { y1: top, y2: bottom, x1: 0, x2: 0 });
   const grip = svg("rect", { x: -4, y: top - 4, width: 8, height: 12, rx: 2 });
   const reach = svg("rect", { class: "reach", x: -8, y: top - 4, width: 16, height: bottom - top + 8 });
   const group = svg("g", { class: "end-handle", "data-arrows": "", role: "slider", tabindex: "0", "aria-label": `End of iteration ${part + 1}`, "aria-valuemin": "1", "aria-valuemax": String(frames - 1) }, reach, line, grip);
   let [at, held] = [end, 0];
   const place = () => {
-    group.setAttribute("transform", `translate(${toX(at)} 0)`);
+    group.setAttribute("transform", `translate(${toX(clock.timeOf(at))} 0)`);
     group.setAttribute("aria-valuenow", String(at));
-    group.setAttribute("aria-valuetext", `${fixed(at / rate, 1)} s`);
+    group.setAttribute("aria-valuetext", `${fixed(clock.timeOf(at), 1)} s`);
   };
   const go = (frame) => { at = Math.min(frames - 1, Math.max(1, Math.round(frame))); place(); };
   group.addEventListener("pointerdown", (event) => {
@@ -57,9 +71,9 @@ function handle({ part, end, frames, rate, toX, fromX, top, bottom, moved }) {
     event.preventDefault();
     group.focus();
     group.toggleAttribute("data-held", true);
-    held = fromX(event.clientX) - at;
+    held = fromX(event.clientX) - clock.timeOf(at);
   });
-  group.addEventListener("pointermove", (event) => { if (group.hasPointerCapture(event.pointerId)) go(fromX(event.clientX) - held); });
+  group.addEventListener("pointermove", (event) => { if (group.hasPointerCapture(event.pointerId)) go(clock.frameOf(fromX(event.clientX) - held)); });
   group.addEventListener("lostpointercapture", () => group.toggleAttribute("data-held", false));
   group.addEventListener("pointerup", () => { if (at !== end) moved(part, at); });
   group.addEventListener("keydown", (event) => {
@@ -77,7 +91,7 @@ function handle({ part, end, frames, rate, toX, fromX, top, bottom, moved }) {
 /**
  * The feet's way over time, with a handle at the end of each iteration but the last, which is the track's.
  * @param {{tracked: object, planned: object|null, simulated: object|null}} sources ways of `GET …/paths` and `…/beside`
- * @param {{frames: number, frame_rate: number, parts: {end: number}[]}} trial
+ * @param {{frames: number, seconds: number, frame_rate: number, parts: {end: number}[]}} trial
  * @param {(part: number, frame: number) => void} moved
  */
 export function wayPlot(sources, trial, moved) {
@@ -90,11 +104,12 @@ export function wayPlot(sources, trial, moved) {
   }));
   const all = drawn.flatMap(({ ways }) => ways.flat());
   const range = all.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [0, 0.1]);
-  const words = { begin: "cm over time", end: `${fixed((trial.frames - 1) / trial.frame_rate, 0)} s` };
-  const { drawing, toX, toY, fromX } = wayFrame(range, trial.frames - 1, words);
+  const clock = clockOf(sources.tracked, trial.seconds);
+  const words = { begin: "cm over time", end: `${fixed(trial.seconds, 0)} s` };
+  const { drawing, toX, toY, fromX } = wayFrame(range, trial.seconds, words);
   drawing.append(
-    ...drawn.flatMap(({ kind, ways, frames }) => ways.map((way, index) => svg("polyline", { class: `way-${kind}`, "data-foot": index + 1, points: points(frames.map(toX), way.map(toY)) }))),
-    ...ends.slice(0, -1).map((end, part) => handle({ part, end, frames: trial.frames, rate: trial.frame_rate, toX, fromX, top: WAY.top, bottom: WAY.height - WAY.bottom, moved })));
+    ...drawn.flatMap(({ kind, ways, frames }) => ways.map((way, index) => svg("polyline", { class: `way-${kind}`, "data-foot": index + 1, points: points(frames.map((frame) => toX(clock.timeOf(frame))), way.map(toY)) }))),
+    ...ends.slice(0, -1).map((end, part) => handle({ part, end, frames: trial.frames, rate: trial.frame_rate, clock, toX, fromX, top: WAY.top, bottom: WAY.height - WAY.bottom, moved })));
   const help = ends.length > 1 ? "Way of each foot along the tracked direction; drag a mark, or use the arrow keys, to move the end of an iteration" : "Way of each foot along the tracked direction";
   return h("figure", { class: "trial-plot" }, drawing, h("figcaption", { class: "quiet" }, help, kinds.length > 1 && legend([...kinds].reverse())));
 }

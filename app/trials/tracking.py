@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from app.trials.footage import Footage
 from app.trials.recording_file import Recording
@@ -21,6 +22,9 @@ from core.trials.track import FootTrack, filled_track
 
 MISSED = 2.5
 """Pictures that are farther apart than so many usual intervals have others missing between them."""
+
+ABOUT = 9
+"""Intervals by whose median the usual one is told."""
 
 MOST_FRAMES = 1_000_000
 """Frames of a track, those that are put in included: four hours at 60 pictures a second, and a guard."""
@@ -125,9 +129,15 @@ def missing_remarks(found: VideoTrack) -> tuple[str, ...]:
     return (f"{what} missing or without any foot; the feet are filled by straight lines there and marked.",)
 
 
+def _usual_about(gaps: Floats) -> Floats:
+    """The usual interval about each one, since a camera may slow down for a while: (n - 1,) s of the same."""
+    around = np.pad(gaps, ABOUT // 2, mode="median")
+    return np.asarray(np.median(sliding_window_view(around, ABOUT), axis=1))
+
+
 def _with_missing(times: Floats, pixels: Floats, name: str) -> tuple[Floats, Floats]:
     gaps = np.diff(times)
-    usual = float(np.median(gaps))
+    usual = _usual_about(gaps)
     missing = np.where(gaps > MISSED * usual, np.rint(gaps / usual) - 1, 0)
     if (frames := len(times) + missing.sum()) > MOST_FRAMES:
         raise InputError(

@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, expect
+from playwright.sync_api import Browser, Route, expect
 
 from core.trials.track_csv import format_track_csv
 from tests.core.trials.tracks import stepping_track
@@ -79,6 +79,35 @@ def test_the_whole_line_of_an_iterations_end_is_dragged_and_lies_where_the_hand_
         expect(panel.get_by_role("button", name="Find them again")).to_be_visible()
         moved = int(end.get_attribute("aria-valuenow") or 0) - before
         assert abs(moved - 30 / frame["width"] * (trial["frames"] - 1)) <= 1.5
+
+
+def test_where_pictures_come_unevenly_the_ends_of_iterations_stand_at_their_times(
+    browser: Browser, studio: StudioProcess
+) -> None:
+    csv = format_track_csv(stepping_track((0.0085, 0.0085), 2))
+    body = {"name": "uneven", "csv": csv, "expected_cm": 2.0, "iterations": 2}
+    trial = studio.ask("POST", "/api/trials", body).content
+
+    def slower_and_slower(route: Route) -> None:
+        content = route.fetch().json()
+        content["track"]["shares"] = [share**2 for share in content["track"]["shares"]]
+        route.fulfill(json=content)
+
+    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
+        page.route("**/paths", slower_and_slower)
+        page.get_by_role("button", name="All trials").click()
+        panel = page.get_by_role("region", name="Trials")
+        panel.get_by_role("button", name=re.compile("^uneven")).click()
+        expect(panel.get_by_role("status", name="Physics")).to_contain_text("is not known of this trial")
+        end = panel.get_by_role("slider", name="End of iteration 1")
+        share = int(end.get_attribute("aria-valuenow") or 0) / (trial["frames"] - 1)
+        told = float((end.get_attribute("aria-valuetext") or "").removesuffix(" s"))
+        assert told == pytest.approx(share**2 * trial["seconds"], abs=0.11)
+        frame, reach = (panel.locator(f"svg.feet-ways .{part}").bounding_box() for part in ("grid", "reach"))
+        assert frame is not None
+        assert reach is not None
+        place = (reach["x"] + reach["width"] / 2 - frame["x"]) / frame["width"]
+        assert place == pytest.approx(share**2, abs=0.01)
 
 
 def test_a_trial_that_is_changed_elsewhere_is_followed_and_what_was_typed_stays(

@@ -93,10 +93,10 @@ def test_pictures_of_a_film_whose_rate_varies_have_the_times_that_it_says(tmp_pa
     write_video(even, TRACK.feet[:30], RATE, code="mp4v")
     usual = np.diff([time for time, _ in VideoFile(even).pictures()])
     np.testing.assert_allclose(usual, 1.0 / RATE, atol=1e-4)
-    path.write_bytes(retimed(even.read_bytes(), [1] * 10 + [2] * 20))
+    path.write_bytes(retimed(even.read_bytes(), [1] * 15 + [3] * 15))
     found = track_video(path, SETUP)
     assert found is not None
-    between = np.concatenate([np.ones(10), np.full(19, 2.0)]) / RATE
+    between = np.concatenate([np.ones(15), np.full(14, 3.0)]) / RATE
     np.testing.assert_allclose(np.diff(found.track.times), between, atol=1e-4)
     assert not found.missing.any()
 

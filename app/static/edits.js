@@ -2,7 +2,8 @@
  * Edits of the gait: applied on screen at once, sent one after the other, each a named undo entry on the server.
  *
  * An edit is a function from document to document, so that it can be put on top of what another tab did meanwhile.
- * A drawing that the server refuses stays on screen, marked, and goes along with the next edit.
+ * A drawing that the server refuses stays on screen, marked, and goes along with the next edit. Where the server does not
+ * answer, edits wait until it does.
  * Every act is of the gait that was shown when it was done: it reaches that one, also where another is shown by then.
  */
 
@@ -15,6 +16,9 @@ import { report, toast } from "./toasts.js";
 const STALE = 409;
 const REFUSED = 422;
 const MOST_TRIES = 8;
+const NO_ANSWER = 0;
+const RETRY_MS = 1000;
+const KEPT_HERE = "The studio does not answer. Edits stay on this page and are sent as soon as it does.";
 
 /** Sets cells of the timeline; locked cells keep their value. `cells` are [foot, sample], 0-based. */
 export function paintCells(document, cells, swing) {
@@ -40,6 +44,7 @@ export function createEdits(store) {
   let sending = null;
   let turn = Promise.resolve();
   let acts = 0;
+  let retry = 0;
 
   const isShown = (gait) => store.state.selected === gait;
 
@@ -63,6 +68,7 @@ export function createEdits(store) {
     store.set({ pending: others(pending), left: others(left), ...(isShown(batch[0].gait) ? more : {}) });
   }
 
+  /** Sends edits; false where the studio did not answer. */
   async function sendNext(batch) {
     const { gait, drawing } = batch.at(-1);
     try {
@@ -70,12 +76,15 @@ export function createEdits(store) {
       settle(batch, { refused: null, formError: null });
       acceptView(store, view);
     } catch (error) {
+      if (error.status === NO_ANSWER) return false;
       const isStanding = batch.every((edit) => store.state.pending.includes(edit));
-      if (isStanding && drawing && [REFUSED, STALE].includes(error.status)) return keep(batch, error.message);
-      settle(batch, { formError: drawing ? null : error.message });
-      if (drawing || !isShown(gait)) report(error);
+      if (isStanding && drawing && [REFUSED, STALE].includes(error.status)) keep(batch, error.message);
+      else {
+        settle(batch, { formError: drawing ? null : error.message });
+        if (drawing || !isShown(gait)) report(error);
+      }
     }
-    return undefined;
+    return true;
   }
 
   function keep(batch, sentence) {
@@ -91,7 +100,19 @@ export function createEdits(store) {
   }
 
   async function drain() {
-    for (let batch = nextBatch(); batch.length; batch = nextBatch()) await sendNext(batch);
+    for (let batch = nextBatch(); batch.length; batch = nextBatch()) {
+      if (!(await sendNext(batch))) {
+        sendLater();
+        return;
+      }
+    }
+    retry = 0;
+  }
+
+  function sendLater() {
+    if (!retry) report(new Error(KEPT_HERE));
+    clearTimeout(retry);
+    retry = setTimeout(flush, RETRY_MS);
   }
 
   /** Requests that change the gait reach the studio one at a time, in the order of the acts behind them. */
@@ -123,9 +144,16 @@ export function createEdits(store) {
     store.set({ pending: store.state.pending.filter((one) => !one.refused), refused: null });
   }
 
+  /** Takes back what the studio has not: refused drawings, or the last edit that waits for it. */
+  function dropUnsent() {
+    const { pending } = store.state;
+    if (pending.some(({ refused }) => refused)) dropRefused();
+    else store.set({ pending: pending.slice(0, -1) });
+  }
+
   async function passHistory(gait, verb) {
     if (verb === "undo" && isShown(gait) && undoDraft(store)) return undefined;
-    if (verb === "undo" && isShown(gait) && store.state.pending.length) return dropRefused();
+    if (verb === "undo" && isShown(gait) && store.state.pending.length) return dropUnsent();
     try {
       acceptView(store, await api.history(gait, verb));
     } catch (error) {
@@ -150,6 +178,12 @@ export function createEdits(store) {
     acceptView(store, await api.restoreVersion(gait, number));
   }
 
+  /** Resolves once the studio has what was done before, or does not answer. */
+  function settled() {
+    flush();
+    return inTurn(() => undefined);
+  }
+
   /** An act on the gait that is shown now, after what was done to it before. */
   function pass(act, ...values) {
     const { selected } = store.state;
@@ -164,6 +198,7 @@ export function createEdits(store) {
   return {
     edit,
     areUnsent,
+    settled,
     dropRefused,
     paint: (cells, swing) => edit((document) => paintCells(document, cells, swing), paintLabel(cells, swing), { drawing: true }),
     redraw: (body) => pass(passRedraw, body),

@@ -15,15 +15,17 @@ const FORMS = [
   ["html", "3D playback (HTML)"],
 ];
 
-async function exportFile(store, form) {
-  const { name, blob } = await api.exportFile(store.state.selected, form);
+async function exportFile(store, edits, form) {
+  const { selected } = store.state;
+  await edits.settled();
+  const { name, blob } = await api.exportFile(selected, form);
   const address = URL.createObjectURL(blob);
   h("a", { href: address, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(address), 1000);
 }
 
-/** What the list or the shown view says of the selected gait: one that was just made is shown before it is listed. */
-const lineOf = ({ selected, gaits, view }) => gaits.find(({ id }) => id === selected) ?? (view?.id === selected ? view : null);
+/** What the shown view or the list says of the selected gait: the view is the newer one. */
+const lineOf = ({ selected, gaits, view }) => (view?.id === selected ? view : gaits.find(({ id }) => id === selected) ?? null);
 
 function sayDeleted(sentence, id, show) {
   const restore = attempt(async () => {
@@ -59,8 +61,9 @@ function watchDeleted(store, show, deletedHere) {
   });
 }
 
-async function duplicate(store, show) {
+async function duplicate(store, show, edits) {
   const { selected } = store.state;
+  await edits.settled();
   const { name } = lineOf(store.state);
   const view = await api.copy(selected, freeName(store.state, `${name} copy`));
   await show(view.id);
@@ -75,11 +78,12 @@ export async function makeGait(store, show, preset = {}) {
 /**
  * Builds the buttons.
  * @param {object} store
+ * @param {object} edits what was done before is part of a copy and of a file
  * @param {(id: string) => Promise<void>} show shows a gait
  * @returns {{addNew: (entry: {text: string, help: string, act: () => void}) => void}} another entry of the menu New
  */
-export function mountGaitTools(store, show) {
-  const link = (text, title, act) => h("button", { class: "link", text, title, on: { click: attempt(() => act(store, show)) } });
+export function mountGaitTools(store, edits, show) {
+  const link = (text, title, act) => h("button", { class: "link", text, title, on: { click: attempt(() => act(store, show, edits)) } });
   const deletedHere = new Set();
   const deletion = link("Delete", "Delete this saved gait; it can be brought back", () => remove(store, show, deletedHere));
   watchDeleted(store, show, deletedHere);
@@ -88,7 +92,7 @@ export function mountGaitTools(store, show) {
     { text: "Import…", help: "Read gaits, trajectories with their companions, waypoints or phase lists", act: () => importFiles(show) },
     { text: "Deleted gaits…", help: "Bring back a gait that was deleted", act: attempt(() => bringBack(show)), refusal: noneDeleted },
   ] });
-  const exports = actMenu({ name: "Export", help: "Write this gait as a file", entries: FORMS.map(([form, text]) => ({ text, help: `Write this gait as ${text}`, act: attempt(() => exportFile(store, form)) })) });
+  const exports = actMenu({ name: "Export", help: "Write this gait as a file", entries: FORMS.map(([form, text]) => ({ text, help: `Write this gait as ${text}`, act: attempt(() => exportFile(store, edits, form)) })) });
   byId("gait-new").append(news.element);
   byId("gait-tools").append(link("Duplicate", "A copy of this gait under another name", duplicate), exports.element, deletion);
   store.watch((state) => [lineOf(state)?.kind], (state) => { deletion.hidden = lineOf(state)?.kind !== "saved"; });

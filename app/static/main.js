@@ -69,7 +69,7 @@ export function start(store) {
   store.watch(({ operator }) => [operator], ({ operator }) => nameAuthor(operator));
   mountTabs();
   mountTopbar(store, edits);
-  const gaitTools = mountGaitTools(store, (id) => selectGait(store, id));
+  const gaitTools = mountGaitTools(store, edits, (id) => selectGait(store, id));
   mountJobs(store);
   const { timeline, actions, zoom, tools } = mountEditor(store, edits, playback);
   mountTransport(store, playback, mountPlots(store), actions.loop);

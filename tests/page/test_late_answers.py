@@ -198,3 +198,36 @@ def test_a_gait_that_is_not_listed_yet_stays_when_the_line_opens_anew(
         )
         assert kept[0] == "amble"
         assert kept[1] != "amble"
+
+
+def test_edits_wait_while_the_studio_does_not_answer_and_undo_takes_back_the_last(
+    page: Page, studio: StudioProcess
+) -> None:
+    gait = made(studio, "Waiting")
+    choose(page, "Waiting")
+    to_studio = re.compile(f"/api/gaits/{gait}")
+    page.route(to_studio, lambda route: route.abort())
+    fill(page, "Stability margin", "1")
+    expect(page.get_by_text("Edits stay on this page and are sent as soon as it does.")).to_be_visible()
+    fill(page, "Clearance", "4")
+    fill(page, "Clearance", "5")
+    page.get_by_role("button", name="Undo", exact=True).first.click()
+    expect(page.get_by_role("spinbutton", name="Clearance", exact=True)).to_have_value("4")
+    expect(page.locator("#saved-state")).to_have_text("· saving the edit")
+    assert studio.document(gait)["options"]["margin"] == 0.004
+    page.unroute(to_studio)
+    expect(page.locator("#saved-state")).to_have_text("· edited, kept")
+    options = studio.document(gait)["options"]
+    assert (options["margin"], options["clearance"]) == (0.001, 0.004)
+
+
+def test_a_copy_has_what_was_done_before(page: Page, studio: StudioProcess) -> None:
+    gait = made(studio, "To be renamed")
+    choose(page, "To be renamed")
+    late = LateRequests(page, "PUT", f"/api/gaits/{gait}")
+    page.get_by_label("Gait name").fill("Renamed")
+    page.get_by_label("Gait name").press("Enter")
+    page.get_by_role("button", name="Duplicate").click()
+    wait_for(lambda: late.count == 1, "the name is on its way")
+    late.let_go()
+    expect(page.get_by_label("Gait name")).to_have_value("Renamed copy")

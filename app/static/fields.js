@@ -43,7 +43,7 @@ const isOutside = (value, { min, max }) => typeof value === "number" && (value <
 const unitOf = ({ unit }) => unit && ` ${unit}`;
 
 /** A page-wide act that the browser would take for its own undo of the text. */
-function historyAct({ key, ctrlKey, metaKey, shiftKey, altKey }, edits) {
+export function historyAct({ key, ctrlKey, metaKey, shiftKey, altKey }, edits) {
   if (!(ctrlKey || metaKey) || altKey) return null;
   const letter = key.toLowerCase();
   if (letter === "z") return shiftKey ? edits.redo : edits.undo;

@@ -3,6 +3,7 @@
 import { isDrawn } from "./drawing.js";
 import { choiceField, numberField, textField } from "./fields.js";
 import { heldFields } from "./held_fields.js";
+import { notesField } from "./notes_field.js";
 import { robotField } from "./robots.js";
 import { stepLength, stepTurn, withStepLength, withTurn, withWorldStep, worldStep } from "./step.js";
 
@@ -121,6 +122,6 @@ export function questions(store, edits, makeNew) {
     robot: robotField(edits, makeNew),
     order: orderField(store, edits),
     main: [...STEP.map(number), ...phaseFields(store, edits), ...LIMITS.map(number)],
-    more: [...SHARES.map(number), ...CHOICES.map(choice), ...MORE_NUMBERS.map(number), ...MORE_CHOICES.map(choice), ...heldFields(store, edits)],
+    more: [...SHARES.map(number), ...CHOICES.map(choice), ...MORE_NUMBERS.map(number), ...MORE_CHOICES.map(choice), ...heldFields(store, edits), notesField(store, edits)],
   };
 }

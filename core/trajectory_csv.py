@@ -25,6 +25,8 @@ DEFAULT_INTERVAL = 0.4
 """Time between knots where no companion says otherwise, s."""
 FARTHEST = 10_000.0
 """Numbers beyond this are no m or m/s of a gait; a guard against a slip of the pen in a file."""
+MOST_QUOTED = 40
+"""Letters of a file that a message repeats."""
 RINGS = (4, 6, 12)
 """Numbers of feet that a file may have without a companion; how many rows it has tells which."""
 STANDING_HEIGHT = 0.00025 + 1e-6
@@ -253,12 +255,21 @@ def _is_header(line: str) -> bool:
     return len(numbers) > 1 and numbers == list(range(line.rstrip(",").count(",") + 1))
 
 
+def _cut(field: str) -> str:
+    return field if len(field) <= MOST_QUOTED else f"{field[:MOST_QUOTED]}…"
+
+
+def _help(field: str) -> str:
+    return " Separate the numbers by commas." if set(field.strip()) & set("; \t") else ""
+
+
 def _number(field: str, where: str, column: int) -> float:
     try:
         # Python alone reads 1_000 as a number; a file with it is damaged.
         number = float(field.replace("_", "?"))
     except ValueError:
-        raise InputError(f"{where}, column {column}: “{field}” is not a number.", where) from None
+        sentence = f"{where}, column {column}: “{_cut(field)}” is not a number.{_help(field)}"
+        raise InputError(sentence, where) from None
     if not np.isfinite(number):
         raise InputError(f"{where}, column {column}: {field} is not a finite number.", where)
     if abs(number) > FARTHEST:

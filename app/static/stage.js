@@ -79,7 +79,9 @@ function mountLegend(store) {
 
 function followPlan(store, playback, preview) {
   let drawn = Promise.resolve();
+  let missed = null;
   const offer = lane(async ({ id, plan, since }) => {
+    missed = null;
     try {
       // Drawing without a GPU must not hold up the plots: they are painted first, and so is the pose before.
       const [poses] = await Promise.all([api.poses(id, plan.hash), painted(), drawn]);
@@ -90,9 +92,12 @@ function followPlan(store, playback, preview) {
       if (since !== null) drawn.then(() => measured("edit to 3D", since));
     } catch (error) {
       // A plan that has been replaced meanwhile is no longer wanted.
-      if (shownPlan(store.state) === plan) message(`The plan cannot be shown: ${error.message}`);
+      if (shownPlan(store.state) !== plan) return;
+      message(`The plan cannot be shown: ${error.message}`);
+      missed = { id, plan, since: null };
     }
   });
+  store.watch(({ connected }) => [connected], ({ connected }) => { if (connected && missed) offer(missed); });
   followHand(store, preview);
   store.watch((state) => [state.view?.id, shownPlan(state)?.hash, shownPlan(state)?.live?.lacks], (state) => {
     const plan = shownPlan(state);

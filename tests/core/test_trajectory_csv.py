@@ -136,6 +136,10 @@ ROW = "0.0,0.1,0.2"
         ("\n".join([*[ROW] * 14, "0.0,nan,0.2"]), "t.csv:15, column 2: nan is not a finite"),
         ("\n".join([*[ROW] * 14, "0.0,x,0.2"]), "t.csv:15, column 2: “x” is not a number"),
         ("\n".join([*[ROW] * 14, "0.0,1_0,0.2"]), "t.csv:15, column 2: “1_0” is not a number"),
+        (
+            f"{ROW}\n" + ";".join(["0.1234"] * 9),
+            "t.csv:2, column 1: “(0.1234;){5}0.123…” is not a number. Sep",
+        ),
         ("\n".join([*[ROW] * 7, "", *[ROW] * 8]), "t.csv:8, column 1: “” is not a number"),
         ("Column1,Column2\n1,2\n1,1e400", "t.csv:3, column 2: 1e400 is not a finite"),
         ("Column1,Column2\n1,2\n-1e300,1", "t.csv:3, column 1: -1e300 is no position or speed of a gait"),

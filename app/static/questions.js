@@ -38,6 +38,11 @@ const SHARES = [
   { label: "Step y", name: "Step y", help: "Its share along the scene's y axis", ...axis(1) },
 ];
 
+const SAMPLE_TIME = {
+  label: "Sample", name: "Sample time", unit: "s", min: 0.05, max: 5, step: 0.05, decimals: 3, help: "Time between two samples of the timeline: the same drawing, faster or slower",
+  read: ({ timeline }) => timeline.sample_time, write: (document, value) => ({ ...document, timeline: { ...document.timeline, sample_time: value } }),
+};
+
 const LIMITS = [
   { label: "Height", name: "Body height", unit: "mm", min: 53, max: 60.5, step: 0.5, decimals: 2,
     help: "Height of the motors' plane over the standing feet at the start", ...option("plane_height", 1000) },
@@ -58,6 +63,7 @@ const CHOICES = [
 
 const MORE_NUMBERS = [
   { label: "Iterations", name: "Iterations", unit: "", min: 1, max: 20, step: 1, decimals: 0, whole: true, help: "How often every foot steps", ...property("iterations") },
+  SAMPLE_TIME,
   { label: "Body", name: "Body speed", unit: "mm/s", min: 1, max: 60, step: 1, decimals: 1, help: "Largest speed of the body", ...option("body_speed", 1000) },
   { label: "Motors", name: "Motor speed", unit: "mm/s", min: 1, max: 60, step: 1, decimals: 1, empty: "free", fallback: 20,
     help: "Largest speed of a motor; empty for no limit", ...option("motor_speed", 1000) },
@@ -68,6 +74,9 @@ const MORE_NUMBERS = [
 ];
 
 const MORE_CHOICES = [
+  { label: "Orientation", name: "Orientation", options: [["FB", "FB"], ["FBS", "FBS"]],
+    help: "Which way the feet are seen. FB: front and back pairs, along the diagonal between x and y; FBS: front, sides and back, along x. Roles and Mirror follow; the step stays",
+    read: ({ orientation }) => orientation, write: (document, value) => ({ ...document, orientation: value }) },
   { label: "Direction", name: "Direction", options: [1, 2, 3, 4].map((value) => [value, String(value)]),
     help: "The gait turned by quarter turns: 1 as drawn", ...property("direction") },
   { label: "Ends", name: "Boundary", options: [["rest", "at rest"], ["periodic", "cycle"]],

@@ -31,26 +31,24 @@ def niceness_of(process: Callable[[], int | None], wanted: int) -> int:
         time.sleep(0.01)
 
 
-@pytest.mark.parametrize("service", [PatternSolver, LiveSolver])
-def test_what_answers_a_hand_stands_back_behind_the_bridge(service: type[PatternSolver | LiveSolver]) -> None:
+@pytest.mark.parametrize(
+    ("service", "wanted"),
+    [
+        (PatternSolver, NICENESS),
+        (LiveSolver, NICENESS),
+        (Simulator, BACKGROUND_NICENESS),
+        (TravelSimulator, BACKGROUND_NICENESS),
+    ],
+)
+def test_simulations_stand_back_behind_what_answers_a_hand_and_both_behind_the_bridge(
+    service: type[PatternSolver | LiveSolver | Simulator | TravelSimulator], wanted: int
+) -> None:
     solver = service()
     solver.start()
     try:
-        assert niceness_of(lambda: solver.process_id, NICENESS) == NICENESS
+        assert niceness_of(lambda: solver.process_id, wanted) == wanted
     finally:
         solver.close()
-
-
-@pytest.mark.parametrize("service", [Simulator, TravelSimulator])
-def test_simulations_stand_back_behind_what_answers_a_hand(
-    service: type[Simulator | TravelSimulator],
-) -> None:
-    simulator = service()
-    simulator.start()
-    try:
-        assert niceness_of(lambda: simulator.process_id, BACKGROUND_NICENESS) == BACKGROUND_NICENESS
-    finally:
-        simulator.close()
 
 
 def test_jobs_stand_back_behind_what_answers_a_hand() -> None:

@@ -154,7 +154,7 @@ class RunRecordings:
             with self._kept_whatever_comes(ended.run, ended.recording):
                 trial, remarks = self._trial(ended.run, ended.recording, ended.recorded)
                 self._keep(ended.recording, ended.recorded, trial, remarks)
-            self._cameras.tell()
+                self._cameras.tell()
 
     def _begin(self, run: str) -> None:
         row = self._log.get(run)

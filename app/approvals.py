@@ -10,7 +10,7 @@ from app.documents import parse_gait
 from app.open_gait import OpenGait, VerdictOf, approval_of
 from app.plans import Plan
 from app.store.gait_log import GaitLog
-from core.errors import FootfallError, InputError, StateError
+from core.errors import FootfallError, NotFoundError, StateError
 from core.findings import Approval, Verdict, approve
 from core.gait import Gait
 from core.gait_difference import DifferenceGroup, gait_difference
@@ -18,10 +18,6 @@ from core.waypoint_path import estimate_seconds
 from core.wire_timing import stop_time
 
 _UNITS = {"m": (1000.0, "mm"), "m/s": (1000.0, "mm/s"), "m/s²": (1000.0, "mm/s²")}
-
-
-class UnknownApprovalError(InputError):
-    """There is no approval of that number."""
 
 
 @dataclass(frozen=True)
@@ -134,11 +130,11 @@ class Approvals:
         """One approval.
 
         Raises:
-            UnknownApprovalError: there is none of that number.
+            NotFoundError: there is none of that number.
         """
         record = next((record for record in self.all(gait_id) if record.number == number), None)
         if record is None:
-            raise UnknownApprovalError(
+            raise NotFoundError(
                 f"“{gait_id}” has no approval {number}; look at its list of approvals.", "number"
             )
         return record

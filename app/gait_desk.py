@@ -88,7 +88,7 @@ class GaitDesk:
         """The gait's present state.
 
         Raises:
-            UnknownGaitError: there is none of that id.
+            NotFoundError: there is none of that id.
         """
         if gait_id not in self._open:
             self._open[gait_id] = self._shelf.gait(gait_id)
@@ -236,7 +236,7 @@ class GaitDesk:
         """Puts the document of a version on the desk again, as an edit that can be undone.
 
         Raises:
-            UnknownVersionError: there is none of that number.
+            NotFoundError: there is none of that number.
         """
         open_gait = self.open_gait(gait_id)
         gait = parse_gait(self.versions.get(gait_id, number).document, f"version {number}")

@@ -15,13 +15,9 @@ from app.history import History
 from app.open_gait import OpenGait, fresh_gait, gait_of
 from app.store.files import GaitFiles, free_id
 from app.store.gait_log import EditingRow, GaitLog, VersionRow
-from core.errors import InputError
+from core.errors import NotFoundError
 from core.gait import Gait
 from core.library import library
-
-
-class UnknownGaitError(InputError):
-    """There is no gait of that id."""
 
 
 class GaitShelf:
@@ -53,7 +49,7 @@ class GaitShelf:
         """A gait as it was put last.
 
         Raises:
-            UnknownGaitError: there is none of that id.
+            NotFoundError: there is none of that id.
         """
         saved, builtin, saved_at = self._saved(gait_id)
         row = self._log.editing(gait_id)
@@ -67,12 +63,12 @@ class GaitShelf:
     def _saved(self, gait_id: str) -> tuple[Gait, bool, float | None]:
         """The document as saved or built in, whether it is built in, and when it was saved."""
         if not self._files.is_id(gait_id):
-            raise UnknownGaitError(f"There is no gait “{gait_id}”.", gait_id)
+            raise NotFoundError(f"There is no gait “{gait_id}”.", gait_id)
         builtin, saved_at = library().get(gait_id), self._files.saved_at(gait_id)
         if saved_at is not None:
             return self._files.read(gait_id), builtin is not None, saved_at
         if builtin is None:
-            raise UnknownGaitError(f"There is no gait “{gait_id}”.", gait_id)
+            raise NotFoundError(f"There is no gait “{gait_id}”.", gait_id)
         return builtin.gait, True, None
 
     def put(

@@ -9,7 +9,7 @@ import time
 from typing import Any
 
 from app.store.database import Database
-from core.errors import InputError
+from core.errors import NotFoundError
 
 ENDED = frozenset({"done", "infeasible", "failed", "cancelled", "interrupted"})
 MOST_SHOWN = 20
@@ -17,10 +17,6 @@ MOST_SHOWN = 20
 
 AGAIN = {"simulate": "Simulate again.", "track": "Track the video again."}
 """What to do about a job that was interrupted, by kind."""
-
-
-class UnknownJobError(InputError):
-    """There is no job of that id."""
 
 
 class JobBook:
@@ -83,10 +79,10 @@ class JobBook:
         """A job as JSON content.
 
         Raises:
-            UnknownJobError: there is none of that id.
+            NotFoundError: there is none of that id.
         """
         if job_id not in self._contents:
-            raise UnknownJobError(f"There is no job “{job_id}”.", job_id)
+            raise NotFoundError(f"There is no job “{job_id}”.", job_id)
         found: dict[str, Any] = self._contents[job_id]
         return found
 

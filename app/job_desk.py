@@ -131,7 +131,7 @@ class JobDesk:
         """The motion at an iteration, to be looked at.
 
         Raises:
-            UnknownJobError: there is no such job.
+            NotFoundError: there is no such job.
             StateError: its iterations are no longer kept.
             InputError: it has no iteration of that number.
         """

@@ -8,14 +8,10 @@ from typing import Any
 from app.plans import Plan
 from app.simulations import report_from_content, simulation_key, simulation_problem
 from app.store.simulation_log import SimulationLog, SimulationRow
-from core.errors import InputError
+from core.errors import NotFoundError
 from core.physics.masses import default_physics
 from core.physics.parameters import PhysicsSet, physics_sets
 from core.simulation_check import Simulated
-
-
-class UnknownSimulationError(InputError):
-    """There is no such simulation."""
 
 
 class KeptSimulations:
@@ -49,11 +45,11 @@ class KeptSimulations:
         """A simulation for pages and scripts.
 
         Raises:
-            UnknownSimulationError: there is none, or it was long ago.
+            NotFoundError: there is none, or it was long ago.
         """
         content = self._log.content(key)
         if content is None:
-            raise UnknownSimulationError(
+            raise NotFoundError(
                 "There is no such simulation, or it is not kept any more. Simulate again.", key
             )
         return content

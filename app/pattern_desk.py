@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 from app.pattern_views import progress_content, result_content
-from core.errors import FootfallError, InputError
+from core.errors import FootfallError, NotFoundError
 from core.patterns.problem import (
     PatternProblem,
     PatternProgress,
@@ -39,10 +39,6 @@ TELL_SECONDS = 0.1
 """Between two reports of a search to its page."""
 LEAST_SECONDS = 0.05
 """What a length is given at least."""
-
-
-class UnknownSearchError(InputError):
-    """There is no search of that id."""
 
 
 class PatternHandle(Protocol):
@@ -162,11 +158,11 @@ class PatternDesk:
         """A search by its id.
 
         Raises:
-            UnknownSearchError: there is none, or it is long ago.
+            NotFoundError: there is none, or it is long ago.
         """
         with self._lock:
             if number not in self._searches:
-                raise UnknownSearchError(
+                raise NotFoundError(
                     f"There is no search {number}; the last {MOST_KEPT} are kept.", str(number)
                 )
             return self._searches[number]

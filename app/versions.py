@@ -15,7 +15,7 @@ from app.documents import motion_hash
 from app.history import Author
 from app.open_gait import OpenGait, gait_text
 from app.store.gait_log import GaitLog, VersionRow
-from core.errors import InputError
+from core.errors import InputError, NotFoundError
 from core.gait import Gait
 
 AUTOMATIC_SECONDS = 120.0
@@ -47,10 +47,6 @@ def is_said_already(gait: Gait, other: Gait) -> bool:
     return replace(gait, provenance=None) == replace(other, provenance=None)
 
 
-class UnknownVersionError(InputError):
-    """There is no version of that number."""
-
-
 class Versions:
     """The versions of every gait.
 
@@ -76,13 +72,11 @@ class Versions:
         """One version.
 
         Raises:
-            UnknownVersionError: there is none of that number.
+            NotFoundError: there is none of that number.
         """
         version = self._log.version(gait_id, number) if 0 < number <= LARGEST_NUMBER else None
         if version is None:
-            raise UnknownVersionError(
-                f"“{gait_id}” has no version {number}; look at its list of versions.", "n"
-            )
+            raise NotFoundError(f"“{gait_id}” has no version {number}; look at its list of versions.", "n")
         return version
 
     def due(self, open_gait: OpenGait) -> VersionRow | None:

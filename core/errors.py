@@ -21,6 +21,10 @@ class InputError(FootfallError):
     """Bad usage or bad input: a file, a field or an option that cannot be used."""
 
 
+class NotFoundError(InputError):
+    """What an id or a name asks for does not exist."""
+
+
 class InfeasibleError(FootfallError):
     """The robot cannot do what was asked."""
 

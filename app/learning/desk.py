@@ -16,7 +16,7 @@ from app.learning.sets import LearnedSet, LearnedSets
 from app.simulations import physics_from_content
 from app.store.database import Database
 from app.store.learning_log import LearningLog
-from core.errors import FootfallError, InputError, StateError
+from core.errors import FootfallError, NotFoundError, StateError
 from core.physics.parameters import PhysicsSet
 from core.trials.learning import POINTS, Walk, learn, require_gaits, simulation_count
 
@@ -29,10 +29,6 @@ MOST_SHOWN = 20
 """Courses in the page's list."""
 MOST_SET_NAME = 80
 """Characters of a set's name."""
-
-
-class UnknownLearningError(InputError):
-    """There is no such course of learning."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,14 +125,14 @@ class LearningDesk:
         """One course with its result.
 
         Raises:
-            UnknownLearningError: there is none.
+            NotFoundError: there is none.
         """
         now = self._now()
         if now is not None and now["id"] == learning:
             return now
         content = self._log.get(learning)
         if content is None:
-            raise UnknownLearningError(f"There is no course of learning {learning}.", "learning")
+            raise NotFoundError(f"There is no course of learning {learning}.", "learning")
         return content
 
     def cancel(self, learning: str) -> Content:

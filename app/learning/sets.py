@@ -9,14 +9,10 @@ from typing import Any
 from app.simulations import fitting_sets, physics_content, physics_from_content
 from app.store.database import Database
 from app.store.learning_log import LearningLog
-from core.errors import InputError
+from core.errors import InputError, NotFoundError
 from core.physics.masses import default_physics
 from core.physics.parameters import PhysicsSet, physics_sets
 from core.robot import RobotModel
-
-
-class UnknownSetError(InputError):
-    """There is no such set of parameters."""
 
 
 @dataclass(frozen=True)
@@ -125,7 +121,7 @@ class LearnedSets:
         """Takes a set out of the list; what was simulated with it counts as stale.
 
         Raises:
-            UnknownSetError: there is none.
+            NotFoundError: there is none.
         """
         self._put(name, version, time.time())
 
@@ -133,14 +129,14 @@ class LearnedSets:
         """Brings a deleted set back.
 
         Raises:
-            UnknownSetError: there is none.
+            NotFoundError: there is none.
         """
         self._put(name, version, None)
         return next(one for one in self.found() if (one.name, one.version) == (name, version))
 
     def _put(self, name: str, version: int, deleted: float | None) -> None:
         if not self._log.put_set_deleted(name, version, deleted):
-            raise UnknownSetError(f"There is no set “{name}”, version {version}.", "name")
+            raise NotFoundError(f"There is no set “{name}”, version {version}.", "name")
 
 
 def _set(content: dict[str, Any]) -> LearnedSet:

@@ -13,26 +13,20 @@ from fastapi import Depends, FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 
-from app.approvals import UnknownApprovalError
-from app.gait_shelf import UnknownGaitError
 from app.history import Author
-from app.job_book import UnknownJobError
-from app.kept_simulations import UnknownSimulationError
-from app.learning.desk import UnknownLearningError
-from app.learning.sets import UnknownSetError
 from app.open_gait import OpenGait
-from app.pattern_desk import UnknownSearchError
 from app.routes.body_limit import BodyTooLargeError, body_refusal
-from app.runs.record import UnknownRunError
 from app.studio import Studio
-from app.trials.camera_desk import UnknownCameraError
-from app.trials.desk import UnknownTrialError
-from app.trials.photos import UnknownPhotoError
-from app.trials.setup_desk import UnknownSetupError
-from app.trials.video_desk import UnknownVideoError
-from app.versions import UnknownVersionError
 from core.arrays import Floats
-from core.errors import CheckError, FootfallError, InfeasibleError, InputError, RobotError, StateError
+from core.errors import (
+    CheckError,
+    FootfallError,
+    InfeasibleError,
+    InputError,
+    NotFoundError,
+    RobotError,
+    StateError,
+)
 from core.robot import RobotModel
 
 Result = TypeVar("Result")
@@ -49,20 +43,7 @@ MOST_MOTORS = 36
 _PAGE = re.compile(r"[A-Za-z0-9-]{1,64}")
 
 _STATUS: tuple[tuple[type[FootfallError], int], ...] = (
-    (UnknownGaitError, 404),
-    (UnknownJobError, 404),
-    (UnknownVersionError, 404),
-    (UnknownApprovalError, 404),
-    (UnknownSearchError, 404),
-    (UnknownRunError, 404),
-    (UnknownSimulationError, 404),
-    (UnknownTrialError, 404),
-    (UnknownPhotoError, 404),
-    (UnknownLearningError, 404),
-    (UnknownSetError, 404),
-    (UnknownSetupError, 404),
-    (UnknownVideoError, 404),
-    (UnknownCameraError, 404),
+    (NotFoundError, 404),
     (StateError, 409),
     (CheckError, 409),
     (RobotError, 503),

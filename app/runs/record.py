@@ -11,14 +11,10 @@ from app.bridge.states import Direction
 from app.runs.plan_content import ran_plan
 from app.store.run_log import RunLog, RunRow
 from core.arrays import Floats
-from core.errors import InputError, StateError
+from core.errors import NotFoundError, StateError
 from core.run_analysis import move_begins, plan_times
 from core.run_pose import RanPlan, measured_motion
 from core.run_reading import RunBytes, RunSeries, read_run
-
-
-class UnknownRunError(InputError):
-    """There is no such run."""
 
 
 @dataclass(frozen=True)
@@ -91,7 +87,7 @@ def read_record(log: RunLog, run: str) -> RunRecord:
     """Reads a run.
 
     Raises:
-        UnknownRunError: there is none of that id.
+        NotFoundError: there is none of that id.
         StateError: it was kept without its plan, by an older program.
     """
     row = known_row(log, run)
@@ -118,9 +114,9 @@ def known_row(log: RunLog, run: str) -> RunRow:
     """A run as it is listed.
 
     Raises:
-        UnknownRunError: there is none of that id.
+        NotFoundError: there is none of that id.
     """
     row = log.get(run)
     if row is None:
-        raise UnknownRunError(f"There is no run “{run}”. It may be of another data folder.", run)
+        raise NotFoundError(f"There is no run “{run}”. It may be of another data folder.", run)
     return row

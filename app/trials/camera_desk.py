@@ -12,7 +12,7 @@ from app.store.setup_log import SetupLog
 from app.trials.camera_address import DEVICE, CameraAddress
 from app.trials.camera_link import CameraLink
 from app.trials.setup_desk import SetupDesk
-from core.errors import InputError
+from core.errors import InputError, NotFoundError
 
 DEVICES = Path("/sys/class/video4linux")
 """Where Linux lists cameras."""
@@ -24,10 +24,6 @@ UNDER, SIDE = "under", "side"
 """What a camera is for: tracking from under the platform, or looking only."""
 
 Content = dict[str, Any]
-
-
-class UnknownCameraError(InputError):
-    """There is no such camera."""
 
 
 class CameraDesk:
@@ -86,7 +82,7 @@ class CameraDesk:
         """Changes what a camera is for.
 
         Raises:
-            UnknownCameraError: there is none.
+            NotFoundError: there is none.
             InputError: it is to track and record without a complete setup.
         """
         view = self.view(camera)
@@ -114,7 +110,7 @@ class CameraDesk:
         """The next picture as a JPEG file.
 
         Raises:
-            UnknownCameraError: there is none.
+            NotFoundError: there is none.
             CameraError: it is unplugged.
         """
         return self._live(camera).picture(most, PICTURE_SECONDS)
@@ -127,7 +123,7 @@ class CameraDesk:
         """A camera's process, started where it does not go on.
 
         Raises:
-            UnknownCameraError: it is unplugged.
+            NotFoundError: it is unplugged.
         """
         return self._live(camera)
 
@@ -175,8 +171,8 @@ class CameraDesk:
             "recording": link is not None and link.is_open and link.is_recording,
         }
 
-    def _unknown(self, camera: str) -> UnknownCameraError:
-        return UnknownCameraError(f"There is no camera {camera}. Plug it in and look again.", "camera")
+    def _unknown(self, camera: str) -> NotFoundError:
+        return NotFoundError(f"There is no camera {camera}. Plug it in and look again.", "camera")
 
 
 def _state(link: CameraLink | None) -> tuple[str, str, list[int] | None, float | None]:

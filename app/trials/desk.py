@@ -18,7 +18,7 @@ from app.trials.planned import PlannedFeet
 from app.trials.record import ROBOT, TrialRecord, kept_track, told_ends, trial_record
 from app.trials.sight import Sight, astray_content, fit_content
 from core.arrays import Floats
-from core.errors import InputError, StateError
+from core.errors import InputError, NotFoundError, StateError
 from core.robot import load_robot
 from core.trials.alignment import align, placed_motion
 from core.trials.iterations import find_iterations
@@ -27,10 +27,6 @@ from core.trials.track_csv import format_track_csv
 
 MOST_PLACES = 600
 """Places of a foot's way in a plot."""
-
-
-class UnknownTrialError(InputError):
-    """There is no such trial."""
 
 
 @dataclass(frozen=True)
@@ -139,7 +135,7 @@ class TrialDesk:
             changes: what is another now.
 
         Raises:
-            UnknownTrialError: there is no such trial.
+            NotFoundError: there is no such trial.
             StateError: it is deleted, or somebody changed it meanwhile.
             InputError: the ends are no frames in order, or the iterations too many.
         """
@@ -203,7 +199,7 @@ class TrialDesk:
     def _known(self, trial: str) -> TrialRow:
         row = self._log.get(trial)
         if row is None:
-            raise UnknownTrialError(f"There is no trial {trial}.", "trial")
+            raise NotFoundError(f"There is no trial {trial}.", "trial")
         return row
 
 

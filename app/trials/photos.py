@@ -14,7 +14,7 @@ from app.store.photo_log import Content, PhotoLog
 from app.trials.desk import TrialDesk
 from app.trials.eyes import Eyes, seen
 from app.trials.picture_tasks import PhotoFiles, PhotoOf, Source
-from core.errors import InputError
+from core.errors import InputError, NotFoundError
 
 MOST_BYTES = 20_000_000
 """Bytes of a picture file as it comes."""
@@ -24,10 +24,6 @@ KEPT_WIDTH, SMALL_WIDTH = 1600, 240
 """Widest that a photo and its thumbnail are kept, px."""
 LOOK_SECONDS = 60.0
 """Longest wait for a picture that is made smaller."""
-
-
-class UnknownPhotoError(InputError):
-    """There is no such photo."""
 
 
 class TrialPhotos:
@@ -114,20 +110,18 @@ class TrialPhotos:
         """A photo as a JPEG file, or its thumbnail.
 
         Raises:
-            UnknownPhotoError: there is none, or its file is gone.
+            NotFoundError: there is none, or its file is gone.
         """
         self._known(trial, photo)
         try:
             return self._path(photo, is_small=is_small).read_bytes()
         except OSError as error:
-            raise UnknownPhotoError(
-                f"The file of photo {photo} is gone: {error.strerror}.", "photo"
-            ) from error
+            raise NotFoundError(f"The file of photo {photo} is gone: {error.strerror}.", "photo") from error
 
     def _known(self, trial: str, photo: str) -> dict[str, Any]:
         content = self._log.get(trial, photo)
         if content is None:
-            raise UnknownPhotoError(f"The trial {trial} has no photo {photo}.", "photo")
+            raise NotFoundError(f"The trial {trial} has no photo {photo}.", "photo")
         return content
 
     def _path(self, photo: str, *, is_small: bool = False) -> Path:

@@ -14,12 +14,8 @@ from app.finite import finite
 from app.store.database import Database
 from app.store.setup_log import SetupLog, SetupRow
 from app.trials.setup_models import SetupDocument
-from core.errors import InputError, StateError
+from core.errors import NotFoundError, StateError
 from core.trials.setup import CameraSetup
-
-
-class UnknownSetupError(InputError):
-    """There is no such setup."""
 
 
 class SetupDesk:
@@ -110,7 +106,7 @@ class SetupDesk:
         row = self._log.get(setup, revision)
         if row is None:
             which = "" if revision is None else f" of revision {revision}"
-            raise UnknownSetupError(f"There is no setup {setup}{which}.", "setup")
+            raise NotFoundError(f"There is no setup {setup}{which}.", "setup")
         return row
 
 

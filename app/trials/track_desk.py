@@ -80,7 +80,7 @@ class TrackDesk:
         """Starts tracking.
 
         Raises:
-            UnknownVideoError: there is no such video.
+            NotFoundError: there is no such video.
             InputError: the setup is not complete, or for pictures of another size.
             StateError: the video's file is gone.
         """

@@ -15,7 +15,7 @@ from app.trials.eyes import Eyes, Look, seen
 from app.trials.footage import PICTURES, Facts
 from app.trials.picture_tasks import FactsOf, PictureOf, Source
 from app.trials.video_files import MOST_RECORDED, Upload, VideoFiles
-from core.errors import FootfallError, InputError, StateError
+from core.errors import FootfallError, InputError, NotFoundError, StateError
 
 LOOK_SECONDS = 30.0
 """Longest wait for a picture."""
@@ -27,10 +27,6 @@ MOST_DELETED = 30 * 86_400.0
 """A deleted video can be restored for so long, s."""
 
 Content = dict[str, Any]
-
-
-class UnknownVideoError(InputError):
-    """There is no such video."""
 
 
 class VideoDesk:
@@ -254,7 +250,7 @@ class VideoDesk:
     def _known(self, video: str) -> Content:
         content = self._log.get(video)
         if content is None:
-            raise UnknownVideoError(f"There is no video {video}.", "video")
+            raise NotFoundError(f"There is no video {video}.", "video")
         return content
 
 

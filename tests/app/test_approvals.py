@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from app.approvals import UnknownApprovalError, Word, approval_difference
+from app.approvals import Word, approval_difference
 from app.gait_desk import GaitDesk
 from app.plans import Plan
 from app.simulations import simulation_problem
 from app.store.database import Database
 from app.store.files import GaitFiles
-from core.errors import InputError, StateError
+from core.errors import InputError, NotFoundError, StateError
 from core.physics.parameters import physics_set
 from core.physics.reporting import report
 from core.robot import RobotModel
@@ -130,6 +130,6 @@ def test_approvals_are_compared_in_sentences(opened: Opened) -> None:
     assert "simulated" not in " ".join(groups["What is sent"])
     unkept = approval_difference((None, documents[1]), sides[0], sides[1])
     assert "first release" in unkept[0].sentences[0]
-    with pytest.raises(UnknownApprovalError, match="has no approval 99"):
+    with pytest.raises(NotFoundError, match="has no approval 99"):
         desk.approvals.get(GAIT, 99)
-    assert issubclass(UnknownApprovalError, InputError)
+    assert issubclass(NotFoundError, InputError)

@@ -6,16 +6,15 @@ import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
-from app.gait_shelf import UnknownGaitError
 from app.routes.edge import install_error_handlers
-from core.errors import FootfallError, InputError, RobotError, StateError
+from core.errors import FootfallError, InputError, NotFoundError, RobotError, StateError
 
 
 @pytest.mark.parametrize(
     ("error", "status", "sentence"),
     [
         (InputError("Half \ud800 a character.", "na\udfffme"), 422, "Half \\ud800 a character."),
-        (UnknownGaitError("There is no gait “x”."), 404, "There is no gait “x”."),
+        (NotFoundError("There is no gait “x”."), 404, "There is no gait “x”."),
         (StateError("Not now."), 409, "Not now."),
         (RobotError("No answer."), 503, "No answer."),
     ],

@@ -12,13 +12,12 @@ from app.approvals import Word
 from app.documents import motion_hash
 from app.gait_desk import GaitDesk
 from app.gait_list import GaitList
-from app.gait_shelf import UnknownGaitError
 from app.live_desk import FAILED_SECONDS, LiveDesk
 from app.plans import PlanSource
 from app.store.database import Database
 from app.store.files import GaitFiles
 from app.trajectory_content import trajectory_content
-from core.errors import CheckError, InputError, StateError
+from core.errors import CheckError, InputError, NotFoundError, StateError
 from core.gait import Gait
 from core.library import library
 from solver_jobs import SolveStatus, solve_live
@@ -107,7 +106,7 @@ def test_a_deleted_gait_can_be_restored(desk: GaitDesk) -> None:
     assert created.id == "my-walk"
     assert desk.create(created.gait).id == "my-walk-2"
     desk.delete(created.id)
-    with pytest.raises(UnknownGaitError):
+    with pytest.raises(NotFoundError):
         desk.open_gait(created.id)
     assert desk.restore(created.id).gait == created.gait
     with pytest.raises(StateError, match="comes with the program"):

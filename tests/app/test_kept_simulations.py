@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.kept_simulations import KeptSimulations, UnknownSimulationError
+from app.kept_simulations import KeptSimulations
 from app.plans import Plan, make_plan
 from app.simulations import (
     physics_content,
@@ -20,7 +20,7 @@ from app.simulations import (
 from app.store.database import Database
 from app.store.simulation_log import MOST_KEPT, SimulationLog, SimulationRow
 from app.version import VERSION
-from core.errors import CheckError
+from core.errors import CheckError, NotFoundError
 from core.library import library
 from core.physics.parameters import PhysicsSet, physics_set, physics_sets
 from tests.simulated_walk import GAIT, no_solver, walk_plan, walk_report
@@ -113,7 +113,7 @@ def test_variations_stay_where_the_same_is_simulated_without_them(kept: KeptSimu
 
 
 def test_a_simulation_that_is_not_kept_is_named_with_the_remedy(kept: KeptSimulations) -> None:
-    with pytest.raises(UnknownSimulationError, match="Simulate again"):
+    with pytest.raises(NotFoundError, match="Simulate again"):
         kept.content("none")
 
 

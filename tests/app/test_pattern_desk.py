@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.pattern_desk import PatternDesk, PatternQuestion, UnknownSearchError, next_length
-from core.errors import InputError, StateError
+from app.pattern_desk import PatternDesk, PatternQuestion, next_length
+from core.errors import InputError, NotFoundError, StateError
 from core.patterns.problem import (
     Pattern,
     PatternKind,
@@ -282,5 +282,5 @@ def test_a_problem_that_cannot_be_posed_is_refused_at_once(told: list[tuple[str,
 
 
 def test_a_search_that_nobody_began_is_unknown(told: list[tuple[str, dict[str, Any]]]) -> None:
-    with pytest.raises(UnknownSearchError, match="no search 7"):
+    with pytest.raises(NotFoundError, match="no search 7"):
         desk_of(told, Tier()).search(7)

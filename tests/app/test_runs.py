@@ -19,10 +19,9 @@ from app.runs.csv_file import run_csv
 from app.runs.desk import RunDesk
 from app.runs.mcap_file import run_mcap
 from app.runs.motion import measured_trajectory
-from app.runs.record import UnknownRunError
 from app.store.database import Database
 from app.store.run_log import RunFilter, RunLog
-from core.errors import StateError
+from core.errors import NotFoundError, StateError
 from tests.ran_robot import STARTED, keep_run, ran
 from tests.studio_process import StudioProcess, wait_for
 
@@ -154,7 +153,7 @@ def test_a_run_without_its_plan_says_so_and_is_still_listed(desk: RunDesk, datab
     assert desk.found(EVERY, 0, 50)["runs"][0]["errors"] is None
     with pytest.raises(StateError, match="older program"):
         desk.strokes(run, 100)
-    with pytest.raises(UnknownRunError, match="no run “nope”"):
+    with pytest.raises(NotFoundError, match="no run “nope”"):
         desk.summary("nope")
 
 

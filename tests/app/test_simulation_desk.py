@@ -8,13 +8,13 @@ from dataclasses import dataclass
 
 import pytest
 
-from app.job_book import JobBook, UnknownJobError
+from app.job_book import JobBook
 from app.kept_simulations import KeptSimulations
 from app.open_gait import OpenGait, fresh_gait
 from app.simulation_desk import SimulationDesk
 from app.store.database import Database
 from app.store.simulation_log import SimulationLog
-from core.errors import StateError
+from core.errors import NotFoundError, StateError
 from core.library import library
 from core.physics.motion import SimulatedMotion
 from core.physics.parameters import physics_set
@@ -162,5 +162,5 @@ def test_after_a_restart_a_simulation_that_was_on_asks_to_simulate_again(
 
 
 def test_an_unknown_job_cannot_be_cancelled(desk: Desk) -> None:
-    with pytest.raises(UnknownJobError):
+    with pytest.raises(NotFoundError):
         desk.desk.cancel("none")

@@ -15,8 +15,8 @@ from app.live_desk import LiveDesk
 from app.store.database import Database
 from app.store.files import GaitFiles
 from app.store.gait_log import MOST_AUTOMATIC
-from app.versions import AUTOMATIC_EDITS, AUTOMATIC_SECONDS, MOST_NAME, UnknownVersionError, VersionKind
-from core.errors import InputError
+from app.versions import AUTOMATIC_EDITS, AUTOMATIC_SECONDS, MOST_NAME, VersionKind
+from core.errors import InputError, NotFoundError
 from core.library import library
 from solver_jobs import SolveStatus
 from tests.app.live_tiers import FixedTier
@@ -115,13 +115,13 @@ def test_going_back_is_an_edit_that_keeps_what_was_there(desk: GaitDesk) -> None
     assert desk.undo(WALK, ADA).gait == last
     assert desk.redo(WALK, ADA).gait == restored.gait
     assert desk.restore_version(WALK, 1) is desk.open_gait(WALK)
-    with pytest.raises(UnknownVersionError, match="no version 9"):
+    with pytest.raises(NotFoundError, match="no version 9"):
         desk.restore_version(WALK, 9)
 
 
 @pytest.mark.parametrize("number", [-1, 0, 2**63, 10**40])
 def test_a_number_that_no_version_can_have_is_unknown(desk: GaitDesk, number: int) -> None:
-    with pytest.raises(UnknownVersionError, match=f"no version {number};"):
+    with pytest.raises(NotFoundError, match=f"no version {number};"):
         desk.versions.get(WALK, number)
 
 

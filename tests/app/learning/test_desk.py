@@ -8,13 +8,12 @@ from typing import Any
 import pytest
 
 from app.kept_simulations import KeptSimulations
-from app.learning.desk import LearningDesk, UnknownLearningError
-from app.learning.sets import UnknownSetError
+from app.learning.desk import LearningDesk
 from app.simulations import simulation_key
 from app.store.database import Database
 from app.store.learning_log import LearningLog
 from app.store.simulation_log import SimulationLog
-from core.errors import InputError, StateError
+from core.errors import InputError, NotFoundError, StateError
 from core.physics.parameters import physics_set
 from core.robot import load_robot
 from tests.app.learning.made import POINTS, Tier, made_walks
@@ -147,7 +146,7 @@ def test_too_few_gaits_and_unknown_things_are_refused(desk: LearningDesk, learne
         desk.start(made_walks(2), USUAL, "Ada", "made")
     with pytest.raises(InputError, match="no name"):
         desk.save(learned, "  ", "Ada")
-    with pytest.raises(UnknownLearningError):
+    with pytest.raises(NotFoundError):
         desk.content("none")
-    with pytest.raises(UnknownSetError, match="no set “Lab floor”, version 7"):
+    with pytest.raises(NotFoundError, match="no set “Lab floor”, version 7"):
         desk.sets.delete("Lab floor", 7)

@@ -12,10 +12,10 @@ import pytest
 from app.store.database import Database
 from app.store.trial_beside import TrialBesideLog
 from app.trials.beside import TrialsBeside
-from app.trials.desk import TrialDesk, TrialWords, UnknownTrialError
+from app.trials.desk import TrialDesk, TrialWords
 from app.trials.planned import sent_problem
 from app.trials.simulated import NOT_KNOWN, TrialSimulations
-from core.errors import CheckError, InputError
+from core.errors import CheckError, InputError, NotFoundError
 from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
 from core.physics.variations import VariedRun
@@ -154,7 +154,7 @@ def test_what_was_sent_without_being_known_is_not_simulated(
     trial = desk.add(walked(), WORDS, walk_planned(knows_sent=False))["id"]
     assert beside.simulate(trial)["sentence"] == NOT_KNOWN
     assert tier.asked == 0
-    with pytest.raises(UnknownTrialError):
+    with pytest.raises(NotFoundError):
         beside.simulate("none")
 
 

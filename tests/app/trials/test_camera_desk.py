@@ -11,9 +11,9 @@ from app.store.database import Database
 from app.store.setup_log import SetupLog
 from app.trials import camera_desk
 from app.trials.camera_address import CameraAddress
-from app.trials.camera_desk import CameraDesk, UnknownCameraError
+from app.trials.camera_desk import CameraDesk
 from app.trials.setup_desk import SetupDesk
-from core.errors import InputError
+from core.errors import InputError, NotFoundError
 
 RECORDS = {"name": "Lab camera", "use": "side", "setup": "", "records": True}
 
@@ -41,7 +41,7 @@ def test_a_recording_camera_that_is_unplugged_is_missed(desk: CameraDesk, databa
     assert missed["state"] == "unplugged"
     assert "“Lab camera” is unplugged" in missed["sentence"]
     assert [view["id"] for view in desk.recording()] == ["video0"]
-    with pytest.raises(UnknownCameraError, match="Plug it in"):
+    with pytest.raises(NotFoundError, match="Plug it in"):
         desk.link("video0")
 
 

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from app.store.database import Database
-from app.trials.desk import TrialDesk, TrialWords, UnknownTrialError, compared
+from app.trials.desk import TrialDesk, TrialWords, compared
 from app.trials.planned import PlannedFeet
 from app.trials.tables import COLUMNS, table_csv, table_latex
-from core.errors import InputError, StateError
+from core.errors import InputError, NotFoundError, StateError
 from tests.core.trials.tracks import STANCE, stepping_track
 
 WORDS = TrialWords("first", "Ada", 3.0, 3, gait="walk", gait_name="Walk 10 mm")
@@ -108,7 +108,7 @@ def test_whoever_listens_is_told_of_each_trial_that_is_another_now(database: Dat
 
 
 def test_an_unknown_trial_is_refused(desk: TrialDesk) -> None:
-    with pytest.raises(UnknownTrialError, match="There is no trial"):
+    with pytest.raises(NotFoundError, match="There is no trial"):
         desk.summary("none")
 
 

@@ -10,10 +10,10 @@ from PIL import Image
 
 from app.store.database import Database
 from app.trials import photos as limits
-from app.trials.desk import TrialDesk, TrialWords, UnknownTrialError
+from app.trials.desk import TrialDesk, TrialWords
 from app.trials.eyes import Eyes
-from app.trials.photos import TrialPhotos, UnknownPhotoError
-from core.errors import InputError
+from app.trials.photos import TrialPhotos
+from core.errors import InputError, NotFoundError
 from tests.core.trials.test_picture_size import picture
 from tests.core.trials.tracks import stepping_track
 
@@ -91,12 +91,12 @@ def test_photos_of_other_trials_and_lost_files_are_not_found(
     photos: TrialPhotos, trial: str, tmp_path: Path
 ) -> None:
     photo = photos.add(trial, picture("PNG", (20, 10)), "tape", "")["id"]
-    with pytest.raises(UnknownTrialError):
+    with pytest.raises(NotFoundError):
         photos.photos("none")
-    with pytest.raises(UnknownPhotoError, match="has no photo none"):
+    with pytest.raises(NotFoundError, match="has no photo none"):
         photos.delete(trial, "none")
-    with pytest.raises(UnknownPhotoError, match="has no photo"):
+    with pytest.raises(NotFoundError, match="has no photo"):
         photos.picture("none", photo)
     (tmp_path / "trial-photos" / f"{photo}.jpg").unlink()
-    with pytest.raises(UnknownPhotoError, match="is gone"):
+    with pytest.raises(NotFoundError, match="is gone"):
         photos.picture(trial, photo)

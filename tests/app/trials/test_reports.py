@@ -17,13 +17,14 @@ from app.store.database import Database
 from app.store.trial_beside import TrialBesideLog
 from app.trials import beside as limits
 from app.trials.beside import TrialsBeside
-from app.trials.desk import TrialDesk, TrialWords, UnknownTrialError
+from app.trials.desk import TrialDesk, TrialWords
 from app.trials.eyes import Eyes
 from app.trials.photos import TrialPhotos
 from app.trials.report import TrialReports
 from app.trials.report_page import number
 from app.trials.report_plots import ways_from_above
 from app.trials.simulated import TrialSimulations
+from core.errors import NotFoundError
 from core.trials.track import FootTrack
 from solver_jobs import Simulator
 from tests.app.trials.walking import walk_planned, walked
@@ -134,7 +135,7 @@ def test_a_trial_without_plan_photos_or_note_has_a_shorter_report(
     report = whole(reports.trial(trial))
     assert "There is no run “gone”" in report.words
     assert not {"Photos", "Placement", "planned", "Waypoints"} & set(report.words.split())
-    with pytest.raises(UnknownTrialError):
+    with pytest.raises(NotFoundError):
         reports.trial("none")
 
 

@@ -15,7 +15,7 @@ from app.judgement import Judgement, judge
 from app.planned_part import PlannedPart
 from app.trajectory_content import content_sha256, trajectory_from_content
 from core.arrays import Floats
-from core.balance_check import balance_margins
+from core.balance import balance_margins
 from core.checked_plan import checked_plan
 from core.checks import check_plan
 from core.coupling_check import coupling_note

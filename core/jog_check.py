@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Floats
-from core.balance_check import BALANCE_RESERVE, STANDING_DEPTH, STROKE_BALANCE_SLACK
+from core.balance import STANDING_DEPTH
+from core.balance_check import BALANCE_RESERVE, STROKE_BALANCE_SLACK
 from core.findings import Finding, Severity, found
 from core.ground_check import CLEARANCE_LIMIT
 from core.jog import Axis, JogStep, jog_range, jog_strokes, jog_way, within_range

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cache
-from importlib import resources
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
+from core.data.tables import data_table
 from core.errors import InputError
 from core.gait import Gait, GaitOptions, Orientation, heading_step, with_return
 from core.patterns.library import LibraryPattern, library_pattern
@@ -68,11 +67,6 @@ class LibraryEntry:
     group: Group
     walks: bool = True
     """Whether a motion of it keeps every limit of its robot."""
-
-
-def data_table(name: str) -> dict[str, Any]:
-    """Content of a parameters file of this program, by the file's name."""
-    return tomllib.loads(resources.files("core.data").joinpath(name).read_text("utf-8"))
 
 
 @cache

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Bools, Floats
-from core.balance_check import STANDING_DEPTH
+from core.balance import STANDING_DEPTH
 from core.errors import InputError
 from core.ground_check import SLIP_LIMIT
 from core.leg import foot_from_strokes

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.scene.poses import PoseBlob, node_names, pose_frames
-from core.balance_check import pressure_points
+from core.balance import pressure_points
 from core.robot import RobotModel
 from core.support import stability_margins
 from core.trajectory import Trajectory

@@ -18,7 +18,7 @@ from itertools import combinations
 import numpy as np
 
 from core.arrays import Bools, Floats, stretches
-from core.balance_check import STANDING_DEPTH
+from core.balance import STANDING_DEPTH
 from core.errors import InputError
 from core.kinematics import BodyPose, walker_feet
 from core.robot import RobotModel

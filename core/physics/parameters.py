@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cache
 
+from core.data.tables import data_table
 from core.errors import InputError
-from core.library import data_table
 
 
 @dataclass(frozen=True)

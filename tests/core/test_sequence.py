@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.balance_check import balance_margins
+from core.balance import balance_margins
 from core.body_move import BodyPlace, MoveLimits, body_move
 from core.chain import Chain, Piece, chain
 from core.crossing import crossing

@@ -9,7 +9,7 @@ from app.documents import parse_gait
 from app.store.files import GaitFiles
 from app.store.gait_log import GaitLog
 from core.errors import FootfallError
-from core.library import library
+from core.library.library import library
 
 ROUTE = "deleted"
 """What the list is called among the addresses of gaits; no gait gets it as its id."""

@@ -6,10 +6,10 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from core.gait import GaitOptions, Orientation
-from core.motion_problem import Boundary, Cost, Workspace
-from core.recording import RecordingForm
-from core.turning import Turning
+from core.gait.gait import GaitOptions, Orientation
+from core.gait.recording import RecordingForm
+from core.motion.heading_profile import Turning
+from core.problem.motion_problem import Boundary, Cost, Workspace
 
 SCHEMA_DIALECT = "https://json-schema.org/draft/2020-12/schema"
 

@@ -22,14 +22,19 @@ from app.document_models import (
 )
 from app.migrations import VERSION, migrated
 from core.errors import InputError
-from core.gait import Gait, GaitOptions
-from core.held_feet import HeldFeet
-from core.provenance import Provenance
-from core.recording import Recording
-from core.robot import RobotModel, load_robot
-from core.segments import Segment, SegmentTable, SegmentVocabulary, require_heights
-from core.sequence_part import SequencePart
-from core.timeline import ContactTimeline, bits_from_rows, rows_from_bits
+from core.gait.gait import Gait, GaitOptions
+from core.gait.held_feet import HeldFeet
+from core.gait.provenance import Provenance
+from core.gait.recording import Recording
+from core.gait.sequence_part import SequencePart
+from core.motion.contact_timeline import ContactTimeline, bits_from_rows, rows_from_bits
+from core.robot.model import RobotModel, load_robot
+from core.segments.segment_table import (
+    Segment,
+    SegmentTable,
+    SegmentVocabulary,
+    require_heights,
+)
 
 FORMAT = "footfall-gait"
 MOST_BYTES = 2_000_000

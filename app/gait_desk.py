@@ -26,12 +26,12 @@ from app.store.files import GaitFiles
 from app.store.gait_log import GaitLog, VersionRow
 from app.undoing import merged_gait
 from app.versions import VersionKind, Versions, is_said_already
+from core.checks.simulation import Simulated
 from core.errors import StateError
 from core.findings import Verdict
-from core.gait import Gait, drawn_timeline
-from core.library import library
-from core.sequence import derived
-from core.simulation_check import Simulated
+from core.gait.gait import Gait, drawn_timeline
+from core.library.library import library
+from core.library.sequence import derived
 
 _SCRIPT = Author()
 

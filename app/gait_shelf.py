@@ -16,8 +16,8 @@ from app.open_gait import OpenGait, fresh_gait, gait_of
 from app.store.files import GaitFiles, free_id
 from app.store.gait_log import EditingRow, GaitLog, VersionRow
 from core.errors import NotFoundError
-from core.gait import Gait
-from core.library import library
+from core.gait.gait import Gait
+from core.library.library import library
 
 
 class GaitShelf:

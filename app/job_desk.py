@@ -19,11 +19,11 @@ from app.provenance import result_provenance
 from app.timings import timed_gait, timing_content, timing_problem
 from app.trajectory_content import trajectory_content
 from core.errors import InputError, StateError
-from core.gait import Gait, motion_problem
-from core.motion_problem import MotionProblem
-from core.provenance import Provenance
-from core.robot import load_robot
-from core.trajectory import Trajectory
+from core.gait.gait import Gait, motion_problem
+from core.gait.provenance import Provenance
+from core.motion.trajectory import Trajectory
+from core.problem.motion_problem import MotionProblem
+from core.robot.model import load_robot
 from solver_jobs import Job, JobKind, JobRunner, JobState, MotionResult, SolveStatus, TimingResult
 
 MOST_COURSES = 4

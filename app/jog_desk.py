@@ -17,13 +17,24 @@ from app.robot_view import allowed, jog_stop_seconds
 from core.arrays import Floats
 from core.errors import CheckError, InfeasibleError, StateError
 from core.findings import Finding
-from core.jog import Axis, JogPart, JogStep, jog_range, jog_strokes
-from core.jog_check import RANGE_RULE, JogAnswer, check_jog, feet_in_robot
-from core.real_motion import real_strokes
-from core.robot import RobotModel
-from core.trajectory import Trajectory
-from core.waypoint_path import move_seconds
-from core.wire_timing import ARRIVAL_THRESHOLD
+from core.jog.check import (
+    RANGE_RULE,
+    JogAnswer,
+    check_jog,
+    feet_in_robot,
+)
+from core.jog.steps import (
+    Axis,
+    JogPart,
+    JogStep,
+    jog_range,
+    jog_strokes,
+)
+from core.motion.trajectory import Trajectory
+from core.robot.coupled_strokes import real_strokes
+from core.robot.model import RobotModel
+from core.wire.timing import ARRIVAL_THRESHOLD
+from core.wire.waypoint_path import move_seconds
 
 STANDING_STROKE = 0.008
 """Every motor's stroke where steps begin on a robot that tells none, m."""

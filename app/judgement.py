@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.finite import finite
-from core.motion_check import MotionCheck, check_motion
-from core.motion_problem import MotionProblem
-from core.trajectory import Trajectory
+from core.motion.trajectory import Trajectory
+from core.problem.motion_check import MotionCheck, check_motion
+from core.problem.motion_problem import MotionProblem
 from solver_jobs import MotionResult, SolveStatus
 
 

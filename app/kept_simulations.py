@@ -8,10 +8,10 @@ from typing import Any
 from app.plans import Plan
 from app.simulations import report_from_content, simulation_key, simulation_problem
 from app.store.simulation_log import SimulationLog, SimulationRow
+from core.checks.simulation import Simulated
 from core.errors import NotFoundError
 from core.physics.masses import default_physics
 from core.physics.parameters import PhysicsSet, physics_sets
-from core.simulation_check import Simulated
 
 
 class KeptSimulations:

@@ -20,8 +20,8 @@ from app.sequence_plans import plan_of
 from app.settling import settled
 from app.views import plan_view
 from core.errors import StateError
-from core.gait import Gait
-from core.motion_problem import MotionProblem
+from core.gait.gait import Gait
+from core.problem.motion_problem import MotionProblem
 from solver_jobs import MotionResult, RemedySearch, SolveStatus
 
 FIRST_SECONDS = 40.0

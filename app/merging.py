@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Any, Final
 
-from core.gait_difference import OPTION_WORDS
-from core.sequence import DERIVED
+from core.gait.gait_difference import OPTION_WORDS
+from core.library.sequence import DERIVED
 
 Path = tuple[str | int, ...]
 """Keys and indices from the root of a document to a value in it."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Set
 from itertools import count
 
-from core.gait import MOST_NAME
+from core.gait.gait import MOST_NAME
 
 
 def free_name(name: str, taken: Set[str]) -> str:

@@ -13,7 +13,7 @@ from app.history import History, LogEntry, fresh_history
 from app.plans import Plan
 from core.errors import FootfallError
 from core.findings import Approval, Verdict
-from core.gait import Gait
+from core.gait.gait import Gait
 
 VerdictOf = Callable[[Plan, Gait], Verdict]
 """Checks a plan of a document as everything stands now, the physics included."""

@@ -25,7 +25,7 @@ from core.patterns.problem import (
     Relaxation,
     Rule,
 )
-from core.patterns.words import explanation, failing_samples, length_words
+from core.patterns.sentences import explanation, failing_samples, length_words
 
 _log = logging.getLogger(__name__)
 

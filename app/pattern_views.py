@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from core.motion.contact_timeline import rows_from_bits
 from core.patterns.problem import FREE, Pattern, PatternProblem, PatternProgress, PatternResult, Relaxation
-from core.timeline import rows_from_bits
 
 _FREE_MARK = "."
 

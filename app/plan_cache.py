@@ -9,7 +9,7 @@ from app.open_gait import OpenGait, VerdictOf
 from app.plans import Plan, Solve
 from app.sequence_plans import plan_of
 from app.store.database import Database
-from core.gait import Gait
+from core.gait.gait import Gait
 
 
 @dataclass(frozen=True, eq=False)

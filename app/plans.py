@@ -15,28 +15,33 @@ from app.judgement import Judgement, judge
 from app.planned_part import PlannedPart
 from app.trajectory_content import content_sha256, trajectory_from_content
 from core.arrays import Floats
-from core.balance import balance_margins
-from core.checked_plan import checked_plan
-from core.checks import check_plan
-from core.coupling_check import coupling_note
-from core.draft import initial_motion
+from core.checks.checked_plan import checked_plan
+from core.checks.coupling import coupling_note
+from core.checks.rules import check_plan
+from core.checks.simulation import Simulated
 from core.errors import CheckError, FootfallError, InputError
 from core.findings import Verdict
-from core.gait import Gait, GaitOptions, motion_problem, resting_poses
-from core.held_feet import HeldFeet, held_sentence
-from core.kinematics import UnreachableError, free_strokes
-from core.manual import manual_motion, stance_slip
-from core.motion_check import check_motion
-from core.motion_problem import MotionProblem, missing_support
-from core.path_merging import WaypointPlan, plan_waypoints
-from core.provenance import Provenance
-from core.recorded_motion import gait_trajectory
-from core.recording import Recording, RecordingForm
-from core.robot import RobotModel, load_robot
-from core.simulation_check import Simulated
-from core.support import stability_margins
-from core.trajectory import Trajectory
-from core.waypoints import Waypoints
+from core.gait.gait import (
+    Gait,
+    GaitOptions,
+    motion_problem,
+    resting_poses,
+)
+from core.gait.held_feet import HeldFeet, held_sentence
+from core.gait.manual_motion import manual_motion, stance_slip
+from core.gait.provenance import Provenance
+from core.gait.recording import Recording, RecordingForm
+from core.motion.balance import balance_margins
+from core.motion.support_polygon import stability_margins
+from core.motion.trajectory import Trajectory
+from core.problem.initial_guess import initial_motion
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import MotionProblem, missing_support
+from core.recorded.recorded_motion import gait_trajectory
+from core.robot.kinematics import UnreachableError, free_strokes
+from core.robot.model import RobotModel, load_robot
+from core.wire.waypoint_merging import WaypointPlan, plan_waypoints
+from core.wire.waypoints import Waypoints
 from solver_jobs import MotionResult, SolveStatus
 
 AS_PLANNED = GaitOptions(merge=0.0, stop_bound=None)

@@ -12,8 +12,8 @@ from app.documents import asked_hash
 from app.plans import Plan
 from app.trajectory_content import content_sha256
 from app.version import VERSION
-from core.gait import Gait
-from core.provenance import Provenance
+from core.gait.gait import Gait
+from core.gait.provenance import Provenance
 
 EXACT = "nlp"
 """The exact tier, as the command line calls it."""

@@ -10,9 +10,15 @@ import numpy as np
 from app.bridge.motors import TRAVEL_MM
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunProgress
 from core.arrays import Floats
-from core.waypoints import Waypoints
-from core.wire import RESET_MM
-from core.wire_timing import ARRIVAL_THRESHOLD, LONGEST_SCAN, OVERRUN, ramp_time, stop_time
+from core.wire.messages import RESET_MM
+from core.wire.timing import (
+    ARRIVAL_THRESHOLD,
+    LONGEST_SCAN,
+    OVERRUN,
+    ramp_time,
+    stop_time,
+)
+from core.wire.waypoints import Waypoints
 
 EMULATOR = "emulator"
 """Name of the studio's own emulated robot among devices."""

@@ -12,10 +12,10 @@ from app.bridge.states import RobotSnapshot
 from app.plans import Plan
 from app.robot_view import stop_seconds
 from core.errors import StateError
-from core.path_merging import WaypointPlan
-from core.waypoint_path import estimate_seconds
-from core.waypoints import Waypoints
-from core.wire_timing import largest_moves, longest_start_move, stop_time
+from core.wire.timing import largest_moves, longest_start_move, stop_time
+from core.wire.waypoint_merging import WaypointPlan
+from core.wire.waypoint_path import estimate_seconds
+from core.wire.waypoints import Waypoints
 
 
 def run_summary(plan: Plan, course: Course, snapshot: RobotSnapshot, reason: str | None) -> dict[str, Any]:

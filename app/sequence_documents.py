@@ -8,9 +8,9 @@ from enum import StrEnum
 
 from app.documents import motion_hash, require_size
 from core.errors import FootfallError, InputError
-from core.gait import Gait
-from core.sequence import DERIVED, derived, sequence_gait
-from core.sequence_part import SequencePart
+from core.gait.gait import Gait
+from core.gait.sequence_part import SequencePart
+from core.library.sequence import DERIVED, derived, sequence_gait
 
 GaitOf = Callable[[str], Gait]
 """The gait of an id as it is now; raises where there is none."""

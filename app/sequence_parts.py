@@ -11,8 +11,8 @@ import numpy as np
 
 from app.planned_part import PlannedPart
 from app.plans import Plan
-from core.chain import Chain, Span
-from core.gait import Gait
+from core.gait.chain import Chain, Span
+from core.gait.gait import Gait
 
 _MOVE = "The body moves over its standing feet to where the next part begins."
 _STEPS = "Feet step to where the next part begins, and the body with them; solved by the live tier."

@@ -14,17 +14,22 @@ from app.documents import motion_hash, sent_hash
 from app.judgement import judge
 from app.plans import Plan, PlanSource, Solve, make_plan, with_waypoints
 from app.sequence_parts import placed_parts, unplaced_parts
-from core.chain import Chain, Piece
-from core.crossing import straight
-from core.draft import initial_motion
 from core.errors import CheckError, FootfallError, InfeasibleError, InputError
-from core.gait import Gait, motion_problem
-from core.manual import stance_slip
-from core.motion_problem import MotionProblem
-from core.placing import SAME_PLACE
-from core.robot import load_robot
-from core.sequence import chain_runs, part_name, require_own, run_of
-from core.trajectory import Trajectory
+from core.gait.chain import Chain, Piece
+from core.gait.gait import Gait, motion_problem
+from core.gait.manual_motion import stance_slip
+from core.gait.transition import straight
+from core.library.sequence import (
+    chain_runs,
+    part_name,
+    require_own,
+    run_of,
+)
+from core.motion.trajectory import Trajectory
+from core.problem.initial_guess import initial_motion
+from core.problem.motion_problem import MotionProblem
+from core.problem.start_footholds import SAME_PLACE
+from core.robot.model import load_robot
 from solver_jobs import SolveStatus
 
 ResultFor = Callable[[str], dict[str, Any] | None]

@@ -11,11 +11,11 @@ from app.settling_held import settle_held
 from app.settling_results import settle_results
 from core.arrays import Bools
 from core.errors import StateError
-from core.gait import Gait, with_iterations
-from core.held_feet import HeldFeet
-from core.held_rules import require_swinging
-from core.table_carrying import carried
-from core.timeline import ContactTimeline
+from core.gait.gait import Gait, with_iterations
+from core.gait.held_feet import HeldFeet
+from core.gait.held_rules import require_swinging
+from core.motion.contact_timeline import ContactTimeline
+from core.segments.from_timeline_edit import carried
 
 
 def settled(before: Gait, after: Gait) -> tuple[Gait, str | None]:

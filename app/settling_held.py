@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from core.gait import Gait
-from core.held_feet import HeldFeet, feet_words
-from core.held_rules import require_swinging, standing_of
+from core.gait.gait import Gait
+from core.gait.held_feet import HeldFeet, feet_words
+from core.gait.held_rules import require_swinging, standing_of
 
 
 def settle_held(gait: Gait, notice: str | None, *, is_said: bool) -> tuple[Gait, str | None]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from app.documents import asked_hash
-from core.gait import Gait
+from core.gait.gait import Gait
 
 SET_ASIDE = "The recorded motion of {file} was set aside; the motion is computed now. Undo brings it back."
 

@@ -9,14 +9,19 @@ import numpy as np
 
 from app.finite import finite
 from core.arrays import Floats
+from core.motion.support_polygon import stability_margins
 from core.physics.findings import SWING_LIMIT, TILT_LIMIT
+from core.physics.metrics import (
+    bearing,
+    carrying,
+    rotations,
+    soles,
+)
 from core.physics.motion import SimulatedMotion
 from core.physics.plan_axis import plan_times
 from core.physics.problem import SimulationProblem
 from core.physics.report import SimulationReport
-from core.physics.reporting import bearing, carrying, rotations, soles
 from core.physics.variations import VariedRun
-from core.support import stability_margins
 
 SHOWN_A_SECOND = 20.0
 """Samples a simulated second that are kept and shown; arrivals come on top."""

@@ -33,10 +33,10 @@ from app.version import VERSION
 from core.errors import FootfallError, StateError
 from core.physics.findings import physics_outcomes
 from core.physics.masses import part_masses
+from core.physics.metrics import report
 from core.physics.motion import SimulatedMotion
 from core.physics.parameters import PhysicsSet
 from core.physics.problem import SimulationProblem
-from core.physics.reporting import report
 from core.physics.variations import VariedRun
 
 _log = logging.getLogger(__name__)

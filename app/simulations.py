@@ -13,13 +13,13 @@ from app.finite import finite
 from app.plans import Plan
 from app.version import VERSION
 from core.errors import CheckError, InputError
-from core.path_merging import WaypointPlan
+from core.motion.trajectory import Trajectory
 from core.physics.masses import default_physics, part_masses
 from core.physics.parameters import PhysicsSet, physics_sets
 from core.physics.problem import Rig, SimulationProblem
 from core.physics.report import SimulationReport
-from core.robot import RobotModel
-from core.trajectory import Trajectory
+from core.robot.model import RobotModel
+from core.wire.waypoint_merging import WaypointPlan
 
 FORM = 2
 """Of what is kept of a simulation; grows with a change of the physics or its report between versions."""

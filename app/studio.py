@@ -49,10 +49,10 @@ from app.trials.track_desk import TrackOrder
 from app.version import VERSION
 from app.views import gait_view, steps_view
 from core.errors import FootfallError, StateError
-from core.gait import Gait, motion_problem
-from core.library import library
-from core.motion_problem import MotionProblem
-from core.robot import load_robot
+from core.gait.gait import Gait, motion_problem
+from core.library.library import library
+from core.problem.motion_problem import MotionProblem
+from core.robot.model import load_robot
 from solver_jobs import Job, JobKind, JobRunner, LiveSolver, PatternSolver, Simulator, TravelSimulator
 
 _SCRIPT = Author()

@@ -8,9 +8,9 @@ from typing import Any
 from app.documents import gait_content
 from app.finite import finite
 from core.errors import StateError
-from core.gait import Gait
-from core.motion_check import check_motion
-from core.motion_problem import MotionProblem
+from core.gait.gait import Gait
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import MotionProblem
 from solver_jobs import SolveStatus, TimingResult
 
 

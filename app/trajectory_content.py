@@ -6,7 +6,7 @@ import hashlib
 import json
 from typing import Any
 
-from core.trajectory import Trajectory
+from core.motion.trajectory import Trajectory
 
 _FIELDS = (
     "times",

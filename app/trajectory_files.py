@@ -6,10 +6,15 @@ from pathlib import Path
 
 from app.store.files import write_atomically
 from core.errors import InputError
-from core.motion_npz import MotionFile, parse_npz
-from core.trajectory import Trajectory
-from core.trajectory_csv import TrajectoryFile, format_companion, format_trajectory_csv, parse_trajectory_csv
-from core.waypoints import Waypoints, format_waypoint_csv, parse_waypoint_csv
+from core.motion.trajectory import Trajectory
+from core.motion.trajectory_npz import MotionFile, parse_npz
+from core.wire.trajectory_csv import (
+    TrajectoryFile,
+    format_companion,
+    format_trajectory_csv,
+    parse_trajectory_csv,
+)
+from core.wire.waypoints import Waypoints, format_waypoint_csv, parse_waypoint_csv
 
 LOWEST_BODY = 0.005
 """A centre of mass is never lower all the time, m."""

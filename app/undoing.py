@@ -9,10 +9,10 @@ from app.history import Step
 from app.settling import require_locks, settled
 from app.settling_results import asks_anew
 from core.errors import FootfallError, StateError
-from core.gait import Gait
-from core.recorded_motion import gait_trajectory
-from core.robot import load_robot
-from core.sequence import derived
+from core.gait.gait import Gait
+from core.library.sequence import derived
+from core.recorded.recorded_motion import gait_trajectory
+from core.robot.model import load_robot
 
 
 def merged_gait(present: Gait, step: Step) -> Gait:

@@ -16,7 +16,7 @@ from app.history import Author
 from app.open_gait import OpenGait, gait_text
 from app.store.gait_log import GaitLog, VersionRow
 from core.errors import InputError, NotFoundError
-from core.gait import Gait
+from core.gait.gait import Gait
 
 AUTOMATIC_SECONDS = 120.0
 """An edit comes, and the newest version is older than this: one is made."""

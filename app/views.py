@@ -17,19 +17,19 @@ from app.plans import Plan
 from app.provenance import provenance_view
 from app.reach_rings import reach_rings
 from core.arrays import Floats
-from core.coupling_check import real_heights
+from core.checks.coupling import real_heights
 from core.findings import Approval, Verdict
-from core.gait import Gait
-from core.library import library
-from core.making import making
-from core.mirroring import mirror_of
-from core.motion_problem import MotionLimits
-from core.path_merging import WaypointPlan
-from core.robot import RobotModel, load_robot
-from core.speeds import foot_speeds, motor_speeds
-from core.trajectory import Trajectory
-from core.waypoint_path import estimate_seconds
-from core.wire_timing import stop_time
+from core.gait.gait import Gait
+from core.gait.mirroring import mirror_of
+from core.gait.motion_source import making
+from core.library.library import library
+from core.motion.speeds import foot_speeds, motor_speeds
+from core.motion.trajectory import Trajectory
+from core.problem.motion_problem import MotionLimits
+from core.robot.model import RobotModel, load_robot
+from core.wire.timing import stop_time
+from core.wire.waypoint_merging import WaypointPlan
+from core.wire.waypoint_path import estimate_seconds
 
 
 def line_view(gait_id: str, gait: Gait, builtin: bool, edited: bool) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import trimesh
 
-from core.robot import ROBOT_NAMES, RobotModel, load_robot
+from core.robot.model import ROBOT_NAMES, RobotModel, load_robot
 from robot_description import parts, urdf
 from robot_description.drive import yoke
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Floats
-from core.closed_chain import knee_yaws
-from core.leg import vertex_directions
-from core.robot import RobotModel
+from core.robot.closed_chain import knee_yaws
+from core.robot.leg import vertex_directions
+from core.robot.model import RobotModel
 
 
 @dataclass(frozen=True)

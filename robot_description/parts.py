@@ -10,8 +10,8 @@ from collections.abc import Sequence
 import numpy as np
 import trimesh
 
-from core.leg import vertex_directions
-from core.robot import FootEnd, RobotModel
+from core.robot.leg import vertex_directions
+from core.robot.model import FootEnd, RobotModel
 
 MOST_TRIANGLES = 500
 """Of one part: more is too much for drawing without a GPU."""

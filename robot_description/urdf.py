@@ -1,6 +1,6 @@
 """The robot's URDF as text: a tree of links that looks closed when its joints have the right values.
 
-`core.closed_chain.joint_values` gives those values.
+`core.robot.closed_chain.joint_values` gives those values.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 from core.arrays import Floats
-from core.closed_chain import (
+from core.robot.closed_chain import (
     BODY,
     TWINS,
     foot_joints,
@@ -21,7 +21,7 @@ from core.closed_chain import (
     rod_joints,
     rod_link,
 )
-from core.robot import FootEnd, RobotModel
+from core.robot.model import FootEnd, RobotModel
 from robot_description.drive import actuator_places, actuator_yaws, motor_places, motor_yaws, yoke
 
 PAINT = {

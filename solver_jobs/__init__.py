@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from core.motion_problem import MotionProblem
+from core.motion.trajectory import Trajectory
 from core.patterns.problem import PatternProblem, PatternProgress, PatternResult
 from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
 from core.physics.variations import VariedRun
-from core.trajectory import Trajectory
+from core.problem.motion_problem import MotionProblem
 from solver_jobs.frontier import Frontier, FrontierSearch
 from solver_jobs.handle import WorkerEndedError, WorkerHandle
 from solver_jobs.interrupts import interrupts_held

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from core.motion_problem import Boundary as Ends
-from core.motion_problem import MotionProblem, Workspace
+from core.problem.motion_problem import Boundary as Ends
+from core.problem.motion_problem import MotionProblem, Workspace
 from solver_jobs.bounds import (
     BodyHeight,
     Boundary,

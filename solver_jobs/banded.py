@@ -15,8 +15,8 @@ import numpy as np
 from casadi import SX, Function, Sparsity, cse, horzcat, jacobian, triu, vec, vertcat
 
 from core.arrays import Floats
-from core.draft import Indices
-from core.robot import RobotModel
+from core.problem.initial_guess import Indices
+from core.robot.model import RobotModel
 from solver_jobs.constraint import RowConstraint
 from solver_jobs.variables import Symbols, make_symbols
 

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.draft import clearance_knot, standing_forces
-from core.lifting import held_knots, is_held, rest_heights
-from core.motion_problem import Boundary as Ends
-from core.motion_problem import RestPose
+from core.problem.initial_guess import clearance_knot, standing_forces
+from core.problem.motion_problem import Boundary as Ends
+from core.problem.motion_problem import RestPose
+from core.problem.swing_height import held_knots, is_held, rest_heights
 from solver_jobs.constraint import Box, Family, Situation
 
 

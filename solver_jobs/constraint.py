@@ -14,10 +14,15 @@ import numpy as np
 from casadi import SX
 
 from core.arrays import Bools, Floats
-from core.draft import Indices, closed_contact, next_standing, problem_swings
-from core.motion_problem import MotionProblem
-from core.robot import RobotModel
-from core.timeline import Swing
+from core.motion.contact_timeline import Swing
+from core.problem.initial_guess import (
+    Indices,
+    closed_contact,
+    next_standing,
+    problem_swings,
+)
+from core.problem.motion_problem import MotionProblem
+from core.robot.model import RobotModel
 from solver_jobs.variables import MotionVector, Symbols
 
 CROSSING_TOLERANCE = 1e-9

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from casadi import SX, dot
 
-from core.motion_problem import Cost
-from core.robot import RobotModel
-from core.support import GRAVITY
+from core.motion.support_polygon import GRAVITY
+from core.problem.motion_problem import Cost
+from core.robot.model import RobotModel
 from solver_jobs.variables import MM, Symbols, per_interval
 
 COST_SCALE = MM**2

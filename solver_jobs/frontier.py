@@ -12,11 +12,17 @@ from functools import partial
 import numpy as np
 
 from core.errors import FootfallError
-from core.gait import Gait, drawn_timeline, heading_step, motion_problem, with_return
-from core.motion_check import check_motion
-from core.motion_problem import MotionProblem
-from core.robot import RobotModel
-from core.trajectory import Trajectory
+from core.gait.gait import (
+    Gait,
+    drawn_timeline,
+    heading_step,
+    motion_problem,
+    with_return,
+)
+from core.motion.trajectory import Trajectory
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import MotionProblem
+from core.robot.model import RobotModel
 from solver_jobs.results import Iterate, MotionResult, SolveStatus
 
 HEIGHTS = tuple(0.053 + 0.0005 * k for k in range(16))

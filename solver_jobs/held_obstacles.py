@@ -7,13 +7,19 @@ from collections.abc import Iterator
 import numpy as np
 
 from core.arrays import Bools, Floats
-from core.draft import problem_swings
-from core.held_feet import feet_words
-from core.kinematics import actuator_plane_pose, feet_in_modules
-from core.leg import strokes_from_foot
-from core.lifting import rest_heights
-from core.motion_problem import CYLINDER, Boundary, MotionProblem, RestPose, Workspace
-from core.support import stability_margins
+from core.gait.held_feet import feet_words
+from core.motion.support_polygon import stability_margins
+from core.problem.initial_guess import problem_swings
+from core.problem.motion_problem import (
+    CYLINDER,
+    Boundary,
+    MotionProblem,
+    RestPose,
+    Workspace,
+)
+from core.problem.swing_height import rest_heights
+from core.robot.kinematics import actuator_plane_pose, feet_in_modules
+from core.robot.leg import strokes_from_foot
 from solver_jobs.diagnosis import knot_ranges
 from solver_jobs.variables import MM
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from core.motion_problem import MotionProblem
+from core.problem.motion_problem import MotionProblem
 from solver_jobs.results import Iterate, MotionResult, SolveStatus
 from solver_jobs.timing import TimingResult
 

@@ -1,4 +1,4 @@
-"""The leg's kinematics in CasADi: the same equations as `core.leg`, to which a test ties them.
+"""The leg's kinematics in CasADi: the same equations as `core.robot.leg`, to which a test ties them.
 
 Every function takes a foot or strokes as a list of three expressions of equal shape, so that one call covers
 all knots. Units are the caller's (m or mm), the same throughout.

@@ -13,9 +13,9 @@ from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
 from typing import Any
 
-from core.draft import initial_motion
-from core.gait import Gait
-from core.motion_problem import MotionProblem
+from core.gait.gait import Gait
+from core.problem.initial_guess import initial_motion
+from core.problem.motion_problem import MotionProblem
 from solver_jobs.live_worker import Answered, FindRemedies, SolveLive, run_live_worker
 from solver_jobs.remedies import RemedySearch
 from solver_jobs.results import Evidence, MotionResult, SolveStatus

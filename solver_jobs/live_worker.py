@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from typing import Any
 
-from core.gait import Gait
-from core.motion_problem import MotionProblem
+from core.gait.gait import Gait
+from core.problem.motion_problem import MotionProblem
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +47,7 @@ def run_live_worker(pipe: Connection, warm_up: MotionProblem | None) -> None:
         pipe: the worker's end.
         warm_up: solved before anything is asked, so that everything is loaded.
     """
-    from core.robot import load_robot
+    from core.robot.model import load_robot
     from solver_jobs.live.solve import solve_live
     from solver_jobs.remedies import find_remedies
 

@@ -8,7 +8,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from core.arrays import Floats
-from core.motion_problem import MotionProblem, RestPose
+from core.problem.motion_problem import MotionProblem, RestPose
 from solver_jobs.search import Point
 from solver_jobs.structure import Structure
 

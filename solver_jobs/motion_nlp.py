@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from core.draft import initial_motion
 from core.errors import InputError
-from core.motion_problem import MotionProblem
-from core.trajectory import Trajectory, turn_trajectory
+from core.motion.trajectory import Trajectory, turn_trajectory
+from core.problem.initial_guess import initial_motion
+from core.problem.motion_problem import MotionProblem
 from solver_jobs.assembly import box_of
 from solver_jobs.constraint import situation_of
 from solver_jobs.diagnosis import Shortfall, broken_pose, explanation, lacks, nearest_motion

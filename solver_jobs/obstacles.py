@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from core.arrays import Floats
-from core.draft import rise_times
-from core.lifting import is_held
-from core.motion_problem import Boundary, MotionProblem, missing_support
-from core.support import GRAVITY
-from core.timeline import Swing
+from core.motion.contact_timeline import Swing
+from core.motion.support_polygon import GRAVITY
+from core.problem.initial_guess import rise_times
+from core.problem.motion_problem import Boundary, MotionProblem, missing_support
+from core.problem.swing_height import is_held
 from solver_jobs.constraint import Box, Situation
 from solver_jobs.diagnosis import knot_ranges
 from solver_jobs.held_obstacles import held_obstacles

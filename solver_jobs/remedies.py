@@ -9,10 +9,15 @@ from itertools import permutations
 import numpy as np
 
 from core.errors import FootfallError
-from core.gait import Gait, GaitOptions, drawn_timeline, motion_problem
-from core.motion_problem import MotionLimits, Workspace
-from core.robot import RobotModel
-from core.timeline import Swing
+from core.gait.gait import (
+    Gait,
+    GaitOptions,
+    drawn_timeline,
+    motion_problem,
+)
+from core.motion.contact_timeline import Swing
+from core.problem.motion_problem import MotionLimits, Workspace
+from core.robot.model import RobotModel
 
 HALVINGS = 7
 """Rounds of bisection: to a hundredth of the range."""
@@ -82,7 +87,7 @@ class _Trial:
 
     def works(self, gait: Gait) -> bool:
         """Whether the live tier solves a gait quickly and the checker confirms it."""
-        from core.motion_check import check_motion
+        from core.problem.motion_check import check_motion
         from solver_jobs.live.solve import quick_motion
 
         if not self.go_on():

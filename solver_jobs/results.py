@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from core.trajectory import Trajectory
+from core.motion.trajectory import Trajectory
 
 
 class SolveStatus(StrEnum):

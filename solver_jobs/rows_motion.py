@@ -6,8 +6,8 @@ import numpy as np
 from casadi import SX, repmat, vertcat
 
 from core.arrays import Floats
-from core.robot import RobotModel
-from core.support import GRAVITY
+from core.motion.support_polygon import GRAVITY
+from core.robot.model import RobotModel
 from solver_jobs.constraint import Family, RowConstraint, Situation, SquaredRows
 from solver_jobs.variables import MM, Symbols, axes_of, change_between_knots, per_interval
 

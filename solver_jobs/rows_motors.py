@@ -6,7 +6,7 @@ import numpy as np
 from casadi import SX, vertcat
 
 from core.arrays import Floats
-from core.robot import RobotModel
+from core.robot.model import RobotModel
 from solver_jobs.constraint import Family, RowConstraint, Situation
 from solver_jobs.leg_equations import stroke_rates
 from solver_jobs.rows_reach import feet_from_body, motor_arms_world

@@ -8,9 +8,9 @@ import numpy as np
 from casadi import SX, sqrt, vertcat
 
 from core.arrays import Floats
-from core.motion_problem import CYLINDER, CylinderWorkspace
-from core.robot import RobotModel
-from core.support import GRAVITY
+from core.motion.support_polygon import GRAVITY
+from core.problem.motion_problem import CYLINDER, CylinderWorkspace
+from core.robot.model import RobotModel
 from solver_jobs.constraint import Family, RowConstraint, Situation, SquaredRows, outside
 from solver_jobs.leg_equations import VERTICES, Arms, squared_offsets
 from solver_jobs.variables import MM, Symbols
@@ -137,9 +137,9 @@ def _stroke_rows(symbols: Symbols, model: RobotModel, stroke: float) -> SX:
 class StabilityMargin(RowConstraint):
     """Centre of pressure inside every edge of the support polygon by the margin.
 
-    The centre of pressure is that of flat ground at z = 0, `core.support.centre_of_pressure`, with the forces
-    of the balance in it: p_b,xy − p_b,z · Σ λ_xy / Σ λ_z. For the edge from a standing foot i to the next one
-    round the ring, with its inward normal n, the row is
+    The centre of pressure is that of flat ground at z = 0, `core.motion.support_polygon.centre_of_pressure`,
+    with the forces of the balance in it: p_b,xy − p_b,z · Σ λ_xy / Σ λ_z. For the edge from a standing foot i
+    to the next one round the ring, with its inward normal n, the row is
     n·(p_b,xy Σ λ_z − p_b,z Σ λ_xy) − (n·p_i + margin) Σ λ_z ≥ 0, divided by the robot's weight, mm.
     Which foot comes next is a parameter, and rows of swinging feet are unbounded, so that the structure does
     not know the timeline.

@@ -13,7 +13,7 @@ from dataclasses import replace
 from types import TracebackType
 
 from core.errors import InputError, StateError
-from core.motion_problem import MotionProblem
+from core.problem.motion_problem import MotionProblem
 from solver_jobs.handle import WorkerHandle
 from solver_jobs.jobs import Job, JobKind, JobState
 from solver_jobs.service import JobService

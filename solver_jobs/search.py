@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.arrays import Floats
-from core.trajectory import Trajectory
+from core.motion.trajectory import Trajectory
 from solver_jobs.assembly import asked_families
 from solver_jobs.constraint import Box, Family, Situation
 from solver_jobs.costs import COST_SCALE

@@ -26,9 +26,9 @@ from casadi import (
 )
 
 from core.arrays import Bools, Floats
-from core.draft import Indices
-from core.motion_problem import Cost, MotionProblem, Workspace
-from core.robot import RobotModel
+from core.problem.initial_guess import Indices
+from core.problem.motion_problem import Cost, MotionProblem, Workspace
+from core.robot.model import RobotModel
 from solver_jobs.assembly import ELASTIC_FAMILIES, asked_families, row_constraints
 from solver_jobs.banded import RowBlock, rows_derivatives
 from solver_jobs.constraint import Family, Situation

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from core.motion_check import check_motion
-from core.motion_problem import Cost, MotionProblem
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import Cost, MotionProblem
 from solver_jobs.live.solve import solve_live
 from solver_jobs.motion_nlp import solve_motion
 from solver_jobs.results import Evidence, MotionResult, SolveStatus

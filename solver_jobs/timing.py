@@ -18,12 +18,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.arrays import Bools
-from core.draft import closed_contact
 from core.errors import InputError
-from core.motion_check import check_motion
-from core.motion_problem import MotionProblem
-from core.timeline import ContactTimeline
-from core.trajectory import Trajectory, turn_trajectory
+from core.motion.contact_timeline import ContactTimeline
+from core.motion.trajectory import Trajectory, turn_trajectory
+from core.problem.initial_guess import closed_contact
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import MotionProblem
 from solver_jobs.results import Iterate, MotionResult, SolveStatus
 
 SMALLEST_PHASE = 0.2

@@ -11,9 +11,9 @@ import numpy as np
 from casadi import SX, dot, sum2, vertcat
 
 from core.arrays import Floats
-from core.motion_problem import MotionProblem
-from core.robot import RobotModel
-from core.trajectory import Trajectory
+from core.motion.trajectory import Trajectory
+from core.problem.motion_problem import MotionProblem
+from core.robot.model import RobotModel
 from solver_jobs.assembly import box_of
 from solver_jobs.banded import RowBlock
 from solver_jobs.constraint import Family, situation_of

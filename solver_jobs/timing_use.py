@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.motion_check import check_motion
+from core.problem.motion_check import check_motion
 from solver_jobs.results import SolveStatus
 from solver_jobs.search import Progress
 from solver_jobs.tiers import solve_exact

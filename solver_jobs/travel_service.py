@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from core.errors import SimulationCancelledError, StateError
+from core.identification.learning import Walk
 from core.physics.parameters import PhysicsSet
-from core.trials.learning import Walk
 from core.trials.travel import Travel
 from solver_jobs.questions import Question, QuestionService
 from solver_jobs.spawning import BACKGROUND_NICENESS

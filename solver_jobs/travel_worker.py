@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection
 
 from core.errors import CheckError
+from core.identification.learning import Walk
 from core.physics.parameters import PhysicsSet
-from core.trials.learning import Walk
 from core.trials.travel import Travel, motion_travel
 from solver_jobs.question_worker import Report, answer_questions
 

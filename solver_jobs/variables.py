@@ -14,9 +14,9 @@ import numpy as np
 from casadi import SX, cos, horzcat, repmat, sin, vec, vertcat
 
 from core.arrays import Floats
-from core.draft import Indices
-from core.motion_problem import MotionProblem
-from core.trajectory import Trajectory
+from core.motion.trajectory import Trajectory
+from core.problem.initial_guess import Indices
+from core.problem.motion_problem import MotionProblem
 
 MM = 1000.0
 """Millimetres in a metre."""

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 
-from core.motion_problem import MotionProblem
+from core.problem.motion_problem import MotionProblem
 from solver_jobs.jobs import JobKind
 from solver_jobs.results import Iterate, MotionResult, SolveStatus
 from solver_jobs.timing import TimingResult, fastest_timing

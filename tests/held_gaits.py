@@ -6,10 +6,15 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from core.gait import Gait, GaitOptions, Orientation, drawn_timeline
-from core.held_feet import HeldFeet
-from core.robot import load_robot
-from core.timeline import timeline_from_rows
+from core.gait.gait import (
+    Gait,
+    GaitOptions,
+    Orientation,
+    drawn_timeline,
+)
+from core.gait.held_feet import HeldFeet
+from core.motion.contact_timeline import timeline_from_rows
+from core.robot.model import load_robot
 
 DOWN, UP = "1" * 12, "1" * 5 + "0" * 7
 

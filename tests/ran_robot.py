@@ -12,12 +12,12 @@ from app.runs.plan_content import run_plan_content
 from app.store.database import Database
 from app.store.run_log import RunLog
 from core.findings import Approval
-from core.library import library
-from core.manual import manual_motion
-from core.path_merging import WaypointPlan, plan_waypoints
-from core.robot import load_robot
-from core.run_reading import RunBytes
-from core.trajectory import Trajectory
+from core.gait.manual_motion import manual_motion
+from core.library.library import library
+from core.motion.trajectory import Trajectory
+from core.robot.model import load_robot
+from core.runs.reading import RunBytes
+from core.wire.waypoint_merging import WaypointPlan, plan_waypoints
 from tests.bridge.virtual_robot import VirtualRobot, make_plan
 
 ROBOT = load_robot("deltawalker")

@@ -11,13 +11,13 @@ import numpy as np
 from app.plans import Plan, make_plan
 from app.simulations import simulation_problem
 from core.arrays import Floats
-from core.library import library
-from core.motion_problem import MotionProblem
+from core.library.library import library
+from core.physics.metrics import report
 from core.physics.motion import SimulatedMotion
 from core.physics.parameters import physics_set
 from core.physics.problem import SimulationProblem
 from core.physics.report import SimulationReport
-from core.physics.reporting import report
+from core.problem.motion_problem import MotionProblem
 from solver_jobs import MotionResult
 
 GAIT = "walk-manual-0"

@@ -8,16 +8,16 @@ from datetime import UTC, datetime
 import numpy as np
 from hypothesis import strategies as st
 
-from core.gait import Gait, GaitOptions, Orientation
-from core.held_feet import HeldFeet
-from core.motion_problem import Boundary, Cost, Workspace
-from core.provenance import Provenance
-from core.recording import Recording, RecordingForm
-from core.robot import ROBOT_NAMES, load_robot
-from core.segments import Segment, SegmentTable, SegmentVocabulary
-from core.sequence_part import SequencePart
-from core.timeline import ContactTimeline
-from core.turning import Turning
+from core.gait.gait import Gait, GaitOptions, Orientation
+from core.gait.held_feet import HeldFeet
+from core.gait.provenance import Provenance
+from core.gait.recording import Recording, RecordingForm
+from core.gait.sequence_part import SequencePart
+from core.motion.contact_timeline import ContactTimeline
+from core.motion.heading_profile import Turning
+from core.problem.motion_problem import Boundary, Cost, Workspace
+from core.robot.model import ROBOT_NAMES, load_robot
+from core.segments.segment_table import Segment, SegmentTable, SegmentVocabulary
 
 WORDS = st.text(min_size=1, max_size=12)
 LINES = st.text(max_size=120)

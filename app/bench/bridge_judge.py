@@ -9,17 +9,7 @@ from app.bridge.delivery import ARRIVAL_MM
 from app.bridge.faults import NOISE_MM
 from app.bridge.states import IN_RUN, LinkState, RunPlan
 from app.bridge.virtual import VirtualBridge
-from core.wire import (
-    HIGHEST_MM,
-    LOWEST_MM,
-    encode_flush,
-    encode_release,
-    encode_stop,
-    encode_waypoint,
-    payload_of,
-    strokes_to_mm,
-)
-from core.wire_lines import (
+from core.wire.lines import (
     CurrentPoint,
     Echo,
     ErrorScan,
@@ -29,6 +19,16 @@ from core.wire_lines import (
     LineReader,
     SetupMoving,
     Telemetry,
+)
+from core.wire.messages import (
+    HIGHEST_MM,
+    LOWEST_MM,
+    encode_flush,
+    encode_release,
+    encode_stop,
+    encode_waypoint,
+    payload_of,
+    strokes_to_mm,
 )
 
 READING_MM = 6 * NOISE_MM

@@ -18,8 +18,8 @@ from app.bridge.words import NOT_STOPPED
 from core.arrays import Floats
 from core.errors import StateError
 from core.findings import Approval
-from core.waypoints import Waypoints
-from core.wire import HIGHEST_MM, LOWEST_MM, MOTORS
+from core.wire.messages import HIGHEST_MM, LOWEST_MM, MOTORS
+from core.wire.waypoints import Waypoints
 
 WAYPOINTS = 10_000
 SHORTEST_PLAN, LONGEST_PLAN = 4, 16

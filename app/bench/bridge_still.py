@@ -11,9 +11,9 @@ from app.bridge.profiles import ProfileName
 from app.bridge.states import IN_RUN, LinkState, RobotState, RunPlan
 from app.bridge.virtual import VirtualBridge
 from core.findings import Approval
-from core.waypoint_path import cut_parts
-from core.waypoints import Waypoints
-from core.wire import HIGHEST_MM, LOWEST_MM, MOTORS
+from core.wire.messages import HIGHEST_MM, LOWEST_MM, MOTORS
+from core.wire.waypoint_path import cut_parts
+from core.wire.waypoints import Waypoints
 
 BOUNDS = (0.8, 1.0, 2.5)
 """Longest time for which the robot may be deaf, s."""

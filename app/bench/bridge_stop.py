@@ -13,7 +13,7 @@ import numpy as np
 from app.bench.bridge_process import Piece, Studio, Tap, busy_cores, emulator_process, sleeper, wait_until
 from app.bench.measure import Row, milliseconds
 from app.store.database import Database
-from core.wire import encode_flush, encode_stop
+from core.wire.messages import encode_flush, encode_stop
 from solver_jobs import NICENESS
 
 STOPS = 200

@@ -14,19 +14,24 @@ from app.bridge.firmware import Firmware
 from app.bridge.profiles import PROFILES, ProfileName
 from app.trajectory_files import read_trajectory
 from core.arrays import Floats
-from core.checked_plan import CheckedPlan
-from core.checks import check_plan
+from core.checks.checked_plan import CheckedPlan
+from core.checks.rules import check_plan
 from core.errors import CheckError
-from core.gait import Gait, motion_problem, travel_world
-from core.kinematics import free_strokes
-from core.library import library
-from core.path_merging import WaypointPlan, plan_of_knots, plan_waypoints, robot_feet
-from core.robot import RobotModel, load_robot
-from core.timeline import ContactTimeline
-from core.trajectory import Trajectory
-from core.waypoints import Waypoints
-from core.wire import HIGHEST_MM, LOWEST_MM, encode_waypoint
-from core.wire_timing import stop_time
+from core.gait.gait import Gait, motion_problem, travel_world
+from core.library.library import library
+from core.motion.contact_timeline import ContactTimeline
+from core.motion.trajectory import Trajectory
+from core.robot.kinematics import free_strokes
+from core.robot.model import RobotModel, load_robot
+from core.wire.messages import HIGHEST_MM, LOWEST_MM, encode_waypoint
+from core.wire.timing import stop_time
+from core.wire.waypoint_merging import (
+    WaypointPlan,
+    plan_of_knots,
+    plan_waypoints,
+    robot_feet,
+)
+from core.wire.waypoints import Waypoints
 from solver_jobs import SolveStatus, solve_live
 
 PUBLISHED = Path(__file__).resolve().parents[3] / "shared/reference/trajectories/direction1/walk_a.csv"

@@ -8,10 +8,16 @@ from itertools import product
 
 import numpy as np
 
-from core.gait import Gait, GaitOptions, drawn_timeline, heading_step, with_return
-from core.library import appendix_orders, library
-from core.motion_problem import Workspace
-from core.robot import load_robot
+from core.gait.gait import (
+    Gait,
+    GaitOptions,
+    drawn_timeline,
+    heading_step,
+    with_return,
+)
+from core.library.library import appendix_orders, library
+from core.problem.motion_problem import Workspace
+from core.robot.model import load_robot
 
 STEPS = (0.010, 0.015, 0.020, 0.025)
 """Published steps, m."""

@@ -7,11 +7,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.gait import Gait, drawn_timeline, heading_step, with_return
-from core.library import Group, group_ids, library
-from core.motion_problem import Workspace
-from core.robot import load_robot
-from core.timeline import ContactTimeline
+from core.gait.gait import (
+    Gait,
+    drawn_timeline,
+    heading_step,
+    with_return,
+)
+from core.library.library import Group, group_ids, library
+from core.motion.contact_timeline import ContactTimeline
+from core.problem.motion_problem import Workspace
+from core.robot.model import load_robot
 
 MOST_EDITS = 5
 """Edits of one gait."""

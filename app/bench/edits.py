@@ -9,9 +9,9 @@ from app.bench.edited_gaits import EditedGait, edited_gait
 from app.bench.measure import Row
 from app.judgement import Judgement, judge
 from core.errors import InputError
-from core.gait import motion_problem
-from core.motion_problem import Boundary, MotionProblem
-from core.robot import load_robot
+from core.gait.gait import motion_problem
+from core.problem.motion_problem import Boundary, MotionProblem
+from core.robot.model import load_robot
 from solver_jobs import SolveStatus, solve_exact, solve_live
 
 COUNT = 500

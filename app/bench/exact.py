@@ -10,11 +10,17 @@ import numpy as np
 
 from app.bench.live import grouped_gait
 from app.bench.measure import REPEATS, Row, milliseconds, seconds_of
-from core.gait import Gait, GaitOptions, drawn_timeline, heading_step, motion_problem
-from core.library import library
-from core.motion_problem import MotionProblem
-from core.robot import load_robot
-from core.timeline import ContactTimeline
+from core.gait.gait import (
+    Gait,
+    GaitOptions,
+    drawn_timeline,
+    heading_step,
+    motion_problem,
+)
+from core.library.library import library
+from core.motion.contact_timeline import ContactTimeline
+from core.problem.motion_problem import MotionProblem
+from core.robot.model import load_robot
 from solver_jobs import MotionResult, SolveStatus, solve_exact, solve_live, solve_motion
 
 ITERATIONS = (1, 2, 3, 6, 9, 12)

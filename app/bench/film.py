@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from app.trials.recording_file import RecordingWriter
 from app.trials.video import jpeg
 from core.arrays import Floats
-from core.trials.camera import Lens
-from core.trials.setup import CameraSetup
+from core.vision.camera import Lens
+from core.vision.setup import CameraSetup
 
 RATE = 30.0
 """Frames a second."""

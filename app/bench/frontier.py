@@ -9,11 +9,11 @@ from itertools import product
 import numpy as np
 
 from app.bench.measure import Row, seconds_of
-from core.gait import Gait
-from core.library import Group, group_ids, library
-from core.motion_problem import Workspace
-from core.robot import load_robot
-from core.turning import Turning
+from core.gait.gait import Gait
+from core.library.library import Group, group_ids, library
+from core.motion.heading_profile import Turning
+from core.problem.motion_problem import Workspace
+from core.robot.model import load_robot
 from solver_jobs import Frontier, FrontierSearch
 
 GAITS = group_ids(Group.OPTIMISED)

@@ -20,7 +20,7 @@ import numpy as np
 from app.bench.measure import Row, milliseconds, seconds_of
 from app.bench.page import READY_MS, SIZE, headless_browser, served_studio
 from app.store.files import GaitFiles
-from core.library import library
+from core.library.library import library
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser

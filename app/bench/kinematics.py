@@ -7,9 +7,9 @@ from functools import partial
 import numpy as np
 
 from app.bench.measure import Row, median_seconds
-from core.kinematics import BodyPose, walker_feet, walker_strokes
-from core.leg import foot_from_strokes
-from core.robot import load_robot
+from core.robot.kinematics import BodyPose, walker_feet, walker_strokes
+from core.robot.leg import foot_from_strokes
+from core.robot.model import load_robot
 
 POSES = 100_000
 

@@ -14,9 +14,9 @@ from app.learning.table import walks_of_table
 from app.trajectory_files import read_text
 from app.trials.record import ROBOT
 from core.errors import InputError
+from core.identification.learning import POINTS, learn
 from core.physics.masses import default_physics
-from core.robot import load_robot
-from core.trials.learning import POINTS, learn
+from core.robot.model import load_robot
 from solver_jobs import TravelSimulator
 
 PROCESSES = 2

@@ -10,11 +10,18 @@ import numpy as np
 
 from app.bench.measure import Row, milliseconds
 from app.judgement import judge
-from core.gait import Gait, GaitOptions, Orientation, drawn_timeline, heading_step, motion_problem
-from core.library import library
-from core.motion_problem import MotionProblem
-from core.robot import RobotModel, load_robot
-from core.timeline import ContactTimeline
+from core.gait.gait import (
+    Gait,
+    GaitOptions,
+    Orientation,
+    drawn_timeline,
+    heading_step,
+    motion_problem,
+)
+from core.library.library import library
+from core.motion.contact_timeline import ContactTimeline
+from core.problem.motion_problem import MotionProblem
+from core.robot.model import RobotModel, load_robot
 from solver_jobs import LiveSolver, SolveStatus
 
 CHANGES = 240

@@ -13,8 +13,8 @@ import numpy as np
 
 from app.bench.measure import Row, milliseconds
 from app.bench.pattern_cases import random_periodic, random_small, random_transition
+from core.patterns.brute_force import least_weighted_sum
 from core.patterns.check import check_pattern, weighted_sum
-from core.patterns.enumeration import least_weighted_sum
 from core.patterns.problem import PatternProblem, PatternResult, PatternStatus
 from solver_jobs import PatternSolver
 

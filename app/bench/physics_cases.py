@@ -13,17 +13,17 @@ from app.learning.table import problem_within_range
 from app.simulations import way_problem
 from app.trajectory_files import read_text
 from core.arrays import Floats, interpolated
-from core.gait import drawn_timeline, motion_problem
-from core.library import library, manual_entry
-from core.manual import manual_motion
-from core.motion_problem import Workspace
-from core.path_merging import plan_waypoints
+from core.gait.gait import drawn_timeline, motion_problem
+from core.gait.manual_motion import manual_motion
+from core.library.library import library, manual_entry
+from core.motion.contact_timeline import timeline_from_order
+from core.motion.trajectory import Trajectory
 from core.physics.parameters import PhysicsSet
 from core.physics.problem import SimulationProblem
-from core.robot import RobotModel, load_robot
-from core.timeline import timeline_from_order
-from core.trajectory import Trajectory
-from core.trajectory_csv import parse_trajectory_csv
+from core.problem.motion_problem import Workspace
+from core.robot.model import RobotModel, load_robot
+from core.wire.trajectory_csv import parse_trajectory_csv
+from core.wire.waypoint_merging import plan_waypoints
 from solver_jobs import SolveStatus, solve_exact
 
 MARGINS = (0.003, 0.0025, 0.002, 0.001, 0.0)

@@ -17,13 +17,13 @@ from app.bench.physics_cases import (
 )
 from app.bench.published import MANUAL_FEET, MANUAL_HEIGHT, TABLE_4_1, TABLE_4_2, PublishedRun, Reference
 from core.arrays import Floats
-from core.kinematics import UnreachableError
+from core.motion.trajectory import Trajectory
 from core.physics.findings import longest_slides
+from core.physics.metrics import report
 from core.physics.parameters import PhysicsSet, physics_set
 from core.physics.problem import SimulationProblem
 from core.physics.report import SimulationReport
-from core.physics.reporting import report
-from core.trajectory import Trajectory
+from core.robot.kinematics import UnreachableError
 from solver_jobs import simulate
 
 LARGEST_TIPPED = 0.0201

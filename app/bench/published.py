@@ -11,8 +11,8 @@ import numpy as np
 from app.trajectory_files import read_text
 from core.arrays import Floats
 from core.errors import InputError
-from core.physics.reporting import tilts
-from core.robot import RobotModel
+from core.physics.metrics import tilts
+from core.robot.model import RobotModel
 
 TABLE_4_1 = {
     ("walk", 0): 0.0028,

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from app.bench.measure import Row
-from core.gait import Gait, drawn_timeline, motion_problem
-from core.library import library
-from core.motion_check import check_motion
-from core.robot import RobotModel, load_robot
+from core.gait.gait import Gait, drawn_timeline, motion_problem
+from core.library.library import library
+from core.problem.motion_check import check_motion
+from core.robot.model import RobotModel, load_robot
 from solver_jobs import TimingResult, fastest_timing
 
 GAITS = ("walk", "amble", "s-gait", "c-gait")

@@ -10,9 +10,9 @@ import numpy as np
 from app.bench.cases import Case, all_cases
 from app.bench.measure import Row, milliseconds
 from app.judgement import Judgement, judge
-from core.gait import Gait, drawn_timeline, motion_problem
-from core.robot import load_robot
-from core.trajectory import Trajectory, turn_trajectory
+from core.gait.gait import Gait, drawn_timeline, motion_problem
+from core.motion.trajectory import Trajectory, turn_trajectory
+from core.robot.model import load_robot
 from solver_jobs import Evidence, SolveStatus, solve_exact, solve_live
 
 DIRECTIONS = (1, 2, 3, 4)

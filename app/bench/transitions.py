@@ -3,7 +3,7 @@
 Table 4.1. Both methods go from one gait to another of the hexapod in the same time, between the same samples
 of both gaits, once from each quarter of the cycle to the same quarter; speeds are means over these four,
 margins the smallest, falls their sum.
-- Interpolation: see `core.patterns.interpolation`. The cyclic motions are those of the live optimiser for one
+- Interpolation: see `core.patterns.baseline`. The cyclic motions are those of the live optimiser for one
   cycle with a sample of standing, whose last knot is its first one moved on.
 - Optimised: F's rules with those of `walking_rules`, phases finished; the motion is the live optimiser's for
   three iterations of the first gait, the transition in the third, and five of the second. Its speed is the
@@ -28,23 +28,28 @@ import numpy as np
 from app.bench.measure import Row
 from app.judgement import Judgement, judge
 from core.arrays import Floats
-from core.gait import Gait, heading_angle, motion_problem
-from core.library import Group, group_ids, library, library_patterns
-from core.motion_problem import Boundary
-from core.patterns.interpolation import (
+from core.gait.gait import Gait, heading_angle, motion_problem
+from core.library.library import (
+    Group,
+    group_ids,
+    library,
+    library_patterns,
+)
+from core.library.patterns import LibraryPattern
+from core.motion.support_polygon import stability_margins
+from core.patterns.baseline import (
     TransitionFigures,
     blended_strokes,
     figures,
     figures_of_strokes,
     resting,
 )
-from core.patterns.library import LibraryPattern
-from core.patterns.making import joined_columns, periodic_gait, transition_gait
+from core.patterns.limits import walking_rules
 from core.patterns.problem import PatternProblem, PatternResult, PatternRules, PatternStatus
 from core.patterns.sources import transition_problem
-from core.patterns.walking import walking_rules
-from core.robot import load_robot
-from core.support import stability_margins
+from core.patterns.to_gait import joined_columns, periodic_gait, transition_gait
+from core.problem.motion_problem import Boundary
+from core.robot.model import load_robot
 from solver_jobs import LiveSolver, PatternSolver, SolveStatus
 
 PUBLISHED = {

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from app.bridge.c_text import print_pieces
 from app.bridge.motors import Motors
 from app.bridge.profiles import Profile
-from core.wire import MOTORS
+from core.wire.messages import MOTORS
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.errors import InputError
-from core.waypoints import Waypoints
-from core.wire import THRESHOLD_MM, name_motor
+from core.wire.messages import THRESHOLD_MM, name_motor
+from core.wire.waypoints import Waypoints
 
 MOST_ITERATIONS = 100
 """Iterations of one run."""

@@ -5,8 +5,7 @@ from __future__ import annotations
 from enum import Enum, auto
 
 from app.bridge.stopping import STOP_PAYLOAD
-from core.wire import QUANTUM_MM, THRESHOLD_MM, name_motor, payload_of
-from core.wire_lines import (
+from core.wire.lines import (
     CurrentPoint,
     Echo,
     EndOfTrajectories,
@@ -20,7 +19,13 @@ from core.wire_lines import (
     TrajectoryPoint,
     numbers_equal,
 )
-from core.wire_timing import ramp_time
+from core.wire.messages import (
+    QUANTUM_MM,
+    THRESHOLD_MM,
+    name_motor,
+    payload_of,
+)
+from core.wire.timing import ramp_time
 
 COAST_MM = 0.1
 """A motor within the threshold coasts on at 3 mm/s for at most two readings before it is released."""

@@ -10,7 +10,7 @@ from app.bridge.faults import STRIKE_ONCE, Fault, Troubles
 from app.bridge.firmware import Firmware
 from app.bridge.ports import Port, PtyPort, TcpPort
 from app.bridge.profiles import PROFILES, ProfileName
-from core.wire import MOTORS, RESET_MM
+from core.wire.messages import MOTORS, RESET_MM
 
 NAP = 0.001
 """Waits shorter than this are not worth a sleep, s."""

@@ -15,7 +15,7 @@ from app.bridge.c_text import Fields, c_string, padded_text, to_float, to_int
 from app.bridge.memory import ARM, Layout, Memory
 from app.bridge.profiles import Profile
 from app.bridge.ramp import Controller, longest_ramp, motor_speeds, ramp_durations, ramp_reference, single
-from core.wire import MOTORS, RESET_MM, THRESHOLD_MM
+from core.wire.messages import MOTORS, RESET_MM, THRESHOLD_MM
 
 BUFFER_BYTES = 20000
 """Longest payload that the robot's memory holds; it does not check (hazard 17)."""

@@ -9,7 +9,7 @@ from typing import Protocol
 
 from app.bridge.states import Direction
 from core.errors import InputError
-from core.wire import encode_flush, encode_stop
+from core.wire.messages import encode_flush, encode_stop
 
 Log = Callable[[Direction, bytes, float], None]
 """Receives every byte both ways with the time of the bridge's clock; it must return at once.

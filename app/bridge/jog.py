@@ -10,8 +10,8 @@ import numpy as np
 from app.bridge.states import JogProgress
 from core.arrays import Floats
 from core.errors import InputError, StateError
-from core.wire import encode_waypoint, strokes_to_mm
-from core.wire_timing import ramp_time
+from core.wire.messages import encode_waypoint, strokes_to_mm
+from core.wire.timing import ramp_time
 
 MOVED_MM = 0.5
 """A motor that stands further from where a jog was worked out was moved since, mm; half of what the firmware

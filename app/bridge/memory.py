@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from core.wire import MOTORS
+from core.wire.messages import MOTORS
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from core.wire import MOTORS, QUANTUM_MM
+from core.wire.messages import MOTORS, QUANTUM_MM
 
 FULL_SPEED_MM = 15.0
 """Speed in mm/s at a command of 255 (PROTOCOL, How far to trust it: no load, all equal)."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.bridge.watch import Watch
-from core.wire_lines import Line, NewData
+from core.wire.lines import Line, NewData
 
 START_LIMIT = 15.0
 """A board that restarts when its port is opened is up after 8 s; a message that the flush has closed moves

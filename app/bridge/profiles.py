@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from core.wire import MOTORS
+from core.wire.messages import MOTORS
 
 SERIAL_PACKET = 64
 """Bytes of one packet to the host; each costs one serial write."""

@@ -13,7 +13,7 @@ from functools import reduce
 import numpy as np
 
 from app.bridge.motors import FULL_COMMAND
-from core.wire import MOTORS
+from core.wire.messages import MOTORS
 
 SPEED_MM = 15.0
 """Largest speed of a ramp, mm/s."""
@@ -50,7 +50,7 @@ class Controller:
 
 
 def ramp_durations(distances_mm: Sequence[float], acceleration_mm: float) -> list[float]:
-    """Duration of each motor's own ramp at full speed, s (see `core.wire_timing.ramp_time`)."""
+    """Duration of each motor's own ramp at full speed, s (see `core.wire.timing.ramp_time`)."""
     rise = SPEED_MM / acceleration_mm
     return [2 * _least(abs(d) / SPEED_MM, rise) + _most(0.0, abs(d) / SPEED_MM - rise) for d in distances_mm]
 

@@ -23,7 +23,12 @@ from app.bridge.words import (
     without_remedy,
 )
 from core.errors import RobotError
-from core.wire_lines import Line, LineReader, SetupFinished, SetupMoving
+from core.wire.lines import (
+    Line,
+    LineReader,
+    SetupFinished,
+    SetupMoving,
+)
 
 SILENCE_LIMIT = 4.0
 """An answering robot is never silent longer than 2.5 s (PROTOCOL 5.4), s."""

@@ -28,7 +28,8 @@ from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPhase, Ru
 from app.bridge.watch import STALE_TIME
 from app.bridge.words import NOT_SENT, SENTENCES, clearing_sentence
 from core.errors import RobotError, StateError
-from core.wire import (
+from core.wire.lines import Line
+from core.wire.messages import (
     HIGHEST_MM,
     LOWEST_MM,
     MOTORS,
@@ -37,7 +38,6 @@ from core.wire import (
     encode_reset,
     encode_waypoint,
 )
-from core.wire_lines import Line
 
 
 class RobotSession(RobotLink):

@@ -11,8 +11,14 @@ from app.bridge.delivery import ARRIVAL_MM
 from app.bridge.states import RunPhase, RunPlan, RunProgress
 from app.bridge.words import displaced_sentence
 from core.errors import StateError
-from core.wire import HIGHEST_MM, LOWEST_MM, THRESHOLD_MM, encode_waypoint, strokes_to_mm
-from core.wire_timing import START_MOVE, longest_start_move, ramp_time
+from core.wire.messages import (
+    HIGHEST_MM,
+    LOWEST_MM,
+    THRESHOLD_MM,
+    encode_waypoint,
+    strokes_to_mm,
+)
+from core.wire.timing import START_MOVE, longest_start_move, ramp_time
 
 
 @dataclass(frozen=True)

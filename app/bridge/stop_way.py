@@ -8,7 +8,7 @@ from app.bridge.states import RobotState
 from app.bridge.stopping import STOP_LIMIT, Stopping
 from app.bridge.words import NOT_STOPPED, SENTENCES
 from core.errors import StateError
-from core.wire_lines import Line
+from core.wire.lines import Line
 
 
 class StopWay:

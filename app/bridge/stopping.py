@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
-from core.wire import encode_stop, payload_of
-from core.wire_lines import Echo, Line, NewData, Telemetry
+from core.wire.lines import (
+    Echo,
+    Line,
+    NewData,
+    Telemetry,
+)
+from core.wire.messages import encode_stop, payload_of
 
 STOP_LIMIT = 6.0
 """A stop that has not taken effect after this long is shown as NOT STOPPED, s."""

@@ -11,7 +11,7 @@ from app.bridge.profiles import PROFILES, ProfileName
 from app.bridge.robot_session import RobotSession
 from app.bridge.states import Direction, RobotSnapshot
 from core.errors import RobotError
-from core.wire import MOTORS, RESET_MM
+from core.wire.messages import MOTORS, RESET_MM
 
 DEVICE = "virtual"
 

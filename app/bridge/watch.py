@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from core.wire_lines import (
+from core.wire.lines import (
     Blank,
     CurrentPoint,
     ErrorsChecked,

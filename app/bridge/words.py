@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from app.bridge.states import RobotState
-from core.wire import THRESHOLD_MM, name_motor
+from core.wire.messages import THRESHOLD_MM, name_motor
 
 NOTICED_MM = 0.9 * THRESHOLD_MM
 """A motor that is nearer to its target is sure not to be moved by the robot."""

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from enum import StrEnum
 
 from core.patterns.problem import MOST_SAMPLES
-from core.robot import ROBOT_NAMES
+from core.robot.model import ROBOT_NAMES
 
 ROBOTS = ", ".join(ROBOT_NAMES)
 

@@ -38,11 +38,11 @@ from app.cli.methods import Method
 from app.export.formats import ExportFormat
 from app.version import VERSION
 from core.errors import InputError
-from core.motion_problem import Boundary, Cost, Workspace
 from core.patterns.problem import LEAST_SAMPLES, MOST_LEGS, MOST_SAMPLES, PatternRules
 from core.physics.parameters import physics_sets
 from core.physics.problem import Rig
 from core.physics.variations import MOST_VARIATIONS
+from core.problem.motion_problem import Boundary, Cost, Workspace
 
 PATTERN_RULES = {
     "--shortest-swing": ("shortest_swing", "samples that a swing lasts at least"),

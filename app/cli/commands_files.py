@@ -21,9 +21,9 @@ from app.store.files import GaitFiles, default_data_folder, write_atomically
 from app.trajectory_content import trajectory_content
 from app.trajectory_files import companion_path, read_text, read_whole_text
 from core.errors import InputError
-from core.gait import Gait
-from core.library import library
-from core.recorded_gait import DescribedGait
+from core.gait.gait import Gait
+from core.library.library import library
+from core.recorded.recorded_gait import DescribedGait
 from solver_jobs import SolveStatus, solve_live
 
 _RECORDED = (".csv", ".npz")

@@ -13,8 +13,8 @@ from app.cli.methods import Method
 from app.cli.report import end_on_sigterm, show
 from app.trajectory_files import write_trajectory
 from core.errors import InputError
-from core.gait import Gait, drawn_timeline
-from core.robot import load_robot
+from core.gait.gait import Gait, drawn_timeline
+from core.robot.model import load_robot
 from solver_jobs import Frontier, FrontierSearch
 
 INFEASIBLE = 3

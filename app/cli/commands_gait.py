@@ -18,12 +18,12 @@ from app.judgement import Judgement, judge
 from app.store.files import GaitFiles, default_data_folder
 from app.trajectory_files import write_trajectory
 from core.errors import InputError
-from core.gait import Gait, heading_step, motion_problem
-from core.library import library, manual_entry
-from core.making import making
-from core.manual import manual_motion
-from core.new_gait import with_robot
-from core.robot import load_robot
+from core.gait.gait import Gait, heading_step, motion_problem
+from core.gait.manual_motion import manual_motion
+from core.gait.motion_source import making
+from core.library.library import library, manual_entry
+from core.library.new_gait import with_robot
+from core.robot.model import load_robot
 from solver_jobs import SolveStatus
 
 SAVED_GROUP = "Saved"

@@ -13,22 +13,27 @@ from app.documents import parse_gait
 from app.sequence_plans import steps_between
 from app.trajectory_files import read_text, read_trajectory, write_waypoints
 from app.views import verdict_view
-from core.checked_plan import CheckedPlan, checked_plan
-from core.checks import check_plan
+from core.checks.checked_plan import CheckedPlan, checked_plan
+from core.checks.rules import check_plan
 from core.errors import CheckError, FootfallError, InfeasibleError
 from core.findings import Verdict
-from core.gait import Gait
-from core.manual import manual_motion
-from core.new_gait import with_robot
-from core.path_merging import plan_waypoints
-from core.recorded_motion import gait_trajectory
-from core.robot import RobotModel, load_robot
-from core.sequence import chain_runs, part_name, require_own, run_of
-from core.sequence_part import SequencePart
-from core.trajectory import Trajectory
-from core.waypoint_path import estimate_seconds
-from core.waypoints import format_waypoint_csv
-from core.wire_timing import stop_time
+from core.gait.gait import Gait
+from core.gait.manual_motion import manual_motion
+from core.gait.sequence_part import SequencePart
+from core.library.new_gait import with_robot
+from core.library.sequence import (
+    chain_runs,
+    part_name,
+    require_own,
+    run_of,
+)
+from core.motion.trajectory import Trajectory
+from core.recorded.recorded_motion import gait_trajectory
+from core.robot.model import RobotModel, load_robot
+from core.wire.timing import stop_time
+from core.wire.waypoint_merging import plan_waypoints
+from core.wire.waypoint_path import estimate_seconds
+from core.wire.waypoints import format_waypoint_csv
 from solver_jobs import SolveStatus, solve_live
 
 NOT_FIT = 4

@@ -20,10 +20,10 @@ from app.cli.streaming import stream
 from app.store.files import default_data_folder
 from app.trajectory_files import read_waypoints
 from app.views import approval_view, verdict_view
-from core.checks import check_waypoints
+from core.checks.rules import check_waypoints
 from core.errors import CheckError, InputError, RobotError
 from core.findings import Approval, Severity, Verdict, approve
-from core.robot import load_robot
+from core.robot.model import load_robot
 
 LOOK_SECONDS = 0.2
 """How often an emulated robot is looked at for fault states."""

@@ -23,19 +23,19 @@ from app.trajectory_files import read_text, read_trajectory
 from core.arrays import Floats
 from core.errors import InputError
 from core.findings import Finding, Severity
-from core.gait import Gait
-from core.new_gait import with_robot
-from core.path_merging import plan_waypoints
+from core.gait.gait import Gait
+from core.library.new_gait import with_robot
+from core.motion.trajectory import Trajectory
 from core.physics.findings import physics_outcomes
 from core.physics.masses import physics_for
+from core.physics.metrics import report
 from core.physics.motion import SimulatedMotion
 from core.physics.parameters import PhysicsSet, physics_sets
 from core.physics.problem import Rig, SimulationProblem
 from core.physics.report import SimulationReport
-from core.physics.reporting import report
 from core.physics.variations import VariedRun
-from core.robot import RobotModel, load_robot
-from core.trajectory import Trajectory
+from core.robot.model import RobotModel, load_robot
+from core.wire.waypoint_merging import plan_waypoints
 from solver_jobs import simulate, simulate_variations
 
 

@@ -21,8 +21,8 @@ from core.trials.iterations import (
     standing_slip,
 )
 from core.trials.movement import Movement, foot_movements, mean_movement, spread
-from core.trials.track import FootTrack
-from core.trials.track_csv import FRAME_RATE, PixelScale, parse_track_csv
+from core.vision.track import FootTrack
+from core.vision.track_csv import FRAME_RATE, PixelScale, parse_track_csv
 
 _COLUMNS = ("+x", "−x", "dx", "+y", "−y", "dy", "dist", "angle", "% err", "net", "net angle")
 

@@ -11,12 +11,19 @@ import numpy as np
 from app.documents import parse_gait
 from app.trajectory_files import read_text
 from core.errors import InputError
-from core.gait import Gait, GaitOptions, drawn_timeline, heading_step, with_iterations, with_return
-from core.library import library, optimised_entry
-from core.motion_problem import Boundary
-from core.new_gait import with_robot
-from core.robot import load_robot
-from core.turning import Turning
+from core.gait.gait import (
+    Gait,
+    GaitOptions,
+    drawn_timeline,
+    heading_step,
+    with_iterations,
+    with_return,
+)
+from core.library.library import library, optimised_entry
+from core.library.new_gait import with_robot
+from core.motion.heading_profile import Turning
+from core.problem.motion_problem import Boundary
+from core.robot.model import load_robot
 
 _OPTIONS = (
     "clearance",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from enum import StrEnum
 
-from core.motion_problem import MotionProblem
+from core.problem.motion_problem import MotionProblem
 from solver_jobs import MotionResult, solve_exact, solve_live
 
 

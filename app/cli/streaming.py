@@ -25,8 +25,8 @@ from app.runs.plan_content import file_plan_content
 from app.store.database import Database
 from app.store.files import require_folder
 from core.errors import RobotError, StateError
-from core.robot import RobotModel
-from core.waypoint_path import move_estimates
+from core.robot.model import RobotModel
+from core.wire.waypoint_path import move_estimates
 
 READY_SECONDS = 20.0
 """The board needs about 8 s; later than this nothing will come."""

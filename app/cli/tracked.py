@@ -11,8 +11,8 @@ from app.trials.setup_models import parse_setup
 from app.trials.track_desk import track_sentence
 from app.trials.tracking import track_video
 from core.errors import InputError
-from core.trials.setup import TrackingSetup
-from core.trials.track import FootTrack
+from core.vision.setup import TrackingSetup
+from core.vision.track import FootTrack
 
 
 def read_setup(path: Path) -> TrackingSetup:

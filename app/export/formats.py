@@ -15,11 +15,11 @@ from app.export.source import Exportable
 from app.export.svg import svg
 from app.trajectory_files import COMPANION_SUFFIX
 from core.errors import FootfallError, InputError
-from core.motion_npz import MotionFile, format_npz
-from core.phase_list import format_phases
-from core.robot import load_robot
-from core.trajectory_csv import format_companion, format_trajectory_csv
-from core.waypoints import format_waypoint_csv
+from core.motion.phase_list import format_phases
+from core.motion.trajectory_npz import MotionFile, format_npz
+from core.robot.model import load_robot
+from core.wire.trajectory_csv import format_companion, format_trajectory_csv
+from core.wire.waypoints import format_waypoint_csv
 
 
 class ExportFormat(StrEnum):

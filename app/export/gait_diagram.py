@@ -10,8 +10,8 @@ import numpy as np
 
 from app.export.drawing import Anchor, Box, Dot, Drawing, Rule, Shape, Words, hatching
 from core.arrays import Bools
-from core.gait import Gait
-from core.robot import RobotModel
+from core.gait.gait import Gait
+from core.robot.model import RobotModel
 
 INK, QUIET, GRID, STANCE, LOCKED, SHEET = "#1b2430", "#667085", "#d5dae2", "#eceef2", "#8b5cf6", "#ffffff"
 WIDTH, LEFT, RIGHT = 1120.0, 104.0, 76.0

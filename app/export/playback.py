@@ -13,11 +13,11 @@ from app.export.gait_diagram import facts, gait_diagram, plot_area
 from app.export.source import Motion
 from app.export.svg import svg
 from app.finite import finite
-from core.gait import Gait
-from core.leg import vertex_directions
-from core.real_motion import real_feet
-from core.robot import RobotModel
-from core.support import stability_margins
+from core.gait.gait import Gait
+from core.motion.support_polygon import stability_margins
+from core.robot.coupled_strokes import real_feet
+from core.robot.leg import vertex_directions
+from core.robot.model import RobotModel
 
 _SCRIPTS = ("view.js", "robot.js", "scene.js", "player.js")
 _UNSAFE = {ord("<"): "\\u003c", ord(">"): "\\u003e", ord("&"): "\\u0026"}

@@ -9,13 +9,13 @@ from typing import Any
 from app.documents import FORMAT, gait_from_content, require_bytes, require_size
 from app.trajectory_files import require_world_frame
 from core.errors import InputError
-from core.gait import MOST_NAME
-from core.phase_list import PHASES_FORMAT, parse_phases
-from core.recorded_gait import DescribedGait, gait_of_motion, gait_of_timeline
-from core.recorded_motion import recorded_motion
-from core.recording import Recording, RecordingForm
-from core.robot import load_robot
-from core.waypoints import is_waypoint_text
+from core.gait.gait import MOST_NAME
+from core.gait.recording import Recording, RecordingForm
+from core.motion.phase_list import PHASES_FORMAT, parse_phases
+from core.recorded.recorded_gait import DescribedGait, gait_of_motion, gait_of_timeline
+from core.recorded.recorded_motion import recorded_motion
+from core.robot.model import load_robot
+from core.wire.waypoints import is_waypoint_text
 
 NAMELESS = "Imported gait"
 NO_FILE = "body"

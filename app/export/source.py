@@ -9,23 +9,23 @@ from app.plans import Plan, PlanSource
 from app.trajectory_files import read_motion_npz, read_trajectory
 from core.arrays import Floats
 from core.errors import FootfallError, InputError
-from core.gait import Gait
-from core.kinematics import free_strokes
-from core.real_motion import real_strokes
-from core.recorded_gait import gait_of_motion, robot_with
-from core.recorded_motion import recorded_motion
-from core.recording import Recording, RecordingForm
-from core.robot import RobotModel, load_robot
-from core.trajectory import Trajectory
-from core.trajectory_csv import (
+from core.gait.gait import Gait
+from core.gait.recording import Recording, RecordingForm
+from core.motion.trajectory import Trajectory
+from core.recorded.recorded_gait import gait_of_motion, robot_with
+from core.recorded.recorded_motion import recorded_motion
+from core.robot.coupled_strokes import real_strokes
+from core.robot.kinematics import free_strokes
+from core.robot.model import RobotModel, load_robot
+from core.wire.trajectory_csv import (
     CsvLayout,
     TrajectoryFile,
     format_companion,
     format_trajectory_csv,
     standard_layout,
 )
-from core.waypoint_path import waypoints_from_trajectory
-from core.waypoints import Waypoints
+from core.wire.waypoint_path import waypoints_from_trajectory
+from core.wire.waypoints import Waypoints
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,8 +8,8 @@ from typing import Any
 
 from app.finite import finite
 from app.simulations import physics_content
-from core.trials.fit_parameters import FitParameter
-from core.trials.learning import Foretold, Learned
+from core.identification.learning import Foretold, Learned
+from core.identification.parameters import FitParameter
 
 CM = 100.0
 WAYS = {

@@ -17,8 +17,14 @@ from app.simulations import physics_from_content
 from app.store.database import Database
 from app.store.learning_log import LearningLog
 from core.errors import FootfallError, NotFoundError, StateError
+from core.identification.learning import (
+    POINTS,
+    Walk,
+    learn,
+    require_gaits,
+    simulation_count,
+)
 from core.physics.parameters import PhysicsSet
-from core.trials.learning import POINTS, Walk, learn, require_gaits, simulation_count
 
 _log = logging.getLogger(__name__)
 

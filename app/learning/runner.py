@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Protocol
 
 from core.errors import SimulationCancelledError
+from core.identification.learning import Task, Walk
 from core.physics.parameters import PhysicsSet
-from core.trials.learning import Task, Walk
 from core.trials.travel import Travel
 
 
@@ -30,7 +30,7 @@ class TravelTier(Protocol):
 
 
 class WalkRunner:
-    """Simulates gaits, as `core.trials.learning.learn` asks for it.
+    """Simulates gaits, as `core.identification.learning.learn` asks for it.
 
     Args:
         tiers: each simulates one gait at a time.

@@ -12,7 +12,7 @@ from app.store.learning_log import LearningLog
 from core.errors import InputError, NotFoundError
 from core.physics.masses import default_physics
 from core.physics.parameters import PhysicsSet, physics_sets
-from core.robot import RobotModel
+from core.robot.model import RobotModel
 
 
 @dataclass(frozen=True)

@@ -14,17 +14,17 @@ import numpy as np
 from app.learning.walks import heading_of
 from app.simulations import way_problem
 from core.errors import InputError
-from core.kinematics import free_strokes
-from core.path_merging import plan_of_knots
+from core.identification.learning import Walk
+from core.motion.trajectory import Trajectory
 from core.physics.masses import default_physics
 from core.physics.parameters import PhysicsSet
 from core.physics.problem import SimulationProblem
-from core.robot import RobotModel
-from core.trajectory import Trajectory
-from core.trajectory_csv import parse_trajectory_csv
-from core.trials.learning import Walk
+from core.robot.kinematics import free_strokes
+from core.robot.model import RobotModel
 from core.trials.travel import MeasuredWalk, Travel
-from core.waypoints import Waypoints
+from core.wire.trajectory_csv import parse_trajectory_csv
+from core.wire.waypoint_merging import plan_of_knots
+from core.wire.waypoints import Waypoints
 
 KINDS = {"A": ("walk", "Walk"), "B": ("ambl", "Amble"), "C": ("mtri", "S-Gait"), "D": ("adjs", "C-Gait")}
 """Of a letter in the table, how its trajectories' files begin, and the gait's name."""

@@ -12,8 +12,8 @@ from app.trials.planned import sent_problem
 from app.trials.record import TrialRecord
 from core.arrays import Floats
 from core.errors import InputError
+from core.identification.learning import Walk
 from core.physics.problem import SimulationProblem
-from core.trials.learning import Walk
 from core.trials.travel import Travel, track_travel, walk_of_trials
 
 LEAST_WAY = 0.003

@@ -27,7 +27,7 @@ from core.errors import (
     RobotError,
     StateError,
 )
-from core.robot import RobotModel
+from core.robot.model import RobotModel
 
 Result = TypeVar("Result")
 

@@ -17,7 +17,7 @@ from app.open_gait import OpenGait
 from app.routes.edge import changed, on_planned, on_session, studio_of
 from app.studio import Studio
 from core.errors import InputError
-from core.recording import MOST_FILE_NAME
+from core.gait.recording import MOST_FILE_NAME
 
 router = APIRouter(prefix="/api/gaits", tags=["gaits"])
 TheStudio = Annotated[Studio, Depends(studio_of)]

@@ -21,7 +21,7 @@ from app.scene.overlay import plan_poses
 from app.studio import Studio
 from app.views import approval_view, verdict_view
 from core.errors import InputError, StateError
-from core.gait import MOST_NAME, Gait
+from core.gait.gait import MOST_NAME, Gait
 
 router = APIRouter(prefix="/api/gaits", tags=["gaits"])
 TheStudio = Annotated[Studio, Depends(studio_of)]

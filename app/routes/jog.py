@@ -14,8 +14,13 @@ from app.routes.robot import SOMEBODY, Deed, named
 from app.scene.ghost import ghost_blob
 from app.studio import Studio
 from core.errors import InputError
-from core.jog import MOST_STEPS, Axis, JogPart, JogStep
-from core.robot import RobotModel, load_robot
+from core.jog.steps import (
+    MOST_STEPS,
+    Axis,
+    JogPart,
+    JogStep,
+)
+from core.robot.model import RobotModel, load_robot
 
 router = APIRouter(prefix="/api/robot", tags=["robot"])
 TheStudio = Annotated[Studio, Depends(studio_of)]

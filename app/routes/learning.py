@@ -15,9 +15,9 @@ from app.routes.edge import TheAuthor, studio_of
 from app.studio import Studio
 from app.trials.record import ROBOT
 from core.errors import InputError
+from core.identification.learning import Walk
 from core.physics.masses import default_physics
-from core.robot import load_robot
-from core.trials.learning import Walk
+from core.robot.model import load_robot
 
 router = APIRouter(prefix="/api/learning", tags=["learning"])
 TheStudio = Annotated[Studio, Depends(studio_of)]

@@ -13,7 +13,7 @@ from app.trials.eyes import seen
 from app.trials.picture_tasks import LookAt, Source
 from app.trials.setup_models import Colours, LimitsDocument, SetupDocument
 from app.trials.video_desk import LOOK_SECONDS
-from core.trials.setup import FEET, TrackingSetup
+from core.vision.setup import FEET, TrackingSetup
 
 Width = Annotated[int | None, Query(ge=16, le=8192)]
 """A picture is shown no wider than so many pixels."""

@@ -11,9 +11,10 @@ from app.documents import gait_from_content
 from app.routes.pattern_models import DrawingQuestion, LimbsQuestion, TransitionQuestion
 from core.arrays import Bools
 from core.errors import InputError
-from core.gait import Gait
+from core.gait.gait import Gait
+from core.motion.contact_timeline import bits_from_rows
 from core.patterns.finishing import finishing_length
-from core.patterns.making import CycleUse, completed_gait, periodic_gait, transition_gait
+from core.patterns.limits import balance_model, walkable
 from core.patterns.problem import (
     FREE,
     LEAST_SAMPLES,
@@ -24,7 +25,7 @@ from core.patterns.problem import (
     Relaxation,
     Rule,
 )
-from core.patterns.relaxing import relaxed
+from core.patterns.relaxation import relaxed
 from core.patterns.sides import PatternSide
 from core.patterns.sources import (
     LimbState,
@@ -33,9 +34,13 @@ from core.patterns.sources import (
     transition_problem,
     with_locked_cells,
 )
-from core.patterns.walking import balance_model, walkable
-from core.robot import load_robot
-from core.timeline import bits_from_rows
+from core.patterns.to_gait import (
+    CycleUse,
+    completed_gait,
+    periodic_gait,
+    transition_gait,
+)
+from core.robot.model import load_robot
 
 AnyQuestion = TransitionQuestion | LimbsQuestion | DrawingQuestion
 

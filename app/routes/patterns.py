@@ -20,7 +20,7 @@ from app.routes.pattern_models import PatternUse, Question
 from app.routes.pattern_problems import AnyQuestion, Posed, posed
 from app.studio import Studio
 from app.views import plan_view
-from core.gait import Gait
+from core.gait.gait import Gait
 
 router = APIRouter(prefix="/api/patterns", tags=["patterns"])
 TheStudio = Annotated[Studio, Depends(studio_of)]

@@ -9,9 +9,19 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.routes.edge import changed, studio_of
 from app.studio import Studio
-from core.gait import MOST_NAME, Gait, GaitOptions, Orientation
-from core.new_gait import DEFAULT_STEP, default_phase_knots, drawn_gait, named_orders
-from core.robot import ROBOT_NAMES, RobotModel, load_robot
+from core.gait.gait import (
+    MOST_NAME,
+    Gait,
+    GaitOptions,
+    Orientation,
+)
+from core.library.new_gait import (
+    DEFAULT_STEP,
+    default_phase_knots,
+    drawn_gait,
+    named_orders,
+)
+from core.robot.model import ROBOT_NAMES, RobotModel, load_robot
 
 router = APIRouter(prefix="/api", tags=["robots"])
 TheStudio = Annotated[Studio, Depends(studio_of)]

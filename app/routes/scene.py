@@ -14,8 +14,8 @@ from app.scene.ghost import ghost_blob
 from app.scene.reach import reach_table
 from app.studio import Studio
 from core.errors import StateError
-from core.motion_problem import Workspace
-from core.trajectory import Trajectory
+from core.motion.trajectory import Trajectory
+from core.problem.motion_problem import Workspace
 
 router = APIRouter(prefix="/api/gaits", tags=["gaits"])
 TheStudio = Annotated[Studio, Depends(studio_of)]

@@ -11,7 +11,7 @@ from app.open_gait import OpenGait
 from app.routes.edge import TheAuthor, changed, on_session, studio_of
 from app.sequence_documents import AskedPart, made_sequence, refreshed
 from app.studio import Studio
-from core.sequence_part import MOST_PARTS, MOST_TIMES
+from core.gait.sequence_part import MOST_PARTS, MOST_TIMES
 
 router = APIRouter(prefix="/api", tags=["sequences"])
 TheStudio = Annotated[Studio, Depends(studio_of)]

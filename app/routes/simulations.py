@@ -11,7 +11,7 @@ from starlette.concurrency import run_in_threadpool
 from app.routes.edge import studio_of
 from app.scene.simulated_ghost import simulated_blob
 from app.studio import Studio
-from core.robot import load_robot
+from core.robot.model import load_robot
 
 router = APIRouter(prefix="/api/simulations", tags=["simulations"])
 TheStudio = Annotated[Studio, Depends(studio_of)]

@@ -12,13 +12,13 @@ from app.document_models import SegmentTableModel
 from app.documents import gait_content, gait_from_content
 from app.routes.edge import MOST_MOTORS, strokes_from_mm
 from core.errors import InputError
-from core.library import default_vocabulary
-from core.pose_taking import take_pose
-from core.real_motion import real_strokes
-from core.robot import load_robot
-from core.segments import Segment, SegmentVocabulary
-from core.table_making import table_from_timeline
-from core.table_repair import DraftTable, Repair, repairs
+from core.jog.pose_to_segment import take_pose
+from core.library.library import default_vocabulary
+from core.robot.coupled_strokes import real_strokes
+from core.robot.model import load_robot
+from core.segments.from_timeline import table_from_timeline
+from core.segments.repair import DraftTable, Repair, repairs
+from core.segments.segment_table import Segment, SegmentVocabulary
 
 router = APIRouter(tags=["segment tables"])
 

@@ -13,7 +13,7 @@ from app.studio import Studio
 from app.trials.desk import TrialWords, compared
 from app.trials.planned import PlannedFeet, planned_of_gait, planned_of_run
 from app.trials.tables import table_csv, table_latex
-from core.trials.track_csv import FRAME_RATE, PixelScale, parse_track_csv
+from core.vision.track_csv import FRAME_RATE, PixelScale, parse_track_csv
 
 router = APIRouter(prefix="/api/trials", tags=["trials"])
 TheStudio = Annotated[Studio, Depends(studio_of)]

@@ -14,8 +14,8 @@ from app.routes.edge import TheAuthor, changed, on_planned, on_session, studio_o
 from app.store.gait_log import VersionRow
 from app.studio import Studio
 from app.versions import MOST_NAME, VersionKind, is_said_already
-from core.gait import Gait
-from core.gait_difference import gait_difference
+from core.gait.gait import Gait
+from core.gait.gait_difference import gait_difference
 
 router = APIRouter(prefix="/api/gaits/{gait_id}/versions", tags=["versions"])
 TheStudio = Annotated[Studio, Depends(studio_of)]

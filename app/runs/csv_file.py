@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from app.runs.record import RunRecord
-from core.wire import MOTORS
+from core.wire.messages import MOTORS
 
 
 def run_csv(record: RunRecord) -> str:

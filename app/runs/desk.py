@@ -15,7 +15,7 @@ from app.store.database import Database
 from app.store.run_log import RunFilter, RunLog, RunRow
 from core.arrays import Floats
 from core.errors import FootfallError
-from core.run_analysis import run_errors
+from core.runs.analysis import run_errors
 
 FIGURES_VERSION = 2
 """Figures that another version computed are computed again."""

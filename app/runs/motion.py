@@ -6,9 +6,9 @@ import numpy as np
 
 from app.runs.record import RunRecord
 from core.errors import StateError
-from core.run_pose import measured_motion, standing_feet
-from core.run_reading import Command
-from core.trajectory import Trajectory
+from core.motion.trajectory import Trajectory
+from core.runs.pose import measured_motion, standing_feet
+from core.runs.reading import Command
 
 
 def measured_trajectory(record: RunRecord) -> Trajectory:

@@ -13,12 +13,12 @@ from app.trajectory_content import trajectory_content, trajectory_from_content
 from core.arrays import Floats
 from core.errors import InputError, StateError
 from core.findings import Approval
-from core.path_merging import WaypointPlan
-from core.robot import RobotModel, load_robot
-from core.run_pose import RanPlan
-from core.trajectory import Trajectory
-from core.waypoint_motion import motion_of_waypoints
-from core.waypoints import Waypoints
+from core.motion.trajectory import Trajectory
+from core.recorded.waypoint_motion import motion_of_waypoints
+from core.robot.model import RobotModel, load_robot
+from core.runs.pose import RanPlan
+from core.wire.waypoint_merging import WaypointPlan
+from core.wire.waypoints import Waypoints
 
 
 def run_plan_content(plan: Plan, way: WaypointPlan, approval: Approval) -> dict[str, Any]:

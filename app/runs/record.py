@@ -12,9 +12,9 @@ from app.runs.plan_content import ran_plan
 from app.store.run_log import RunLog, RunRow
 from core.arrays import Floats
 from core.errors import NotFoundError, StateError
-from core.run_analysis import move_begins, plan_times
-from core.run_pose import RanPlan, measured_motion
-from core.run_reading import RunBytes, RunSeries, read_run
+from core.runs.analysis import move_begins, plan_times
+from core.runs.pose import RanPlan, measured_motion
+from core.runs.reading import RunBytes, RunSeries, read_run
 
 
 @dataclass(frozen=True)

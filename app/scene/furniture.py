@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from app.scene.poses import COM_NODE, FLOOR_GAP, ROBOT_ROOT
 from core.arrays import Floats
-from core.closed_chain import BODY
-from core.robot import RobotModel
+from core.robot.closed_chain import BODY
+from core.robot.model import RobotModel
 
 Colour = tuple[int, int, int]
 

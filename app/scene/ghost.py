@@ -8,10 +8,10 @@ import numpy as np
 
 from app.scene.poses import ROBOT_ROOT, PoseBlob, pose_frames
 from core.arrays import Floats
-from core.closed_chain import BODY, foot_link, rod_link
-from core.leg import vertex_directions
-from core.robot import RobotModel
-from core.trajectory import Trajectory
+from core.motion.trajectory import Trajectory
+from core.robot.closed_chain import BODY, foot_link, rod_link
+from core.robot.leg import vertex_directions
+from core.robot.model import RobotModel
 
 FRAMES_A_SECOND = 10.0
 """Least number of a ghost's frames; the page draws the poses between them."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from app.scene.poses import ROBOT_ROOT
 from core.errors import InputError
-from core.robot import ROBOT_NAMES
+from core.robot.model import ROBOT_NAMES
 
 Colour = tuple[int, int, int, int]
 

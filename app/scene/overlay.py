@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.scene.poses import PoseBlob, node_names, pose_frames
-from core.balance import pressure_points
-from core.robot import RobotModel
-from core.support import stability_margins
-from core.trajectory import Trajectory
+from core.motion.balance import pressure_points
+from core.motion.support_polygon import stability_margins
+from core.motion.trajectory import Trajectory
+from core.robot.model import RobotModel
 
 FRAMES_A_SECOND = 20.0
 """Of a plan's poses; the page draws the poses between them."""

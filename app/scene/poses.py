@@ -16,12 +16,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.arrays import Floats
-from core.closed_chain import BODY, TWINS, foot_link, knee_link, knee_yaws, rod_angles, rod_link
 from core.errors import InputError
-from core.kinematics import actuator_plane_pose, feet_in_modules
-from core.leg import strokes_from_foot, vertex_directions
-from core.real_motion import real_feet
-from core.robot import RobotModel
+from core.robot.closed_chain import (
+    BODY,
+    TWINS,
+    foot_link,
+    knee_link,
+    knee_yaws,
+    rod_angles,
+    rod_link,
+)
+from core.robot.coupled_strokes import real_feet
+from core.robot.kinematics import actuator_plane_pose, feet_in_modules
+from core.robot.leg import strokes_from_foot, vertex_directions
+from core.robot.model import RobotModel
 
 ROBOT_ROOT = "/robot"
 """Scene path under which every link's node stands."""

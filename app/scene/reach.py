@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from core.motion_problem import Workspace
-from core.reach_outline import reach_radii
-from core.robot import RobotModel
-from core.trajectory import Trajectory
+from core.motion.trajectory import Trajectory
+from core.problem.motion_problem import Workspace
+from core.problem.workspace_outline import reach_radii
+from core.robot.model import RobotModel
 
 LAYERS = (0.0, 0.006, 0.012)
 """How high a foot is lifted where its reach is outlined, m."""

@@ -14,8 +14,8 @@ from app.scene.furniture import add_floor, add_light, add_overlay, set_camera
 from app.scene.nodes import Surface, link_surfaces
 from app.scene.poses import ROBOT_ROOT, PoseBlob, pose_frames
 from core.errors import InputError, StateError
-from core.motion_problem import standing_pose
-from core.robot import RobotModel, load_robot
+from core.problem.motion_problem import standing_pose
+from core.robot.model import RobotModel, load_robot
 
 LOOPBACK = "127.0.0.1"
 OPAQUE = 255

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from app.scene.ghost import ghost_blob
 from app.scene.poses import PoseBlob
 from core.arrays import Floats, interpolated
-from core.physics.reporting import rotations
-from core.robot import RobotModel
-from core.trajectory import Trajectory
+from core.motion.trajectory import Trajectory
+from core.physics.metrics import rotations
+from core.robot.model import RobotModel
 
 FRAMES_A_SECOND = 20.0
 """Least number of the ghost's frames; the page draws the poses between them."""

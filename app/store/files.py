@@ -13,7 +13,7 @@ from pathlib import Path
 
 from app.documents import gait_content, parse_gait
 from core.errors import InputError
-from core.gait import Gait
+from core.gait.gait import Gait
 
 _ID = re.compile(r"[a-z0-9][a-z0-9-]{0,79}")
 

@@ -14,10 +14,10 @@ from app.trials.figures import movement_content, path_content
 from app.trials.record import ROBOT, TrialRecord
 from app.trials.simulated import TrialSimulations
 from core.errors import InputError
-from core.robot import load_robot
+from core.robot.model import load_robot
 from core.trials.alignment import foot_gaps, placed_motion, track_of_motion
 from core.trials.movement import foot_movements, mean_movement
-from core.trials.track import FootTrack
+from core.vision.track import FootTrack
 
 SCENE_PLACES = 400
 """Places of a foot's way in 3D."""

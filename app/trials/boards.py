@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from app.trials.opencv import cv2
 from app.trials.video import Picture
 from core.errors import InputError
-from core.trials.camera import Lens
+from core.vision.camera import Lens
 
 LEAST_BOARDS = 3
 """Pictures of the checkerboard that a lens needs."""

@@ -19,11 +19,11 @@ from app.trials.record import ROBOT, TrialRecord, kept_track, told_ends, trial_r
 from app.trials.sight import Sight, astray_content, fit_content
 from core.arrays import Floats
 from core.errors import InputError, NotFoundError, StateError
-from core.robot import load_robot
+from core.robot.model import load_robot
 from core.trials.alignment import align, placed_motion
 from core.trials.iterations import find_iterations
-from core.trials.track import FootTrack
-from core.trials.track_csv import format_track_csv
+from core.vision.track import FootTrack
+from core.vision.track_csv import format_track_csv
 
 MOST_PLACES = 600
 """Places of a foot's way in a plot."""

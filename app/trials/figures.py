@@ -12,7 +12,7 @@ from core.arrays import Floats
 from core.trials.alignment import Alignment, placed_motion
 from core.trials.iterations import FoundIterations, IterationMovement, iteration_movements, standing_slip
 from core.trials.movement import Movement, foot_movements, mean_movement
-from core.trials.track import FootTrack
+from core.vision.track import FootTrack
 
 CM = 100.0
 

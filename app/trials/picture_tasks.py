@@ -19,9 +19,9 @@ from app.trials.tracking import VideoTrack, open_footage, track_video
 from app.trials.video import Picture, jpeg, read_picture, scaled, use_one_thread
 from core.arrays import Floats
 from core.errors import InputError
-from core.trials.camera import ColourRange, Lens, SpotLimits
-from core.trials.picture_size import picture_size, require_readable
-from core.trials.setup import TrackingSetup
+from core.vision.camera import ColourRange, Lens, SpotLimits
+from core.vision.image_header import picture_size, require_readable
+from core.vision.setup import TrackingSetup
 from solver_jobs import Report, answer_questions
 
 MOST_OPEN = 3

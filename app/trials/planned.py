@@ -13,10 +13,10 @@ from app.runs.plan_content import ran_plan, sent_content
 from app.runs.record import RunRecord
 from core.arrays import Floats
 from core.errors import StateError
-from core.gait import Gait
+from core.gait.gait import Gait
+from core.motion.trajectory import Trajectory
 from core.physics.masses import default_physics
 from core.physics.problem import SimulationProblem
-from core.trajectory import Trajectory
 from core.trials.alignment import repeated_motion
 
 

@@ -14,11 +14,11 @@ from app.store.trial_log import TrialRow
 from app.trials.planned import PlannedFeet
 from core.arrays import interpolated
 from core.errors import InputError
-from core.robot import load_robot
+from core.robot.model import load_robot
 from core.trials.alignment import Alignment, align, align_feet, placed_motion
 from core.trials.iterations import find_iterations
-from core.trials.track import FootTrack
-from core.trials.track_csv import parse_track_csv
+from core.vision.track import FootTrack
+from core.vision.track_csv import parse_track_csv
 
 ROBOT = "deltawalker"
 """The one robot that stands on a platform (its cable's robot)."""

@@ -13,7 +13,7 @@ from app.trials.tracking import VideoTrack, track_of_pixels
 from app.trials.video import Picture, jpeg
 from core.arrays import Floats
 from core.errors import FootfallError
-from core.trials.setup import TrackingSetup
+from core.vision.setup import TrackingSetup
 
 MOST_BYTES = 4_000_000_000
 """Of one recording's pictures; feet are followed on after that."""

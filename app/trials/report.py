@@ -20,8 +20,8 @@ from app.trials.report_page import facts, foot_name, footer, moment, number, pag
 from app.trials.report_plots import ways_from_above, ways_over_time
 from core.arrays import Floats
 from core.errors import FootfallError
-from core.robot import load_robot
-from core.trials.track import FootTrack
+from core.robot.model import load_robot
+from core.vision.track import FootTrack
 
 _LINES = {"tracked": "solid", "simulated": "dashed", "planned": "dotted"}
 

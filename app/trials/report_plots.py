@@ -11,7 +11,7 @@ import numpy as np
 from app.export.drawing import Anchor, Dot, Drawing, Rule, Shape, Trace, Words, dashed
 from app.trials.figures import CM
 from core.arrays import Bools, Floats
-from core.trials.track import FootTrack
+from core.vision.track import FootTrack
 
 QUIET, GRID, SHEET, UNSEEN = "#667085", "#e3e6eb", "#ffffff", "#9aa3b2"
 SIZE, EDGE = 300.0, 26.0

@@ -30,7 +30,7 @@ from app.trials.sight import Sight, SightSource
 from app.trials.tracking import missing_remarks
 from app.trials.video_desk import VideoDesk
 from core.errors import FootfallError, StateError
-from core.trials.setup import CameraSetup
+from core.vision.setup import CameraSetup
 
 _log = logging.getLogger(__name__)
 

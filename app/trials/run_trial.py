@@ -13,7 +13,7 @@ from app.trials.planned import PlannedFeet, planned_of_run
 from app.trials.tracking import VideoTrack
 from core.arrays import Floats, interpolated
 from core.errors import InputError, StateError
-from core.run_iterations import iteration_arrivals
+from core.runs.iterations import iteration_arrivals
 
 LEAST_WAY = 5e-4
 """A plan whose feet move less on the mean is no walk, m."""

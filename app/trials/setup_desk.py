@@ -15,7 +15,7 @@ from app.store.database import Database
 from app.store.setup_log import SetupLog, SetupRow
 from app.trials.setup_models import SetupDocument
 from core.errors import NotFoundError, StateError
-from core.trials.setup import CameraSetup
+from core.vision.setup import CameraSetup
 
 
 class SetupDesk:

@@ -9,8 +9,13 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from core.errors import InputError
-from core.trials.camera import FOOT_COLOURS, ColourRange, Lens, SpotLimits
-from core.trials.setup import FEET, SPOTS, CameraSetup
+from core.vision.camera import (
+    FOOT_COLOURS,
+    ColourRange,
+    Lens,
+    SpotLimits,
+)
+from core.vision.setup import FEET, SPOTS, CameraSetup
 
 Number = Annotated[float, Field(allow_inf_nan=False)]
 Share = Annotated[float, Field(ge=0.0, le=1.0)]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from app.trials.opencv import cv2
 from app.trials.video import Picture, scaled
 from core.arrays import Floats
-from core.trials.camera import ColourRange, SpotLimits
+from core.vision.camera import ColourRange, SpotLimits
 
 Mask = NDArray[np.uint8]
 """(height, width), 255 where something is, else 0."""

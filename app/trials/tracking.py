@@ -16,9 +16,9 @@ from app.trials.spots import find_feet
 from app.trials.video import VideoFile
 from core.arrays import Bools, Floats
 from core.errors import InputError
-from core.trials.false_sights import false_sights
-from core.trials.setup import TrackingSetup
-from core.trials.track import FootTrack, filled_track
+from core.vision.outliers import false_sights
+from core.vision.setup import TrackingSetup
+from core.vision.track import FootTrack, filled_track
 
 MISSED = 2.5
 """Pictures that are farther apart than so many usual intervals have others missing between them."""

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from app.trials.footage import Facts
 from app.trials.opencv import cv2
 from core.errors import InputError
-from core.trials.picture_size import require_readable
+from core.vision.image_header import require_readable
 
 Picture = NDArray[np.uint8]
 """(height, width, 3) blue, green, red."""

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Bools, Floats, frozen_bools
+from core.motion.support_polygon import polygon_margin, support_polygon
 from core.patterns.problem import FREE, Pattern, PatternKind, PatternProblem, Rule
-from core.support import polygon_margin, support_polygon
 
 ROUNDING = 1e-9
 """Places of the body are rounded; a margin or a way counts as kept within this, m."""

@@ -8,8 +8,8 @@ import numpy as np
 
 from core.arrays import Bools
 from core.errors import InputError
-from core.gait import Gait
-from core.robot import load_robot
+from core.gait.gait import Gait
+from core.robot.model import load_robot
 
 
 @dataclass(frozen=True, eq=False)

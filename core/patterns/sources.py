@@ -9,8 +9,9 @@ import numpy as np
 
 from core.arrays import Bools
 from core.errors import InputError
-from core.gait import Gait, Orientation, heading_angle
+from core.gait.gait import Gait, Orientation, heading_angle
 from core.patterns.finishing import finished_phases
+from core.patterns.limits import own_balance, shared_balance
 from core.patterns.problem import (
     FREE,
     BalanceModel,
@@ -23,8 +24,7 @@ from core.patterns.problem import (
     transition_cells,
 )
 from core.patterns.sides import PatternSide, locked_limbs, require_alike, still_limbs
-from core.patterns.walking import own_balance, shared_balance
-from core.robot import RobotModel, load_robot
+from core.robot.model import RobotModel, load_robot
 
 F_RULES, F_WEIGHTS = PatternRules(), PatternWeights()
 """The numbers of the footfall-pattern thesis."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from core.errors import InputError
 from core.physics.parameters import PhysicsSet, physics_set
-from core.robot import RobotModel
+from core.robot.model import RobotModel
 
 RODS_PER_ARM = 2
 

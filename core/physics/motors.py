@@ -7,8 +7,8 @@ import numpy as np
 from core.arrays import Floats
 from core.errors import InputError
 from core.physics.parameters import PhysicsSet
-from core.robot import RobotModel
-from core.wire_timing import RAMP_SPEED
+from core.robot.model import RobotModel
+from core.wire.timing import RAMP_SPEED
 
 LEAST_SHARE = 0.05
 """Smallest share of its speed with which a motor is still one that moves."""

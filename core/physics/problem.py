@@ -7,10 +7,10 @@ from enum import StrEnum
 
 from core.arrays import Bools, Floats, frozen_bools, frozen_floats
 from core.errors import InputError
+from core.motion.trajectory import Trajectory
 from core.physics.parameters import PhysicsSet
-from core.robot import RobotModel
-from core.trajectory import Trajectory
-from core.waypoints import Waypoints
+from core.robot.model import RobotModel
+from core.wire.waypoints import Waypoints
 
 
 class Rig(StrEnum):

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.arrays import Floats
-from core.waypoint_path import MESSAGE_SECONDS, SHORT_MOVE, TYPICAL_SCAN
-from core.waypoints import Waypoints
-from core.wire_timing import ARRIVAL_THRESHOLD, ramp_time
+from core.wire.timing import ARRIVAL_THRESHOLD, ramp_time
+from core.wire.waypoint_path import MESSAGE_SECONDS, SHORT_MOVE, TYPICAL_SCAN
+from core.wire.waypoints import Waypoints
 
 TURN = 0.01
 """The firmware's loop gives its motors a new command this often during a ramp, s; phases last whole turns."""

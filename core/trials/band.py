@@ -9,7 +9,7 @@ import numpy as np
 
 from core.arrays import Floats, interpolated
 from core.errors import InputError
-from core.trials.track import FootTrack
+from core.vision.track import FootTrack
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from core.arrays import Floats
 from core.errors import InputError
 from core.trials.movement import Movement, foot_movements, mean_movement
-from core.trials.track import FootTrack
+from core.vision.track import FootTrack
 
 SIDE_SECONDS = 1.5
 """A step is what lies between the mean places of a foot so long before and after, s."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from core.arrays import Floats
 from core.errors import InputError
-from core.trials.track import FootTrack
+from core.vision.track import FootTrack
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from core.arrays import Floats
 from core.errors import InputError
 from core.trials.alignment import repeated_motion
 from core.trials.movement import Movement, foot_movements, mean_movement
-from core.trials.track import FootTrack
+from core.vision.track import FootTrack
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from core.arrays import Bools, Floats
-from core.draft import Indices, closed_contact, problem_swings
-from core.held_feet import feet_words
-from core.motion_problem import MotionProblem
+from core.gait.held_feet import feet_words
+from core.problem.initial_guess import Indices, closed_contact, problem_swings
+from core.problem.motion_problem import MotionProblem
 from solver_jobs.constraint import Family
 from solver_jobs.diagnosis import knot_ranges
 from solver_jobs.live.outline import MM, Outline

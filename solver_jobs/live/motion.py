@@ -7,10 +7,10 @@ from itertools import combinations
 import numpy as np
 
 from core.arrays import Bools, Floats
-from core.draft import Indices, standing_forces
-from core.motion_problem import MotionProblem
-from core.support import GRAVITY
-from core.trajectory import Trajectory
+from core.motion.support_polygon import GRAVITY
+from core.motion.trajectory import Trajectory
+from core.problem.initial_guess import Indices, standing_forces
+from core.problem.motion_problem import MotionProblem
 from solver_jobs.live.outline import MM, Outline
 
 

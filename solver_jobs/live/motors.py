@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from core.arrays import Floats
-from core.draft import Indices
-from core.kinematics import actuator_plane_pose, feet_in_modules
-from core.leg import squared_offsets, vertex_directions
-from core.trajectory import Trajectory
+from core.motion.trajectory import Trajectory
+from core.problem.initial_guess import Indices
+from core.robot.kinematics import actuator_plane_pose, feet_in_modules
+from core.robot.leg import squared_offsets, vertex_directions
 from solver_jobs.constraint import Family
 from solver_jobs.live.outline import MM, Outline
 from solver_jobs.live.rows import NOBODY, Rows, Term, make_rows

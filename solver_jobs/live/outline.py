@@ -11,12 +11,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Bools, Floats
-from core.draft import Indices, clearance_knot, closed_contact, problem_swings
-from core.footholds import way_shares
-from core.lifting import held_climb, rest_heights
-from core.motion_problem import Boundary, MotionProblem
-from core.support import GRAVITY
-from core.timeline import Swing
+from core.motion.contact_timeline import Swing
+from core.motion.support_polygon import GRAVITY
+from core.problem.footholds import way_shares
+from core.problem.initial_guess import (
+    Indices,
+    clearance_knot,
+    closed_contact,
+    problem_swings,
+)
+from core.problem.motion_problem import Boundary, MotionProblem
+from core.problem.swing_height import held_climb, rest_heights
 
 MM = 1000.0
 """Millimetres in a metre."""
@@ -97,7 +102,7 @@ def outline_of(problem: MotionProblem, level: float | None = None) -> Outline:
 def _lay_foot(
     problem: MotionProblem, foot: int, own: list[Swing], shares: Floats, known: Floats, free: Bools
 ) -> None:
-    """Footholds of one foot, its way shared among its swings (`core.footholds`); free in the air."""
+    """Footholds of one foot, its way shared among its swings (`core.problem.footholds`); free in the air."""
     start, goal = (pose.feet_world[foot, :2] * MM for pose in (problem.start, problem.goal))
     known[0, :, 1 + foot] = start
     for share, swing in zip(shares[1:], own, strict=True):

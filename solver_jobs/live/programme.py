@@ -12,7 +12,7 @@ import numpy as np
 from casadi import DM, Function, Sparsity, conic
 
 from core.arrays import Floats
-from core.draft import Indices
+from core.problem.initial_guess import Indices
 from solver_jobs.live.rows import Rows
 
 SOLVER = "piqp"

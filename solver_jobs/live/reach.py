@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Floats
-from core.draft import Indices
-from core.leg import vertex_directions
-from core.motion_problem import CYLINDER, Workspace
+from core.problem.initial_guess import Indices
+from core.problem.motion_problem import CYLINDER, Workspace
+from core.robot.leg import vertex_directions
 from solver_jobs.constraint import Family
 from solver_jobs.live.outline import MM, Outline
 from solver_jobs.live.rows import NOBODY, DiscPolygon, Rows, dot_terms, make_rows

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.arrays import Floats
-from core.draft import Indices
+from core.problem.initial_guess import Indices
 from solver_jobs.constraint import Family
 from solver_jobs.live.outline import MM, Outline
 

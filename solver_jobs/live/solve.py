@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.arrays import Floats
-from core.draft import initial_motion
-from core.motion_check import check_motion
-from core.motion_problem import MotionProblem
-from core.trajectory import Trajectory, turn_trajectory
+from core.motion.trajectory import Trajectory, turn_trajectory
+from core.problem.initial_guess import initial_motion
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import MotionProblem
 from solver_jobs.assembly import box_of
 from solver_jobs.constraint import situation_of
 from solver_jobs.live.elastic import FARTHEST, PROOF_MM, Nearest, nearest

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from core.patterns.clause import SAMPLE_RULES, Clause
 from core.patterns.problem import FREE, PatternKind, PatternProblem, Rule
-from core.patterns.relaxing import with_rule
+from core.patterns.relaxation import with_rule
 from solver_jobs.patterns.probe import Probe
 
 MOST_NAMED = 3

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from core.patterns.clause import Clause
 from core.patterns.problem import PatternProblem, PatternResult, PatternStatus, Relaxation
-from core.patterns.words import clash_sentence, explanation
+from core.patterns.sentences import clash_sentence, explanation
 from solver_jobs.patterns.clash import find_clash
 from solver_jobs.patterns.loosening import find_relaxations
 from solver_jobs.patterns.probe import Probe

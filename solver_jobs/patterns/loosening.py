@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from core.patterns.clause import Clause
 from core.patterns.problem import FREE, MOST_SAMPLES, PatternKind, PatternProblem, Relaxation, Rule
-from core.patterns.relaxing import has_fixed_cells, relaxed, with_rule
-from core.patterns.words import failing_samples, relaxation_words
+from core.patterns.relaxation import has_fixed_cells, relaxed, with_rule
+from core.patterns.sentences import failing_samples, relaxation_words
 from solver_jobs.patterns.clash import find_clash
 from solver_jobs.patterns.probe import Answer, Probe
 

@@ -10,7 +10,7 @@ from ortools.sat.python.cp_model import FEASIBLE, INFEASIBLE, OPTIMAL, CpSolver
 
 from core.patterns.clause import Clause, asked_by
 from core.patterns.problem import PatternProblem, Rule
-from core.patterns.relaxing import with_rule
+from core.patterns.relaxation import with_rule
 from solver_jobs.patterns.model import Active, build_model, every_rule
 
 TRIES = ((0, 0.02), (2, 0.05), (0, 0.1))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from core.errors import StateError
 from core.patterns.problem import LEAST_SAMPLES, PatternProblem
-from core.patterns.relaxing import with_samples
+from core.patterns.relaxation import with_samples
 from solver_jobs.patterns.probe import Answer, Probe
 
 WORK = 5.0

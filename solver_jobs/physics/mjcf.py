@@ -14,14 +14,20 @@ from xml.etree import ElementTree
 import numpy as np
 
 from core.arrays import Floats
-from core.closed_chain import BODY, foot_joints, foot_link, knee_link, motor_joint
-from core.kinematics import BodyPose
-from core.leg import foot_from_strokes, vertex_directions
 from core.physics.masses import part_masses
 from core.physics.motors import motor_force_limits
 from core.physics.parameters import PhysicsSet
 from core.physics.problem import Rig
-from core.robot import RobotModel
+from core.robot.closed_chain import (
+    BODY,
+    foot_joints,
+    foot_link,
+    knee_link,
+    motor_joint,
+)
+from core.robot.kinematics import BodyPose
+from core.robot.leg import foot_from_strokes, vertex_directions
+from core.robot.model import RobotModel
 
 REFLECTED_MASS = 0.1
 """Of a motor's rotor, seen at its knee, kg: inertia without weight. A real 63:1 gear with its screw has more;

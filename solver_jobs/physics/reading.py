@@ -8,11 +8,11 @@ import mujoco
 import numpy as np
 
 from core.arrays import Floats
-from core.closed_chain import foot_joints, motor_joint
+from core.physics.metrics import rotations
 from core.physics.motion import SimulatedMotion
 from core.physics.problem import Rig, SimulationProblem
 from core.physics.ramp import TURN, MotorCourse
-from core.physics.reporting import rotations
+from core.robot.closed_chain import foot_joints, motor_joint
 from solver_jobs.physics.mjcf import ground_sensor, rest_height
 
 

@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 
 from core.arrays import Floats
 from core.errors import CheckError, InfeasibleError
-from core.kinematics import BodyPose
-from core.path_merging import robot_feet
+from core.physics.backlash import with_play
+from core.physics.metrics import FALL_TILT, rotations, tilts
 from core.physics.motors import motor_speeds
-from core.physics.play import with_play
 from core.physics.problem import Rig, SimulationProblem
 from core.physics.ramp import TURN, MotorCourse, motor_course
-from core.physics.reporting import FALL_TILT, rotations, tilts
+from core.robot.kinematics import BodyPose
+from core.wire.waypoint_merging import robot_feet
 from solver_jobs.physics.mjcf import LINK_RELAXATION, mjcf_text, rest_height
 from solver_jobs.physics.reading import Layout
 

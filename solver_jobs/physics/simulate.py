@@ -7,9 +7,9 @@ import time
 from collections.abc import Callable, Sequence
 
 from core.errors import SimulationCancelledError
+from core.physics.metrics import report
 from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
-from core.physics.reporting import report
 from core.physics.variations import VariedRun, variations, varied_problem, varied_run
 from solver_jobs.physics.reading import new_pool, simulated_motion
 from solver_jobs.physics.running import TIME_STEP, VARIED_STEP, SimulatedRun, advance

@@ -18,7 +18,7 @@ from app.live_desk import LiveDesk
 from app.store.database import Database
 from app.store.files import GaitFiles
 from app.versions import VersionKind
-from core.library import library
+from core.library.library import library
 from solver_jobs import SolveStatus
 from tests.app.live_tiers import FixedTier
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from core.draft import initial_motion
-from core.gait import Gait
-from core.motion_problem import MotionProblem
+from core.gait.gait import Gait
+from core.problem.initial_guess import initial_motion
+from core.problem.motion_problem import MotionProblem
 from solver_jobs import Evidence, Lack, MotionResult, Remedy, RemedySearch, SolveStatus
 
 LACK = Lack("workspace", 1.2, "mm", 5, 9, (2,), "Reach lacks 1.2 mm: foot 3 is outside its workspace.")

@@ -24,12 +24,12 @@ from app.robot_ports import RobotPorts
 from app.simulations import simulation_problem
 from app.store.database import Database
 from app.store.files import GaitFiles
+from core.checks.simulation import Simulated
 from core.errors import FootfallError, InputError, StateError
-from core.gait import Gait
+from core.gait.gait import Gait
+from core.physics.metrics import report
 from core.physics.parameters import physics_set
-from core.physics.reporting import report
-from core.robot import RobotModel
-from core.simulation_check import Simulated
+from core.robot.model import RobotModel
 from tests.simulated_walk import followed, no_solver
 
 GAIT = "walk-manual-0"

@@ -13,11 +13,11 @@ from app.plans import Plan
 from app.simulations import simulation_problem
 from app.store.database import Database
 from app.store.files import GaitFiles
+from core.checks.simulation import NOT_SIMULATED, Simulated
 from core.errors import InputError, NotFoundError, StateError
+from core.physics.metrics import report
 from core.physics.parameters import physics_set
-from core.physics.reporting import report
-from core.robot import RobotModel
-from core.simulation_check import NOT_SIMULATED, Simulated
+from core.robot.model import RobotModel
 from tests.simulated_walk import followed, no_solver
 
 GAIT = "walk-manual-0"

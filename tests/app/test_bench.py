@@ -17,9 +17,9 @@ from app.bench.live import bench_live, grouped_gait
 from app.bench.timing import bench_timing
 from app.bench.trajectories import bench_trajectories, row_of
 from app.documents import gait_content
-from core.gait import motion_problem
-from core.motion_problem import Workspace
-from core.robot import load_robot
+from core.gait.gait import motion_problem
+from core.problem.motion_problem import Workspace
+from core.robot.model import load_robot
 from tests.app.command import run, run_json
 
 

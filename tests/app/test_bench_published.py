@@ -9,7 +9,7 @@ import pytest
 
 from app.bench.published import MANUAL_FEET, TABLE_4_1, TABLE_4_2, PublishedRun, Reference
 from core.errors import InputError
-from core.robot import load_robot
+from core.robot.model import load_robot
 from tests.reference import reference_path
 
 MODEL = load_robot("deltawalker")

@@ -8,7 +8,7 @@ import pytest
 
 from app.bench import BENCHMARKS
 from app.bench.transitions import PUBLISHED, RuleSet, Solvers, compared, random_transitions, share, solvers
-from core.library import library
+from core.library.library import library
 from core.patterns.problem import FREE
 
 

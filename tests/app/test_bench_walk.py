@@ -8,7 +8,7 @@ import pytest
 
 from app.bench.bridge_walk import PUBLISHED, bench_walk
 from app.bench.measure import Row
-from core.wire_timing import OVERRUN
+from core.wire.timing import OVERRUN
 
 
 @cache

@@ -16,10 +16,10 @@ from app.bridge.emulated import start_emulator
 from app.documents import gait_content
 from app.trajectory_files import read_trajectory
 from app.version import VERSION
-from core.library import library
-from core.trajectory_csv import parse_trajectory_csv
-from core.waypoints import parse_waypoint_csv
-from core.wire_timing import OVERRUN
+from core.library.library import library
+from core.wire.timing import OVERRUN
+from core.wire.trajectory_csv import parse_trajectory_csv
+from core.wire.waypoints import parse_waypoint_csv
 from tests.app.command import run, run_json
 from tests.reference import reference_path
 from tests.studio_process import PROJECT

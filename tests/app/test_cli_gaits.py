@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from app.documents import gait_content, gait_from_content
-from core.library import Group, group_ids, library
-from core.robot import load_robot
-from core.trajectory_csv import parse_trajectory_csv
+from core.library.library import Group, group_ids, library
+from core.robot.model import load_robot
+from core.wire.trajectory_csv import parse_trajectory_csv
 from tests.app.command import run, run_json
 from tests.reference import reference_rows
 

@@ -12,11 +12,16 @@ import pytest
 from app.bench.live import grouped_gait
 from app.documents import gait_content
 from app.trajectory_files import read_trajectory
-from core.gait import Gait, drawn_timeline, heading_step, motion_problem
-from core.kinematics import walker_strokes
-from core.library import library
-from core.robot import load_robot
-from core.timeline import timeline_from_rows
+from core.gait.gait import (
+    Gait,
+    drawn_timeline,
+    heading_step,
+    motion_problem,
+)
+from core.library.library import library
+from core.motion.contact_timeline import timeline_from_rows
+from core.robot.kinematics import walker_strokes
+from core.robot.model import load_robot
 from solver_jobs import Evidence, SolveStatus, solve_exact, solve_live
 from tests.app.command import run, run_json
 

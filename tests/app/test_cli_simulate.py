@@ -20,9 +20,9 @@ from app.documents import gait_content
 from app.learning.sets import LearnedSets
 from app.store.database import DATABASE, Database
 from app.trajectory_files import write_trajectory
-from core.library import library
+from core.library.library import library
+from core.motion.trajectory import Trajectory
 from core.physics.parameters import physics_set
-from core.trajectory import Trajectory
 from tests.app.command import run, run_json
 from tests.simulated_walk import walk_problem
 from tests.studio_process import PROJECT, wait_for

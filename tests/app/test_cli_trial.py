@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from core.trials.track_csv import format_track_csv
+from core.vision.track_csv import format_track_csv
 from tests.app.command import run, run_json
 from tests.core.trials.tracks import stepping_track
 from tests.reference import reference_path

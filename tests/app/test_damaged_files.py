@@ -13,11 +13,11 @@ from app.store.database import Database
 from app.store.files import GaitFiles
 from app.studio import Studio
 from app.trajectory_content import trajectory_content
-from core.gait import motion_problem
-from core.library import library
-from core.robot import load_robot
-from core.sequence import sequence_gait
-from core.sequence_part import SequencePart
+from core.gait.gait import motion_problem
+from core.gait.sequence_part import SequencePart
+from core.library.library import library
+from core.library.sequence import sequence_gait
+from core.robot.model import load_robot
 from solver_jobs import solve_live
 
 

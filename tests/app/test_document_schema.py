@@ -12,8 +12,8 @@ from hypothesis import given, settings
 
 from app.documents import gait_content, gait_schema, parse_gait
 from core.errors import InputError
-from core.gait import Gait
-from core.library import library
+from core.gait.gait import Gait
+from core.library.library import library
 from tests.app.command import run
 from tests.json_schema import TYPES, violations
 from tests.strategies import documents

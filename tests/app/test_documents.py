@@ -11,10 +11,10 @@ from hypothesis import given, settings
 
 from app.documents import asked_hash, gait_content, motion_hash, parse_gait, require_size
 from core.errors import InputError
-from core.gait import Gait
-from core.library import library
-from core.provenance import Provenance
-from core.recording import Recording, RecordingForm
+from core.gait.gait import Gait
+from core.gait.provenance import Provenance
+from core.gait.recording import Recording, RecordingForm
+from core.library.library import library
 from tests.strategies import documents
 
 PROVENANCE = Provenance("a" * 64, "b" * 64, "nlp", "IPOPT", "solved", 0.1, "2026-11-21T18:40:00+00:00", "1")

@@ -10,7 +10,7 @@ import pytest
 
 from app.documents import gait_content, parse_gait
 from app.trajectory_files import read_trajectory
-from core.library import library
+from core.library.library import library
 from tests.app.command import run, run_json
 from tests.reference import reference_path
 

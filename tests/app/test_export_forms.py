@@ -19,12 +19,12 @@ from app.export.formats import NEED_NO_MOTION, ExportFormat, export
 from app.export.source import Exportable, exportable_file, exportable_plan
 from app.plans import make_plan
 from core.errors import FootfallError, InputError
-from core.gait import Gait
-from core.library import library
-from core.motion_npz import parse_npz
-from core.phase_list import parse_phases
-from core.trajectory_csv import parse_trajectory_csv
-from core.waypoints import parse_waypoint_csv
+from core.gait.gait import Gait
+from core.library.library import library
+from core.motion.phase_list import parse_phases
+from core.motion.trajectory_npz import parse_npz
+from core.wire.trajectory_csv import parse_trajectory_csv
+from core.wire.waypoints import parse_waypoint_csv
 from solver_jobs import SolveStatus, solve_live
 from tests.app.live_tiers import result_of
 from tests.reference import reference_path

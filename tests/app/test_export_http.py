@@ -15,9 +15,9 @@ import pytest
 
 from app.documents import gait_content, gait_schema
 from app.export.formats import ExportFormat
-from core.library import library
-from core.phase_list import format_phases
-from core.trajectory_csv import format_companion, format_trajectory_csv, parse_trajectory_csv
+from core.library.library import library
+from core.motion.phase_list import format_phases
+from core.wire.trajectory_csv import format_companion, format_trajectory_csv, parse_trajectory_csv
 from tests.reference import reference_path
 from tests.studio_process import StudioProcess, running_studio, wait_for
 

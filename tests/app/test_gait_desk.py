@@ -18,8 +18,8 @@ from app.store.database import Database
 from app.store.files import GaitFiles
 from app.trajectory_content import trajectory_content
 from core.errors import CheckError, InputError, NotFoundError, StateError
-from core.gait import Gait
-from core.library import library
+from core.gait.gait import Gait
+from core.library.library import library
 from solver_jobs import SolveStatus, solve_live
 from tests.app.live_tiers import FixedTier
 

@@ -21,8 +21,8 @@ from app.store.database import Database
 from app.store.files import GaitFiles
 from app.studio import Studio
 from core.errors import InputError
-from core.gait import Gait
-from core.library import library
+from core.gait.gait import Gait
+from core.library.library import library
 from solver_jobs import SolveStatus
 from tests.app.live_tiers import FixedTier
 from tests.app.test_gait_desk import WALK, edit

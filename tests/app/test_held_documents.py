@@ -18,12 +18,12 @@ from app.settling import in_agreement, settled
 from app.store.database import Database
 from app.store.files import GaitFiles
 from core.errors import CheckError, InputError
-from core.gait import Gait, drawn_timeline
-from core.gait_difference import gait_difference
-from core.held_feet import HeldFeet
-from core.library import library
-from core.recorded_gait import gait_of_motion
-from core.trajectory_csv import format_companion, format_trajectory_csv, parse_trajectory_csv
+from core.gait.gait import Gait, drawn_timeline
+from core.gait.gait_difference import gait_difference
+from core.gait.held_feet import HeldFeet
+from core.library.library import library
+from core.recorded.recorded_gait import gait_of_motion
+from core.wire.trajectory_csv import format_companion, format_trajectory_csv, parse_trajectory_csv
 from solver_jobs import solve_live
 from tests.held_gaits import lifting, wave
 

@@ -21,7 +21,7 @@ from app.store.database import Database
 from app.store.simulation_log import MOST_KEPT, SimulationLog, SimulationRow
 from app.version import VERSION
 from core.errors import CheckError, NotFoundError
-from core.library import library
+from core.library.library import library
 from core.physics.parameters import PhysicsSet, physics_set, physics_sets
 from tests.simulated_walk import GAIT, no_solver, walk_plan, walk_report
 

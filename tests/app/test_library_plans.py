@@ -11,7 +11,7 @@ from app.plans import PlanSource, verdict_of
 from app.sequence_plans import plan_of
 from app.views import gait_view, verdict_view
 from core.errors import CheckError
-from core.library import Group, library
+from core.library.library import Group, library
 from solver_jobs import solve_live
 
 SOURCES = {

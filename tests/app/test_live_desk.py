@@ -16,14 +16,14 @@ from app.reach_rings import CORNERS, reach_rings
 from app.settling import settled
 from app.timings import timing_content
 from app.views import plan_view
-from core.draft import initial_motion
 from core.errors import InputError, StateError
-from core.gait import Gait, heading_step, motion_problem
-from core.kinematics import BodyPose, feet_in_modules
-from core.leg import strokes_from_foot
-from core.library import library
-from core.motion_problem import MotionProblem, Workspace
-from core.robot import load_robot
+from core.gait.gait import Gait, heading_step, motion_problem
+from core.library.library import library
+from core.problem.initial_guess import initial_motion
+from core.problem.motion_problem import MotionProblem, Workspace
+from core.robot.kinematics import BodyPose, feet_in_modules
+from core.robot.leg import strokes_from_foot
+from core.robot.model import load_robot
 from solver_jobs import MotionResult, SolveStatus, TimingResult, solve_live
 from tests.app.live_tiers import LACK, FixedTier, result_of
 

@@ -9,7 +9,7 @@ import pytest
 from app.documents import gait_content
 from app.migrations import STEPS, VERSION, Step, migrated
 from core.errors import InputError
-from core.library import library
+from core.library.library import library
 
 OLD: dict[str, Any] = {"version": 1, "title": "Walk", "step_mm": 10}
 

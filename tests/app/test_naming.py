@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from app.naming import free_name
-from core.gait import MOST_NAME
+from core.gait.gait import MOST_NAME
 
 
 @pytest.mark.parametrize(

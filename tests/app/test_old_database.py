@@ -15,8 +15,8 @@ from app.live_desk import LiveDesk
 from app.store.database import Database
 from app.store.files import GaitFiles
 from core.errors import InputError, StateError
-from core.gait import Gait
-from core.library import library
+from core.gait.gait import Gait
+from core.library.library import library
 from solver_jobs import SolveStatus
 from tests.app.live_tiers import FixedTier
 

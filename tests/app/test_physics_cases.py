@@ -19,10 +19,10 @@ from app.bench.physics_cases import (
     walker,
 )
 from app.bench.published import Reference
-from core.motion_problem import MotionProblem, Workspace
+from core.motion.support_polygon import stability_margins
+from core.motion.trajectory import Trajectory
 from core.physics.parameters import physics_set
-from core.support import stability_margins
-from core.trajectory import Trajectory
+from core.problem.motion_problem import MotionProblem, Workspace
 from solver_jobs import SolveStatus
 from tests.reference import reference_path
 

@@ -20,7 +20,7 @@ from app.session import Session
 from app.store.database import Database
 from app.store.files import GaitFiles
 from core.errors import InputError
-from core.motion_problem import MotionProblem
+from core.problem.motion_problem import MotionProblem
 from solver_jobs import MotionResult, SolveStatus, solve_live
 from tests.app.live_tiers import FixedTier
 from tests.studio_process import wait_for

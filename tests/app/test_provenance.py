@@ -18,9 +18,9 @@ from app.store.database import Database
 from app.store.files import GaitFiles
 from app.trajectory_content import content_sha256, trajectory_content
 from app.version import VERSION
-from core.gait import Gait, motion_problem
-from core.library import library
-from core.robot import load_robot
+from core.gait.gait import Gait, motion_problem
+from core.library.library import library
+from core.robot.model import load_robot
 from solver_jobs import solve_live
 
 WALK = "walk"

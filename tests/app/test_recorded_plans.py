@@ -23,16 +23,16 @@ from app.store.database import Database
 from app.store.files import GaitFiles
 from core.errors import InputError, StateError
 from core.findings import Severity
-from core.gait import Gait, Orientation, motion_problem
-from core.library import library
-from core.making import Making, making
-from core.motion_problem import MotionProblem
-from core.robot import load_robot
-from core.timeline import timeline_from_order
-from core.trajectory import Trajectory
-from core.trajectory_csv import format_companion, format_trajectory_csv, parse_trajectory_csv
-from core.waypoint_path import waypoints_from_trajectory
-from core.waypoints import format_waypoint_csv
+from core.gait.gait import Gait, Orientation, motion_problem
+from core.gait.motion_source import Making, making
+from core.library.library import library
+from core.motion.contact_timeline import timeline_from_order
+from core.motion.trajectory import Trajectory
+from core.problem.motion_problem import MotionProblem
+from core.robot.model import load_robot
+from core.wire.trajectory_csv import format_companion, format_trajectory_csv, parse_trajectory_csv
+from core.wire.waypoint_path import waypoints_from_trajectory
+from core.wire.waypoints import format_waypoint_csv
 from solver_jobs import MotionResult, solve_live
 from tests.app.test_documents import PROVENANCE
 from tests.reference import reference_path

@@ -12,7 +12,7 @@ from app.bridge.run import plan_moves
 from app.bridge.states import JogProgress, LinkState, RobotSnapshot, RobotState, RunPhase, RunProgress
 from app.robot_view import RunOrigin, robot_view, run_end, stop_seconds
 from app.run_summary import sent_waypoints
-from core.wire_timing import LONGEST_SCAN, OVERRUN, ramp_time
+from core.wire.timing import LONGEST_SCAN, OVERRUN, ramp_time
 from tests.bridge.virtual_robot import VirtualRobot, make_plan
 
 RUN = RunProgress("r", "Ada", RunPhase.STREAMING, 3, 3, 3, 9.0)

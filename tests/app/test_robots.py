@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from app.documents import gait_content
-from core.library import manual_entry
-from core.robot import ROBOT_NAMES, load_robot
-from core.waypoints import parse_waypoint_csv
+from core.library.library import manual_entry
+from core.robot.model import ROBOT_NAMES, load_robot
+from core.wire.waypoints import parse_waypoint_csv
 from tests.app.command import run, run_json
 from tests.studio_process import StudioProcess, running_studio
 

@@ -10,7 +10,7 @@ from app.documents import gait_content, gait_from_content, motion_hash
 from app.migrations import filled
 from app.plans import make_plan
 from core.errors import InputError
-from core.library import library
+from core.library.library import library
 from solver_jobs import solve_live
 
 WALK = library()["walk-manual-0"].gait

@@ -10,11 +10,11 @@ import pytest
 
 from app.bridge.emulated import EmulatedRobot
 from app.documents import gait_content
-from core.gait import Gait
-from core.library import library
-from core.sequence import sequence_gait
-from core.sequence_part import SequencePart
-from core.trajectory_csv import parse_trajectory_csv
+from core.gait.gait import Gait
+from core.gait.sequence_part import SequencePart
+from core.library.library import library
+from core.library.sequence import sequence_gait
+from core.wire.trajectory_csv import parse_trajectory_csv
 from tests.app.command import run, run_json
 from tests.studio_process import StudioProcess, wait_for
 

@@ -26,13 +26,13 @@ from app.store.database import Database
 from app.store.files import GaitFiles
 from app.trajectory_content import trajectory_content
 from core.errors import CheckError, InputError
-from core.gait import Gait, motion_problem
-from core.library import library
-from core.motion_problem import MotionProblem
-from core.new_gait import with_robot
-from core.robot import load_robot
-from core.sequence import derived, run_of, sequence_gait
-from core.sequence_part import SequencePart
+from core.gait.gait import Gait, motion_problem
+from core.gait.sequence_part import SequencePart
+from core.library.library import library
+from core.library.new_gait import with_robot
+from core.library.sequence import derived, run_of, sequence_gait
+from core.problem.motion_problem import MotionProblem
+from core.robot.model import load_robot
 from solver_jobs import MotionResult, SolveStatus, solve_live
 from tests.app.live_tiers import FixedTier
 

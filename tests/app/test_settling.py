@@ -10,9 +10,9 @@ import pytest
 
 from app.settling import in_agreement, settled
 from core.errors import InputError, StateError
-from core.gait import Gait
-from core.library import library
-from core.segments import SegmentTable
+from core.gait.gait import Gait
+from core.library.library import library
+from core.segments.segment_table import SegmentTable
 
 
 def gait(gait_id: str) -> Gait:

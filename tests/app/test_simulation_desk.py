@@ -15,7 +15,7 @@ from app.simulation_desk import SimulationDesk
 from app.store.database import Database
 from app.store.simulation_log import SimulationLog
 from core.errors import NotFoundError, StateError
-from core.library import library
+from core.library.library import library
 from core.physics.motion import SimulatedMotion
 from core.physics.parameters import physics_set
 from core.physics.problem import SimulationProblem

@@ -11,8 +11,8 @@ from starlette.testclient import TestClient
 from app.documents import gait_content
 from app.routes.edge import install_error_handlers
 from app.routes.tables import router
-from core.gait import drawn_timeline
-from core.library import library
+from core.gait.gait import drawn_timeline
+from core.library.library import library
 
 MADE, REPAIRS, POSE = "/api/tables/made", "/api/tables/repairs", "/api/tables/pose"
 

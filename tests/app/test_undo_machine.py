@@ -19,7 +19,7 @@ from app.live_desk import LiveDesk
 from app.store.database import Database
 from app.store.files import GaitFiles
 from core.errors import StateError
-from core.gait import Gait
+from core.gait.gait import Gait
 from solver_jobs import SolveStatus
 from tests.app.live_tiers import FixedTier
 

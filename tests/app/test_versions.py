@@ -17,7 +17,7 @@ from app.store.files import GaitFiles
 from app.store.gait_log import MOST_AUTOMATIC
 from app.versions import AUTOMATIC_EDITS, AUTOMATIC_SECONDS, MOST_NAME, VersionKind
 from core.errors import InputError, NotFoundError
-from core.library import library
+from core.library.library import library
 from solver_jobs import SolveStatus
 from tests.app.live_tiers import FixedTier
 from tests.app.test_gait_desk import MANUAL, WALK, edit, toggled

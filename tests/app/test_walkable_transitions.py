@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from app.routes.pattern_models import TransitionQuestion
 from app.routes.pattern_problems import Posed, posed
-from core.library import library
+from core.library.library import library
 from core.patterns.problem import FREE, PatternRules
 
 

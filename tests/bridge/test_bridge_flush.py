@@ -8,7 +8,7 @@ import pytest
 from app.bridge.gate import Gate
 from app.bridge.states import LinkState, RobotState
 from core.errors import RobotError
-from core.wire import encode_flush
+from core.wire.messages import encode_flush
 from tests.bridge.virtual_robot import VirtualRobot, make_plan, payloads, random_plan
 from tests.studio_process import wait_for
 

@@ -11,10 +11,15 @@ from app.bridge.profiles import ProfileName
 from app.bridge.states import LinkState, RobotState
 from app.robot_view import jog_stop_seconds
 from core.errors import InputError, StateError
-from core.jog import JogPart, JogStep
-from core.jog_check import check_jog
-from core.robot import load_robot
-from core.wire import encode_release, encode_reset, encode_stop, encode_waypoint
+from core.jog.check import check_jog
+from core.jog.steps import JogPart, JogStep
+from core.robot.model import load_robot
+from core.wire.messages import (
+    encode_release,
+    encode_reset,
+    encode_stop,
+    encode_waypoint,
+)
 from tests.bridge.virtual_robot import VirtualRobot, make_plan
 
 WALKER = load_robot("deltawalker")

@@ -17,7 +17,7 @@ from app.bridge.robot import RobotBridge
 from app.bridge.states import Direction, LinkState, RobotSnapshot, RobotState
 from app.bridge.transport import Transport
 from core.errors import RobotError, StateError
-from core.wire import encode_waypoint
+from core.wire.messages import encode_waypoint
 from tests.bridge.virtual_robot import make_plan, random_plan
 
 SHORT = [[4.0] * 12, [6.0] * 12, [3.0, 8.0] * 6]

@@ -12,10 +12,10 @@ from app.bridge.profiles import ProfileName
 from app.bridge.run import start_targets
 from app.bridge.states import LinkState, RobotState, RunPhase
 from core.errors import InputError, StateError
-from core.waypoint_path import cut_parts
-from core.waypoints import Waypoints
-from core.wire import encode_flush, encode_waypoint
-from core.wire_timing import START_MOVE, deafness, longest_start_move
+from core.wire.messages import encode_flush, encode_waypoint
+from core.wire.timing import START_MOVE, deafness, longest_start_move
+from core.wire.waypoint_path import cut_parts
+from core.wire.waypoints import Waypoints
 from tests.bridge.virtual_robot import VirtualRobot, make_plan, random_plan
 
 SHORT = [[4.0] * 12, [6.0] * 12, [3.0, 8.0] * 6, [5.0] * 12]

@@ -9,7 +9,7 @@ from app.bridge.faults import Fault
 from app.bridge.states import LinkState, RobotState
 from app.bridge.words import NOT_SENT, NOT_STOPPED, clearing_sentence
 from core.errors import StateError
-from core.wire import encode_flush
+from core.wire.messages import encode_flush
 from tests.bridge.virtual_robot import VirtualRobot, make_plan, payloads, random_plan
 
 FLUSH, STOP = encode_flush(), b"<s,1>"

@@ -10,7 +10,7 @@ from app.bridge.faults import Fault
 from app.bridge.firmware import Firmware
 from app.bridge.ports import PtyPort
 from app.bridge.profiles import PROFILES, ProfileName
-from core.wire_timing import LONGEST_SCAN
+from core.wire.timing import LONGEST_SCAN
 
 
 class Bench:

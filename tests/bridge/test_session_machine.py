@@ -15,7 +15,7 @@ from app.bridge.profiles import ProfileName
 from app.bridge.states import IN_RUN, LinkState, RobotState
 from app.bridge.words import NOT_STOPPED
 from core.errors import StateError
-from core.wire import (
+from core.wire.messages import (
     HIGHEST_MM,
     LOWEST_MM,
     encode_flush,

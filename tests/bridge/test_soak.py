@@ -11,7 +11,7 @@ from app.bridge.delivery import Delivery
 from app.bridge.faults import Cable, Delayer, Dropper, Fault, Garbler, Splitter
 from app.bridge.gate import Gate
 from app.bridge.states import RobotState
-from core.wire_lines import Telemetry
+from core.wire.lines import Telemetry
 from tests.bridge.virtual_robot import VirtualRobot, random_plan
 
 

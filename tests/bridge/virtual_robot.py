@@ -7,7 +7,7 @@ import numpy as np
 from app.bridge.states import Direction, LinkState, RobotSnapshot, RobotState, RunPlan
 from app.bridge.virtual import VirtualBridge
 from core.findings import Approval
-from core.waypoints import Waypoints
+from core.wire.waypoints import Waypoints
 
 REST_MM = (0.5,) * 12
 

@@ -9,17 +9,17 @@ import numpy as np
 import pytest
 
 from core.arrays import Floats
-from core.checked_plan import CheckedPlan
-from core.checks import check_plan, check_waypoints
+from core.checks.checked_plan import CheckedPlan
+from core.checks.rules import check_plan, check_waypoints
+from core.checks.simulation import NOT_SIMULATED
 from core.errors import StateError
 from core.findings import Severity, Verdict, approve
-from core.library import manual_entry
-from core.manual import manual_motion
-from core.robot import load_robot
-from core.simulation_check import NOT_SIMULATED
-from core.trajectory import Trajectory
-from core.waypoint_path import waypoints_from_trajectory
-from core.waypoints import Waypoints
+from core.gait.manual_motion import manual_motion
+from core.library.library import manual_entry
+from core.motion.trajectory import Trajectory
+from core.robot.model import load_robot
+from core.wire.waypoint_path import waypoints_from_trajectory
+from core.wire.waypoints import Waypoints
 
 MODEL = load_robot("deltawalker")
 NOON = datetime(2026, 11, 21, 12, tzinfo=UTC)

@@ -11,21 +11,26 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from core.arrays import Floats
-from core.checked_plan import CheckedPlan
-from core.checks import check_plan
-from core.coupling import actuator_positions, coupling_matrix, motor_strokes
-from core.coupling_check import RULE, check_coupling, coupling_residual, real_swings
+from core.checks.checked_plan import CheckedPlan
+from core.checks.coupling import (
+    RULE,
+    check_coupling,
+    coupling_residual,
+    real_swings,
+)
+from core.checks.rules import check_plan
 from core.errors import InputError
 from core.findings import TOLERANCE, Finding, Severity
-from core.gait import motion_problem
-from core.kinematics import BodyPose, walker_feet
-from core.library import manual_entry, optimised_entry
-from core.manual import manual_motion
-from core.real_motion import heights_over_standing, real_feet, real_strokes
-from core.robot import load_robot
-from core.speeds import motor_speeds
-from core.trajectory import Trajectory
-from core.waypoint_path import waypoints_from_trajectory
+from core.gait.gait import motion_problem
+from core.gait.manual_motion import manual_motion
+from core.library.library import manual_entry, optimised_entry
+from core.motion.speeds import motor_speeds
+from core.motion.trajectory import Trajectory
+from core.robot.coupled_strokes import heights_over_standing, real_feet, real_strokes
+from core.robot.coupling import actuator_positions, coupling_matrix, motor_strokes
+from core.robot.kinematics import BodyPose, walker_feet
+from core.robot.model import load_robot
+from core.wire.waypoint_path import waypoints_from_trajectory
 from solver_jobs import solve_live
 
 ROBOTS = {12: load_robot("deltawalker"), 9: load_robot("deltawalker9"), 5: load_robot("deltawalker5")}

@@ -7,14 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.checked_plan import Asked, CheckedPlan, asked_of
-from core.checks import check_plan
+from core.checks.checked_plan import Asked, CheckedPlan, asked_of
+from core.checks.rules import check_plan
 from core.findings import Finding, Severity
-from core.held_feet import HeldFeet
-from core.library import library, manual_entry
-from core.robot import load_robot
-from core.trajectory import Trajectory
-from core.waypoint_path import waypoints_from_trajectory
+from core.gait.held_feet import HeldFeet
+from core.library.library import library, manual_entry
+from core.motion.trajectory import Trajectory
+from core.robot.model import load_robot
+from core.wire.waypoint_path import waypoints_from_trajectory
 
 MODEL = load_robot("deltawalker")
 HEIGHT = 0.0535

@@ -8,11 +8,22 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.draft import clearance_knot, initial_motion, next_standing, problem_swings, standing_forces
-from core.motion_problem import Cost, MotionLimits, MotionProblem, standing_pose
-from core.robot import load_robot
-from core.support import GRAVITY, stability_margins
-from core.timeline import timeline_from_order, timeline_from_rows
+from core.motion.contact_timeline import timeline_from_order, timeline_from_rows
+from core.motion.support_polygon import GRAVITY, stability_margins
+from core.problem.initial_guess import (
+    clearance_knot,
+    initial_motion,
+    next_standing,
+    problem_swings,
+    standing_forces,
+)
+from core.problem.motion_problem import (
+    Cost,
+    MotionLimits,
+    MotionProblem,
+    standing_pose,
+)
+from core.robot.model import load_robot
 
 ORDERS = [(3, 2, 4, 1), (3, 1, 4, 2), (1, 2, 4, 3), (1, 2, 3, 4)]
 

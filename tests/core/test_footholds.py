@@ -7,14 +7,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.draft import initial_motion, problem_swings
-from core.footholds import way_shares
-from core.gait import motion_problem
-from core.held_feet import HeldFeet
-from core.library import Group, group_ids, library, library_patterns
-from core.motion_problem import MotionProblem
-from core.robot import load_robot
-from core.timeline import timeline_from_rows
+from core.gait.gait import motion_problem
+from core.gait.held_feet import HeldFeet
+from core.library.library import (
+    Group,
+    group_ids,
+    library,
+    library_patterns,
+)
+from core.motion.contact_timeline import timeline_from_rows
+from core.problem.footholds import way_shares
+from core.problem.initial_guess import initial_motion, problem_swings
+from core.problem.motion_problem import MotionProblem
+from core.robot.model import load_robot
 from solver_jobs import SolveStatus, solve_live
 
 WALK = library()["walk"].gait

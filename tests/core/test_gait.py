@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.gait import drawn_timeline, motion_problem, with_iterations
-from core.library import library
-from core.robot import load_robot
-from core.timeline import ContactTimeline, rows_from_bits
+from core.gait.gait import drawn_timeline, motion_problem, with_iterations
+from core.library.library import library
+from core.motion.contact_timeline import ContactTimeline, rows_from_bits
+from core.robot.model import load_robot
 
 
 def test_a_drawn_gait_is_drawn_anew_for_its_iterations() -> None:

@@ -10,15 +10,21 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.gait import Gait, GaitOptions, Orientation, drawn_timeline, with_iterations
-from core.gait_difference import OPTION_WORDS, gait_difference
-from core.held_feet import HeldFeet
-from core.library import library
-from core.motion_problem import Boundary, Cost, Workspace
-from core.recording import Recording, RecordingForm
-from core.segments import Segment, SegmentTable
-from core.sequence_part import SequencePart
-from core.turning import Turning
+from core.gait.gait import (
+    Gait,
+    GaitOptions,
+    Orientation,
+    drawn_timeline,
+    with_iterations,
+)
+from core.gait.gait_difference import OPTION_WORDS, gait_difference
+from core.gait.held_feet import HeldFeet
+from core.gait.recording import Recording, RecordingForm
+from core.gait.sequence_part import SequencePart
+from core.library.library import library
+from core.motion.heading_profile import Turning
+from core.problem.motion_problem import Boundary, Cost, Workspace
+from core.segments.segment_table import Segment, SegmentTable
 
 WALK = library()["walk"].gait
 MANUAL = library()["walk-manual-0"].gait

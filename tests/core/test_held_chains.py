@@ -8,17 +8,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.chain import Chain, Piece, chain
 from core.errors import InputError
-from core.gait import Gait, GaitOptions, motion_problem
-from core.held_feet import HeldFeet
-from core.motion_check import check_motion
-from core.motion_problem import MotionProblem
-from core.placing import placed_on
-from core.robot import load_robot
-from core.sequence import run_of, sequence_gait
-from core.sequence_part import SequencePart
-from core.trajectory import Trajectory
+from core.gait.chain import Chain, Piece, chain
+from core.gait.gait import Gait, GaitOptions, motion_problem
+from core.gait.held_feet import HeldFeet
+from core.gait.sequence_part import SequencePart
+from core.library.sequence import run_of, sequence_gait
+from core.motion.trajectory import Trajectory
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import MotionProblem
+from core.problem.start_footholds import placed_on
+from core.robot.model import load_robot
 from solver_jobs import solve_live
 from tests.held_gaits import lifting, lowering, wave
 

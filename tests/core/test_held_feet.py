@@ -9,22 +9,34 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.draft import closed_contact, initial_motion, problem_swings
 from core.errors import InputError
-from core.gait import Gait, drawn_timeline, motion_problem, resting_poses, travel_world, with_iterations
-from core.held_feet import LEAST_HEIGHT, HeldFeet, held_height, held_sentence
-from core.leaning import RESERVE, leaning
-from core.lifting import held_climb, held_knots
-from core.making import Making, making
-from core.motion_check import check_motion
-from core.motion_problem import Boundary, MotionProblem, standing_pose
-from core.new_gait import with_robot
-from core.recorded_gait import gait_of_motion
-from core.robot import load_robot
-from core.support import stability_margins
-from core.timeline import Swing
-from core.trajectory import Trajectory
-from core.turning import Turning
+from core.gait.gait import (
+    Gait,
+    drawn_timeline,
+    motion_problem,
+    resting_poses,
+    travel_world,
+    with_iterations,
+)
+from core.gait.held_feet import (
+    LEAST_HEIGHT,
+    HeldFeet,
+    held_height,
+    held_sentence,
+)
+from core.gait.motion_source import Making, making
+from core.library.new_gait import with_robot
+from core.motion.contact_timeline import Swing
+from core.motion.heading_profile import Turning
+from core.motion.support_polygon import stability_margins
+from core.motion.trajectory import Trajectory
+from core.problem.initial_guess import closed_contact, initial_motion, problem_swings
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import Boundary, MotionProblem, standing_pose
+from core.problem.resting_pose import RESERVE, leaning
+from core.problem.swing_height import held_climb, held_knots
+from core.recorded.recorded_gait import gait_of_motion
+from core.robot.model import load_robot
 from solver_jobs import solve_live
 from tests.held_gaits import DOWN, drawn, lifting, lowering, wave
 

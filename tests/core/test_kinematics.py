@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from core.arrays import Floats
-from core.kinematics import (
+from core.robot.kinematics import (
     BodyPose,
     UnreachableError,
     actuator_plane_pose,
@@ -17,9 +17,9 @@ from core.kinematics import (
     walker_feet,
     walker_strokes,
 )
-from core.leg import foot_from_strokes, foot_jacobian, strokes_from_foot
-from core.reach import nearest_reachable
-from core.robot import ROBOT_NAMES, load_robot
+from core.robot.leg import foot_from_strokes, foot_jacobian, strokes_from_foot
+from core.robot.model import ROBOT_NAMES, load_robot
+from core.robot.nearest_reachable import nearest_reachable
 
 WALKER = load_robot("deltawalker")
 LEG = WALKER.leg

@@ -4,8 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from core.leg import foot_from_strokes, foot_jacobian, stroke_rates, strokes_from_foot
-from core.robot import load_robot
+from core.robot.leg import (
+    foot_from_strokes,
+    foot_jacobian,
+    stroke_rates,
+    strokes_from_foot,
+)
+from core.robot.model import load_robot
 
 LEG = load_robot("deltawalker").leg
 

@@ -8,8 +8,14 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.gait import Gait, GaitOptions, drawn_timeline, motion_problem, with_return
-from core.library import (
+from core.gait.gait import (
+    Gait,
+    GaitOptions,
+    drawn_timeline,
+    motion_problem,
+    with_return,
+)
+from core.library.library import (
     SAMPLE_TIME,
     Group,
     appendix_orders,
@@ -18,10 +24,10 @@ from core.library import (
     manual_entry,
     optimised_entry,
 )
-from core.motion_check import check_motion
-from core.robot import load_robot
-from core.timeline import rows_from_bits
-from core.turning import Turning
+from core.motion.contact_timeline import rows_from_bits
+from core.motion.heading_profile import Turning
+from core.problem.motion_check import check_motion
+from core.robot.model import load_robot
 from solver_jobs import Evidence, SolveStatus, solve_live
 
 MODEL = load_robot("deltawalker")

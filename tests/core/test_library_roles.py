@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.gait import Gait, Orientation
-from core.library import library, optimised_entry
-from core.new_gait import with_robot
-from core.robot import load_robot
-from core.roles import ring_roles
+from core.gait.gait import Gait, Orientation
+from core.library.library import library, optimised_entry
+from core.library.new_gait import with_robot
+from core.robot.leg_names import ring_roles
+from core.robot.model import load_robot
 
 MODEL = load_robot("deltawalker")
 

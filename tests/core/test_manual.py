@@ -8,16 +8,22 @@ import numpy as np
 import pytest
 
 from core.arrays import Floats
-from core.checked_plan import CheckedPlan
-from core.checks import check_plan
+from core.checks.checked_plan import CheckedPlan
+from core.checks.rules import check_plan
 from core.errors import InputError
-from core.gait import Gait
-from core.library import Group, default_vocabulary, group_ids, library, manual_entry
-from core.manual import manual_motion
-from core.robot import load_robot
-from core.segments import SegmentTable
-from core.trajectory import quarter_turn
-from core.waypoint_path import waypoints_from_trajectory
+from core.gait.gait import Gait
+from core.gait.manual_motion import manual_motion
+from core.library.library import (
+    Group,
+    default_vocabulary,
+    group_ids,
+    library,
+    manual_entry,
+)
+from core.motion.trajectory import quarter_turn
+from core.robot.model import load_robot
+from core.segments.segment_table import SegmentTable
+from core.wire.waypoint_path import waypoints_from_trajectory
 from tests.reference import reference_rows
 
 MODEL = load_robot("deltawalker")

@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.gait import Gait, Orientation
-from core.library import library
-from core.mirroring import mirror_of, mirrored_feet
-from core.robot import ROBOT_NAMES, load_robot
+from core.gait.gait import Gait, Orientation
+from core.gait.mirroring import mirror_of, mirrored_feet
+from core.library.library import library
+from core.robot.model import ROBOT_NAMES, load_robot
 
 
 def walk(orientation: Orientation, direction: int) -> Gait:

@@ -10,15 +10,20 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.gait import heading_step, motion_problem
-from core.library import library
-from core.motion_check import FAMILIES, OPTIONAL_FAMILIES, check_motion
-from core.motion_problem import Boundary, MotionLimits, MotionProblem, Workspace
-from core.robot import load_robot
-from core.support import GRAVITY
-from core.timeline import ContactTimeline
-from core.trajectory import Trajectory
-from core.trajectory_csv import parse_trajectory_csv
+from core.gait.gait import heading_step, motion_problem
+from core.library.library import library
+from core.motion.contact_timeline import ContactTimeline
+from core.motion.support_polygon import GRAVITY
+from core.motion.trajectory import Trajectory
+from core.problem.motion_check import FAMILIES, OPTIONAL_FAMILIES, check_motion
+from core.problem.motion_problem import (
+    Boundary,
+    MotionLimits,
+    MotionProblem,
+    Workspace,
+)
+from core.robot.model import load_robot
+from core.wire.trajectory_csv import parse_trajectory_csv
 from tests.reference import reference_path
 
 MODEL = load_robot("deltawalker")

@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from core.errors import InputError
-from core.motion_npz import MotionFile, format_npz, parse_npz
-from core.trajectory import Trajectory
+from core.motion.trajectory import Trajectory
+from core.motion.trajectory_npz import MotionFile, format_npz, parse_npz
 
 numbers = st.floats(-1e3, 1e3, allow_nan=False)
 

@@ -7,9 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.checked_plan import Asked, CheckedPlan
-from core.findings import Severity
-from core.motor_check import (
+from core.checks.checked_plan import Asked, CheckedPlan
+from core.checks.motors import (
     DEAF_LIMIT,
     acceleration_note,
     check_deafness,
@@ -19,11 +18,12 @@ from core.motor_check import (
     check_strokes,
     still_note,
 )
-from core.path_merging import plan_waypoints
-from core.robot import load_robot
-from core.trajectory import Trajectory
-from core.waypoint_path import waypoints_from_trajectory
-from core.waypoints import Waypoints
+from core.findings import Severity
+from core.motion.trajectory import Trajectory
+from core.robot.model import load_robot
+from core.wire.waypoint_merging import plan_waypoints
+from core.wire.waypoint_path import waypoints_from_trajectory
+from core.wire.waypoints import Waypoints
 
 MODEL = load_robot("deltawalker")
 

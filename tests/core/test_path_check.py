@@ -9,18 +9,23 @@ import numpy as np
 import pytest
 
 from core.arrays import Floats
-from core.checked_plan import CheckedPlan
-from core.checks import check_plan
+from core.checks.checked_plan import CheckedPlan
+from core.checks.path import check_path
+from core.checks.rules import check_plan
 from core.findings import Severity, Verdict
-from core.library import library
-from core.manual import manual_motion
-from core.path_check import check_path
-from core.path_merging import WaypointPlan, cut_plan, plan_of_knots, plan_waypoints
-from core.robot import load_robot
-from core.trajectory import Trajectory
-from core.waypoint_path import waypoints_from_trajectory
-from core.waypoints import Waypoints
-from core.wire_timing import OVERRUN
+from core.gait.manual_motion import manual_motion
+from core.library.library import library
+from core.motion.trajectory import Trajectory
+from core.robot.model import load_robot
+from core.wire.timing import OVERRUN
+from core.wire.waypoint_merging import (
+    WaypointPlan,
+    cut_plan,
+    plan_of_knots,
+    plan_waypoints,
+)
+from core.wire.waypoint_path import waypoints_from_trajectory
+from core.wire.waypoints import Waypoints
 
 MODEL = load_robot("deltawalker")
 

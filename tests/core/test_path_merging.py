@@ -13,9 +13,12 @@ from hypothesis import strategies as st
 
 from core.arrays import Floats
 from core.errors import InputError
-from core.library import library
-from core.manual import manual_motion
-from core.path_merging import (
+from core.gait.manual_motion import manual_motion
+from core.library.library import library
+from core.motion.trajectory import Trajectory
+from core.robot.model import load_robot
+from core.wire.timing import ARRIVAL_THRESHOLD, deafness, largest_moves
+from core.wire.waypoint_merging import (
     WaypointPlan,
     kept_knots,
     needed_knots,
@@ -23,11 +26,8 @@ from core.path_merging import (
     plan_waypoints,
     robot_feet,
 )
-from core.robot import load_robot
-from core.trajectory import Trajectory
-from core.waypoint_path import estimate_seconds, least_stop_bound
-from core.waypoints import Waypoints
-from core.wire_timing import ARRIVAL_THRESHOLD, deafness, largest_moves
+from core.wire.waypoint_path import estimate_seconds, least_stop_bound
+from core.wire.waypoints import Waypoints
 
 MODEL = load_robot("deltawalker")
 

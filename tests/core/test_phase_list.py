@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from core.errors import InputError
-from core.library import library
-from core.phase_list import format_phases, parse_phases
-from core.timeline import ContactTimeline, timeline_from_rows
+from core.library.library import library
+from core.motion.contact_timeline import ContactTimeline, timeline_from_rows
+from core.motion.phase_list import format_phases, parse_phases
 
 
 @st.composite

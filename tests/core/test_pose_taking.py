@@ -12,13 +12,18 @@ from hypothesis.extra.numpy import arrays
 
 from core.arrays import Floats
 from core.errors import InputError
-from core.gait import Gait
-from core.jog import Axis, JogPart, JogStep, jog_strokes
-from core.jog_check import feet_in_robot
-from core.library import library
-from core.manual import manual_motion
-from core.pose_taking import SAME, TakenPose, take_pose
-from core.robot import load_robot
+from core.gait.gait import Gait
+from core.gait.manual_motion import manual_motion
+from core.jog.check import feet_in_robot
+from core.jog.pose_to_segment import SAME, TakenPose, take_pose
+from core.jog.steps import (
+    Axis,
+    JogPart,
+    JogStep,
+    jog_strokes,
+)
+from core.library.library import library
+from core.robot.model import load_robot
 
 WALKER = load_robot("deltawalker")
 WALK = library()["walk-manual-0"].gait

@@ -11,13 +11,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.gait import heading_step, motion_problem
-from core.library import library
-from core.motion_check import MotionCheck, check_motion
-from core.motion_problem import MotionLimits, Workspace
-from core.robot import load_robot
-from core.timeline import timeline_from_order
-from core.trajectory_csv import parse_trajectory_csv
+from core.gait.gait import heading_step, motion_problem
+from core.library.library import library
+from core.motion.contact_timeline import timeline_from_order
+from core.problem.motion_check import MotionCheck, check_motion
+from core.problem.motion_problem import MotionLimits, Workspace
+from core.robot.model import load_robot
+from core.wire.trajectory_csv import parse_trajectory_csv
 from tests.reference import reference_path
 
 MODEL = load_robot("deltawalker")

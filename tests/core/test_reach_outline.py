@@ -3,10 +3,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.leg import strokes_from_foot
-from core.motion_problem import CYLINDER, Workspace
-from core.reach_outline import reach_radii
-from core.robot import load_robot
+from core.problem.motion_problem import CYLINDER, Workspace
+from core.problem.workspace_outline import reach_radii
+from core.robot.leg import strokes_from_foot
+from core.robot.model import load_robot
 
 ROBOT = load_robot("deltawalker")
 RAYS = 24

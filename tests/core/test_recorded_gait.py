@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.gait import Orientation, heading_step
-from core.library import library
-from core.recorded_gait import STANDS_AT_LAST, gait_of_motion, gait_of_timeline
-from core.timeline import ContactTimeline, timeline_from_rows
-from core.trajectory import Trajectory
-from core.trajectory_csv import parse_trajectory_csv
+from core.gait.gait import Orientation, heading_step
+from core.library.library import library
+from core.motion.contact_timeline import ContactTimeline, timeline_from_rows
+from core.motion.trajectory import Trajectory
+from core.recorded.recorded_gait import STANDS_AT_LAST, gait_of_motion, gait_of_timeline
+from core.wire.trajectory_csv import parse_trajectory_csv
 from tests.reference import reference_path
 
 ORDERS = {"walk": (3, 2, 4, 1), "ambl": (3, 1, 4, 2), "mtri": (1, 2, 4, 3), "adjs": (1, 2, 3, 4)}

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 from core.errors import InputError
-from core.provenance import Provenance
-from core.recording import Recording, RecordingForm
+from core.gait.provenance import Provenance
+from core.gait.recording import Recording, RecordingForm
 
 WALK = Recording("walk.csv", RecordingForm.TRAJECTORY, "1,2\r\n", "{}")
 RESULT = Provenance("0" * 64, "f" * 64, "nlp", "IPOPT", "solved", 0.0, "2026-11-21T18:40:00+00:00", "0.1.0")

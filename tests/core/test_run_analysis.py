@@ -7,10 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.run_analysis import move_begins, plan_times, run_errors
-from core.run_pose import RanPlan, measured_motion
-from core.run_reading import START, RunBytes, RunSeries, read_run
-from core.wire import encode_stop, encode_waypoint
+from core.runs.analysis import move_begins, plan_times, run_errors
+from core.runs.pose import RanPlan, measured_motion
+from core.runs.reading import (
+    START,
+    RunBytes,
+    RunSeries,
+    read_run,
+)
+from core.wire.messages import encode_stop, encode_waypoint
 from tests.ran_robot import ROBOT, TimedRobot, ran
 
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.run_iterations import iteration_arrivals, plan_ends
-from core.run_pose import RanPlan
-from core.run_reading import Command, RunSeries
-from core.trajectory import Trajectory
+from core.motion.trajectory import Trajectory
+from core.runs.iterations import iteration_arrivals, plan_ends
+from core.runs.pose import RanPlan
+from core.runs.reading import Command, RunSeries
 from tests.ran_robot import ROBOT, ran
 
 

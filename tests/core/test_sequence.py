@@ -9,22 +9,28 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.balance import balance_margins
-from core.body_move import BodyPlace, MoveLimits, body_move
-from core.chain import Chain, Piece, chain
-from core.crossing import crossing
 from core.errors import InfeasibleError, InputError
-from core.gait import Gait, GaitOptions, motion_problem
-from core.kinematics import feet_in_modules
-from core.library import library, optimised_entry
-from core.manual import manual_motion
-from core.motion_check import check_motion
-from core.motion_problem import Boundary, MotionProblem, standing_pose
-from core.placing import placed_on
-from core.robot import RobotModel, load_robot
-from core.sequence import chain_runs, derived, outline, run_of, sequence_gait
-from core.sequence_part import SequencePart
-from core.trajectory import Trajectory
+from core.gait.chain import Chain, Piece, chain
+from core.gait.gait import Gait, GaitOptions, motion_problem
+from core.gait.manual_motion import manual_motion
+from core.gait.sequence_part import SequencePart
+from core.gait.transition import crossing
+from core.library.library import library, optimised_entry
+from core.library.sequence import (
+    chain_runs,
+    derived,
+    outline,
+    run_of,
+    sequence_gait,
+)
+from core.motion.balance import balance_margins
+from core.motion.trajectory import Trajectory
+from core.problem.body_move import BodyPlace, MoveLimits, body_move
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import Boundary, MotionProblem, standing_pose
+from core.problem.start_footholds import placed_on
+from core.robot.kinematics import feet_in_modules
+from core.robot.model import RobotModel, load_robot
 from solver_jobs import solve_live
 
 MODEL = load_robot("deltawalker")

@@ -4,11 +4,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.arrays import Floats
-from core.kinematics import feet_in_modules
-from core.leg import strokes_from_foot
-from core.robot import load_robot
-from core.speeds import foot_speeds, motor_speeds
-from core.trajectory import Trajectory
+from core.motion.speeds import foot_speeds, motor_speeds
+from core.motion.trajectory import Trajectory
+from core.robot.kinematics import feet_in_modules
+from core.robot.leg import strokes_from_foot
+from core.robot.model import load_robot
 
 ROBOT = load_robot("deltawalker")
 COM = 0.056 + ROBOT.com_height

@@ -9,7 +9,13 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from core.arrays import Floats
-from core.support import GRAVITY, centre_of_pressure, polygon_margin, stability_margins, support_polygon
+from core.motion.support_polygon import (
+    GRAVITY,
+    centre_of_pressure,
+    polygon_margin,
+    stability_margins,
+    support_polygon,
+)
 
 SQUARE = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
 

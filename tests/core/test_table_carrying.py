@@ -11,12 +11,17 @@ from hypothesis import strategies as st
 
 from core.arrays import Bools
 from core.errors import InputError
-from core.library import Group, default_vocabulary, group_ids, library
-from core.segment_chains import LinkedRow, RowWish, cheapest_chain
-from core.segments import SegmentTable, SegmentVocabulary
-from core.table_carrying import Carried, carried
-from core.table_making import table_from_timeline
-from core.timeline import ContactTimeline, timeline_from_order
+from core.library.library import (
+    Group,
+    default_vocabulary,
+    group_ids,
+    library,
+)
+from core.motion.contact_timeline import ContactTimeline, timeline_from_order
+from core.segments.from_timeline import table_from_timeline
+from core.segments.from_timeline_edit import Carried, carried
+from core.segments.segment_chains import LinkedRow, RowWish, cheapest_chain
+from core.segments.segment_table import SegmentTable, SegmentVocabulary
 
 BY_HAND = group_ids(Group.BY_HAND)
 SAMPLE_TIME = 0.4
@@ -284,7 +289,7 @@ def test_a_length_that_fits_nowhere_in_hundreds_of_segments_is_refused_after_a_t
         tried.append(wish)
         return cheapest_chain(wish, vocabulary)
 
-    monkeypatch.setattr("core.table_carrying.cheapest_chain", counted)
+    monkeypatch.setattr("core.segments.from_timeline_edit.cheapest_chain", counted)
     longer = np.concatenate([stance[:, :place], airborne, stance[:, place:]], axis=1)
     found = carried(long, drawn(longer), 1, 0)
     assert found.table is None

@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from core.errors import InputError
-from core.library import library
-from core.segments import SegmentTable
-from core.table_repair import DraftTable, repairs
+from core.library.library import library
+from core.segments.repair import DraftTable, repairs
+from core.segments.segment_table import SegmentTable
 
 
 def walk() -> SegmentTable:

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.errors import InputError
-from core.timeline import (
+from core.motion.contact_timeline import (
     Swing,
     bits_from_rows,
     rows_from_bits,

@@ -13,8 +13,13 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from core.errors import InputError
-from core.trajectory import Trajectory, difference_velocities
-from core.trajectory_csv import CsvLayout, format_companion, format_trajectory_csv, parse_trajectory_csv
+from core.motion.trajectory import Trajectory, difference_velocities
+from core.wire.trajectory_csv import (
+    CsvLayout,
+    format_companion,
+    format_trajectory_csv,
+    parse_trajectory_csv,
+)
 from tests.reference import REFERENCE, reference_path
 
 numbers = st.floats(-1e3, 1e3, allow_nan=False)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.robot import load_robot
-from core.timeline import timeline_from_order
-from core.turning import Turning, heading_profile, return_knots
+from core.motion.contact_timeline import timeline_from_order
+from core.motion.heading_profile import Turning, heading_profile, return_knots
+from core.robot.model import load_robot
 
 ORDER = (3, 2, 4, 1)
 

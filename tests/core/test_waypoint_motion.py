@@ -8,14 +8,19 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.gait import motion_problem
-from core.library import library
-from core.manual import manual_motion
-from core.robot import RobotModel, load_robot
-from core.trajectory import Trajectory
-from core.waypoint_motion import motion_of_waypoints
-from core.waypoint_path import waypoints_from_trajectory
-from core.waypoints import Waypoints, format_waypoint_csv, parse_waypoint_csv, waypoint_legs
+from core.gait.gait import motion_problem
+from core.gait.manual_motion import manual_motion
+from core.library.library import library
+from core.motion.trajectory import Trajectory
+from core.recorded.waypoint_motion import motion_of_waypoints
+from core.robot.model import RobotModel, load_robot
+from core.wire.waypoint_path import waypoints_from_trajectory
+from core.wire.waypoints import (
+    Waypoints,
+    format_waypoint_csv,
+    parse_waypoint_csv,
+    waypoint_legs,
+)
 from solver_jobs import solve_exact, solve_live
 
 ROUNDING = 2e-6

@@ -12,12 +12,12 @@ from app.bridge.firmware import Firmware
 from app.bridge.profiles import PROFILES, ProfileName
 from core.arrays import Floats
 from core.errors import InputError
-from core.library import library
-from core.manual import manual_motion
-from core.robot import load_robot
-from core.waypoint_path import estimate_seconds, waypoints_from_trajectory
-from core.waypoints import Waypoints, format_waypoint_csv, parse_waypoint_csv
-from core.wire import encode_waypoint
+from core.gait.manual_motion import manual_motion
+from core.library.library import library
+from core.robot.model import load_robot
+from core.wire.messages import encode_waypoint
+from core.wire.waypoint_path import estimate_seconds, waypoints_from_trajectory
+from core.wire.waypoints import Waypoints, format_waypoint_csv, parse_waypoint_csv
 
 strokes = st.integers(1, 12).flatmap(
     lambda n: arrays(np.float64, (n, 4, 3), elements=st.floats(0.0005, 0.0195))

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.wire_lines import (
+from core.wire.lines import (
     LONGEST_LINE,
     Blank,
     CurrentPoint,

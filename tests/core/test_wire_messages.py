@@ -8,8 +8,7 @@ from hypothesis.extra.numpy import arrays
 
 from core.arrays import Floats
 from core.errors import InputError
-from core.waypoints import Waypoints
-from core.wire import (
+from core.wire.messages import (
     HIGHEST_MM,
     LONGEST_MESSAGE,
     LOWEST_MM,
@@ -20,6 +19,7 @@ from core.wire import (
     encode_waypoint,
     payload_of,
 )
+from core.wire.waypoints import Waypoints
 
 sendable = arrays(np.float64, (4, 3), elements=st.floats(LOWEST_MM / 1000, HIGHEST_MM / 1000))
 

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.waypoints import Waypoints
-from core.wire_timing import SETUP_ACCELERATION, deafness, ramp_time
+from core.wire.timing import SETUP_ACCELERATION, deafness, ramp_time
+from core.wire.waypoints import Waypoints
 
 
 @pytest.mark.parametrize(("distance_mm", "seconds"), [(0, 0), (3, 0.4), (15, 2.0), (18, 2.2), (195, 14.0)])

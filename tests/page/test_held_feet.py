@@ -10,7 +10,7 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from app.documents import gait_content
-from core.held_feet import HeldFeet
+from core.gait.held_feet import HeldFeet
 from tests.held_gaits import lifting, wave
 from tests.page.opened import opened_page
 from tests.studio_process import StudioProcess, wait_for

@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Browser, Route, expect
 
 from app.store.database import Database
-from core.trials.track_csv import format_track_csv
+from core.vision.track_csv import format_track_csv
 from tests.app.learning.made import keep_course
 from tests.core.trials.tracks import stepping_track
 from tests.page.opened import look, opened_page

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from app.bench.long_timeline import FEET, SAMPLES, long_gait
 from app.documents import gait_from_content
-from core.gait import motion_problem
-from core.robot import load_robot
+from core.gait.gait import motion_problem
+from core.robot.model import load_robot
 from tests.studio_process import footfall
 
 

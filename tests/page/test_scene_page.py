@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from core.robot import load_robot
+from core.robot.model import load_robot
 from tests.page.opened import opened_page
 from tests.studio_process import StudioProcess
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from playwright.sync_api import Browser, FilePayload, Locator, Page, expect
 
-from core.trials.track_csv import format_track_csv
+from core.vision.track_csv import format_track_csv
 from tests.core.trials.test_picture_size import picture
 from tests.core.trials.tracks import stepping_track
 from tests.page.opened import opened_page

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Route, expect
 
-from core.trials.track_csv import format_track_csv
+from core.vision.track_csv import format_track_csv
 from tests.core.trials.tracks import stepping_track
 from tests.page.opened import opened_page
 from tests.studio_process import StudioProcess

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from core.robot import ROBOT_NAMES, load_robot
+from core.robot.model import ROBOT_NAMES, load_robot
 from robot_description.builder import built_files, main, meshes
 from robot_description.drive import actuator_places, motor_places, motor_yaws, yoke
 from robot_description.parts import MOST_TRIANGLES

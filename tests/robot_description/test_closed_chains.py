@@ -7,9 +7,14 @@ import pytest
 import yourdfpy
 
 from core.arrays import Floats
-from core.closed_chain import TWINS, foot_link, joint_values, rod_link
-from core.leg import foot_from_strokes, vertex_directions
-from core.robot import ROBOT_NAMES, RobotModel, load_robot
+from core.robot.closed_chain import (
+    TWINS,
+    foot_link,
+    joint_values,
+    rod_link,
+)
+from core.robot.leg import foot_from_strokes, vertex_directions
+from core.robot.model import ROBOT_NAMES, RobotModel, load_robot
 
 CLOSED = 1e-9
 

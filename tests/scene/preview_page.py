@@ -10,11 +10,11 @@ from fastapi.staticfiles import StaticFiles
 
 from app.routes.viser import make_viser_router
 from app.scene import Scenes, plan_poses
-from core.draft import initial_motion
-from core.gait import motion_problem
-from core.library import optimised_entry
-from core.robot import load_robot
-from core.trajectory import Trajectory
+from core.gait.gait import motion_problem
+from core.library.library import optimised_entry
+from core.motion.trajectory import Trajectory
+from core.problem.initial_guess import initial_motion
+from core.robot.model import load_robot
 
 PAGE = """<!doctype html><title>Preview</title>
 <link rel="icon" href="data:,">

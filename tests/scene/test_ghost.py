@@ -6,14 +6,14 @@ import pytest
 from app.scene.ghost import ghost_blob, part_lines
 from app.scene.reach import LAYERS, RAYS, reach_table
 from core.arrays import Floats
-from core.draft import initial_motion
-from core.gait import motion_problem
-from core.kinematics import feet_in_modules
-from core.leg import strokes_from_foot
-from core.library import optimised_entry
-from core.motion_problem import Workspace
-from core.robot import ROBOT_NAMES, RobotModel, load_robot
-from core.trajectory import Trajectory
+from core.gait.gait import motion_problem
+from core.library.library import optimised_entry
+from core.motion.trajectory import Trajectory
+from core.problem.initial_guess import initial_motion
+from core.problem.motion_problem import Workspace
+from core.robot.kinematics import feet_in_modules
+from core.robot.leg import strokes_from_foot
+from core.robot.model import ROBOT_NAMES, RobotModel, load_robot
 
 MOVING_NODES = 50
 

@@ -14,16 +14,16 @@ from hypothesis import strategies as st
 from app.scene.overlay import FRAMES_A_SECOND, MOST_POSES, frames_a_second, plan_poses
 from app.scene.poses import COM_NODE, ROBOT_ROOT, PoseBlob, node_names, pose_frames
 from core.arrays import Floats
-from core.closed_chain import joint_values
-from core.draft import initial_motion
 from core.errors import InputError
-from core.gait import motion_problem
-from core.kinematics import actuator_plane_pose, feet_in_modules, feet_in_world
-from core.leg import foot_from_strokes, strokes_from_foot
-from core.library import optimised_entry
-from core.real_motion import real_strokes
-from core.robot import ROBOT_NAMES, RobotModel, load_robot
-from core.trajectory import Trajectory
+from core.gait.gait import motion_problem
+from core.library.library import optimised_entry
+from core.motion.trajectory import Trajectory
+from core.problem.initial_guess import initial_motion
+from core.robot.closed_chain import joint_values
+from core.robot.coupled_strokes import real_strokes
+from core.robot.kinematics import actuator_plane_pose, feet_in_modules, feet_in_world
+from core.robot.leg import foot_from_strokes, strokes_from_foot
+from core.robot.model import ROBOT_NAMES, RobotModel, load_robot
 
 
 def matrix(pose: Floats) -> Floats:

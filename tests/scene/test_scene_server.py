@@ -9,7 +9,7 @@ from app.scene.nodes import crisp, link_surfaces
 from app.scene.poses import node_names
 from app.scene.server import SceneServer
 from core.errors import InputError, StateError
-from core.robot import load_robot
+from core.robot.model import load_robot
 
 
 @pytest.fixture

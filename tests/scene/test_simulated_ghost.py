@@ -11,8 +11,8 @@ import pytest
 from app.scene.ghost import ghost_blob
 from app.scene.simulated_ghost import FRAMES_A_SECOND, simulated_blob
 from app.simulation_content import motion_content
+from core.physics.metrics import report
 from core.physics.motion import SimulatedMotion
-from core.physics.reporting import report
 from tests.simulated_walk import BEHIND, followed, walk_problem, walk_report
 
 PROBLEM = walk_problem()

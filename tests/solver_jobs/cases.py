@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from core.gait import GaitOptions, heading_step, motion_problem
-from core.library import Group, group_ids, library
-from core.motion_problem import Cost, MotionProblem, Workspace
-from core.robot import load_robot
+from core.gait.gait import GaitOptions, heading_step, motion_problem
+from core.library.library import Group, group_ids, library
+from core.problem.motion_problem import Cost, MotionProblem, Workspace
+from core.robot.model import load_robot
 
 GAITS = group_ids(Group.OPTIMISED)
 

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from core.gait import GaitOptions, heading_step, motion_problem
-from core.library import library
-from core.motion_check import check_motion
-from core.motion_problem import Boundary, MotionProblem, Workspace
-from core.robot import load_robot
-from core.timeline import timeline_from_order
-from core.turning import Turning
+from core.gait.gait import GaitOptions, heading_step, motion_problem
+from core.library.library import library
+from core.motion.contact_timeline import timeline_from_order
+from core.motion.heading_profile import Turning
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import Boundary, MotionProblem, Workspace
+from core.robot.model import load_robot
 from solver_jobs import Evidence, MotionResult, SolveStatus
 from solver_jobs.motion_nlp import solve_motion
 

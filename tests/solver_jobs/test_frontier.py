@@ -8,11 +8,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from core.gait import Gait, drawn_timeline, heading_step, motion_problem, with_return
-from core.library import library
-from core.motion_check import FAMILIES, OPTIONAL_FAMILIES, check_motion
-from core.motion_problem import Workspace
-from core.robot import load_robot
+from core.gait.gait import (
+    Gait,
+    drawn_timeline,
+    heading_step,
+    motion_problem,
+    with_return,
+)
+from core.library.library import library
+from core.problem.motion_check import FAMILIES, OPTIONAL_FAMILIES, check_motion
+from core.problem.motion_problem import Workspace
+from core.robot.model import load_robot
 from solver_jobs import FrontierSearch, SolveStatus, solve_motion
 
 MODEL = load_robot("deltawalker")

@@ -7,16 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.checked_plan import Asked, CheckedPlan
-from core.checks import check_plan
-from core.gait import Gait, motion_problem, travel_world
-from core.held_feet import HeldFeet
-from core.lifting import held_knots
-from core.motion_check import check_motion
-from core.motion_problem import Boundary, MotionProblem, Workspace
-from core.robot import load_robot
-from core.trajectory import Trajectory, turn_trajectory
-from core.waypoint_path import waypoints_from_trajectory
+from core.checks.checked_plan import Asked, CheckedPlan
+from core.checks.rules import check_plan
+from core.gait.gait import Gait, motion_problem, travel_world
+from core.gait.held_feet import HeldFeet
+from core.motion.trajectory import Trajectory, turn_trajectory
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import Boundary, MotionProblem, Workspace
+from core.problem.swing_height import held_knots
+from core.robot.model import load_robot
+from core.wire.waypoint_path import waypoints_from_trajectory
 from solver_jobs import SolveStatus, solve_exact, solve_live
 from solver_jobs.constraint import situation_of
 from solver_jobs.remedies import find_remedies

@@ -15,9 +15,15 @@ from dataclasses import replace
 import pytest
 
 from core.errors import InputError, StateError
-from core.motion_problem import Cost, MotionLimits, MotionProblem, Workspace, standing_pose
-from core.robot import load_robot
-from core.timeline import timeline_from_order
+from core.motion.contact_timeline import timeline_from_order
+from core.problem.motion_problem import (
+    Cost,
+    MotionLimits,
+    MotionProblem,
+    Workspace,
+    standing_pose,
+)
+from core.robot.model import load_robot
 from solver_jobs import Job, JobRunner, JobState, SolveStatus
 from solver_jobs import runner as runner_module
 from tests.solver_jobs.cases import gait_problem
@@ -184,7 +190,7 @@ PARENT = """
 import sys
 from solver_jobs import JobRunner
 from tests.solver_jobs.cases import gait_problem
-from core.motion_problem import Workspace
+from core.problem.motion_problem import Workspace
 
 if __name__ == "__main__":
     runner = JobRunner()

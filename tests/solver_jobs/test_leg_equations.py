@@ -8,12 +8,12 @@ import numpy as np
 from casadi import SX, Function, jacobian, vertcat
 
 from core.arrays import Floats
-from core.leg import foot_from_strokes as numpy_foot
-from core.leg import foot_jacobian
-from core.leg import squared_offsets as numpy_offsets
-from core.leg import stroke_rates as numpy_rates
-from core.leg import strokes_from_foot as numpy_strokes
-from core.robot import load_robot
+from core.robot.leg import foot_from_strokes as numpy_foot
+from core.robot.leg import foot_jacobian
+from core.robot.leg import squared_offsets as numpy_offsets
+from core.robot.leg import stroke_rates as numpy_rates
+from core.robot.leg import strokes_from_foot as numpy_strokes
+from core.robot.model import load_robot
 from solver_jobs.leg_equations import (
     foot_from_strokes,
     motor_arms,

@@ -8,14 +8,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from core.gait import GaitOptions, drawn_timeline, heading_step, motion_problem
-from core.library import library
-from core.motion_check import check_motion
-from core.motion_problem import Boundary, MotionProblem, Workspace
-from core.robot import load_robot
-from core.timeline import ContactTimeline, timeline_from_order
-from core.trajectory import turn_trajectory
-from core.turning import Turning
+from core.gait.gait import (
+    GaitOptions,
+    drawn_timeline,
+    heading_step,
+    motion_problem,
+)
+from core.library.library import library
+from core.motion.contact_timeline import ContactTimeline, timeline_from_order
+from core.motion.heading_profile import Turning
+from core.motion.trajectory import turn_trajectory
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import Boundary, MotionProblem, Workspace
+from core.robot.model import load_robot
 from solver_jobs.live.solve import quick_motion, solve_live
 from solver_jobs.motion_nlp import solve_motion
 from solver_jobs.results import Evidence, MotionResult, SolveStatus

@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.kinematics import BodyPose, feet_in_modules
-from core.leg import strokes_from_foot
-from core.motion_problem import CYLINDER, MotionProblem, Workspace
-from core.support import centre_of_pressure, stability_margins, trajectory_pressure
+from core.motion.support_polygon import centre_of_pressure, stability_margins, trajectory_pressure
+from core.problem.motion_problem import CYLINDER, MotionProblem, Workspace
+from core.robot.kinematics import BodyPose, feet_in_modules
+from core.robot.leg import strokes_from_foot
 from solver_jobs.live.elastic import nearest
 from solver_jobs.live.motion import trajectory_of, vertical_shares
 from solver_jobs.live.outline import MM, Outline, outline_of

@@ -11,11 +11,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from core.gait import Gait, GaitOptions, heading_step, motion_problem
-from core.library import library
-from core.motion_check import check_motion
-from core.motion_problem import Workspace
-from core.robot import load_robot
+from core.gait.gait import (
+    Gait,
+    GaitOptions,
+    heading_step,
+    motion_problem,
+)
+from core.library.library import library
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import Workspace
+from core.robot.model import load_robot
 from solver_jobs import LiveSolver, SolveStatus, live_service
 from solver_jobs.live.solve import solve_live
 from solver_jobs.remedies import find_remedies

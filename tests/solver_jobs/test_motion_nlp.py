@@ -7,11 +7,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.motion_problem import Cost, MotionLimits, MotionProblem, RestPose, Workspace, standing_pose
-from core.robot import load_robot
-from core.support import centre_of_pressure, stability_margins
-from core.timeline import timeline_from_order, timeline_from_rows
-from core.trajectory import Trajectory, turn_trajectory
+from core.motion.contact_timeline import timeline_from_order, timeline_from_rows
+from core.motion.support_polygon import centre_of_pressure, stability_margins
+from core.motion.trajectory import Trajectory, turn_trajectory
+from core.problem.motion_problem import (
+    Cost,
+    MotionLimits,
+    MotionProblem,
+    RestPose,
+    Workspace,
+    standing_pose,
+)
+from core.robot.model import load_robot
 from solver_jobs import Evidence, Iterate, MotionResult, SolveStatus
 from solver_jobs.motion_nlp import solve_motion
 from tests.solver_jobs.cases import GAITS, gait_problem

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.motion_problem import MotionProblem, RestPose, Workspace
-from core.trajectory import Trajectory
+from core.motion.trajectory import Trajectory
+from core.problem.motion_problem import MotionProblem, RestPose, Workspace
 from solver_jobs import SolveStatus
 from solver_jobs.memory import differ_little
 from solver_jobs.motion_nlp import solve_motion

@@ -10,12 +10,17 @@ import pytest
 from casadi import Function, vertcat
 
 from core.arrays import Floats
-from core.draft import initial_motion
-from core.kinematics import feet_in_modules
-from core.leg import strokes_from_foot
-from core.motion_check import check_motion
-from core.motion_problem import Boundary, Cost, MotionProblem, Workspace
-from core.timeline import timeline_from_order
+from core.motion.contact_timeline import timeline_from_order
+from core.problem.initial_guess import initial_motion
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import (
+    Boundary,
+    Cost,
+    MotionProblem,
+    Workspace,
+)
+from core.robot.kinematics import feet_in_modules
+from core.robot.leg import strokes_from_foot
 from solver_jobs.constraint import Family, situation_of
 from solver_jobs.structure import Structure, StructureCache, assembled_rows, build_structure, shape_of
 from solver_jobs.variables import (

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.motion_check import check_motion
-from core.motion_problem import MotionProblem, Workspace
-from core.timeline import timeline_from_order
+from core.motion.contact_timeline import timeline_from_order
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import MotionProblem, Workspace
 from solver_jobs import Iterate, SolveStatus
 from solver_jobs.motion_nlp import solve_motion
 from solver_jobs.timing import (

@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 
 from core.errors import SimulationCancelledError
+from core.identification.learning import Walk
 from core.physics.parameters import physics_set
-from core.trials.learning import Walk
 from core.trials.travel import MeasuredWalk, Travel
 from solver_jobs import TravelSimulator
 from solver_jobs.travel_worker import walked

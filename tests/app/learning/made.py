@@ -9,8 +9,8 @@ from dataclasses import dataclass, field, replace
 from app.learning.desk import LearningDesk
 from app.store.database import Database
 from core.errors import SimulationCancelledError
+from core.identification.learning import Walk
 from core.physics.parameters import PhysicsSet, physics_set
-from core.trials.learning import Walk
 from core.trials.travel import MeasuredWalk, Travel
 from tests.simulated_walk import walk_problem
 from tests.studio_process import wait_for

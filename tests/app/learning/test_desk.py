@@ -15,7 +15,7 @@ from app.store.learning_log import LearningLog
 from app.store.simulation_log import SimulationLog
 from core.errors import InputError, NotFoundError, StateError
 from core.physics.parameters import physics_set
-from core.robot import load_robot
+from core.robot.model import load_robot
 from tests.app.learning.made import POINTS, Tier, made_walks
 from tests.core.trials.few_draws import few_draws
 from tests.simulated_walk import walk_plan

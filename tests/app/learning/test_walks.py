@@ -15,10 +15,10 @@ from app.store.database import Database
 from app.trials.desk import TrialDesk, TrialWords
 from app.trials.planned import PlannedFeet
 from core.errors import InputError
-from core.robot import load_robot
-from core.trajectory_csv import format_trajectory_csv
+from core.robot.model import load_robot
 from core.trials.alignment import repeated_motion
-from core.trials.track import FootTrack
+from core.vision.track import FootTrack
+from core.wire.trajectory_csv import format_trajectory_csv
 from tests.core.trials.tracks import stepping_track
 from tests.reference import reference_path
 from tests.simulated_walk import walk_plan

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from app.trials.video import Picture
 from core.arrays import Floats
-from core.trials.camera import Lens, PlatformView
+from core.vision.camera import Lens, PlatformView
 
 SIZE = (640, 480)
 PIXELS_PER_METRE = 4000.0

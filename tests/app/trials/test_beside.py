@@ -19,7 +19,7 @@ from core.errors import CheckError, InputError, NotFoundError
 from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
 from core.physics.variations import VariedRun
-from core.trials.track import FootTrack
+from core.vision.track import FootTrack
 from tests.app.trials.walking import walk_planned, walked
 from tests.core.trials.tracks import stepping_track
 from tests.simulated_walk import followed, walk_plan, walk_problem

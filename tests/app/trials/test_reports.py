@@ -25,7 +25,7 @@ from app.trials.report_page import number
 from app.trials.report_plots import ways_from_above
 from app.trials.simulated import TrialSimulations
 from core.errors import NotFoundError
-from core.trials.track import FootTrack
+from core.vision.track import FootTrack
 from solver_jobs import Simulator
 from tests.app.trials.walking import walk_planned, walked
 from tests.core.trials.test_picture_size import picture

@@ -13,7 +13,7 @@ from app.store.run_log import RunLog
 from app.trials.run_trial import run_trial
 from app.trials.tracking import VideoTrack
 from core.errors import InputError, StateError
-from core.trials.track import FootTrack
+from core.vision.track import FootTrack
 from tests.ran_robot import keep_run
 
 RATE = 10.0

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from core.trials.track_csv import format_track_csv
+from core.vision.track_csv import format_track_csv
 from tests.core.trials.test_picture_size import picture
 from tests.core.trials.tracks import stepping_track
 from tests.studio_process import StudioProcess, running_studio

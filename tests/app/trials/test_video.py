@@ -11,9 +11,9 @@ import pytest
 from app.trials.tracking import VideoTrack, missing_remarks, track_of_pixels, track_video
 from app.trials.video import VideoFile
 from core.errors import InputError
-from core.trials import picture_size
-from core.trials.camera import FOOT_COLOURS
-from core.trials.setup import TrackingSetup
+from core.vision import image_header as picture_size
+from core.vision.camera import FOOT_COLOURS
+from core.vision.setup import TrackingSetup
 from tests.app.trials.rendered import LENS, VIEW, Hidden, write_video
 from tests.app.trials.retimed import retimed
 from tests.core.trials.tracks import RATE, stepping_track

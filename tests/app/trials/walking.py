@@ -7,7 +7,7 @@ import numpy as np
 from app.runs.plan_content import sent_content
 from app.trials.planned import PlannedFeet
 from core.trials.alignment import repeated_motion
-from core.trials.track import FootTrack
+from core.vision.track import FootTrack
 from tests.simulated_walk import walk_plan
 
 

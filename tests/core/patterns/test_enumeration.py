@@ -9,7 +9,7 @@ import pytest
 
 from app.bench.pattern_cases import random_small
 from core.errors import InputError
-from core.patterns.enumeration import least_weighted_sum
+from core.patterns.brute_force import least_weighted_sum
 from core.patterns.problem import FREE, PatternRules
 from tests.solver_jobs.patterns.clashes import transition
 from tests.solver_jobs.patterns.trying import every_sum

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.gait import Gait
-from core.library import library
+from core.gait.gait import Gait
+from core.library.library import library
+from core.motion.contact_timeline import timeline_from_rows
 from core.patterns.finishing import finished_phases, finishing_length
 from core.patterns.problem import FREE, PatternProblem, PatternRules
 from core.patterns.sides import PatternSide
 from core.patterns.sources import transition_problem
-from core.timeline import timeline_from_rows
 
 WALK, AMBLE = library()["walk"].gait, library()["amble"].gait
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from core.arrays import Floats
 from core.errors import InputError
-from core.kinematics import BodyPose, free_strokes
-from core.patterns.interpolation import (
+from core.motion.support_polygon import polygon_margin, support_polygon
+from core.patterns.baseline import (
     blended_strokes,
     body_way,
     figures,
@@ -18,8 +18,8 @@ from core.patterns.interpolation import (
     level_feet,
     resting,
 )
-from core.robot import load_robot
-from core.support import polygon_margin, support_polygon
+from core.robot.kinematics import BodyPose, free_strokes
+from core.robot.model import load_robot
 
 MODEL = load_robot("hexapod")
 

@@ -8,11 +8,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.gait import motion_problem
-from core.library import Group, group_ids, library, library_patterns
-from core.motion_check import check_motion
+from core.gait.gait import motion_problem
+from core.library.library import (
+    Group,
+    group_ids,
+    library,
+    library_patterns,
+)
 from core.patterns.check import check_pattern, scored, weighted_sum
 from core.patterns.problem import PatternStatus
+from core.problem.motion_check import check_motion
 from solver_jobs import PatternSolver, SolveStatus, solve_live
 
 PATTERNS = library_patterns()

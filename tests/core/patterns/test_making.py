@@ -12,11 +12,17 @@ from hypothesis import strategies as st
 from app.documents import gait_content, gait_from_content
 from core.arrays import Bools
 from core.errors import InputError
-from core.gait import Gait, GaitOptions, Orientation, heading_step, motion_problem
-from core.held_feet import HeldFeet
-from core.library import library, library_patterns
-from core.motion_problem import Workspace
-from core.patterns.making import (
+from core.gait.gait import (
+    Gait,
+    GaitOptions,
+    Orientation,
+    heading_step,
+    motion_problem,
+)
+from core.gait.held_feet import HeldFeet
+from core.library.library import library, library_patterns
+from core.motion.contact_timeline import bits_from_rows, rows_from_bits, timeline_from_rows
+from core.patterns.to_gait import (
     CycleUse,
     completed_gait,
     cycle_view,
@@ -28,8 +34,8 @@ from core.patterns.making import (
     unrolled,
     walking_limbs,
 )
-from core.robot import load_robot
-from core.timeline import bits_from_rows, rows_from_bits, timeline_from_rows
+from core.problem.motion_problem import Workspace
+from core.robot.model import load_robot
 
 WALK, AMBLE = library()["walk"].gait, library()["amble"].gait
 HEXAPOD = load_robot("hexapod")

@@ -7,7 +7,7 @@ import pytest
 
 from core.errors import InputError
 from core.patterns.problem import FREE, PatternProblem, Relaxation, Rule
-from core.patterns.relaxing import relaxed, with_samples
+from core.patterns.relaxation import relaxed, with_samples
 from tests.solver_jobs.patterns.clashes import drawn, periodic, transition
 
 

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.gait import Gait, Orientation
-from core.leg import strokes_from_foot
-from core.library import library
-from core.new_gait import with_robot
+from core.gait.gait import Gait, Orientation
+from core.library.library import library
+from core.library.new_gait import with_robot
+from core.motion.contact_timeline import timeline_from_rows
+from core.patterns.limits import body_reach, walking_rules
 from core.patterns.problem import FREE, PatternKind, PatternProblem, PatternRules
 from core.patterns.sides import locked_limbs
 from core.patterns.sources import (
@@ -23,9 +24,8 @@ from core.patterns.sources import (
     periodic_problem,
     transition_problem,
 )
-from core.patterns.walking import body_reach, walking_rules
-from core.robot import ROBOT_NAMES, load_robot
-from core.timeline import timeline_from_rows
+from core.robot.leg import strokes_from_foot
+from core.robot.model import ROBOT_NAMES, load_robot
 
 WALK, AMBLE = library()["walk"].gait, library()["amble"].gait
 HEXAPOD = load_robot("hexapod")

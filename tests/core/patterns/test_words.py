@@ -10,7 +10,12 @@ import pytest
 from core.patterns.clause import Clause, asked_by
 from core.patterns.numerals import counted, listed, named, only, times
 from core.patterns.problem import BalanceModel, PatternProblem, PatternRules, Relaxation, Rule
-from core.patterns.words import clash_sentence, explanation, failing_samples, relaxation_words
+from core.patterns.sentences import (
+    clash_sentence,
+    explanation,
+    failing_samples,
+    relaxation_words,
+)
 from tests.solver_jobs.patterns.clashes import drawn, periodic, transition
 
 

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 
 from core.arrays import Bools, Floats
+from core.motion.trajectory import Trajectory
 from core.physics.motion import SimulatedMotion
 from core.physics.parameters import physics_set
 from core.physics.problem import Rig, SimulationProblem
-from core.robot import load_robot
-from core.trajectory import Trajectory
-from core.waypoint_path import waypoints_from_trajectory
+from core.robot.model import load_robot
+from core.wire.waypoint_path import waypoints_from_trajectory
 
 MODEL = load_robot("deltawalker")
 KNOTS, EACH = 5, 10

@@ -9,9 +9,9 @@ import pytest
 
 from core.findings import Finding, Severity
 from core.physics.findings import SLIP_LIMIT, TILT_LIMIT, physics_outcomes
+from core.physics.metrics import report
 from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
-from core.physics.reporting import report
 from tests.core.physics import made_motions as made
 from tests.core.physics.made_motions import PLANNED, PROBLEM
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from core.physics.play import with_play
+from core.physics.backlash import with_play
 
 
 def test_without_backlash_knees_are_where_motors_are() -> None:

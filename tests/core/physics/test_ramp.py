@@ -14,10 +14,10 @@ from core.physics.motors import motor_force_limits, motor_speeds
 from core.physics.parameters import PhysicsSet, physics_set
 from core.physics.ramp import TURN, MotorCourse, motor_course, ramp_shares
 from core.physics.variations import variations
-from core.robot import load_robot
-from core.waypoint_path import MESSAGE_SECONDS, TYPICAL_SCAN, move_seconds
-from core.waypoints import Waypoints
-from core.wire_timing import ARRIVAL_THRESHOLD, RAMP_SPEED, ramp_time
+from core.robot.model import load_robot
+from core.wire.timing import ARRIVAL_THRESHOLD, RAMP_SPEED, ramp_time
+from core.wire.waypoint_path import MESSAGE_SECONDS, TYPICAL_SCAN, move_seconds
+from core.wire.waypoints import Waypoints
 
 MODEL = load_robot("deltawalker")
 SPEEDS = motor_speeds(MODEL, physics_set())

@@ -10,8 +10,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from core.physics.metrics import (
+    FALL_TILT,
+    LOAD,
+    report,
+    rotations,
+    tilts,
+)
 from core.physics.problem import Rig
-from core.physics.reporting import FALL_TILT, LOAD, report, rotations, tilts
 from tests.core.physics import made_motions as made
 from tests.core.physics.made_motions import PLANNED, PROBLEM
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from core.trials import fit
+from core.identification import bayes_fit as fit
 
 FEW = 4000
 

@@ -10,11 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.errors import InputError
-from core.robot import load_robot
+from core.robot.model import load_robot
 from core.trials.alignment import align, foot_gaps, placed_motion, repeated_motion, track_of_motion
 from core.trials.band import trial_band
-from core.trials.track import FootTrack
-from core.trials.track_csv import parse_track_csv
+from core.vision.track import FootTrack
+from core.vision.track_csv import parse_track_csv
 from tests.core.trials.tracks import STANCE, stepping_track
 from tests.reference import reference_path
 

@@ -6,8 +6,14 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.trials.camera import ColourRange, Lens, PlatformView, SpotLimits, view_of_points
-from core.trials.false_sights import false_sights
+from core.vision.camera import (
+    ColourRange,
+    Lens,
+    PlatformView,
+    SpotLimits,
+    view_of_points,
+)
+from core.vision.outliers import false_sights
 from tests.core.trials.tracks import stepping_track
 
 CORNERS = np.array([[-0.05, -0.05], [0.05, -0.05], [0.05, 0.05], [-0.05, 0.05]])

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from core.errors import CheckError
+from core.identification.baseline import ratio_left_out
+from core.identification.design import even_points
+from core.identification.parameters import FIT_PARAMETERS, box, physics_at
+from core.identification.surrogate import fitted_surfaces
 from core.physics.parameters import physics_set
-from core.trials.design import even_points
-from core.trials.fit_parameters import FIT_PARAMETERS, box, physics_at
-from core.trials.ratio import ratio_left_out
-from core.trials.surface import fitted_surfaces
-from core.trials.track import FootTrack
 from core.trials.travel import motion_travel, track_travel
+from core.vision.track import FootTrack
 
 
 def test_points_fill_the_box_evenly_and_a_larger_count_begins_with_a_smaller_one() -> None:

@@ -9,8 +9,8 @@ import pytest
 
 from core.errors import InputError
 from core.trials.iterations import find_iterations, iteration_movements, standing_slip
-from core.trials.track import FootTrack
-from core.trials.track_csv import parse_track_csv
+from core.vision.track import FootTrack
+from core.vision.track_csv import parse_track_csv
 from tests.core.trials.tracks import RATE, stepping_track
 from tests.reference import reference_path
 

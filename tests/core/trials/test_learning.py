@@ -10,9 +10,15 @@ import numpy as np
 import pytest
 
 from core.errors import CheckError, InputError
+from core.identification.learning import (
+    Learned,
+    Simulate,
+    Task,
+    learn,
+    simulation_count,
+)
+from core.identification.parameters import FIT_PARAMETERS, physics_at
 from core.physics.parameters import PhysicsSet, physics_set
-from core.trials.fit_parameters import FIT_PARAMETERS, physics_at
-from core.trials.learning import Learned, Simulate, Task, learn, simulation_count
 from core.trials.travel import MeasuredWalk, Travel, pooled_spread, walk_of_trials
 from tests.core.trials.few_draws import few_draws
 

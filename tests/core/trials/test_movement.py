@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 
 from core.errors import InputError
 from core.trials.movement import Movement, foot_movements, mean_movement, spread
-from core.trials.track import FootTrack
-from core.trials.track_csv import parse_track_csv
+from core.vision.track import FootTrack
+from core.vision.track_csv import parse_track_csv
 from tests.core.trials.tracks import stepping_track
 from tests.reference import reference_path
 

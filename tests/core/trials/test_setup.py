@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.trials.camera import FOOT_COLOURS
-from core.trials.setup import CameraSetup
+from core.vision.camera import FOOT_COLOURS
+from core.vision.setup import CameraSetup
 from tests.core.trials.test_camera import CORNERS, LENS, pixels_of
 
 SIZE = (640, 480)

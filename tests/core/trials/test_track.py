@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.trials.track_csv import PixelScale, format_track_csv, parse_track_csv
+from core.vision.track_csv import PixelScale, format_track_csv, parse_track_csv
 
 HEADER = "X_D1, Y_D1, X_D2, Y_D2"
 

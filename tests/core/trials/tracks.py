@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from core.trials.track import FootTrack
+from core.vision.track import FootTrack
 
 RATE = 13.0
 STANCE = np.array([[0.04, 0.0], [0.0, 0.04], [-0.04, 0.0], [0.0, -0.04]])

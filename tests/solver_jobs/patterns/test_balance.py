@@ -10,9 +10,9 @@ from ortools.sat.python.cp_model import CpSolver
 
 from app.bench.pattern_cases import random_periodic, random_transition
 from core.arrays import Bools, Floats
+from core.motion.support_polygon import polygon_margin, support_polygon
 from core.patterns.check import broken_rules, check_pattern
 from core.patterns.problem import BalanceModel, PatternProblem, PatternRules, PatternStatus, Rule
-from core.support import polygon_margin, support_polygon
 from solver_jobs.patterns.model import build_model
 from solver_jobs.patterns.solve import best_patterns
 from tests.solver_jobs.patterns.clashes import periodic, transition

@@ -10,7 +10,7 @@ import pytest
 from core.patterns.check import check_pattern
 from core.patterns.clause import asked_by
 from core.patterns.problem import BalanceModel, PatternProblem, PatternStatus, Rule
-from core.patterns.relaxing import relaxed
+from core.patterns.relaxation import relaxed
 from solver_jobs import solve_pattern
 from solver_jobs.patterns.explaining import Explanation, explain
 from solver_jobs.patterns.probe import Answer, Probe

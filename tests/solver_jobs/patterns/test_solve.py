@@ -10,8 +10,8 @@ import pytest
 from app.bench.pattern_cases import random_periodic, random_small, random_transition
 from core.arrays import Bools
 from core.errors import InputError
+from core.patterns.brute_force import least_weighted_sum
 from core.patterns.check import check_pattern, weighted_sum
-from core.patterns.enumeration import least_weighted_sum
 from core.patterns.problem import (
     FREE,
     PatternKind,

@@ -9,16 +9,16 @@ from typing import Any
 import numpy as np
 
 from core.arrays import Floats
-from core.gait import heading_step, motion_problem
-from core.kinematics import BodyPose, free_strokes
-from core.library import library
-from core.path_merging import WaypointPlan, plan_waypoints, robot_feet
+from core.gait.gait import heading_step, motion_problem
+from core.library.library import library
+from core.motion.trajectory import Trajectory
 from core.physics.masses import physics_for
 from core.physics.parameters import PhysicsSet, physics_set
 from core.physics.problem import Rig, SimulationProblem
-from core.robot import RobotModel, load_robot
-from core.trajectory import Trajectory
-from core.waypoints import Waypoints
+from core.robot.kinematics import BodyPose, free_strokes
+from core.robot.model import RobotModel, load_robot
+from core.wire.waypoint_merging import WaypointPlan, plan_waypoints, robot_feet
+from core.wire.waypoints import Waypoints
 from solver_jobs import solve_live
 
 MODEL = load_robot("deltawalker")

@@ -9,15 +9,15 @@ import pytest
 
 from core.arrays import Floats
 from core.errors import SimulationCancelledError
-from core.path_merging import robot_feet
+from core.motion.trajectory import quarter_turn, turn_trajectory
 from core.physics.findings import TILT_LIMIT, physics_outcomes
+from core.physics.metrics import FALL_TILT, report
 from core.physics.problem import Rig, SimulationProblem
 from core.physics.ramp import TURN
-from core.physics.reporting import FALL_TILT, report
 from core.physics.variations import variations, varied_problem
-from core.trajectory import quarter_turn, turn_trajectory
-from core.waypoints import Waypoints
-from core.wire_timing import RAMP_SPEED, ramp_time
+from core.wire.timing import RAMP_SPEED, ramp_time
+from core.wire.waypoint_merging import robot_feet
+from core.wire.waypoints import Waypoints
 from solver_jobs import simulate, simulate_variations
 from solver_jobs.physics.running import TIME_STEP, VARIED_STEP
 from solver_jobs.physics.simulate import simulate as simulate_at

@@ -13,7 +13,7 @@ import pytest
 
 from core.errors import InputError, SimulationCancelledError
 from core.physics.problem import SimulationProblem
-from core.robot import load_robot
+from core.robot.model import load_robot
 from solver_jobs import Simulator, simulate, simulate_variations
 from tests.solver_jobs.physics.rigs import SCALES, problem_of_strokes, resting
 

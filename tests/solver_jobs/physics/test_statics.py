@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from core.errors import InfeasibleError, InputError
-from core.leg import foot_from_strokes
-from core.path_merging import robot_feet
 from core.physics.masses import part_masses, physics_for
+from core.physics.metrics import rotations, tilts
 from core.physics.parameters import physics_set
 from core.physics.problem import Rig
-from core.physics.reporting import rotations, tilts
-from core.robot import load_robot
+from core.robot.leg import foot_from_strokes
+from core.robot.model import load_robot
+from core.wire.waypoint_merging import robot_feet
 from solver_jobs import simulate
 from tests.solver_jobs.physics.rigs import MIDDLE, MODEL, SCALES, problem_of_strokes, resting, strokes_of
 

@@ -1,0 +1,1 @@
+"""The verdict: one rule family a file."""

@@ -1,0 +1,173 @@
+"""What motors and firmware can do: range, speed, acceleration, the size of a move, and deafness for Stop."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from core.arrays import Floats
+from core.checks.checked_plan import CheckedPlan, knot_place
+from core.findings import TOLERANCE, Outcome, RuleMargin, Severity, found
+from core.motion.speeds import motor_accelerations, motor_speeds
+from core.robot.model import RobotModel
+from core.wire.timing import ARRIVAL_THRESHOLD, deafness
+from core.wire.waypoints import Waypoints
+
+DEAF_LIMIT = 2.5
+"""A plan during which Stop takes longer gets a warning, s."""
+
+
+def check_strokes(model: RobotModel, waypoints: Waypoints, times: Floats | None = None) -> Outcome:
+    """Every motor stays within its range.
+
+    Args:
+        model: the robot.
+        waypoints: one a knot, or what is sent.
+        times: (count,) the plan's time of each, s; None where it is not known.
+    """
+    lower, upper = model.stroke.lower, model.stroke.upper
+    room = np.minimum(waypoints.strokes - lower, upper - waypoints.strokes)
+    findings = []
+    for sample, foot, actuator in np.argwhere(room < -TOLERANCE).tolist():
+        value = float(waypoints.strokes[sample, foot, actuator])
+        place: dict[str, Any] = {"sample": sample, "foot": foot, "actuator": actuator}
+        if times is not None:
+            place["time"] = float(times[sample])
+        words = (
+            f"Motor {actuator + 1} of foot {foot + 1} would go to {value * 1000:.2f} mm at sample "
+            f"{sample + 1}; its range is {lower * 1000:.1f} to {upper * 1000:.1f} mm."
+        )
+        remedy = "Shorten the step or change the body's height."
+        limit = lower if value < lower else upper
+        findings.append(found("stroke", Severity.ERROR, words, remedy, value, limit, **place))
+    return Outcome(RuleMargin("stroke", float(room.min()), "m"), tuple(findings))
+
+
+def check_deafness(waypoints: Waypoints) -> Outcome:
+    """No move keeps the robot from hearing Stop for too long."""
+    seconds = deafness(waypoints)
+    margin = RuleMargin("deafness", DEAF_LIMIT - seconds, "s")
+    if seconds <= DEAF_LIMIT + TOLERANCE:
+        return Outcome(margin)
+    words = (
+        f"The longest move keeps the robot from hearing Stop for {seconds:.1f} s; more than {DEAF_LIMIT} s."
+    )
+    remedy = "Choose a stop bound, which cuts long moves."
+    return Outcome(margin, (found("deafness", Severity.WARNING, words, remedy, seconds, DEAF_LIMIT),))
+
+
+def check_move_size(plan: CheckedPlan) -> Outcome:
+    """Every move is larger than the firmware's threshold, within which it takes a waypoint for reached.
+
+    Where waypoints are merged within that threshold, those that are left with less to go are needed for what
+    stands between them, and no finding (see `still_note`).
+    """
+    still, smallest = _still_waypoints(plan.waypoints)
+    is_merged = plan.way is not None and plan.way.merge >= ARRIVAL_THRESHOLD - TOLERANCE
+    if not still or is_merged:
+        known = None if still or not np.isfinite(smallest) else smallest - ARRIVAL_THRESHOLD
+        return Outcome(RuleMargin("move_size", known, "m"))
+    margin = RuleMargin("move_size", smallest - ARRIVAL_THRESHOLD, "m")
+    remedy = f"Merge waypoints within {ARRIVAL_THRESHOLD * 1000:.1f} mm."
+    sample = still[0] if plan.way is None else plan.way.kept[still[0]]
+    place = knot_place(plan, sample)
+    words = _still_words(still, plan.waypoints)
+    finding = found("move_size", Severity.WARNING, words, remedy, smallest, ARRIVAL_THRESHOLD, **place)
+    return Outcome(margin, (finding,))
+
+
+def still_note(plan: CheckedPlan) -> str:
+    """How many merged waypoints the firmware does not move to, in a sentence; nothing for none."""
+    still, _ = _still_waypoints(plan.waypoints)
+    return _still_words(still, plan.waypoints) if still else ""
+
+
+def _still_words(still: list[int], waypoints: Waypoints) -> str:
+    return (
+        f"At {len(still)} of {waypoints.count} waypoints, first at waypoint {still[0] + 1}, no motor has "
+        f"more than {ARRIVAL_THRESHOLD * 1000:.1f} mm to go: the firmware takes them for reached and moves "
+        "nothing."
+    )
+
+
+def _still_waypoints(waypoints: Waypoints) -> tuple[list[int], float]:
+    """Waypoints at which the firmware finds every motor near enough, and the smallest way to any, m.
+
+    A waypoint that repeats the pose before it is a wait and no move.
+    """
+    here, still, smallest = waypoints.strokes[0], [], np.inf
+    for index in range(1, waypoints.count):
+        distance = float(np.abs(waypoints.strokes[index] - here).max())
+        if distance <= TOLERANCE:
+            continue
+        smallest = min(smallest, distance)
+        if distance > ARRIVAL_THRESHOLD - TOLERANCE:
+            here = waypoints.strokes[index]
+        else:
+            still.append(index)
+    return still, float(smallest)
+
+
+def check_motor_speed(plan: CheckedPlan) -> Outcome:
+    """Motors can follow the plan in its own time, and keep the speed that the document allows."""
+    limit, asked = plan.model.stroke.speed, plan.asked.motor_speed
+    if asked is None or asked >= limit:
+        moves = np.abs(np.diff(plan.knots.strokes, axis=0))
+        speeds = moves / np.maximum(plan.knots.durations[1:], 1e-9)[:, None, None]
+        so = f"motors make {limit * 1000:.0f} mm/s, so the robot takes longer than planned there."
+        remedy = "Give the step more time where that matters."
+    else:
+        limit, speeds = asked, np.nan_to_num(motor_speeds(plan.model, plan.trajectory))
+        so, remedy = f"the gait allows {limit * 1000:g} mm/s.", "Optimise again, or allow more."
+    value, place, motor = _worst(plan, speeds, "mm/s")
+    margin = RuleMargin("motor_speed", limit - value, "m/s")
+    if value <= limit + TOLERANCE:
+        return Outcome(margin)
+    words = f"{motor}; {so}"
+    finding = found("motor_speed", Severity.WARNING, words, remedy, value, limit, **place)
+    return Outcome(margin, (finding,))
+
+
+def check_motor_acceleration(plan: CheckedPlan) -> list[Outcome]:
+    """Motors keep the acceleration that the document allows; nothing where it sets none.
+
+    The robot's own is no limit of a plan: its firmware ramps to and from each waypoint (see
+    `acceleration_note`).
+    """
+    limit = plan.asked.motor_acceleration
+    if limit is None:
+        return []
+    needed = np.nan_to_num(motor_accelerations(plan.model, plan.trajectory))
+    value, place, motor = _worst(plan, needed, "mm/s²")
+    margin = RuleMargin("motor_acceleration", limit - value, "m/s²")
+    if value <= limit + TOLERANCE:
+        return [Outcome(margin)]
+    words = f"{motor}; the gait allows {limit * 1000:g} mm/s²."
+    remedy = "Optimise again, or allow more."
+    return [
+        Outcome(
+            margin, (found("motor_acceleration", Severity.WARNING, words, remedy, value, limit, **place),)
+        )
+    ]
+
+
+def acceleration_note(plan: CheckedPlan) -> str:
+    """By how much the plan is quicker off the mark than the robot, in a sentence; nothing where it is not."""
+    needed = float(np.nan_to_num(motor_accelerations(plan.model, plan.trajectory)).max(initial=0.0))
+    limit = plan.model.stroke.acceleration
+    if needed <= limit + TOLERANCE:
+        return ""
+    return (
+        f"The plan's motors gain speed with up to {needed * 1000:.1f} mm/s², the robot's with "
+        f"{limit * 1000:.0f} mm/s²: it keeps the path and takes its own time."
+    )
+
+
+def _worst(plan: CheckedPlan, values: Floats, unit: str) -> tuple[float, dict[str, Any], str]:
+    """The largest of (n, legs, 3) values, its place, and what motor needs it, in words."""
+    sample, foot, actuator = (int(i) for i in np.unravel_index(int(values.argmax()), values.shape))
+    place = {**knot_place(plan, sample), "foot": foot, "actuator": actuator}
+    value = float(values[sample, foot, actuator])
+    motor = f"Motor {actuator + 1} of foot {foot + 1}"
+    return value, place, f"{motor} would need {value * 1000:.1f} {unit} after sample {sample + 1}"

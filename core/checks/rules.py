@@ -1,0 +1,88 @@
+"""Every rule that a plan must keep before a person may approve it, in one list.
+
+The rules stand by kind: `motor_check`, `balance_check`, `ground_check`, `document_check`, `coupling_check`,
+`path_check` on the way between waypoints, and `simulation_check` with what the physics says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from core.checks.balance import check_balance, check_standing_balance
+from core.checks.checked_plan import CheckedPlan
+from core.checks.coupling import check_coupling
+from core.checks.document import check_document, check_origin
+from core.checks.ground import (
+    CLEARANCE_LIMIT,
+    check_clearance,
+    check_contact,
+    check_slip,
+)
+from core.checks.motors import (
+    acceleration_note,
+    check_deafness,
+    check_motor_acceleration,
+    check_motor_speed,
+    check_move_size,
+    check_strokes,
+    still_note,
+)
+from core.checks.path import SLACK_NOTE, check_path, send_costs
+from core.checks.simulation import Simulated, check_simulation, simulation_note
+from core.findings import Finding, Outcome, Severity, Verdict
+from core.robot.model import RobotModel
+from core.wire.waypoints import Waypoints
+
+
+def check_plan(plan: CheckedPlan, simulated: Simulated | None = None) -> Verdict:
+    """Every rule on a plan, for exactly these waypoints.
+
+    Args:
+        plan: what is checked.
+        simulated: a simulation of exactly these waypoints; without one a note says that there is none.
+    """
+    outcomes = [
+        check_strokes(plan.model, plan.knots, plan.trajectory.times),
+        check_deafness(plan.waypoints),
+        check_balance(plan),
+        check_contact(plan),
+        check_clearance(plan),
+        check_slip(plan),
+        check_motor_speed(plan),
+        *check_motor_acceleration(plan),
+        check_move_size(plan),
+        *check_document(plan),
+    ]
+    if plan.model.is_coupled:
+        outcomes.append(check_coupling(plan.model, plan.trajectory, CLEARANCE_LIMIT))
+    if plan.way is not None:
+        outcomes += check_path(plan.model, plan.trajectory, plan.way)
+    outcomes += check_simulation(simulated)
+    findings = [finding for outcome in outcomes for finding in outcome.findings]
+    verdict = _verdict(plan.model, plan.waypoints, [*findings, *check_origin(plan)], outcomes)
+    notes = [acceleration_note(plan), simulation_note(simulated)]
+    if plan.way is not None:
+        costs = send_costs(plan.model, plan.trajectory, plan.way)
+        verdict = replace(verdict, costs=costs)
+        notes += [still_note(plan), "" if plan.model.is_coupled else SLACK_NOTE]
+    return replace(verdict, notes=tuple(filter(None, notes)))
+
+
+def check_waypoints(model: RobotModel, waypoints: Waypoints) -> Verdict:
+    """What waypoints alone can show: range, deafness, and balance by forward kinematics."""
+    outcomes = [
+        check_strokes(model, waypoints),
+        check_deafness(waypoints),
+        check_standing_balance(model, waypoints),
+    ]
+    findings = [finding for outcome in outcomes for finding in outcome.findings]
+    return _verdict(model, waypoints, findings, outcomes)
+
+
+def _verdict(
+    model: RobotModel, waypoints: Waypoints, findings: Sequence[Finding], outcomes: Sequence[Outcome]
+) -> Verdict:
+    ordered = sorted(findings, key=lambda f: (f.severity is not Severity.ERROR, f.rule, f.sample or 0))
+    margins = tuple(outcome.margin for outcome in outcomes)
+    return Verdict(waypoints.content_hash, tuple(ordered), margins, robot_hash=model.parameters_hash)

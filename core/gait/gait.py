@@ -1,0 +1,393 @@
+"""The gait: the document that a person edits, saves, optimises and sends."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+
+from core.arrays import Bools, Floats
+from core.errors import InputError
+from core.gait.held_feet import HeldFeet, held_height
+from core.gait.held_rules import require_feet, require_repeatable, require_rest
+from core.gait.provenance import Provenance
+from core.gait.recording import Recording
+from core.gait.sequence_part import MOST_PARTS, SequencePart
+from core.motion.contact_timeline import ContactTimeline, timeline_from_order
+from core.motion.heading_profile import Turning, heading_profile, return_knots
+from core.motion.trajectory import quarter_turn
+from core.problem.motion_problem import (
+    Boundary,
+    Cost,
+    MotionLimits,
+    MotionProblem,
+    RestPose,
+    Workspace,
+    maps_onto_itself,
+    standing_pose,
+)
+from core.problem.resting_pose import leaning
+from core.robot.leg_names import ring_roles
+from core.robot.model import RobotModel
+from core.segments.segment_table import SegmentTable
+
+MAX_STEP = 0.2
+"""Larger steps an iteration than any workspace here, m; a guard against mm given for m."""
+
+
+MOST_NAME, MOST_NOTES = 120, 20_000
+"""Characters that a gait's name and notes may have."""
+
+
+class Orientation(StrEnum):
+    """Which way the robot's feet are seen (thesis 3.2)."""
+
+    FB = "FB"
+    """Front and back pairs; moves along the diagonals."""
+    FBS = "FBS"
+    """Front, sides, back; moves along the axes."""
+
+
+_ROLES = {Orientation.FB: ("FR", "FL", "BL", "BR"), Orientation.FBS: ("F", "L", "B", "R")}
+
+
+_OPTION_BOUNDS: dict[str, tuple[float, float, float, str]] = {
+    "clearance": (1000.0, 0.0, 20.0, " mm"),
+    "margin": (1000.0, -50.0, 50.0, " mm"),
+    "body_speed": (1000.0, 0.5, 1000.0, " mm/s"),
+    "plane_height": (1000.0, 30.0, 100.0, " mm"),
+    "end_plane_height": (1000.0, 30.0, 100.0, " mm"),
+    "friction": (1.0, 0.01, 10.0, ""),
+    "motor_speed": (1000.0, 0.5, 1000.0, " mm/s"),
+    "motor_acceleration": (1000.0, 0.5, 10000.0, " mm/s²"),
+    "merge": (1000.0, 0.0, 5.0, " mm"),
+    "stop_bound": (1.0, 0.8, 10.0, " s"),
+}
+"""Factor from SI to what a person reads, least, most, unit."""
+
+
+@dataclass(frozen=True)
+class GaitOptions:
+    """What the optimiser is asked, and how its answer is sent, SI; defaults as in the contract.
+
+    Args:
+        clearance: how high the highest knot of each swing is at least.
+        margin: how far inside the support polygon the centre of pressure stays.
+        body_speed: limit of the body's speed.
+        plane_height: actuator plane at the start.
+        end_plane_height: actuator plane at the goal; None as at the start.
+        workspace: which form of reach holds.
+        cost: what is minimised.
+        phase_knots: knots of each stance phase and of each swing of a drawn timeline.
+        closing_knots: knots after the last swing of a drawn timeline.
+        friction: coefficient of each foot's friction cone; None for none.
+        motor_speed: limit of each motor's speed; None for none.
+        motor_acceleration: limit of each motor's acceleration; None for none.
+        boundary: from rest to rest, or a cycle.
+        turning: when a gait with yaw turns the body.
+        merge: distance in motor space within which waypoints are left out; 0 for one waypoint a knot.
+        stop_bound: how long the robot may be deaf for Stop, s; None for as long as a move takes.
+    """
+
+    clearance: float = 0.003
+    margin: float = 0.0
+    body_speed: float = 0.015
+    plane_height: float = 0.0535
+    workspace: Workspace = Workspace.STROKE
+    cost: Cost = Cost.GOAL
+    phase_knots: int = 5
+    closing_knots: int = 5
+    end_plane_height: float | None = None
+    friction: float | None = None
+    motor_speed: float | None = None
+    motor_acceleration: float | None = None
+    boundary: Boundary = Boundary.REST
+    turning: Turning = Turning.STEADY
+    merge: float = 0.001
+    stop_bound: float | None = 1.0
+
+    def __post_init__(self) -> None:
+        for name, (factor, lower, upper, unit) in _OPTION_BOUNDS.items():
+            if getattr(self, name) is None:
+                continue
+            value = getattr(self, name) * factor
+            if not (np.isfinite(value) and lower <= value <= upper):
+                words = name.replace("_", " ")
+                raise InputError(
+                    f"The {words} is {value:g}{unit}; it must lie between {lower:g} and {upper:g}{unit}.",
+                    name,
+                )
+        if self.phase_knots < 2 or self.closing_knots < 0:
+            raise InputError("phase_knots must be at least 2 and closing_knots at least 0.", "phase_knots")
+
+
+@dataclass(frozen=True)
+class Gait:
+    """The document.
+
+    Args:
+        name: what a person calls it.
+        robot: name of the robot's parameters file.
+        orientation: FB or FBS.
+        direction: 1 to 4 (thesis Table 3.1).
+        order: feet in the order of their steps at direction 1, counted from 1.
+        step: (dx, dy, yaw) of the body an iteration in world axes at direction 1, m, m, rad.
+        iterations: how often every foot steps.
+        timeline: contact of the robot's own feet, all iterations and the closing stance.
+        segment_table: of one iteration at direction 1, where the gait is made by hand; else None.
+        options: what the optimiser is asked.
+        notes: a person's words.
+        recorded: the motion of a file, which is then the gait's motion; None where it is computed.
+        provenance: of the last computed result, for whichever version of the gait; None where there is none.
+        sequence: the gaits that it chains; then order, step, iterations and timeline follow from them (see
+            `core.library.sequence`). Empty for a gait of its own.
+        held: feet that are in the air at the first or the last sample on purpose; every other one stands.
+    """
+
+    name: str
+    robot: str
+    orientation: Orientation
+    direction: int
+    order: tuple[int, ...]
+    step: tuple[float, float, float]
+    iterations: int
+    timeline: ContactTimeline
+    segment_table: SegmentTable | None = None
+    options: GaitOptions = field(default_factory=GaitOptions)
+    notes: str = ""
+    recorded: Recording | None = None
+    provenance: Provenance | None = None
+    sequence: tuple[SequencePart, ...] = ()
+    held: HeldFeet = field(default_factory=HeldFeet)
+
+    def __post_init__(self) -> None:
+        _require_text("name", self.name, MOST_NAME)
+        _require_text("notes", self.notes, MOST_NOTES)
+        if not self.name.strip():
+            raise InputError("The gait has no name; give it one.", "name")
+        if self.direction not in (1, 2, 3, 4):
+            raise InputError(f"direction is {self.direction}; it must be 1, 2, 3 or 4.", "direction")
+        if not 1 <= self.iterations <= 20:
+            raise InputError(f"iterations is {self.iterations}; it must lie between 1 and 20.", "iterations")
+        if len(self.sequence) > MOST_PARTS:
+            raise InputError(
+                f"The sequence has {len(self.sequence)} parts; at most {MOST_PARTS} are chained. Repeat a "
+                "part, or make two sequences.",
+                "sequence",
+            )
+        longest = np.inf if self.sequence else MAX_STEP
+        if not all(np.isfinite(self.step)):
+            raise InputError(f"The step is {self.step}; each of its numbers must be finite.", "step")
+        length = float(np.hypot(*self.step[:2]))
+        if length > longest:
+            raise InputError(
+                f"The step is {length * 1000:.4g} mm; it must be at most {MAX_STEP * 1000:.0f} mm an "
+                "iteration.",
+                "step",
+            )
+        if sorted(self.order) != list(range(1, self.timeline.leg_count + 1)):
+            raise InputError(
+                f"order is {list(self.order)}; it must name each foot 1 to {self.timeline.leg_count} once.",
+                "order",
+            )
+        require_feet(self.held, self.timeline.leg_count)
+
+    def with_options(self, **changes: Any) -> Gait:
+        """The gait with some of its options changed; its timeline stays as it is."""
+        return replace(self, options=replace(self.options, **changes))
+
+    @property
+    def quarter_turns(self) -> int:
+        """How far the gait is turned from direction 1, in steps of 90°."""
+        return self.direction - 1
+
+    @property
+    def step_world(self) -> Floats:
+        """(2,) the body's displacement an iteration in the world, m."""
+        return np.asarray(quarter_turn(self.quarter_turns)[:2, :2] @ np.array(self.step[:2]))
+
+    @property
+    def roles(self) -> tuple[str, ...]:
+        """Each foot's role, foot 1 first (thesis Table 3.1).
+
+        Where it has not four, sides are counted from the front; nothing where a sequence's parts differ.
+        """
+        legs = self.timeline.leg_count
+        if self.sequence:
+            shared = {part.gait.roles for part in self.sequence}
+            return shared.pop() if len(shared) == 1 else ("",) * legs
+        if legs != 4:
+            return ring_roles(legs, heading_angle(self.orientation) + self.quarter_turns * np.pi / 2)
+        names = _ROLES[self.orientation]
+        return tuple(names[(foot - self.quarter_turns) % 4] for foot in range(4))
+
+
+def _require_text(field_name: str, text: str, most: int) -> None:
+    if len(text) > most:
+        raise InputError(f"{field_name} has {len(text)} characters; at most {most} are kept.", field_name)
+    try:
+        text.encode()
+    except UnicodeEncodeError as error:
+        raise InputError(
+            f"{field_name} holds half a character at {error.start}; type it again.", field_name
+        ) from error
+
+
+def heading_angle(orientation: Orientation) -> float:
+    """Which way a gait goes at direction 1, rad from x: FB along the diagonal, FBS along x."""
+    return np.pi / 4 if orientation is Orientation.FB else 0.0
+
+
+def heading_step(orientation: Orientation, step: float) -> tuple[float, float, float]:
+    """A step along the gait's heading at direction 1: FB along the diagonal, FBS along x.
+
+    Args:
+        orientation: of the gait.
+        step: body displacement an iteration, m.
+    """
+    if orientation is Orientation.FB:
+        along = step / float(np.sqrt(2.0))
+        return (along, along, 0.0)
+    return (step, 0.0, 0.0)
+
+
+def drawn_timeline(gait: Gait) -> ContactTimeline:
+    """The timeline of a gait's foot order, phase lengths, iterations and direction.
+
+    Feet that are held up at both ends are in the air throughout, and the others take turns.
+    """
+    legs = gait.timeline.leg_count
+    shift = gait.quarter_turns * legs // 4
+    held = gait.held.turned(-shift, legs).both
+    walking = [foot for foot in range(1, legs + 1) if foot not in held]
+    drawn = timeline_from_order(
+        len(walking),
+        [walking.index(foot) + 1 for foot in gait.order if foot not in held],
+        phase_knots=gait.options.phase_knots,
+        closing_knots=gait.options.closing_knots,
+        iterations=gait.iterations,
+        sample_time=gait.timeline.sample_time,
+    )
+    if held:
+        stance = np.zeros((legs, drawn.sample_count), dtype=np.bool_)
+        stance[[foot - 1 for foot in walking]] = drawn.stance
+        drawn = ContactTimeline(stance, np.zeros_like(stance), drawn.sample_time)
+    return drawn.turned(gait.quarter_turns)
+
+
+def with_return(gait: Gait, model: RobotModel) -> Gait:
+    """The gait redrawn with a closing stance in which its body can turn back over its feet.
+
+    Args:
+        gait: whose body turns after its steps; others are given back as they are.
+        model: its robot, for the motors' speed.
+    """
+    yaw = gait.step[2]
+    if gait.options.turning is not Turning.RETURN or yaw == 0.0:
+        return gait
+    least, sample_time = GaitOptions.closing_knots, gait.timeline.sample_time
+    knots = return_knots(model, yaw, gait.options.plane_height, sample_time, least)
+    changed = replace(gait, options=replace(gait.options, closing_knots=knots))
+    return replace(changed, timeline=drawn_timeline(changed))
+
+
+def with_iterations(gait: Gait, iterations: int) -> Gait:
+    """The gait run through another number of times, its closing stance once at the end.
+
+    A timeline of foot order and phase lengths is drawn anew; any other one is repeated as it stands.
+
+    Raises:
+        InputError: the timeline does not divide into the iterations that it is said to hold, or it does not
+            end with the same feet held up as it begins.
+    """
+    if iterations > 1:
+        require_repeatable(gait.held)
+    changed = replace(gait, iterations=iterations)
+    drawn = np.array_equal(gait.timeline.stance, drawn_timeline(gait).stance)
+    if drawn or gait.segment_table is not None:
+        return replace(changed, timeline=drawn_timeline(changed)) if drawn else changed
+    stance, locked = gait.timeline.stance, gait.timeline.locked
+    moving = np.nonzero(~stance[stance.any(axis=1)].all(axis=0))[0]
+    resting = stance.shape[1] - 1 - int(moving.max(initial=-1))
+    length, rest = divmod(stance.shape[1] - min(resting, gait.options.closing_knots), gait.iterations)
+    if rest:
+        raise InputError(
+            f"The timeline's {gait.iterations} iterations are not equally long, so it cannot be repeated. "
+            "Draw one iteration first.",
+            "iterations",
+        )
+
+    def repeated(cells: Bools) -> Bools:
+        again = np.tile(cells[:, :length], (1, iterations))
+        return np.concatenate([again, cells[:, length * gait.iterations :]], axis=1)
+
+    timeline = replace(gait.timeline, stance=repeated(stance), locked=repeated(locked))
+    return replace(changed, timeline=timeline)
+
+
+def resting_poses(gait: Gait, model: RobotModel) -> tuple[RestPose, RestPose]:
+    """Where a gait begins and ends at rest: at the origin, and all iterations further on.
+
+    Feet that are held up rest under their module, in the air. Where the other feet would not carry the body
+    in their middle, body and held feet rest a little aside.
+    """
+    options, held = gait.options, gait.held
+    dx, dy = gait.step_world * gait.iterations
+    end_height = options.plane_height if options.end_plane_height is None else options.end_plane_height
+    start = standing_pose(model, options.plane_height, (0.0, 0.0))
+    goal = standing_pose(model, end_height, (float(dx), float(dy)), gait.step[2] * gait.iterations)
+    return (
+        leaning(start.raised(held.start, held_height(options.clearance)), held.start, options.margin),
+        leaning(goal.raised(held.end, held_height(options.clearance)), held.end, options.margin),
+    )
+
+
+def travel_world(gait: Gait, model: RobotModel) -> Floats:
+    """(2,) how far the body goes in the world from its gait's first sample to the last, m."""
+    is_computed = gait.recorded is None and gait.segment_table is None and not gait.sequence
+    if not (is_computed and gait.held.any):
+        return gait.step_world * gait.iterations
+    start, goal = resting_poses(gait, model)
+    return np.asarray((goal.body_world - start.body_world)[:2])
+
+
+def motion_problem(gait: Gait, model: RobotModel) -> MotionProblem:
+    """The optimisation problem of a gait, from one resting pose to the other (see `resting_poses`).
+
+    Raises:
+        InputError: a foot neither stands at the last sample nor is held up, its body has no time to turn, or
+            it is a sequence.
+    """
+    if gait.sequence:
+        raise InputError(
+            f"“{gait.name}” is a sequence: its parts have motions of their own. Optimise the gait that a "
+            "part comes from, and take it over again.",
+            "sequence",
+        )
+    require_rest(gait.timeline, gait.held, cycle=gait.options.boundary is Boundary.PERIODIC)
+    options = gait.options
+    start, goal = resting_poses(gait, model)
+    yaw = gait.step[2]
+    profile = heading_profile(gait.timeline, yaw, gait.iterations, options.turning) if yaw else None
+    limits = MotionLimits(
+        clearance=options.clearance,
+        margin=options.margin,
+        body_speed=options.body_speed,
+        workspace=options.workspace,
+        friction=options.friction,
+        motor_speed=options.motor_speed,
+        motor_acceleration=options.motor_acceleration,
+    )
+    return MotionProblem(
+        model=model,
+        timeline=gait.timeline,
+        start=start,
+        goal=goal,
+        limits=limits,
+        cost=options.cost,
+        quarter_turns=gait.quarter_turns if maps_onto_itself(model.leg_count, gait.quarter_turns) else 0,
+        boundary=options.boundary,
+        heading_profile=profile,
+    )

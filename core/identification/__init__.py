@@ -1,0 +1,1 @@
+"""Physics parameters from trials (system identification)."""

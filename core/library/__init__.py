@@ -1,0 +1,1 @@
+"""The gaits that come with the program, sequences of them, and new ones."""

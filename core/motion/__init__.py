@@ -1,0 +1,1 @@
+"""Trajectories and what can be said of any of them."""

@@ -1,0 +1,134 @@
+"""A motion over time in the world frame."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Bools, Floats, frozen_bools, frozen_floats
+from core.errors import InputError
+from core.robot.kinematics import BodyPose, actuator_plane_pose, walker_strokes
+from core.robot.model import RobotModel
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """Body and feet at each knot.
+
+    The world's z = 0 is the platform height of a standing foot (the floor lies `sole_depth` lower), and the
+    body's position is its centre of mass.
+
+    Args:
+        times: (n,) s, increasing.
+        body_world: (n, 3) centre of mass, m.
+        heading: (n,) turn of the body about z, rad.
+        feet_world: (n, legs, 3) platform centres, m.
+        contact: (n, legs) true where a foot stands.
+        body_velocity: (n, 3) m/s, or None where unknown.
+        feet_velocity: (n, legs, 3) m/s, or None where unknown.
+        contact_forces: (n, legs, 3) force of the ground on each foot, N, or None where unknown.
+    """
+
+    times: Floats
+    body_world: Floats
+    heading: Floats
+    feet_world: Floats
+    contact: Bools
+    body_velocity: Floats | None = None
+    feet_velocity: Floats | None = None
+    contact_forces: Floats | None = None
+
+    def __post_init__(self) -> None:
+        times = frozen_floats(self.times, (None,), "times")
+        n = times.shape[0]
+        if n < 2 or (np.diff(times) <= 0).any():
+            raise InputError("A trajectory needs at least two knots with increasing times.", "times")
+        feet = frozen_floats(self.feet_world, (n, None, 3), "feet")
+        legs = feet.shape[1]
+        shapes = {
+            "body_world": (n, 3),
+            "heading": (n,),
+            "body_velocity": (n, 3),
+            "feet_velocity": (n, legs, 3),
+            "contact_forces": (n, legs, 3),
+        }
+        object.__setattr__(self, "times", times)
+        object.__setattr__(self, "feet_world", feet)
+        object.__setattr__(self, "contact", frozen_bools(self.contact, (n, legs), "contact"))
+        for name, shape in shapes.items():
+            values = getattr(self, name)
+            if values is not None:
+                object.__setattr__(self, name, frozen_floats(values, shape, name))
+
+    @property
+    def knot_count(self) -> int:
+        """Number of knots."""
+        return int(self.times.shape[0])
+
+    @property
+    def leg_count(self) -> int:
+        """Number of feet."""
+        return int(self.feet_world.shape[1])
+
+    def pose(self, model: RobotModel) -> BodyPose:
+        """The robot's frame at each knot."""
+        return actuator_plane_pose(model, self.body_world, self.heading)
+
+    def strokes(self, model: RobotModel) -> Floats:
+        """(n, legs, 3) motor strokes, m.
+
+        Raises:
+            UnreachableError: a foot lies outside the workspace.
+        """
+        if self.leg_count != model.leg_count:
+            raise InputError(
+                f"The trajectory has {self.leg_count} feet, the robot {model.leg_count}.", "trajectory"
+            )
+        return walker_strokes(model, self.feet_world, self.pose(model))
+
+
+def difference_velocities(times: Floats, positions: Floats) -> Floats:
+    """Velocities by central differences, one-sided at the ends.
+
+    Args:
+        times: (n,) s.
+        positions: (n, ...) m.
+
+    Returns:
+        (n, ...) m/s.
+    """
+    return np.asarray(np.gradient(positions, times, axis=0))
+
+
+def quarter_turn(quarter_turns: int) -> Floats:
+    """(3, 3) rotation about z by 90° a turn, without rounding."""
+    cosine, sine = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)][quarter_turns % 4]
+    return np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+
+
+def turn_trajectory(trajectory: Trajectory, quarter_turns: int) -> Trajectory:
+    """The same motion turned about the world's z by 90° a turn, its feet handed on to the next legs.
+
+    A robot with a multiple of four legs in an even ring maps onto itself under such a turn.
+    """
+    rotation = quarter_turn(quarter_turns)
+    shift = (quarter_turns % 4) * trajectory.leg_count // 4
+
+    def turned(vectors: Floats | None) -> Floats | None:
+        return None if vectors is None else np.asarray(vectors @ rotation.T)
+
+    def handed_on(vectors: Floats | None) -> Floats | None:
+        rotated = turned(vectors)
+        return None if rotated is None else np.roll(rotated, shift, axis=1)
+
+    return Trajectory(
+        times=trajectory.times,
+        body_world=trajectory.body_world @ rotation.T,
+        heading=trajectory.heading,
+        feet_world=np.roll(trajectory.feet_world @ rotation.T, shift, axis=1),
+        contact=np.roll(trajectory.contact, shift, axis=1),
+        body_velocity=turned(trajectory.body_velocity),
+        feet_velocity=handed_on(trajectory.feet_velocity),
+        contact_forces=handed_on(trajectory.contact_forces),
+    )

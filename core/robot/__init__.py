@@ -1,0 +1,1 @@
+"""The mechanism: parameters, leg, ring of legs, coupled actuators."""

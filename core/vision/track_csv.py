@@ -1,0 +1,114 @@
+"""Foot tracks in the lab's files: `X_D1, Y_D1, …`, a row a frame, in cm or in pixels (thesis 5.2)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.arrays import Floats
+from core.errors import InputError
+from core.vision.track import FootTrack, filled_track
+
+FRAME_RATE = 13.0
+"""Frames a second where a file does not tell; about what the published recordings have (thesis 5.2)."""
+
+
+@dataclass(frozen=True)
+class PixelScale:
+    """How pixels become metres on the platform.
+
+    Args:
+        metres: of one pixel.
+        origin: (x, y) pixel of the platform's centre.
+        is_downwards: whether the picture's y runs downwards, so that it is turned over.
+    """
+
+    metres: float
+    origin: tuple[float, float]
+    is_downwards: bool = True
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.metres) and self.metres > 0):
+            raise InputError(f"One pixel is {self.metres} m; it must be more than 0.", "scale")
+
+
+def parse_track_csv(
+    text: str,
+    name: str = "track",
+    *,
+    frame_rate: float = FRAME_RATE,
+    pixels: PixelScale | None = None,
+) -> FootTrack:
+    """Reads a foot track.
+
+    In pixel files 0,0 is a gap, as the lab's tracker writes it; in files in centimetres it is a position, and
+    an empty pair of fields is a gap.
+
+    Args:
+        text: the file's text.
+        name: the file's name, for messages.
+        frame_rate: frames a second.
+        pixels: how pixels become metres; None where the file is in centimetres.
+
+    Raises:
+        InputError: naming line and column of the first thing that is wrong.
+    """
+    lines = text.removeprefix("\ufeff").replace("\r\n", "\n").rstrip("\n").split("\n")
+    feet = _feet_of_header(lines[0], name)
+    if len(lines) < 3:
+        raise InputError(f"{name} holds {len(lines) - 1} frames; a track needs at least two.", name)
+    rows = np.array([_row(line, feet, f"{name}:{number}") for number, line in enumerate(lines[1:], 2)])
+    positions = rows.reshape(len(rows), feet, 2)
+    times = np.arange(len(rows)) / frame_rate
+    return filled_track(times, positions / 100.0 if pixels is None else _scaled(positions, pixels), name)
+
+
+def format_track_csv(track: FootTrack) -> str:
+    """Writes a track in centimetres; what was filled is left empty, so that it stays a gap."""
+    header = ", ".join(f"X_D{foot}, Y_D{foot}" for foot in range(1, track.foot_count + 1))
+    lines = [header]
+    for frame, filled in zip(track.feet, track.filled, strict=True):
+        pairs = (
+            "," if gap else f"{x * 100:.4f},{y * 100:.4f}" for (x, y), gap in zip(frame, filled, strict=True)
+        )
+        lines.append(",".join(pairs))
+    return "\n".join(lines) + "\n"
+
+
+def _feet_of_header(line: str, name: str) -> int:
+    fields = [field.strip() for field in line.split(",")]
+    feet = len(fields) // 2
+    wanted = [f"{axis}_D{foot}" for foot in range(1, feet + 1) for axis in "XY"]
+    if not feet or fields != wanted:
+        raise InputError(f"{name}, line 1: the header must read X_D1, Y_D1, X_D2, Y_D2, …", f"{name}:1")
+    return feet
+
+
+def _row(line: str, feet: int, where: str) -> list[float]:
+    fields = line.split(",")
+    if len(fields) != 2 * feet:
+        raise InputError(f"{where}: {len(fields)} fields; a row has {2 * feet}, x and y a foot.", where)
+    return [_number(field.strip(), f"{where}, column {column}") for column, field in enumerate(fields, 1)]
+
+
+def _number(field: str, where: str) -> float:
+    if not field:
+        return math.nan
+    try:
+        number = float(field)
+    except ValueError:
+        raise InputError(f"{where}: “{field}” is not a number.", where) from None
+    if not math.isfinite(number):
+        raise InputError(f"{where}: {field} is not a finite number; leave a gap empty.", where)
+    return number
+
+
+def _scaled(positions: Floats, pixels: PixelScale) -> Floats:
+    gap = (positions == 0.0).all(axis=2)
+    moved = (positions - np.array(pixels.origin)) * pixels.metres
+    if pixels.is_downwards:
+        moved[..., 1] *= -1.0
+    moved[gap] = math.nan
+    return np.asarray(moved)

@@ -1,0 +1,1 @@
+"""What is sent: waypoints, merging, the wire's messages and times."""

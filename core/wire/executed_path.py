@@ -1,0 +1,71 @@
+"""The path that the robot really takes over its waypoints, between which every motor moves in proportion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from core.arrays import Bools, Floats
+from core.motion.support_polygon import stability_margins
+from core.robot.coupled_strokes import heights_over_standing
+from core.robot.model import RobotModel
+from core.wire.waypoint_merging import WaypointPlan, robot_feet
+
+STEPS = 8
+"""Places that are looked at a move, its end included."""
+NEAR = 0.001
+"""A foot that touches down or lifts is near the ground up to this height over the standing ones, m."""
+
+
+@dataclass(frozen=True, eq=False)
+class RobotPath:
+    """Where the feet are along the path, in order.
+
+    Args:
+        moves: (m,) waypoint to which the robot is under way.
+        standing: (m, legs) feet on the ground.
+        heights: (m, legs) of each foot over the standing ones, m; nan where fewer than three stand.
+        margins: (m,) distance of the centre of mass to the support polygon's edge, m.
+        propped_margins: (m,) the same where feet that touch down or lift within a move bear too as long as
+            they are near the ground, so that the body may lean on them, m.
+    """
+
+    moves: NDArray[np.int64]
+    standing: Bools
+    heights: Floats
+    margins: Floats
+    propped_margins: Floats
+
+
+def robot_path(model: RobotModel, plan: WaypointPlan) -> RobotPath:
+    """Follows the moves of a plan by forward kinematics.
+
+    The motors share one ramp, so each move is straight in motor space (PROTOCOL.md 3). Feet, and the centre
+    of mass over the robot's middle, are taken in the robot's frame; the robot is level but for what its
+    standing feet say. It may stand still anywhere, so balance is that of the centre of mass; the ramps'
+    15 mm/s² move the centre of pressure by 0.1 mm.
+
+    Args:
+        model: a robot whose motors are free of each other.
+        plan: at least two waypoints.
+    """
+    strokes = plan.waypoints.strokes
+    shares = np.arange(1, STEPS + 1) / STEPS
+    ways = strokes[:-1, None] + shares[:, None, None] * (strokes[1:] - strokes[:-1])[:, None]
+    feet = robot_feet(model, ways.reshape(-1, *strokes.shape[1:]))
+    moves = np.repeat(np.arange(1, plan.waypoints.count), STEPS)
+    at_end = np.tile(shares == 1.0, plan.waypoints.count - 1)
+    standing = np.asarray(np.where(at_end[:, None], plan.contact[moves], plan.standing[moves]))
+    middle = np.zeros((len(moves), 2))
+    heights = heights_over_standing(feet, standing)
+    hands_over = plan.contact[moves - 1] | plan.contact[moves]
+    propped = standing | (hands_over & ~(heights > NEAR))
+    return RobotPath(
+        moves=moves,
+        standing=standing,
+        heights=heights,
+        margins=stability_margins(middle, feet, standing),
+        propped_margins=stability_margins(middle, feet, propped),
+    )

@@ -1,0 +1,281 @@
+"""Trajectory CSV in and out, in the layouts of the lab's own files.
+
+30 rows × N knots: body xyz (z of the centre of mass), feet 1 to 4 xyz, then their velocities, SI, under a
+header `Column1,…,ColumnN`. Older files have a first line 0, 1, 2, … or words, and no velocities. What the
+layout cannot say travels in a companion JSON bound by the CSV's hash.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from core.arrays import Bools, Floats
+from core.errors import InputError
+from core.motion.trajectory import Trajectory, difference_velocities
+from core.wire.waypoints import is_waypoint_text
+
+COMPANION_FORMAT = "footfall-trajectory"
+DEFAULT_INTERVAL = 0.4
+"""Time between knots where no companion says otherwise, s."""
+FARTHEST = 10_000.0
+"""Numbers beyond this are no m or m/s of a gait; a guard against a slip of the pen in a file."""
+MOST_QUOTED = 40
+"""Letters of a file that a message repeats."""
+RINGS = (4, 6, 12)
+"""Numbers of feet that a file may have without a companion; how many rows it has tells which."""
+STANDING_HEIGHT = 0.00025 + 1e-6
+"""A foot at rest below this height stands, where no companion says: 0.25 mm and the checks' tolerance, m."""
+
+
+@dataclass(frozen=True)
+class CsvLayout:
+    """How a trajectory CSV is laid out.
+
+    Args:
+        header: the first line as it stands; None where numbers begin at once.
+        has_velocities: whether rows of velocities follow the positions.
+    """
+
+    header: str | None
+    has_velocities: bool
+
+
+@dataclass(frozen=True, eq=False)
+class TrajectoryFile:
+    """A trajectory as read, and what had to be assumed.
+
+    Args:
+        trajectory: the motion.
+        assumptions: sentences; empty where the companion said everything.
+        layout: of the file; written in it again, every number is the same to the last bit.
+        has_companion: whether times, heading and contact were stated, not assumed.
+    """
+
+    trajectory: Trajectory
+    assumptions: tuple[str, ...]
+    layout: CsvLayout
+    has_companion: bool
+
+
+def standard_layout(knots: int) -> CsvLayout:
+    """`Column1,…,ColumnN` over positions and velocities, as in the lab's files of direction 1."""
+    return CsvLayout(",".join(f"Column{k + 1}" for k in range(knots)), has_velocities=True)
+
+
+def format_trajectory_csv(trajectory: Trajectory, layout: CsvLayout | None = None) -> str:
+    """Writes header and rows; numbers so that they read back to the last bit.
+
+    Args:
+        trajectory: the motion.
+        layout: of the file; the standard one where None.
+    """
+    layout = layout or standard_layout(trajectory.knot_count)
+    columns = _positions(trajectory)
+    if layout.has_velocities:
+        columns = np.concatenate([columns, _velocities(trajectory)], axis=1)
+    lines = [] if layout.header is None else [layout.header]
+    lines += [",".join(repr(float(v)) for v in row) for row in columns.T]
+    return "\n".join(lines) + "\n"
+
+
+def _positions(trajectory: Trajectory) -> Floats:
+    flat = trajectory.feet_world.reshape(trajectory.knot_count, -1)
+    return np.concatenate([trajectory.body_world, flat], axis=1)
+
+
+def _velocities(trajectory: Trajectory) -> Floats:
+    body_velocity = trajectory.body_velocity
+    feet_velocity = trajectory.feet_velocity
+    if body_velocity is None:
+        body_velocity = difference_velocities(trajectory.times, trajectory.body_world)
+    if feet_velocity is None:
+        feet_velocity = difference_velocities(trajectory.times, trajectory.feet_world)
+    return np.concatenate([body_velocity, feet_velocity.reshape(trajectory.knot_count, -1)], axis=1)
+
+
+def format_companion(trajectory: Trajectory, csv_text: str) -> str:
+    """JSON with what the CSV cannot say, bound to it by hash."""
+    content = {
+        "format": COMPANION_FORMAT,
+        "version": 1,
+        "csv_sha256": _digest(csv_text),
+        "legs": trajectory.leg_count,
+        "times": trajectory.times.tolist(),
+        "heading": trajectory.heading.tolist(),
+        "contact": trajectory.contact.astype(int).tolist(),
+    }
+    return json.dumps(content) + "\n"
+
+
+def _digest(text: str) -> str:
+    """SHA-256 of the text with line ends of any system, which copying a file may change."""
+    return hashlib.sha256(text.replace("\r\n", "\n").encode()).hexdigest()
+
+
+def parse_trajectory_csv(text: str, name: str, companion_text: str | None = None) -> TrajectoryFile:
+    """Reads a trajectory file in any of the lab's layouts.
+
+    Args:
+        text: the CSV's text.
+        name: the file's name, for messages.
+        companion_text: text of the companion JSON, where there is one.
+
+    Raises:
+        InputError: naming line and column of what is wrong.
+    """
+    if is_waypoint_text(text):
+        raise InputError(
+            f"{name} is a waypoint file (line 1 begins with duration_s); a trajectory is wanted here.",
+            f"{name}:1",
+        )
+    text = text.removeprefix("\ufeff")
+    header, table = _parse_table(text, name)
+    first_line = 1 if header is None else 2
+    companion, assumptions = _companion(companion_text, text, name)
+    rows = table.shape[0]
+    legs = _leg_count(companion, rows, name)
+    size = 3 + 3 * legs
+    if rows not in (size, 2 * size):
+        possible = RINGS if companion is None else (legs,)
+        found = f"{rows} rows of numbers from line {first_line} on"
+        raise InputError(f"{name}: {found}; {_wanted(possible)}.", name)
+    if table.shape[1] < 2:
+        raise InputError(f"{name}: one knot; a trajectory needs at least two columns.", name)
+    try:
+        layout = CsvLayout(header, has_velocities=rows == 2 * size)
+        return _assemble(table, legs, companion, assumptions, layout)
+    except (KeyError, TypeError, ValueError, OverflowError) as error:
+        raise InputError(
+            f"The companion of {name} does not fit it: {error!r}. Write the file anew.", name
+        ) from error
+
+
+def _wanted(possible: tuple[int, ...]) -> str:
+    """How many rows a file of so many feet has, in words."""
+    return "; ".join(
+        f"{legs} feet have {3 + 3 * legs} (positions) or {6 + 6 * legs} (positions and velocities)"
+        for legs in possible
+    )
+
+
+def _leg_count(companion: dict[str, Any] | None, rows: int, name: str) -> int:
+    """The companion's number of feet; without one that of the rows, and 4 where they fit no ring."""
+    if companion is None:
+        return next((legs for legs in RINGS if rows in (3 + 3 * legs, 6 + 6 * legs)), RINGS[0])
+    legs = companion.get("legs")
+    if not isinstance(legs, int) or not 1 <= legs <= 100:
+        raise InputError(f"The companion of {name} says {legs!r} legs; it must be a whole number.", name)
+    return legs
+
+
+def _assemble(
+    table: Floats,
+    legs: int,
+    companion: dict[str, Any] | None,
+    assumptions: list[str],
+    layout: CsvLayout,
+) -> TrajectoryFile:
+    n, size = table.shape[1], 3 + 3 * legs
+    columns = table.T
+    body, feet = columns[:, :3], columns[:, 3:size].reshape(n, legs, 3)
+    times = np.asarray(companion["times"] if companion else np.arange(n) * DEFAULT_INTERVAL, np.float64)
+    heading = np.asarray(companion["heading"] if companion else np.zeros(n), np.float64)
+    if layout.has_velocities:
+        body_velocity = columns[:, size : size + 3]
+        feet_velocity = columns[:, size + 3 :].reshape(n, legs, 3)
+    else:
+        body_velocity = difference_velocities(times, body)
+        feet_velocity = difference_velocities(times, feet)
+        assumptions.append("Velocities are missing; they are differences of the positions.")
+    contact = np.array(companion["contact"], dtype=np.bool_) if companion else _standing(feet)
+    trajectory = Trajectory(times, body, heading, feet, contact, body_velocity, feet_velocity)
+    return TrajectoryFile(trajectory, tuple(assumptions), layout, companion is not None)
+
+
+def _standing(feet: Floats) -> Bools:
+    """A foot stands where it lies within the standing height and keeps still towards a neighbouring knot."""
+    low = np.abs(feet[..., 2]) <= STANDING_HEIGHT
+    still = np.linalg.norm(np.diff(feet, axis=0), axis=-1) <= STANDING_HEIGHT
+    padded = np.concatenate([still[:1] & False, still, still[:1] & False])
+    return np.asarray(low & (padded[1:] | padded[:-1]))
+
+
+def _companion(text: str | None, csv_text: str, name: str) -> tuple[dict[str, Any] | None, list[str]]:
+    assumed = (
+        f"{DEFAULT_INTERVAL} s between knots, heading 0, and a foot stands where it rests within "
+        f"{STANDING_HEIGHT * 1000:.2f} mm of z = 0."
+    )
+    if text is None:
+        return None, [f"{name} has no companion file; assumed: {assumed}"]
+    try:
+        content: dict[str, Any] = json.loads(text)
+        if content.get("format") != COMPANION_FORMAT or content.get("version") != 1:
+            return None, [f"The companion of {name} is of an unknown format; assumed: {assumed}"]
+    except (json.JSONDecodeError, AttributeError):
+        return None, [f"The companion of {name} is not JSON; assumed: {assumed}"]
+    if content.get("csv_sha256") != _digest(csv_text):
+        return None, [f"The companion of {name} belongs to another version of it; assumed: {assumed}"]
+    return content, []
+
+
+def _parse_table(text: str, name: str) -> tuple[str | None, Floats]:
+    """The first line where it is a header, and (rows, knots) numbers."""
+    lines = text.replace("\r\n", "\n").rstrip("\n").split("\n")
+    header = lines[0] if _is_header(lines[0]) else None
+    first = 0 if header is None else 1
+    rows: list[list[float]] = []
+    for number, line in enumerate(lines[first:], first + 1):
+        fields = line.rstrip(",").split(",")
+        row = [_number(field, f"{name}:{number}", column) for column, field in enumerate(fields, 1)]
+        if rows and len(row) != len(rows[0]):
+            raise InputError(
+                f"{name}, line {number}: {len(row)} numbers; the lines before have {len(rows[0])}.",
+                f"{name}:{number}",
+            )
+        rows.append(row)
+    if not rows:
+        raise InputError(f"{name} holds no numbers; a trajectory file has 15 or 30 rows of them.", name)
+    return header, np.array(rows)
+
+
+def _is_header(line: str) -> bool:
+    """Whether a line is words (`Column1,…`) or counts 0, 1, 2, … as the lab's files do."""
+    numbers = []
+    for field in line.rstrip(",").split(","):
+        with suppress(ValueError):
+            numbers.append(float(field))
+    if not numbers:
+        return True
+    return len(numbers) > 1 and numbers == list(range(line.rstrip(",").count(",") + 1))
+
+
+def _cut(field: str) -> str:
+    return field if len(field) <= MOST_QUOTED else f"{field[:MOST_QUOTED]}…"
+
+
+def _help(field: str) -> str:
+    return " Separate the numbers by commas." if set(field.strip()) & set("; \t") else ""
+
+
+def _number(field: str, where: str, column: int) -> float:
+    try:
+        # Python alone reads 1_000 as a number; a file with it is damaged.
+        number = float(field.replace("_", "?"))
+    except ValueError:
+        sentence = f"{where}, column {column}: “{_cut(field)}” is not a number.{_help(field)}"
+        raise InputError(sentence, where) from None
+    if not np.isfinite(number):
+        raise InputError(f"{where}, column {column}: {field} is not a finite number.", where)
+    if abs(number) > FARTHEST:
+        raise InputError(
+            f"{where}, column {column}: {field} is no position or speed of a gait; it must lie within "
+            f"±{FARTHEST:g} m or m/s.",
+            where,
+        )
+    return number

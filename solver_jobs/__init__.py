@@ -13,22 +13,28 @@ from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
 from core.physics.variations import VariedRun
 from core.problem.motion_problem import MotionProblem
-from solver_jobs.frontier import Frontier, FrontierSearch
-from solver_jobs.handle import WorkerEndedError, WorkerHandle
-from solver_jobs.interrupts import interrupts_held
-from solver_jobs.jobs import OPEN_STATES, Job, JobKind, JobState, result_sentence
-from solver_jobs.live_service import LiveSolver
-from solver_jobs.pattern_service import PatternSearch, PatternSolver
-from solver_jobs.question_worker import Report, answer_questions
-from solver_jobs.questions import Question, QuestionService
-from solver_jobs.remedies import Remedy, RemedySearch
+from solver_jobs.nlp.timing import TimingResult, fastest_timing
 from solver_jobs.results import Evidence, Iterate, Lack, MotionResult, SolveStatus
-from solver_jobs.runner import JobRunner
-from solver_jobs.simulation_service import Simulation, Simulator
-from solver_jobs.simulation_worker import Simulated
-from solver_jobs.spawning import NICENESS
-from solver_jobs.timing import TimingResult, fastest_timing
-from solver_jobs.travel_service import TravelQuestion, TravelSimulator
+from solver_jobs.tiers.frontier import Frontier, FrontierSearch
+from solver_jobs.tiers.remedies import Remedy, RemedySearch
+from solver_jobs.workers.batch_simulation_service import TravelQuestion, TravelSimulator
+from solver_jobs.workers.job import (
+    OPEN_STATES,
+    Job,
+    JobKind,
+    JobState,
+    result_sentence,
+)
+from solver_jobs.workers.job_queue import JobRunner
+from solver_jobs.workers.live_service import LiveSolver
+from solver_jobs.workers.pattern_service import PatternSearch, PatternSolver
+from solver_jobs.workers.signals import interrupts_held
+from solver_jobs.workers.simulation_service import Simulation, Simulator
+from solver_jobs.workers.simulation_worker import Simulated
+from solver_jobs.workers.spawning import NICENESS
+from solver_jobs.workers.task_service import Question, QuestionService
+from solver_jobs.workers.task_worker import Report, answer_questions
+from solver_jobs.workers.worker_process import WorkerEndedError, WorkerHandle
 
 __all__ = [
     "NICENESS",
@@ -88,7 +94,7 @@ def solve_motion(
         start: a motion of the same knots with velocities and forces, such as the live tier's.
         resume: whether to go on from the last solution of the same shape that was solved with `resume`.
     """
-    from solver_jobs.motion_nlp import solve_motion as solve
+    from solver_jobs.nlp.motion_nlp import solve_motion as solve
 
     return solve(problem, progress, start, resume=resume)
 
@@ -110,7 +116,7 @@ def solve_exact(problem: MotionProblem) -> MotionResult:
     Args:
         problem: what is asked.
     """
-    from solver_jobs.tiers import solve_exact as solve
+    from solver_jobs.tiers.exact_from_live import solve_exact as solve
 
     return solve(problem)
 

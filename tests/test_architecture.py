@@ -92,8 +92,8 @@ def test_a_module_imports_only_what_its_room_may(path: str) -> None:
     [
         ("core/robot/leg.py", "casadi"),
         ("core/robot/leg.py", "app.session"),
-        ("solver_jobs/worker.py", "fastapi"),
-        ("app/studio.py", "solver_jobs.runner"),
+        ("solver_jobs/workers/nlp_worker.py", "fastapi"),
+        ("app/studio.py", "solver_jobs.workers.job_queue"),
         ("app/studio.py", "serial"),
         ("app/studio.py", "viser"),
         ("app/bridge/robot.py", "app.session"),

@@ -9,9 +9,15 @@ from itertools import pairwise
 import numpy as np
 
 from core.arrays import Floats
-from solver_jobs.constraint import Family
-from solver_jobs.live.programme import MOST_ELASTIC_ITERATIONS, Answer, Programme, Solver, stacked
+from solver_jobs.live.qp import (
+    MOST_ELASTIC_ITERATIONS,
+    Answer,
+    Programme,
+    Solver,
+    stacked,
+)
 from solver_jobs.live.rows import Rows
+from solver_jobs.nlp.constraint import Family
 
 COST_WEIGHT = 1e-7
 """Weight of the motion's cost beside the sum of all misses; it only makes the answer unique."""

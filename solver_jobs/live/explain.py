@@ -11,11 +11,11 @@ from core.arrays import Bools, Floats
 from core.gait.held_feet import feet_words
 from core.problem.initial_guess import Indices, closed_contact, problem_swings
 from core.problem.motion_problem import MotionProblem
-from solver_jobs.constraint import Family
-from solver_jobs.diagnosis import knot_ranges
-from solver_jobs.live.outline import MM, Outline
+from solver_jobs.live.linearisation import MM, Outline
 from solver_jobs.live.rows import NOBODY, Rows
-from solver_jobs.obstacles import low_swings
+from solver_jobs.nlp.constraint import Family
+from solver_jobs.nlp.diagnosis import knot_ranges
+from solver_jobs.nlp.presolve import low_swings
 from solver_jobs.results import Evidence, Lack
 
 NOTABLE = 0.005

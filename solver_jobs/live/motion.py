@@ -11,7 +11,7 @@ from core.motion.support_polygon import GRAVITY
 from core.motion.trajectory import Trajectory
 from core.problem.initial_guess import Indices, standing_forces
 from core.problem.motion_problem import MotionProblem
-from solver_jobs.live.outline import MM, Outline
+from solver_jobs.live.linearisation import MM, Outline
 
 
 def trajectory_of(outline: Outline, x: Floats) -> Trajectory:

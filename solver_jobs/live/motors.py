@@ -9,9 +9,9 @@ from core.motion.trajectory import Trajectory
 from core.problem.initial_guess import Indices
 from core.robot.kinematics import actuator_plane_pose, feet_in_modules
 from core.robot.leg import squared_offsets, vertex_directions
-from solver_jobs.constraint import Family
-from solver_jobs.live.outline import MM, Outline
+from solver_jobs.live.linearisation import MM, Outline
 from solver_jobs.live.rows import NOBODY, Rows, Term, make_rows
+from solver_jobs.nlp.constraint import Family
 
 INSIDE = 0.995
 """Share of a motor's limit that the rows allow, so that what they leave out of second order has room."""

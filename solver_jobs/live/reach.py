@@ -10,9 +10,9 @@ from core.arrays import Floats
 from core.problem.initial_guess import Indices
 from core.problem.motion_problem import CYLINDER, Workspace
 from core.robot.leg import vertex_directions
-from solver_jobs.constraint import Family
-from solver_jobs.live.outline import MM, Outline
+from solver_jobs.live.linearisation import MM, Outline
 from solver_jobs.live.rows import NOBODY, DiscPolygon, Rows, dot_terms, make_rows
+from solver_jobs.nlp.constraint import Family
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,8 +9,8 @@ import numpy as np
 
 from core.arrays import Floats
 from core.problem.initial_guess import Indices
-from solver_jobs.constraint import Family
-from solver_jobs.live.outline import MM, Outline
+from solver_jobs.live.linearisation import MM, Outline
+from solver_jobs.nlp.constraint import Family
 
 NOBODY = -1
 """In place of a foot where a row is about the body alone."""

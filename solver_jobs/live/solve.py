@@ -12,17 +12,22 @@ from core.motion.trajectory import Trajectory, turn_trajectory
 from core.problem.initial_guess import initial_motion
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import MotionProblem
-from solver_jobs.assembly import box_of
-from solver_jobs.constraint import situation_of
 from solver_jobs.live.elastic import FARTHEST, PROOF_MM, Nearest, nearest
 from solver_jobs.live.explain import lacks_of, low_lacks, sentences
+from solver_jobs.live.linearisation import MM, Outline, outline_of
 from solver_jobs.live.motion import motion_cost, trajectory_of
 from solver_jobs.live.motors import motor_rows
-from solver_jobs.live.outline import MM, Outline, outline_of
-from solver_jobs.live.programme import Answer, Programme, Solver, stacked
+from solver_jobs.live.qp import (
+    Answer,
+    Programme,
+    Solver,
+    stacked,
+)
 from solver_jobs.live.reach import height_reach, reach_of, standing_reach, swinging_reach
 from solver_jobs.live.rows import DiscPolygon, Rows, balance, body_speed, foot_speed, friction, integration
-from solver_jobs.obstacles import obstacles
+from solver_jobs.nlp.assembly import box_of
+from solver_jobs.nlp.constraint import situation_of
+from solver_jobs.nlp.presolve import obstacles
 from solver_jobs.results import Evidence, MotionResult, SolveStatus
 
 COARSE, FINE, AROUND = 16, 64, 32

@@ -18,13 +18,13 @@ from core.patterns.problem import (
     PatternResult,
     PatternStatus,
 )
+from solver_jobs.patterns.bounds import event_counts, floor_of, row_floors
+from solver_jobs.patterns.callbacks import Watch
 from solver_jobs.patterns.event_rules import ruled_model
 from solver_jobs.patterns.events import EventModel, forbid
-from solver_jobs.patterns.explaining import explained
-from solver_jobs.patterns.limits import event_counts, floor_of, row_floors
+from solver_jobs.patterns.explain import explained
+from solver_jobs.patterns.extract import read_pattern, read_samples
 from solver_jobs.patterns.model import build_model
-from solver_jobs.patterns.reading import read_pattern, read_samples
-from solver_jobs.patterns.watch import Watch
 
 MOST_PATTERNS = 50
 """How many different patterns may be asked for."""

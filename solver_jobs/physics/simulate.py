@@ -11,8 +11,13 @@ from core.physics.metrics import report
 from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
 from core.physics.variations import VariedRun, variations, varied_problem, varied_run
-from solver_jobs.physics.reading import new_pool, simulated_motion
-from solver_jobs.physics.running import TIME_STEP, VARIED_STEP, SimulatedRun, advance
+from solver_jobs.physics.states import new_pool, simulated_motion
+from solver_jobs.physics.stepping import (
+    TIME_STEP,
+    VARIED_STEP,
+    SimulatedRun,
+    advance,
+)
 
 Progress = Callable[[float], bool]
 

@@ -8,8 +8,8 @@ from multiprocessing.connection import Connection
 from typing import ClassVar
 
 from core.errors import InputError, SimulationCancelledError
-from solver_jobs.question_worker import Report, answer_questions
-from solver_jobs.questions import Question, QuestionService
+from solver_jobs.workers.task_service import Question, QuestionService
+from solver_jobs.workers.task_worker import Report, answer_questions
 
 Errand = Callable[[Report], int]
 

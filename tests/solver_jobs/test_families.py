@@ -16,7 +16,7 @@ from core.problem.motion_check import check_motion
 from core.problem.motion_problem import Boundary, MotionProblem, Workspace
 from core.robot.model import load_robot
 from solver_jobs import Evidence, MotionResult, SolveStatus
-from solver_jobs.motion_nlp import solve_motion
+from solver_jobs.nlp.motion_nlp import solve_motion
 
 
 def asked(

@@ -18,9 +18,9 @@ from core.problem.swing_height import held_knots
 from core.robot.model import load_robot
 from core.wire.waypoint_path import waypoints_from_trajectory
 from solver_jobs import SolveStatus, solve_exact, solve_live
-from solver_jobs.constraint import situation_of
-from solver_jobs.remedies import find_remedies
-from solver_jobs.timing import SMALLEST_PHASE, fastest_timing, rounded_timeline
+from solver_jobs.nlp.constraint import situation_of
+from solver_jobs.nlp.timing import SMALLEST_PHASE, fastest_timing, rounded_timeline
+from solver_jobs.tiers.remedies import find_remedies
 from tests.held_gaits import DOWN, UP, drawn, lifting, lowering, wave
 
 LONG = "1" * 15

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from solver_jobs.interrupts import interrupts_held
+from solver_jobs.workers.signals import interrupts_held
 
 
 @pytest.fixture

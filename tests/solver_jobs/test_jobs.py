@@ -25,7 +25,7 @@ from core.problem.motion_problem import (
 )
 from core.robot.model import load_robot
 from solver_jobs import Job, JobRunner, JobState, SolveStatus
-from solver_jobs import runner as runner_module
+from solver_jobs.workers import job_queue as runner_module
 from tests.solver_jobs.cases import gait_problem
 
 DEADLINE = 60.0

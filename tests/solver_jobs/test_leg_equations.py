@@ -14,7 +14,7 @@ from core.robot.leg import squared_offsets as numpy_offsets
 from core.robot.leg import stroke_rates as numpy_rates
 from core.robot.leg import strokes_from_foot as numpy_strokes
 from core.robot.model import load_robot
-from solver_jobs.leg_equations import (
+from solver_jobs.nlp.leg_equations import (
     foot_from_strokes,
     motor_arms,
     squared_offsets,

@@ -14,9 +14,9 @@ from core.problem.motion_problem import CYLINDER, MotionProblem, Workspace
 from core.robot.kinematics import BodyPose, feet_in_modules
 from core.robot.leg import strokes_from_foot
 from solver_jobs.live.elastic import nearest
+from solver_jobs.live.linearisation import MM, Outline, outline_of
 from solver_jobs.live.motion import trajectory_of, vertical_shares
-from solver_jobs.live.outline import MM, Outline, outline_of
-from solver_jobs.live.programme import Solver
+from solver_jobs.live.qp import Solver
 from solver_jobs.live.reach import reach_of
 from solver_jobs.live.rows import DiscPolygon, Rows, balance, integration
 from solver_jobs.live.solve import goal_cost, inner_rows, natural_outline, outer_rows

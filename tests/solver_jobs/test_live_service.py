@@ -21,10 +21,11 @@ from core.library.library import library
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import Workspace
 from core.robot.model import load_robot
-from solver_jobs import LiveSolver, SolveStatus, live_service
+from solver_jobs import LiveSolver, SolveStatus
 from solver_jobs.live.solve import solve_live
-from solver_jobs.remedies import find_remedies
-from solver_jobs.spawning import start_process
+from solver_jobs.tiers.remedies import find_remedies
+from solver_jobs.workers import live_service
+from solver_jobs.workers.spawning import start_process
 from tests.solver_jobs.cases import gait_problem
 
 MODEL = load_robot("deltawalker")

@@ -20,7 +20,7 @@ from core.problem.motion_problem import (
 )
 from core.robot.model import load_robot
 from solver_jobs import Evidence, Iterate, MotionResult, SolveStatus
-from solver_jobs.motion_nlp import solve_motion
+from solver_jobs.nlp.motion_nlp import solve_motion
 from tests.solver_jobs.cases import GAITS, gait_problem
 
 

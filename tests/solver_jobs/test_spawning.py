@@ -9,7 +9,7 @@ from collections.abc import Callable
 import pytest
 
 from solver_jobs import JobRunner, LiveSolver, PatternSolver, Simulator, TravelSimulator
-from solver_jobs.spawning import BACKGROUND_NICENESS, NICENESS
+from solver_jobs.workers.spawning import BACKGROUND_NICENESS, NICENESS
 
 PATIENCE = 60.0
 """Longest wait for a process, s."""

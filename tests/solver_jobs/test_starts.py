@@ -11,8 +11,8 @@ from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.problem.motion_problem import MotionProblem, RestPose, Workspace
 from solver_jobs import SolveStatus
-from solver_jobs.memory import differ_little
-from solver_jobs.motion_nlp import solve_motion
+from solver_jobs.nlp.motion_nlp import solve_motion
+from solver_jobs.nlp.warm_starts import differ_little
 from tests.solver_jobs.cases import gait_problem
 
 WALK = gait_problem("walk", 0.010, Workspace.STROKE)

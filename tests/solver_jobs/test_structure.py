@@ -21,9 +21,15 @@ from core.problem.motion_problem import (
 )
 from core.robot.kinematics import feet_in_modules
 from core.robot.leg import strokes_from_foot
-from solver_jobs.constraint import Family, situation_of
-from solver_jobs.structure import Structure, StructureCache, assembled_rows, build_structure, shape_of
-from solver_jobs.variables import (
+from solver_jobs.nlp.compiled_problem import (
+    Structure,
+    StructureCache,
+    assembled_rows,
+    build_structure,
+    shape_of,
+)
+from solver_jobs.nlp.constraint import Family, situation_of
+from solver_jobs.nlp.variables import (
     MM,
     MotionVector,
     forces_of_slopes,

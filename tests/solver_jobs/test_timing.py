@@ -13,14 +13,14 @@ from core.motion.contact_timeline import timeline_from_order
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import MotionProblem, Workspace
 from solver_jobs import Iterate, SolveStatus
-from solver_jobs.motion_nlp import solve_motion
-from solver_jobs.timing import (
+from solver_jobs.nlp.motion_nlp import solve_motion
+from solver_jobs.nlp.timing import (
     TimingResult,
     fastest_timing,
     phase_spans,
     rounded_timeline,
 )
-from solver_jobs.timing_use import made_usable
+from solver_jobs.tiers.timing_use import made_usable
 from tests.solver_jobs.cases import gait_problem
 
 

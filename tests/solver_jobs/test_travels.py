@@ -11,7 +11,7 @@ from core.identification.learning import Walk
 from core.physics.parameters import physics_set
 from core.trials.travel import MeasuredWalk, Travel
 from solver_jobs import TravelSimulator
-from solver_jobs.travel_worker import walked
+from solver_jobs.workers.batch_simulation_worker import walked
 from tests.solver_jobs.physics.rigs import problem_of_strokes, resting
 
 USUAL = physics_set("scales")

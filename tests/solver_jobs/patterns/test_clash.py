@@ -12,7 +12,7 @@ from core.patterns.clause import asked_by
 from core.patterns.problem import BalanceModel, PatternProblem, PatternStatus, Rule
 from core.patterns.relaxation import relaxed
 from solver_jobs import solve_pattern
-from solver_jobs.patterns.explaining import Explanation, explain
+from solver_jobs.patterns.explain import Explanation, explain
 from solver_jobs.patterns.probe import Answer, Probe
 from tests.solver_jobs.patterns.clashes import CLASHES, F_RULES, periodic, transition
 

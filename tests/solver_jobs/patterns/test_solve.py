@@ -23,9 +23,9 @@ from core.patterns.problem import (
     PatternWeights,
     index_halves,
 )
+from solver_jobs.patterns.callbacks import Watch
 from solver_jobs.patterns.model import build_model
 from solver_jobs.patterns.solve import best_patterns
-from solver_jobs.patterns.watch import Watch
 from tests.solver_jobs.patterns.clashes import periodic, transition
 from tests.solver_jobs.patterns.trying import every_sum
 

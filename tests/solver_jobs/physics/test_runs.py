@@ -19,9 +19,9 @@ from core.wire.timing import RAMP_SPEED, ramp_time
 from core.wire.waypoint_merging import robot_feet
 from core.wire.waypoints import Waypoints
 from solver_jobs import simulate, simulate_variations
-from solver_jobs.physics.running import TIME_STEP, VARIED_STEP
 from solver_jobs.physics.simulate import simulate as simulate_at
 from solver_jobs.physics.simulate import simulate_together
+from solver_jobs.physics.stepping import TIME_STEP, VARIED_STEP
 from tests.solver_jobs.physics.rigs import (
     MIDDLE,
     MODEL,

@@ -1,0 +1,1 @@
+"""The exact tier: one nonlinear programme, IPOPT."""

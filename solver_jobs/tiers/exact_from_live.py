@@ -1,0 +1,101 @@
+"""One answer from the two tiers: the exact one starts from the live one, and both tell why there is none."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import Cost, MotionProblem
+from solver_jobs.live.solve import solve_live
+from solver_jobs.nlp.attempts import Progress
+from solver_jobs.nlp.motion_nlp import solve_motion
+from solver_jobs.results import Evidence, MotionResult, SolveStatus
+
+_WITHOUT = (SolveStatus.INFEASIBLE, SolveStatus.FAILED)
+"""How a search without a motion ends."""
+
+OUTSIDE = "Outside that model it is diagnosed from a local search, not proven."
+
+
+def solve_exact(
+    problem: MotionProblem, progress: Progress = lambda iterate: True, *, resume: bool = False
+) -> MotionResult:
+    """Solves a problem by the exact tier with its convex start; not for several threads at once.
+
+    Where IPOPT neither finds a motion nor says why, what the live tier proves or diagnoses is the answer.
+
+    Args:
+        problem: what is asked.
+        progress: told of each iteration; false cancels.
+        resume: whether to go on from the last solution where this problem is an edit of it.
+
+    Returns:
+        The exact tier's result; its seconds are those of both tiers.
+    """
+    live = solve_live(problem)
+    has_motion = _has_motion(problem, live)
+    start = live.trajectory if has_motion and _starts_well(problem) else None
+    doubtful = live.status is SolveStatus.INFEASIBLE
+    exact = solve_motion(problem, progress, start, resume=resume, doubtful=doubtful)
+    if has_motion and start is None and exact.status in _WITHOUT:
+        # A start with guessed footholds is slower as a rule, but it is a motion where IPOPT found none.
+        exact = _after(exact, solve_motion(problem, progress, live.trajectory, resume=resume))
+    if problem.cost is Cost.GOAL_EFFORT and exact.status in _WITHOUT:
+        exact = _by_plain_cost(problem, progress, exact)
+    merged = _after(live, exact)
+    if exact.status not in _WITHOUT or exact.evidence is Evidence.PROVEN:
+        return merged
+    return _told_by_both(merged, live, has_motion=has_motion)
+
+
+def _by_plain_cost(problem: MotionProblem, progress: Progress, exact: MotionResult) -> MotionResult:
+    """From the motion of the plain cost, where IPOPT found none under the cost with effort."""
+    plain = solve_motion(replace(problem, cost=Cost.GOAL), progress)
+    if plain.status is not SolveStatus.SOLVED:
+        return exact
+    return _after(exact, _after(plain, solve_motion(problem, progress, plain.trajectory)))
+
+
+def _has_motion(problem: MotionProblem, live: MotionResult) -> bool:
+    """Whether the live tier has a motion that the checker confirms."""
+    return live.status is SolveStatus.SOLVED and check_motion(problem, live.trajectory).confirmed
+
+
+def _after(first: MotionResult, second: MotionResult) -> MotionResult:
+    """The second result with the seconds of both."""
+    return replace(
+        second,
+        solve_seconds=first.solve_seconds + second.solve_seconds,
+        build_seconds=first.build_seconds + second.build_seconds,
+    )
+
+
+def _starts_well(problem: MotionProblem) -> bool:
+    """Whether the convex motion is a good start: over several iterations its footholds are a guess."""
+    feet = [swing.foot for swing in problem.timeline.swings()]
+    return len(feet) == len(set(feet))
+
+
+def _told_by_both(exact: MotionResult, live: MotionResult, *, has_motion: bool) -> MotionResult:
+    """The exact tier's answer with what the live tier knows of it; the evidence comes last, once."""
+    if has_motion:
+        words = "The live tier has a motion that keeps every limit: use the live plan (--method live)."
+        return replace(exact, explanation=(*exact.explanation, words))
+    if live.status is not SolveStatus.INFEASIBLE:
+        return exact
+    *others, model = live.explanation
+    evidence = f"{model} {OUTSIDE}" if live.evidence is Evidence.PROVEN else model
+    if exact.status is SolveStatus.FAILED:
+        return replace(
+            exact,
+            status=SolveStatus.INFEASIBLE,
+            evidence=Evidence.DIAGNOSED,
+            explanation=(*others, evidence),
+            lacks=live.lacks,
+            trajectory=live.trajectory,
+        )
+    *own, _ = exact.explanation
+    added = [sentence for sentence in others if sentence not in own]
+    if added:
+        added.insert(0, "The live tier, in its own model, lacks the following.")
+    return replace(exact, explanation=(*own, *added, evidence), lacks=exact.lacks or live.lacks)

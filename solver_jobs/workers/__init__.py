@@ -1,0 +1,1 @@
+"""Processes: one kind of worker, one kind of service, the job queue."""

@@ -1,0 +1,50 @@
+"""Simulated travels of gaits, in a process of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from core.errors import SimulationCancelledError, StateError
+from core.identification.learning import Walk
+from core.physics.parameters import PhysicsSet
+from core.trials.travel import Travel
+from solver_jobs.workers.batch_simulation_worker import Travels, run_travel_worker
+from solver_jobs.workers.spawning import BACKGROUND_NICENESS
+from solver_jobs.workers.task_service import Question, QuestionService
+
+
+class TravelQuestion(Question[Travels, float, tuple[Travel | None, ...]]):
+    """Some simulations of a gait; what is ended has no answer."""
+
+    def unanswered(self, seconds: float) -> tuple[Travel | None, ...]:
+        """Nothing comes of it.
+
+        Raises:
+            SimulationCancelledError: it was cancelled.
+            StateError: its process told nothing for too long.
+        """
+        if self.is_ending:
+            raise SimulationCancelledError("Learning was cancelled.")
+        raise StateError("The simulator of gaits hangs and was ended. Try again.")
+
+
+class TravelSimulator(QuestionService[TravelQuestion]):
+    """Travels of gaits under sets of parameters, one question after the other."""
+
+    def __init__(self) -> None:
+        super().__init__("simulator of gaits", run_travel_worker, niceness=BACKGROUND_NICENESS)
+
+    def submit(
+        self,
+        walk: Walk,
+        sets: Sequence[PhysicsSet],
+        progress: Callable[[float], object] = lambda share: None,
+    ) -> TravelQuestion:
+        """Begins some simulations of a gait, after those that were asked for before.
+
+        Args:
+            walk: the gait.
+            sets: parameters, one simulation each.
+            progress: told the share of the present simulation, from a thread of the service's.
+        """
+        return self.ask(TravelQuestion(Travels(walk, tuple(sets)), progress))

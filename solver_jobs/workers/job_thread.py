@@ -1,0 +1,194 @@
+"""The thread that takes jobs from the queue to one worker process and its answers back."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Protocol
+
+from solver_jobs.nlp.timing import TimingResult
+from solver_jobs.results import Iterate, MotionResult
+from solver_jobs.workers.job import (
+    STATE_OF_STATUS,
+    Job,
+    JobState,
+    result_sentence,
+)
+from solver_jobs.workers.nlp_worker import (
+    Broke,
+    Finished,
+    Progressed,
+    Stop,
+    Work,
+)
+from solver_jobs.workers.worker_process import WorkerEndedError, WorkerHandle
+
+GRACE_SECONDS = 1.0
+"""How long a worker may take to stop when asked; then it is ended."""
+
+PUBLISH_SECONDS = 0.05
+"""Progress is published no more often; the course itself is kept whole."""
+
+POLL_SECONDS = 0.02
+"""How soon a cancel or a limit is noticed."""
+
+_log = logging.getLogger(__name__)
+
+
+class JobBoard(Protocol):
+    """Where the service finds work and writes what became of it."""
+
+    @property
+    def closing(self) -> bool:
+        """Whether everything is to end."""
+
+    def next_job(self) -> Job | None:
+        """Waits for work; None at the end."""
+
+    def job(self, job_id: str) -> Job:
+        """The latest snapshot."""
+
+    def update(self, job_id: str, change: Callable[[Job], Job]) -> Job:
+        """Publishes a change."""
+
+    def end(self, job: Job, state: JobState, sentence: str) -> Job:
+        """Publishes a last state."""
+
+
+@dataclass(eq=False)
+class _Course:
+    """What the service knows of the job it is at."""
+
+    job: str
+    deadline: float
+    iterates: list[Iterate] = field(default_factory=list)
+    heard: bool = False
+    published: float = 0.0
+    stop_sent: float | None = None
+    timed_out: bool = False
+
+
+class JobService:
+    """One worker process and the thread that feeds it.
+
+    Args:
+        board: where work comes from.
+        worker: the process.
+        time_limit: longest a job may run, s.
+    """
+
+    def __init__(self, board: JobBoard, worker: WorkerHandle, time_limit: float) -> None:
+        self.worker = worker
+        self._board = board
+        self._time_limit = time_limit
+        self._thread = threading.Thread(target=self._run, name="footfall-jobs", daemon=True)
+
+    def start(self) -> None:
+        """Starts the thread, which starts the process."""
+        self._thread.start()
+
+    def join(self) -> None:
+        """Waits for the thread, which ends the process when the board closes."""
+        self._thread.join()
+
+    def _run(self) -> None:
+        try:
+            self._start_worker()
+            while (job := self._board.next_job()) is not None:
+                self._attend(job)
+        finally:
+            self.worker.kill()
+
+    def _start_worker(self) -> None:
+        """Starts the process ahead of work; where that fails, the next job tries again and says why."""
+        try:
+            self.worker.ensure_started()
+        except OSError:
+            _log.exception("The solver's process does not start")
+
+    def _attend(self, job: Job) -> None:
+        course = _Course(job.id, time.monotonic() + self._time_limit)
+        try:
+            try:
+                self._serve(job, course)
+            except WorkerEndedError:
+                if course.heard or self._board.closing:
+                    raise
+                # The process had ended while it stood by; the job deserves a living one.
+                self._serve(job, course)
+        except WorkerEndedError as ended:
+            self._end(
+                course,
+                JobState.FAILED,
+                f"The solver's process ended unexpectedly ({ended}). A new one starts; try again.",
+            )
+            self._start_worker()
+        except Exception as error:
+            _log.exception("Job %s failed in its service", job.id)
+            self._end(course, JobState.FAILED, f"The job could not be run: {error}.")
+
+    def _serve(self, job: Job, course: _Course) -> None:
+        self.worker.ensure_started()
+        self.worker.send(Work(job.id, job.problem, job.kind))
+        while not self._board.closing and not self._advance(course):
+            pass
+
+    def _advance(self, course: _Course) -> bool:
+        """Handles the next message or limit; true when the job has ended."""
+        message = self.worker.receive(POLL_SECONDS)
+        course.heard = course.heard or message is not None
+        if isinstance(message, Progressed) and message.job == course.job:
+            course.iterates.append(message.iterate)
+        elif isinstance(message, Finished) and message.job == course.job:
+            self._finish(course, message.result)
+            return True
+        elif isinstance(message, Broke) and message.job == course.job:
+            _log.error("Job %s: %s", course.job, message.details)
+            self._end(course, JobState.FAILED, f"The solver broke off ({message.error}); this is a bug.")
+            return True
+        now = time.monotonic()
+        if now - course.published >= PUBLISH_SECONDS:
+            self._publish(course, now)
+        return self._stop_where_due(course, now)
+
+    def _publish(self, course: _Course, now: float) -> None:
+        if len(self._board.job(course.job).progress) != len(course.iterates):
+            course.published = now
+            self._board.update(course.job, lambda job: replace(job, progress=tuple(course.iterates)))
+
+    def _stop_where_due(self, course: _Course, now: float) -> bool:
+        if course.stop_sent is None:
+            course.timed_out = now > course.deadline
+            if course.timed_out or self._board.job(course.job).state is JobState.CANCELLING:
+                course.stop_sent = now
+                self.worker.send(Stop(course.job))
+            return False
+        if now - course.stop_sent < GRACE_SECONDS:
+            return False
+        self.worker.kill()
+        self._end(course, *self._stopped(course))
+        self._start_worker()
+        return True
+
+    def _stopped(self, course: _Course) -> tuple[JobState, str]:
+        count = len(course.iterates)
+        if course.timed_out:
+            return JobState.FAILED, (
+                f"Stopped after {count} iterations at the time limit of {self._time_limit:g} s. "
+                "Shorten the gait or start from a smaller step."
+            )
+        return JobState.CANCELLED, f"Cancelled after {count} iterations."
+
+    def _finish(self, course: _Course, result: MotionResult | TimingResult) -> None:
+        state, sentence = STATE_OF_STATUS[result.status], result_sentence(result)
+        if state is JobState.CANCELLED:
+            state, sentence = self._stopped(course)
+        self._board.update(course.job, lambda job: replace(job, result=result))
+        self._end(course, state, sentence)
+
+    def _end(self, course: _Course, state: JobState, sentence: str) -> None:
+        job = replace(self._board.job(course.job), progress=tuple(course.iterates))
+        self._board.end(job, state, sentence)

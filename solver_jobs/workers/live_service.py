@@ -1,0 +1,213 @@
+"""The parent's hold on the live tier's process."""
+
+from __future__ import annotations
+
+import itertools
+import logging
+import threading
+import time
+from collections.abc import Callable
+from concurrent.futures import CancelledError, Future, InvalidStateError
+from concurrent.futures import TimeoutError as FutureTimeout
+from multiprocessing.connection import Connection
+from multiprocessing.context import SpawnProcess
+from typing import Any
+
+from core.gait.gait import Gait
+from core.problem.initial_guess import initial_motion
+from core.problem.motion_problem import MotionProblem
+from solver_jobs.results import Evidence, MotionResult, SolveStatus
+from solver_jobs.tiers.remedies import RemedySearch
+from solver_jobs.workers.live_worker import (
+    Answered,
+    FindRemedies,
+    SolveLive,
+    run_live_worker,
+)
+from solver_jobs.workers.spawning import start_process
+
+_log = logging.getLogger(__name__)
+
+JOIN_SECONDS = 5.0
+"""How long a killed process may take to be gone."""
+LOAD_SECONDS = 20.0
+"""How long a process may take for its answer that was started in the place of one that had ended."""
+
+
+class LiveSolverError(Exception):
+    """A bug in the live tier's process; the text says which."""
+
+
+class LiveSolver:
+    """Answers of the live tier from a process of its own, which is started anew where it ends.
+
+    A broken solver cannot take the robot's program with it. Any thread may ask.
+
+    Args:
+        warm_up: a problem that is solved ahead, so that the first answer comes at once.
+    """
+
+    def __init__(self, warm_up: MotionProblem | None = None) -> None:
+        self._warm_up = warm_up
+        self._numbers = itertools.count(1)
+        self._lock = threading.Lock()
+        self._waiting: dict[int, Future[Any]] = {}
+        self._process: SpawnProcess | None = None
+        self._pipe: Connection | None = None
+        self._closed = False
+
+    @property
+    def process_id(self) -> int | None:
+        """The process's number, or None where none runs."""
+        process = self._process
+        return process.pid if process is not None and process.is_alive() else None
+
+    def start(self) -> None:
+        """Starts the process ahead of questions."""
+        with self._lock:
+            self._ensure_started()
+
+    def solve(self, problem: MotionProblem, timeout: float = 2.0) -> MotionResult:
+        """Solves a problem.
+
+        Args:
+            problem: what is asked.
+            timeout: longest wait, s; a process that takes longer is ended.
+
+        Returns:
+            The result; failed, with a sentence, where the process gave none.
+        """
+        begin = time.perf_counter()
+        try:
+            result: MotionResult = self._ask(lambda number: SolveLive(number, problem), timeout)
+        except LiveSolverError as error:
+            _log.error("The live solver broke off: %s", error)
+            first = str(error).partition("\n")[0]
+            return _no_answer(problem, f"The live solver broke off ({first}); this is a bug.")
+        except (FutureTimeout, CancelledError, OSError) as error:
+            _log.warning("The live solver gave no answer: %r", error)
+            seconds = time.perf_counter() - begin
+            return _no_answer(
+                problem,
+                f"The live solver gave no answer within {seconds:.1f} s. Edit again, or press Optimise.",
+            )
+        return result
+
+    def remedies(self, gait: Gait, timeout: float = 40.0) -> RemedySearch:
+        """Changes of an infeasible gait that the live tier finds feasible; cut short by other questions.
+
+        Nobody waits for them: on a busy computer they may take a while.
+        """
+        try:
+            found: RemedySearch = self._ask(lambda number: FindRemedies(number, gait), timeout)
+        except (FutureTimeout, CancelledError, OSError, LiveSolverError) as error:
+            _log.warning("The live solver found no remedies: %r", error)
+            return RemedySearch((), complete=False)
+        return found
+
+    def close(self) -> None:
+        """Ends the process."""
+        with self._lock:
+            self._closed = True
+            self._end()
+
+    def _ask(self, message: Callable[[int], SolveLive | FindRemedies], timeout: float) -> Any:
+        """Asks once more where the process had ended while it stood by, or ends in the middle."""
+        try:
+            return self._ask_once(message, timeout)
+        except FutureTimeout:
+            raise
+        except (OSError, CancelledError):
+            if self._closed:
+                raise
+            return self._ask_once(message, max(timeout, LOAD_SECONDS))
+
+    def _ask_once(self, message: Callable[[int], SolveLive | FindRemedies], timeout: float) -> Any:
+        number = next(self._numbers)
+        future: Future[Any] = Future()
+        try:
+            with self._lock:
+                pipe = self._ensure_started()
+                self._waiting[number] = future
+                self._send(pipe, message(number))
+            return future.result(timeout)
+        except FutureTimeout:
+            with self._lock:
+                if not self._closed:
+                    self._end()
+            raise
+        finally:
+            self._waiting.pop(number, None)
+
+    def _send(self, pipe: Connection, message: SolveLive | FindRemedies) -> None:
+        """Sends a question; the lock is held."""
+        try:
+            pipe.send(message)
+        except OSError:
+            # A process that was killed seems to live for a moment after its pipe broke.
+            self._end()
+            raise
+
+    def _ensure_started(self) -> Connection:
+        """The open pipe of a living process; the lock is held."""
+        if self._closed:
+            raise CancelledError("the studio is closing")
+        if self._pipe is not None and self.process_id is not None:
+            return self._pipe
+        self._end()
+        self._process, ours = start_process(run_live_worker, self._warm_up, "footfall-live")
+        self._pipe = ours
+        threading.Thread(target=self._receive, args=(ours,), name="live-answers", daemon=True).start()
+        return ours
+
+    def _receive(self, pipe: Connection) -> None:
+        """Hands answers to whoever waits, as long as the process lives."""
+        try:
+            while True:
+                answer: Answered = pipe.recv()
+                future = self._waiting.get(answer.number)
+                if future is None or future.done():
+                    continue
+                try:
+                    if answer.error:
+                        future.set_exception(LiveSolverError(answer.error))
+                    else:
+                        future.set_result(answer.value)
+                except InvalidStateError:
+                    # Whoever asked has just given up waiting.
+                    continue
+        except (EOFError, OSError):
+            with self._lock:
+                if self._pipe is pipe:
+                    self._end()
+
+    def _give_up(self) -> None:
+        for future in list(self._waiting.values()):
+            future.cancel()
+
+    def _end(self) -> None:
+        """Ends the process and whoever waits for it; the lock is held."""
+        process, pipe = self._process, self._pipe
+        self._process = self._pipe = None
+        if process is not None:
+            process.kill()
+            process.join(JOIN_SECONDS)
+        if pipe is not None:
+            pipe.close()
+        self._give_up()
+
+
+def _no_answer(problem: MotionProblem, sentence: str) -> MotionResult:
+    drawing = initial_motion(problem)
+    return MotionResult(
+        status=SolveStatus.FAILED,
+        solver_word="",
+        explanation=(sentence,),
+        evidence=Evidence.DIAGNOSED,
+        iterations=(),
+        objective=None,
+        solve_seconds=0.0,
+        build_seconds=0.0,
+        trajectory=drawing,
+        initial=drawing,
+    )

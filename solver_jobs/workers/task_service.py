@@ -1,0 +1,251 @@
+"""The parent's side of questions: one at a time, in a process that is started anew where it ends.
+
+Whoever has questions of a kind derives a `Question`, which says what comes of one that was ended, and a
+`QuestionService` over a process whose body calls `answer_questions`.
+"""
+
+from __future__ import annotations
+
+import itertools
+import logging
+import queue
+import threading
+import time
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from concurrent.futures import Future
+from multiprocessing.connection import Connection
+from typing import Any, ClassVar, Generic, TypeVar
+
+from core.errors import FootfallError, StateError
+from solver_jobs.workers.spawning import NICENESS
+from solver_jobs.workers.task_worker import (
+    Answer,
+    Ask,
+    Halt,
+    Told,
+)
+from solver_jobs.workers.worker_process import WorkerEndedError, WorkerHandle
+
+_log = logging.getLogger(__name__)
+
+POLL_SECONDS = 0.02
+"""How soon a wish to end is noticed."""
+
+SILENCE_SECONDS = 120.0
+"""A process that tells nothing for so long is stuck, where a question does not say otherwise."""
+
+Task = TypeVar("Task")
+Known = TypeVar("Known")
+Result = TypeVar("Result")
+
+
+class Question(ABC, Generic[Task, Known, Result]):
+    """A question that was asked; any thread may wait for its answer or end it.
+
+    Args:
+        task: what the process is given.
+        progress: told what is known, from a thread of the service's.
+    """
+
+    grace: ClassVar[float] = 1.0
+    """How long the process may take to end when asked, s; then it is ended itself."""
+
+    def __init__(self, task: Task, progress: Callable[[Known], object]) -> None:
+        self.task = task
+        self.is_ending = False
+        self._progress = progress
+        self._future: Future[Result] = Future()
+
+    @property
+    def is_done(self) -> bool:
+        """Whether the answer is there."""
+        return self._future.done()
+
+    def result(self, timeout: float | None = None) -> Result:
+        """Waits for the answer.
+
+        Args:
+            timeout: longest wait, s.
+
+        Raises:
+            FootfallError: it was refused, or cancelled where that leaves no answer.
+            StateError: the service closed, or its process ended twice.
+            TimeoutError: no answer in time.
+        """
+        return self._future.result(timeout)
+
+    def cancel(self) -> None:
+        """Ends it; one that is done stays as it is."""
+        self.is_ending = True
+
+    @abstractmethod
+    def unanswered(self, seconds: float) -> Result:
+        """What comes of it where the process gave no answer, after so many seconds.
+
+        Raises:
+            FootfallError: nothing does.
+        """
+
+    def latest(self, begun: float, heard: float) -> float:
+        """When the process is ended that has not answered yet.
+
+        Args:
+            begun: when the question's turn came, s.
+            heard: when the process told something last, s.
+        """
+        return heard + SILENCE_SECONDS
+
+    def tell(self, known: Known) -> None:
+        """Passes on what is known."""
+        if not self.is_ending:
+            self._progress(known)
+
+    def answer(self, result: Result) -> None:
+        """Ends the wait."""
+        self._future.set_result(result)
+
+    def fail(self, error: FootfallError) -> None:
+        """Ends the wait with a sentence."""
+        self._future.set_exception(error)
+
+
+Asked = TypeVar("Asked", bound=Question[Any, Any, Any])
+
+
+class QuestionService(Generic[Asked]):
+    """Answers questions in a process of their own, one after the other.
+
+    Args:
+        name: of what answers, as in a sentence: "pattern solver".
+        body: what the process runs, given its end of the pipe and `warm_up` (see `answer_questions`).
+        warm_up: what it does ahead of questions; None for what `body` makes of that.
+        niceness: how far it stands back where cores are scarce.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        body: Callable[[Connection, Any], None],
+        warm_up: Any = None,
+        niceness: int = NICENESS,
+    ) -> None:
+        self._name = name
+        self._worker = WorkerHandle(warm_up, body, f"footfall {name}", niceness)
+        self._numbers = itertools.count(1)
+        self._waiting: queue.SimpleQueue[Asked | None] = queue.SimpleQueue()
+        self._lock = threading.Lock()
+        self._thread: threading.Thread | None = None
+        self._closed = False
+
+    @property
+    def process_id(self) -> int | None:
+        """The process's number, or None where none runs."""
+        return self._worker.process_id
+
+    def start(self) -> None:
+        """Starts the process ahead of questions."""
+        with self._lock:
+            if self._thread is None and not self._closed:
+                self._thread = threading.Thread(target=self._run, name=self._name, daemon=True)
+                self._thread.start()
+
+    def ask(self, question: Asked) -> Asked:
+        """Begins a question, after those that were asked before; the first one starts the process."""
+        self.start()
+        with self._lock:
+            if self._closed:
+                question.fail(self._closing())
+            else:
+                self._waiting.put(question)
+        return question
+
+    def close(self) -> None:
+        """Ends the process and whatever waits for it."""
+        with self._lock:
+            self._closed = True
+            self._waiting.put(None)
+            thread = self._thread
+        if thread is not None:
+            thread.join()
+
+    def _run(self) -> None:
+        try:
+            self._start_worker()
+            while (question := self._waiting.get()) is not None:
+                self._attend(question)
+        finally:
+            self._worker.kill()
+
+    def _start_worker(self) -> None:
+        """Starts the process ahead; where that fails, the next question tries again and says why."""
+        try:
+            self._worker.ensure_started()
+        except OSError:
+            _log.exception("The %s's process does not start", self._name)
+
+    def _attend(self, question: Asked) -> None:
+        begun = time.monotonic()
+        try:
+            try:
+                result = self._serve(question, begun)
+            except WorkerEndedError as ended:
+                _log.warning("The %s's process ended (%s); a new one answers.", self._name, ended)
+                result = self._serve(question, begun)
+            question.answer(result)
+        except FootfallError as error:
+            question.fail(error)
+        except (WorkerEndedError, OSError) as error:
+            _log.exception("The %s gives no answer", self._name)
+            question.fail(StateError(f"The {self._name}'s process ended twice ({error}). Try again."))
+        except Exception as error:
+            # The process is still at this question, and would take the next one for an end of it.
+            _log.exception("A question to the %s broke off", self._name)
+            self._worker.kill()
+            question.fail(self._broke_off(repr(error)))
+
+    def _serve(self, question: Asked, begun: float) -> Any:
+        """One answer of a living process.
+
+        Raises:
+            WorkerEndedError: the process ended in the middle.
+            FootfallError: what was refused or cancelled, or the studio closes, or there is a bug.
+        """
+        if self._closed:
+            raise self._closing()
+        if question.is_ending:
+            return question.unanswered(0.0)
+        self._worker.ensure_started()
+        number, heard, halted = next(self._numbers), time.monotonic(), False
+        self._worker.send(Ask(number, question.task))
+        latest = question.latest(begun, heard)
+        while not self._closed:
+            message = self._worker.receive(POLL_SECONDS)
+            now = time.monotonic()
+            if isinstance(message, Answer) and message.number == number:
+                return self._result(message)
+            if isinstance(message, Told) and message.number == number:
+                question.tell(message.known)
+                latest = latest if halted else question.latest(begun, now)
+            if question.is_ending and not halted:
+                self._worker.send(Halt(number))
+                latest, halted = now + question.grace, True
+            if now > latest:
+                self._worker.kill()
+                self._start_worker()
+                return question.unanswered(now - begun)
+        raise self._closing()
+
+    def _result(self, message: Answer) -> Any:
+        if message.refusal is not None:
+            raise message.refusal
+        if message.error:
+            _log.error("The %s broke off: %s", self._name, message.error)
+            raise self._broke_off(message.error.partition("\n")[0])
+        return message.result
+
+    def _broke_off(self, error: str) -> StateError:
+        return StateError(f"The {self._name} broke off ({error}); this is a bug.")
+
+    def _closing(self) -> StateError:
+        return StateError(f"The studio is closing, so the {self._name} gives no answer.")

@@ -10,44 +10,44 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from app.documents import asked_hash
-from app.events import EventHub
-from app.gait_desk import GaitDesk
-from app.gait_list import GaitList
-from app.history import Author
-from app.job_book import JobBook
-from app.job_desk import JobDesk
-from app.jog_desk import JogDesk
-from app.kept_simulations import KeptSimulations
-from app.learning.desk import LearningDesk
-from app.live_desk import LiveDesk
-from app.open_gait import OpenGait
-from app.pattern_desk import PatternDesk
-from app.plan_settling import PlanSettling
-from app.robot_desk import RobotDesk
-from app.robot_ports import RobotPorts
-from app.robot_view import RUNNING
-from app.runs.desk import RunDesk
-from app.sequence_documents import source_states
-from app.sequence_plans import run_motions, runs_without_result
-from app.session import Result, Session, log_failure
-from app.simulation_desk import KIND as SIMULATE
-from app.simulation_desk import SimulationDesk
+from app.cameras.address import CameraAddress
+from app.common.version import VERSION
+from app.documents.gait_json import asked_hash
+from app.gaits.live_preview import LiveDesk
+from app.gaits.open_gait import OpenGait
+from app.gaits.planner import PlanSettling
+from app.gaits.sequence_documents import source_states
+from app.gaits.service import GaitDesk
+from app.gaits.summaries import GaitList
+from app.gaits.views import gait_view, steps_view
+from app.jobs.optimisation_service import JobDesk
+from app.jobs.repository import JobBook
+from app.learning.service import LearningDesk
+from app.pattern_search.service import PatternDesk
+from app.plans.sequence_plan import run_motions, runs_without_result
+from app.robot.jog_service import JogDesk
+from app.robot.ports import RobotPorts
+from app.robot.service import RobotDesk
+from app.robot.views import RUNNING
+from app.runs.service import RunDesk
+from app.session.command_queue import Result, Session, log_failure
+from app.session.event_hub import EventHub
+from app.simulation.repository import KeptSimulations
+from app.simulation.service import KIND as SIMULATE
+from app.simulation.service import SimulationDesk
 from app.store.database import Database
-from app.store.files import GaitFiles
-from app.store.simulation_log import SimulationLog
-from app.store.trial_beside import TrialBesideLog
-from app.trials.beside import TrialsBeside
-from app.trials.camera_address import CameraAddress
-from app.trials.desk import TrialDesk
+from app.store.gait_files import GaitFiles
+from app.store.simulation_store import SimulationLog
+from app.store.trial_reference_store import TrialBesideLog
+from app.trials.comparison import TrialsBeside
 from app.trials.photos import TrialPhotos
-from app.trials.report import TrialReports
-from app.trials.seeing import Seeing
-from app.trials.simulated import TrialSimulations
-from app.trials.track_desk import KIND as TRACK
-from app.trials.track_desk import TrackOrder
-from app.version import VERSION
-from app.views import gait_view, steps_view
+from app.trials.report.service import TrialReports
+from app.trials.service import TrialDesk
+from app.trials.simulated_feet import TrialSimulations
+from app.undo.history import Author
+from app.videos.lab import Seeing
+from app.videos.tracking_service import KIND as TRACK
+from app.videos.tracking_service import TrackOrder
 from core.errors import FootfallError, StateError
 from core.gait.gait import Gait, motion_problem
 from core.library.library import library

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 
-from app.bench.page import CHROMIUM_NAMES
+from app.bench.page.edits import CHROMIUM_NAMES
 
 LONG_MS = 60_000
 """How long the page may take for anything: a deadline for loaded machines, which no test waits out."""

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import HealthCheck, settings
 from playwright.sync_api import Browser, expect, sync_playwright
 
-from app.bench.page import CHROMIUM_WORDS
-from app.bridge.emulated import EmulatedRobot, start_emulator
+from app.bench.page.edits import CHROMIUM_WORDS
+from app.emulator.emulated_robot import EmulatedRobot, start_emulator
 from tests.chromium import LONG_MS, chromium_path
 
 # A slow machine is no failure, and one commit gives one answer; `--hypothesis-profile explore` looks further.

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from functools import cache
 
 from app.bridge.states import Direction, RobotState, RunPlan, Transition
-from app.plans import Plan, PlanSource
-from app.runs.plan_content import run_plan_content
+from app.plans.plan import Plan, PlanSource
+from app.runs.plan_json import run_plan_content
 from app.store.database import Database
-from app.store.run_log import RunLog
+from app.store.run_store import RunLog
 from core.findings import Approval
 from core.gait.manual_motion import manual_motion
 from core.library.library import library

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from app.plans import Plan, make_plan
-from app.simulations import simulation_problem
+from app.plans.plan import Plan, make_plan
+from app.simulation.problem import simulation_problem
 from core.arrays import Floats
 from core.library.library import library
 from core.physics.metrics import report

@@ -15,11 +15,11 @@ PARTS = ("core", "solver_jobs", "app", "robot_description")
 SOLVERS = {"casadi", "ortools", "mujoco"}
 SHAPES = {"viser", "trimesh", "yourdfpy"}
 MODULES_OF = {
-    "cv2": {"app/trials/opencv.py"},
+    "cv2": {"app/vision/opencv.py"},
     "mcap": {"app/runs/mcap_file.py"},
 }
 """Packages that few modules alone may import."""
-SEEING = {"app/trials/video.py", "app/trials/spots.py", "app/trials/boards.py"}
+SEEING = {"app/vision/video_io.py", "app/vision/blobs.py", "app/vision/checkerboard.py"}
 """Modules that use OpenCV, in processes of their own."""
 WEB = {"fastapi", "fastapi_offline", "starlette", "uvicorn"}
 
@@ -41,7 +41,7 @@ def forbidden(path: str, name: str) -> bool:
     top = name.split(".")[0]
     if name.startswith("relative:"):
         return True
-    if name == "app.trials.opencv":
+    if name == "app.vision.opencv":
         return path not in SEEING
     if top in MODULES_OF:
         return path not in MODULES_OF[top]
@@ -74,10 +74,10 @@ def forbidden_in_app(path: str, name: str, top: str) -> bool:
     if top in SHAPES:
         return not path.startswith("app/scene/")
     if top in WEB:
-        edge = {"app/server.py", "app/serve.py", "app/security.py"}
+        edge = {"app/server/application.py", "app/server/launch.py", "app/web/access.py"}
         return path not in edge and not path.startswith("app/routes/")
     if top == "pydantic":
-        files = {"app/documents.py", "app/document_models.py", "app/trials/setup_models.py"}
+        files = {"app/documents/gait_json.py", "app/documents/gait_schema.py", "app/cameras/setup_schema.py"}
         return path not in files and not path.startswith("app/routes/")
     return top == "serial"
 
@@ -91,17 +91,17 @@ def test_a_module_imports_only_what_its_room_may(path: str) -> None:
     ("path", "name"),
     [
         ("core/robot/leg.py", "casadi"),
-        ("core/robot/leg.py", "app.session"),
+        ("core/robot/leg.py", "app.session.command_queue"),
         ("solver_jobs/workers/nlp_worker.py", "fastapi"),
         ("app/studio.py", "solver_jobs.workers.job_queue"),
         ("app/studio.py", "serial"),
         ("app/studio.py", "viser"),
-        ("app/bridge/robot.py", "app.session"),
-        ("app/bridge/robot.py", "serial"),
-        ("app/gait_desk.py", "pydantic"),
-        ("app/trials/video.py", "cv2"),
-        ("app/trials/desk.py", "app.trials.opencv"),
-        ("app/runs/desk.py", "mcap.writer"),
+        ("app/bridge/bridge.py", "app.session.command_queue"),
+        ("app/bridge/bridge.py", "serial"),
+        ("app/gaits/service.py", "pydantic"),
+        ("app/vision/video_io.py", "cv2"),
+        ("app/trials/service.py", "app.vision.opencv"),
+        ("app/runs/service.py", "mcap.writer"),
     ],
 )
 def test_the_table_refuses(path: str, name: str) -> None:
@@ -127,5 +127,5 @@ def test_nothing_waits_for_files_from_elsewhere() -> None:
 
 
 def test_the_server_leaves_opencv_to_its_processes() -> None:
-    words = "import sys, app.server; sys.exit('cv2' in sys.modules)"
+    words = "import sys, app.server.application; sys.exit('cv2' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", words], check=False).returncode == 0

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from app.bridge.emulated import start_emulator
 from app.cli import main
+from app.emulator.emulated_robot import start_emulator
 from tests.studio_process import PROJECT
 
 BLOCKS = re.findall(r"^```sh\n(.*?)^```", (PROJECT / "README.md").read_text(), re.S | re.M)

@@ -4,24 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.bench.bridge import bench_bridge
-from app.bench.bridge_telemetry import bench_telemetry
-from app.bench.edits import bench_edits
-from app.bench.exact import bench_exact, bench_growth
-from app.bench.frontier import bench_frontier
-from app.bench.gait_list import bench_gait_list
-from app.bench.kinematics import bench_kinematics
-from app.bench.learning import bench_learning
-from app.bench.live import bench_live
 from app.bench.measure import Row, conditions
-from app.bench.page import bench_page
-from app.bench.patterns import bench_patterns
-from app.bench.physics import bench_physics
-from app.bench.scene import bench_scene
-from app.bench.timing import bench_timing
-from app.bench.trajectories import bench_trajectories
-from app.bench.transitions import bench_transitions
-from app.bench.video import bench_video
+from app.bench.page.edits import bench_page
+from app.bench.page.gait_list import bench_gait_list
+from app.bench.page.scene import bench_scene
+from app.bench.page.video import bench_video
+from app.bench.patterns.search import bench_patterns
+from app.bench.patterns.transitions import bench_transitions
+from app.bench.physics.learning import bench_learning
+from app.bench.physics.tables import bench_physics
+from app.bench.robot.all import bench_bridge
+from app.bench.robot.telemetry import bench_telemetry
+from app.bench.solvers.edits import bench_edits
+from app.bench.solvers.exact import bench_exact, bench_growth
+from app.bench.solvers.frontier import bench_frontier
+from app.bench.solvers.kinematics import bench_kinematics
+from app.bench.solvers.live import bench_live
+from app.bench.solvers.timing import bench_timing
+from app.bench.solvers.trajectories import bench_trajectories
 
 __all__ = ["BENCHMARKS", "BY_NAME_ONLY", "Benchmark", "Row", "conditions"]
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from app.trajectory_files import read_text
+from app.export.trajectory_files import read_text
 from core.arrays import Floats
 from core.errors import InputError
 from core.physics.metrics import tilts

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import Enum, auto
 
-from app.bridge.stopping import STOP_PAYLOAD
+from app.bridge.stop_confirmation import STOP_PAYLOAD
 from core.wire.lines import (
     CurrentPoint,
     Echo,

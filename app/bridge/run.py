@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.bridge.delivery import ARRIVAL_MM
+from app.bridge.messages import displaced_sentence
 from app.bridge.states import RunPhase, RunPlan, RunProgress
-from app.bridge.words import displaced_sentence
 from core.errors import StateError
 from core.wire.messages import (
     HIGHEST_MM,

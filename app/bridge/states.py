@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from app.bridge.course import WHOLE, Course
+from app.bridge.run_range import WHOLE, Course
 from core.errors import InputError
 from core.findings import Approval
 from core.wire.waypoints import Waypoints

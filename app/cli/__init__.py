@@ -8,8 +8,8 @@ import os
 import sys
 from collections.abc import Sequence
 
-from app.cli.arguments import make_parser
-from app.cli.report import INTERRUPTED, Interrupted
+from app.cli.output import INTERRUPTED, Interrupted
+from app.cli.parser import make_parser
 from core.errors import CheckError, FootfallError, InfeasibleError, InputError, RobotError, StateError
 
 _EXIT: tuple[tuple[type[FootfallError], int], ...] = (

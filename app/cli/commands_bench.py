@@ -7,10 +7,10 @@ from functools import partial
 from typing import Any
 
 from app.bench import BENCHMARKS, BY_NAME_ONLY, Benchmark, Row, conditions
-from app.bench.edits import bench_edits
-from app.bench.learning import bench_learning
-from app.bench.physics import bench_physics
-from app.cli.report import end_on_sigterm, note, show
+from app.bench.physics.learning import bench_learning
+from app.bench.physics.tables import bench_physics
+from app.bench.solvers.edits import bench_edits
+from app.cli.output import end_on_sigterm, note, show
 from core.errors import InputError
 
 

@@ -10,16 +10,16 @@ from pathlib import Path
 
 from app.cli.commands_gait import optimise
 from app.cli.methods import Method
-from app.cli.report import end_on_sigterm, note, show
-from app.documents import gait_content, parse_gait
+from app.cli.output import end_on_sigterm, note, show
+from app.documents.gait_json import gait_content, parse_gait
+from app.documents.trajectory_json import trajectory_content
 from app.export.formats import NEED_NO_MOTION, ExportedFile, ExportFormat, export
-from app.export.reading import gait_of_recording, read_gait
+from app.export.import_gait import gait_of_recording, read_gait
 from app.export.source import Exportable, exportable_file, exportable_plan, recording_of_npz
-from app.plans import Plan, make_plan
-from app.sequence_plans import sequence_plan
-from app.store.files import GaitFiles, default_data_folder, write_atomically
-from app.trajectory_content import trajectory_content
-from app.trajectory_files import companion_path, read_text, read_whole_text
+from app.export.trajectory_files import companion_path, read_text, read_whole_text
+from app.plans.plan import Plan, make_plan
+from app.plans.sequence_plan import sequence_plan
+from app.store.gait_files import GaitFiles, default_data_folder, write_atomically
 from core.errors import InputError
 from core.gait.gait import Gait
 from core.library.library import library

@@ -10,8 +10,8 @@ import numpy as np
 
 from app.cli.gait_options import asked_gait, returns_anew
 from app.cli.methods import Method
-from app.cli.report import end_on_sigterm, show
-from app.trajectory_files import write_trajectory
+from app.cli.output import end_on_sigterm, show
+from app.export.trajectory_files import write_trajectory
 from core.errors import InputError
 from core.gait.gait import Gait, drawn_timeline
 from core.robot.model import load_robot

@@ -12,11 +12,11 @@ from typing import Any
 
 from app.cli.gait_options import asked_gait
 from app.cli.methods import SOLVERS, Method
-from app.cli.report import end_on_sigterm, note, show
-from app.documents import gait_schema
-from app.judgement import Judgement, judge
-from app.store.files import GaitFiles, default_data_folder
-from app.trajectory_files import write_trajectory
+from app.cli.output import end_on_sigterm, note, show
+from app.documents.gait_json import gait_schema
+from app.export.trajectory_files import write_trajectory
+from app.plans.verified_result import Judgement, judge
+from app.store.gait_files import GaitFiles, default_data_folder
 from core.errors import InputError
 from core.gait.gait import Gait, heading_step, motion_problem
 from core.gait.manual_motion import manual_motion

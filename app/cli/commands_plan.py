@@ -8,11 +8,11 @@ from functools import partial
 from pathlib import Path
 
 from app.cli.commands_gait import optimise
-from app.cli.report import note, show, verdict_lines
-from app.documents import parse_gait
-from app.sequence_plans import steps_between
-from app.trajectory_files import read_text, read_trajectory, write_waypoints
-from app.views import verdict_view
+from app.cli.output import note, show, verdict_lines
+from app.documents.gait_json import parse_gait
+from app.export.trajectory_files import read_text, read_trajectory, write_waypoints
+from app.gaits.views import verdict_view
+from app.plans.sequence_plan import steps_between
 from core.checks.checked_plan import CheckedPlan, checked_plan
 from core.checks.rules import check_plan
 from core.errors import CheckError, FootfallError, InfeasibleError

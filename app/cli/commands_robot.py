@@ -12,14 +12,20 @@ from pathlib import Path
 from types import FrameType
 from typing import Any
 
-from app.bridge.emulated import start_emulator
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPlan
-from app.cli.report import INTERRUPTED, end_on_sigterm, note, show, verdict_lines
+from app.cli.output import (
+    INTERRUPTED,
+    end_on_sigterm,
+    note,
+    show,
+    verdict_lines,
+)
 from app.cli.served_cameras import served_cameras
 from app.cli.streaming import stream
-from app.store.files import default_data_folder
-from app.trajectory_files import read_waypoints
-from app.views import approval_view, verdict_view
+from app.emulator.emulated_robot import start_emulator
+from app.export.trajectory_files import read_waypoints
+from app.gaits.views import approval_view, verdict_view
+from app.store.gait_files import default_data_folder
 from core.checks.rules import check_waypoints
 from core.errors import CheckError, InputError, RobotError
 from core.findings import Approval, Severity, Verdict, approve
@@ -35,7 +41,7 @@ def run_serve(options: Namespace) -> int:
     """Serves the studio until a signal ends it."""
     cameras = served_cameras(options.camera)
     # The web server and the 3D scene take a second to load; the other commands do without them.
-    from app.serve import ServeOptions, serve
+    from app.server.launch import ServeOptions, serve
 
     token: str | None = options.token
     if token is not None and len(token) < 12:

@@ -12,14 +12,20 @@ from pathlib import Path
 import numpy as np
 
 from app.cli.commands_plan import NOT_FIT, ROBOT, trajectory_of
-from app.cli.report import Interrupted, end_on_sigterm, note, show, tally
-from app.documents import parse_gait
-from app.learning.sets import LearnedSets
-from app.simulation_content import variations_content
-from app.simulations import report_figures, way_problem
+from app.cli.output import (
+    Interrupted,
+    end_on_sigterm,
+    note,
+    show,
+    tally,
+)
+from app.documents.gait_json import parse_gait
+from app.export.trajectory_files import read_text, read_trajectory
+from app.learning.parameter_sets import LearnedSets
+from app.simulation.problem import report_figures, way_problem
+from app.simulation.view import variations_content
 from app.store.database import DATABASE, Database
-from app.store.files import default_data_folder
-from app.trajectory_files import read_text, read_trajectory
+from app.store.gait_files import default_data_folder
 from core.arrays import Floats
 from core.errors import InputError
 from core.findings import Finding, Severity

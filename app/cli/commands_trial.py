@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from app.cli.report import end_on_sigterm, note, show
-from app.trajectory_files import read_text
+from app.cli.output import end_on_sigterm, note, show
+from app.export.trajectory_files import read_text
 from app.trials.figures import movement_content, part_content
 from core.errors import InputError
 from core.trials.iterations import (
@@ -72,7 +72,7 @@ def _tracks(options: Namespace) -> Iterator[tuple[Path, FootTrack]]:
             yield path, parse_track_csv(read_text(path), str(path), frame_rate=rate, pixels=_pixels(options))
         return
     # What reads videos takes a moment to load; track files do without it.
-    from app.cli.tracked import read_setup, tracked
+    from app.cli.track_video import read_setup, tracked
 
     for word in ("frame_rate", "pixels_per_cm", "origin"):
         if getattr(options, word) is not None:

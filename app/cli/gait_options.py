@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from app.documents import parse_gait
-from app.trajectory_files import read_text
+from app.documents.gait_json import parse_gait
+from app.export.trajectory_files import read_text
 from core.errors import InputError
 from core.gait.gait import (
     Gait,

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from app.trials.camera_address import DEVICE, CameraAddress
+from app.cameras.address import DEVICE, CameraAddress
 from core.errors import InputError
 
 

@@ -13,17 +13,17 @@ from pathlib import Path
 
 import numpy as np
 
+from app.bridge.bridge import RobotBridge
 from app.bridge.delivery import HELD_STOP
-from app.bridge.emulated import start_emulator
-from app.bridge.robot import RobotBridge
 from app.bridge.states import IN_RUN, LinkState, RobotSnapshot, RobotState, RunPhase, RunPlan, RunProgress
-from app.bridge.stopping import STOP_LIMIT
-from app.cli.report import Interrupted, ignore_interrupts, note
-from app.robot_view import EMULATOR, RunOrigin
-from app.runs.kept import KeptRun, KeptRuns
-from app.runs.plan_content import file_plan_content
+from app.bridge.stop_confirmation import STOP_LIMIT
+from app.cli.output import Interrupted, ignore_interrupts, note
+from app.emulator.emulated_robot import start_emulator
+from app.robot.recorded_bridge import KeptRun, KeptRuns
+from app.robot.views import EMULATOR, RunOrigin
+from app.runs.plan_json import file_plan_content
 from app.store.database import Database
-from app.store.files import require_folder
+from app.store.gait_files import require_folder
 from core.errors import RobotError, StateError
 from core.robot.model import RobotModel
 from core.wire.waypoint_path import move_estimates

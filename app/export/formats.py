@@ -7,13 +7,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 
-from app.documents import gait_content
+from app.documents.gait_json import gait_content
 from app.export.gait_diagram import gait_diagram
 from app.export.playback import playback_page
 from app.export.png import png
 from app.export.source import Exportable
 from app.export.svg import svg
-from app.trajectory_files import COMPANION_SUFFIX
+from app.export.trajectory_files import COMPANION_SUFFIX
 from core.errors import FootfallError, InputError
 from core.motion.phase_list import format_phases
 from core.motion.trajectory_npz import MotionFile, format_npz

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from app.common.json_values import finite
 from app.export.gait_diagram import facts, gait_diagram, plot_area
 from app.export.source import Motion
 from app.export.svg import svg
-from app.finite import finite
 from core.gait.gait import Gait
 from core.motion.support_polygon import stability_margins
 from core.robot.coupled_strokes import real_feet

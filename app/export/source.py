@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from app.plans import Plan, PlanSource
-from app.trajectory_files import read_motion_npz, read_trajectory
+from app.export.trajectory_files import read_motion_npz, read_trajectory
+from app.plans.plan import Plan, PlanSource
 from core.arrays import Floats
 from core.errors import FootfallError, InputError
 from core.gait.gait import Gait

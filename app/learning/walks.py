@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from app.naming import free_name
+from app.common.names import free_name
 from app.trials.planned import sent_problem
 from app.trials.record import TrialRecord
 from core.arrays import Floats
@@ -26,7 +26,7 @@ class SentTrial:
 
     Args:
         record: the trial.
-        sent: as kept with it (`app.runs.plan_content.sent_content`); None where it is not known.
+        sent: as kept with it (`app.runs.plan_json.sent_content`); None where it is not known.
     """
 
     record: TrialRecord

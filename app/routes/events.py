@@ -9,10 +9,10 @@ import json
 from fastapi import APIRouter, WebSocket
 from starlette.websockets import WebSocketDisconnect
 
-from app.events import Subscriber
-from app.routes.edge import is_page, on_session
-from app.routes.robot import send_stop
+from app.routes.robot.robot import send_stop
+from app.session.event_hub import Subscriber
 from app.studio import Studio
+from app.web.dependencies import is_page, on_session
 
 router = APIRouter()
 

@@ -8,9 +8,14 @@ from fastapi import APIRouter, Depends
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 from starlette.concurrency import run_in_threadpool
 
-from app.routes.edge import TheAuthor, on_planned, on_session, studio_of
+from app.gaits.views import plan_view
 from app.studio import Studio
-from app.views import plan_view
+from app.web.dependencies import (
+    TheAuthor,
+    on_planned,
+    on_session,
+    studio_of,
+)
 from solver_jobs import JobKind
 
 router = APIRouter(prefix="/api/jobs", tags=["jobs"])

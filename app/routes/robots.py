@@ -7,8 +7,8 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Depends
 from pydantic import BaseModel, ConfigDict, Field
 
-from app.routes.edge import changed, studio_of
 from app.studio import Studio
+from app.web.dependencies import changed, studio_of
 from core.gait.gait import (
     MOST_NAME,
     Gait,

@@ -8,11 +8,11 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Depends, Response
 from starlette.concurrency import run_in_threadpool
 
-from app.plans import Plan
-from app.routes.edge import on_planned, on_session, studio_of
+from app.plans.plan import Plan
 from app.scene.ghost import ghost_blob
 from app.scene.reach import reach_table
 from app.studio import Studio
+from app.web.dependencies import on_planned, on_session, studio_of
 from core.errors import StateError
 from core.motion.trajectory import Trajectory
 from core.problem.motion_problem import Workspace

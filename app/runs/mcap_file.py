@@ -13,8 +13,8 @@ from typing import Any
 
 from mcap.writer import Writer
 
+from app.common.version import VERSION
 from app.runs.record import RunRecord
-from app.version import VERSION
 
 _NUMBERS = {"type": "array", "items": {"type": "number"}, "minItems": 12, "maxItems": 12}
 _SECONDS = {"type": "number", "description": "s since the run began"}

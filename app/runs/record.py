@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from app.bridge.states import Direction
-from app.runs.plan_content import ran_plan
-from app.store.run_log import RunLog, RunRow
+from app.runs.plan_json import ran_plan
+from app.store.run_store import RunLog, RunRow
 from core.arrays import Floats
 from core.errors import NotFoundError, StateError
 from core.runs.analysis import move_begins, plan_times

@@ -2,6 +2,6 @@
 
 from app.scene.overlay import overlay_table, plan_poses
 from app.scene.poses import PoseBlob, pose_frames
-from app.scene.scenes import Scenes
+from app.scene.registry import Scenes
 
 __all__ = ["PoseBlob", "Scenes", "overlay_table", "plan_poses", "pose_frames"]

@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from app.store.database import Database
-from app.store.files import require_folder, write_atomically
-from app.store.photo_log import Content, PhotoLog
-from app.trials.desk import TrialDesk
-from app.trials.eyes import Eyes, seen
-from app.trials.picture_tasks import PhotoFiles, PhotoOf, Source
+from app.store.gait_files import require_folder, write_atomically
+from app.store.photo_store import Content, PhotoLog
+from app.trials.service import TrialDesk
+from app.vision.services import Eyes, seen
+from app.vision.worker import PhotoFiles, PhotoOf, Source
 from core.errors import InputError, NotFoundError
 
 MOST_BYTES = 20_000_000

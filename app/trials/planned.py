@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from app.plans import Plan
-from app.runs.plan_content import ran_plan, sent_content
+from app.plans.plan import Plan
+from app.runs.plan_json import ran_plan, sent_content
 from app.runs.record import RunRecord
 from core.arrays import Floats
 from core.errors import StateError
@@ -28,7 +28,7 @@ class PlannedFeet:
         times: (n,) s.
         feet: (n, feet, 2) x, y, m.
         laps: how often the motion was to be done.
-        sent: the waypoints of one lap with their motion (`app.runs.plan_content.sent_content`); None where
+        sent: the waypoints of one lap with their motion (`app.runs.plan_json.sent_content`); None where
             they are not known.
         lap_seconds: how long a lap takes, s; None where the times hold exactly the laps.
     """

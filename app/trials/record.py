@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from app.store.trial_log import TrialRow
+from app.store.trial_store import TrialRow
 from app.trials.planned import PlannedFeet
 from core.arrays import interpolated
 from core.errors import InputError

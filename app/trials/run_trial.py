@@ -8,9 +8,9 @@ from datetime import datetime
 import numpy as np
 
 from app.runs.record import RunRecord
-from app.trials.desk import TrialWords
 from app.trials.planned import PlannedFeet, planned_of_run
-from app.trials.tracking import VideoTrack
+from app.trials.service import TrialWords
+from app.vision.tracking import VideoTrack
 from core.arrays import Floats, interpolated
 from core.errors import InputError, StateError
 from core.runs.iterations import iteration_arrivals

@@ -42,7 +42,7 @@ def table_csv(groups: Sequence[Mapping[str, Any]]) -> str:
     """Gaits compared, a row a gait and step; what is not known is empty.
 
     Args:
-        groups: of `app.trials.desk.compared`.
+        groups: of `app.trials.service.compared`.
     """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from app.bridge.emulated import EmulatedRobot
+from app.emulator.emulated_robot import EmulatedRobot
 from app.store.database import Database
 from tests.studio_process import StudioProcess, running_studio
 

@@ -13,11 +13,11 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from app.gait_desk import GaitDesk
-from app.live_desk import LiveDesk
+from app.gaits.live_preview import LiveDesk
+from app.gaits.service import GaitDesk
+from app.gaits.versions import VersionKind
 from app.store.database import Database
-from app.store.files import GaitFiles
-from app.versions import VersionKind
+from app.store.gait_files import GaitFiles
 from core.library.library import library
 from solver_jobs import SolveStatus
 from tests.app.live_tiers import FixedTier

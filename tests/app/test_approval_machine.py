@@ -12,18 +12,18 @@ from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, rule, run_state_machine_as_test
 
-from app.approvals import Word
-from app.bridge.robot import RobotBridge
+from app.bridge.bridge import RobotBridge
 from app.bridge.run import plan_moves
 from app.bridge.states import RunPlan
-from app.gait_desk import GaitDesk
-from app.open_gait import gait_text
-from app.plans import Plan
-from app.robot_desk import RobotDesk
-from app.robot_ports import RobotPorts
-from app.simulations import simulation_problem
+from app.gaits.approvals import Word
+from app.gaits.open_gait import gait_text
+from app.gaits.service import GaitDesk
+from app.plans.plan import Plan
+from app.robot.ports import RobotPorts
+from app.robot.service import RobotDesk
+from app.simulation.problem import simulation_problem
 from app.store.database import Database
-from app.store.files import GaitFiles
+from app.store.gait_files import GaitFiles
 from core.checks.simulation import Simulated
 from core.errors import FootfallError, InputError, StateError
 from core.gait.gait import Gait

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from app.approvals import Word, approval_difference
-from app.gait_desk import GaitDesk
-from app.plans import Plan
-from app.simulations import simulation_problem
+from app.gaits.approvals import Word, approval_difference
+from app.gaits.service import GaitDesk
+from app.plans.plan import Plan
+from app.simulation.problem import simulation_problem
 from app.store.database import Database
-from app.store.files import GaitFiles
+from app.store.gait_files import GaitFiles
 from core.checks.simulation import NOT_SIMULATED, Simulated
 from core.errors import InputError, NotFoundError, StateError
 from core.physics.metrics import report

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from app.routes.module_page import ModulePage
+from app.web.page import ModulePage
 from tests.studio_process import PROJECT, StudioProcess, running_studio
 
 STATIC = PROJECT / "app" / "static"

@@ -11,12 +11,12 @@ import pytest
 from app.bench import BENCHMARKS
 from app.bench.cases import Case, all_cases
 from app.bench.edited_gaits import edited_gait
-from app.bench.edits import Outcome, answers, bench_edits
-from app.bench.frontier import bench_frontier
-from app.bench.live import bench_live, grouped_gait
-from app.bench.timing import bench_timing
-from app.bench.trajectories import bench_trajectories, row_of
-from app.documents import gait_content
+from app.bench.solvers.edits import Outcome, answers, bench_edits
+from app.bench.solvers.frontier import bench_frontier
+from app.bench.solvers.live import bench_live, grouped_gait
+from app.bench.solvers.timing import bench_timing
+from app.bench.solvers.trajectories import bench_trajectories, row_of
+from app.documents.gait_json import gait_content
 from core.gait.gait import motion_problem
 from core.problem.motion_problem import Workspace
 from core.robot.model import load_robot
@@ -128,7 +128,7 @@ def test_the_live_tier_is_timed_in_its_parts() -> None:
 
 @pytest.fixture
 def few_poses(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.bench.kinematics.POSES", 3000)
+    monkeypatch.setattr("app.bench.solvers.kinematics.POSES", 3000)
 
 
 @pytest.mark.usefixtures("few_poses")

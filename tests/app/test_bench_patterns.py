@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.bench import patterns
-from app.bench.pattern_cases import random_gait, random_small, random_transition
-from app.bench.patterns import bench_patterns
+from app.bench.patterns import search as patterns
+from app.bench.patterns.cases import random_gait, random_small, random_transition
+from app.bench.patterns.search import bench_patterns
 from core.patterns.problem import FREE, PatternProblem, PatternResult
 from solver_jobs import PatternSolver
 

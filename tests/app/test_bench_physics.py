@@ -11,11 +11,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.bench import physics_runs
-from app.bench.physics import bench_physics, manual_row, own_row, paper_rows, published_rows
-from app.bench.physics_cases import manual_problem
-from app.bench.physics_page import physics_page
-from app.bench.physics_runs import ManualCase, OptimisedCase, walked
+from app.bench.physics import runs as physics_runs
+from app.bench.physics.cases import manual_problem
+from app.bench.physics.page import physics_page
+from app.bench.physics.runs import ManualCase, OptimisedCase, walked
+from app.bench.physics.tables import (
+    bench_physics,
+    manual_row,
+    own_row,
+    paper_rows,
+    published_rows,
+)
 from app.bench.published import PublishedRun
 from core.errors import InputError
 from core.physics.parameters import physics_set

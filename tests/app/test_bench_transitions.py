@@ -7,7 +7,15 @@ from collections.abc import Iterator
 import pytest
 
 from app.bench import BENCHMARKS
-from app.bench.transitions import PUBLISHED, RuleSet, Solvers, compared, random_transitions, share, solvers
+from app.bench.patterns.transitions import (
+    PUBLISHED,
+    RuleSet,
+    Solvers,
+    compared,
+    random_transitions,
+    share,
+    solvers,
+)
 from core.library.library import library
 from core.patterns.problem import FREE
 

@@ -6,8 +6,8 @@ from functools import cache
 
 import pytest
 
-from app.bench.bridge_walk import PUBLISHED, bench_walk
 from app.bench.measure import Row
+from app.bench.robot.walk import PUBLISHED, bench_walk
 from core.wire.timing import OVERRUN
 
 

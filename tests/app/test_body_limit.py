@@ -10,9 +10,9 @@ from fastapi import Body, FastAPI, Request
 from fastapi.testclient import TestClient
 from starlette.middleware import Middleware
 
-from app.routes import body_limit
-from app.routes.body_limit import BodyLimit
-from app.routes.edge import install_error_handlers
+from app.web import body_limit
+from app.web.body_limit import BodyLimit
+from app.web.dependencies import install_error_handlers
 
 LIMIT = 1000
 

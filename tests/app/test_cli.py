@@ -12,10 +12,10 @@ from pathlib import Path
 
 import pytest
 
-from app.bridge.emulated import start_emulator
-from app.documents import gait_content
-from app.trajectory_files import read_trajectory
-from app.version import VERSION
+from app.common.version import VERSION
+from app.documents.gait_json import gait_content
+from app.emulator.emulated_robot import start_emulator
+from app.export.trajectory_files import read_trajectory
 from core.library.library import library
 from core.wire.timing import OVERRUN
 from core.wire.trajectory_csv import parse_trajectory_csv

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.documents import gait_content, gait_from_content
+from app.documents.gait_json import gait_content, gait_from_content
 from core.library.library import Group, group_ids, library
 from core.robot.model import load_robot
 from core.wire.trajectory_csv import parse_trajectory_csv

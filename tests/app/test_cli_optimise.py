@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.bench.live import grouped_gait
-from app.documents import gait_content
-from app.trajectory_files import read_trajectory
+from app.bench.solvers.live import grouped_gait
+from app.documents.gait_json import gait_content
+from app.export.trajectory_files import read_trajectory
 from core.gait.gait import (
     Gait,
     drawn_timeline,

@@ -16,10 +16,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.documents import gait_content
-from app.learning.sets import LearnedSets
+from app.documents.gait_json import gait_content
+from app.export.trajectory_files import write_trajectory
+from app.learning.parameter_sets import LearnedSets
 from app.store.database import DATABASE, Database
-from app.trajectory_files import write_trajectory
 from core.library.library import library
 from core.motion.trajectory import Trajectory
 from core.physics.parameters import physics_set

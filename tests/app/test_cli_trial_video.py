@@ -64,7 +64,7 @@ def test_a_setup_that_does_not_fit_is_refused(
 
 
 def test_feet_whose_colours_are_exchanged_stand_elsewhere_than_the_plans() -> None:
-    from app.trials.sight import fit_content
+    from app.trials.track_source import fit_content
     from core.trials.alignment import align
 
     feet = TRACK.feet[0]

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from app.documents import gait_content, motion_hash
-from app.gait_desk import GaitDesk
+from app.documents.gait_json import gait_content, motion_hash
+from app.documents.trajectory_json import trajectory_content
+from app.gaits.service import GaitDesk
 from app.store.database import Database
-from app.store.files import GaitFiles
+from app.store.gait_files import GaitFiles
 from app.studio import Studio
-from app.trajectory_content import trajectory_content
 from core.gait.gait import motion_problem
 from core.gait.sequence_part import SequencePart
 from core.library.library import library

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 
-from app.documents import gait_content, gait_schema, parse_gait
+from app.documents.gait_json import gait_content, gait_schema, parse_gait
 from core.errors import InputError
 from core.gait.gait import Gait
 from core.library.library import library

@@ -6,7 +6,7 @@ import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
-from app.routes.edge import install_error_handlers
+from app.web.dependencies import install_error_handlers
 from core.errors import FootfallError, InputError, NotFoundError, RobotError, StateError
 
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.documents import gait_content, parse_gait
-from app.trajectory_files import read_trajectory
+from app.documents.gait_json import gait_content, parse_gait
+from app.export.trajectory_files import read_trajectory
 from core.library.library import library
 from tests.app.command import run, run_json
 from tests.reference import reference_path

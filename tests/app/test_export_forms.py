@@ -14,10 +14,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app.documents import parse_gait
+from app.documents.gait_json import parse_gait
 from app.export.formats import NEED_NO_MOTION, ExportFormat, export
 from app.export.source import Exportable, exportable_file, exportable_plan
-from app.plans import make_plan
+from app.plans.plan import make_plan
 from core.errors import FootfallError, InputError
 from core.gait.gait import Gait
 from core.library.library import library

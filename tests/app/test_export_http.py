@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from app.documents import gait_content, gait_schema
+from app.documents.gait_json import gait_content, gait_schema
 from app.export.formats import ExportFormat
 from core.library.library import library
 from core.motion.phase_list import format_phases

@@ -8,15 +8,15 @@ from pathlib import Path
 
 import pytest
 
-from app.approvals import Word
-from app.documents import motion_hash
-from app.gait_desk import GaitDesk
-from app.gait_list import GaitList
-from app.live_desk import FAILED_SECONDS, LiveDesk
-from app.plans import PlanSource
+from app.documents.gait_json import motion_hash
+from app.documents.trajectory_json import trajectory_content
+from app.gaits.approvals import Word
+from app.gaits.live_preview import FAILED_SECONDS, LiveDesk
+from app.gaits.service import GaitDesk
+from app.gaits.summaries import GaitList
+from app.plans.plan import PlanSource
 from app.store.database import Database
-from app.store.files import GaitFiles
-from app.trajectory_content import trajectory_content
+from app.store.gait_files import GaitFiles
 from core.errors import CheckError, InputError, NotFoundError, StateError
 from core.gait.gait import Gait
 from core.library.library import library

@@ -12,13 +12,13 @@ from typing import Any
 
 import pytest
 
-from app.bench.gait_list import fill
-from app.events import Subscriber
-from app.gait_desk import GaitDesk
-from app.gait_list import GaitList
-from app.live_desk import LiveDesk
+from app.bench.page.gait_list import fill
+from app.gaits.live_preview import LiveDesk
+from app.gaits.service import GaitDesk
+from app.gaits.summaries import GaitList
+from app.session.event_hub import Subscriber
 from app.store.database import Database
-from app.store.files import GaitFiles
+from app.store.gait_files import GaitFiles
 from app.studio import Studio
 from core.errors import InputError
 from core.gait.gait import Gait

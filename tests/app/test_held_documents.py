@@ -8,15 +8,22 @@ from pathlib import Path
 
 import pytest
 
-from app.approvals import Word
-from app.documents import asked_hash, gait_content, gait_from_content, gait_schema, motion_hash, parse_gait
-from app.gait_desk import GaitDesk
-from app.history import Author
-from app.merging import merge, place_words
-from app.plans import PlanSource
-from app.settling import in_agreement, settled
+from app.documents.gait_json import (
+    asked_hash,
+    gait_content,
+    gait_from_content,
+    gait_schema,
+    motion_hash,
+    parse_gait,
+)
+from app.gaits.approvals import Word
+from app.gaits.normalise import in_agreement, settled
+from app.gaits.service import GaitDesk
+from app.plans.plan import PlanSource
 from app.store.database import Database
-from app.store.files import GaitFiles
+from app.store.gait_files import GaitFiles
+from app.undo.history import Author
+from app.undo.merge import merge, place_words
 from core.errors import CheckError, InputError
 from core.gait.gait import Gait, drawn_timeline
 from core.gait.gait_difference import gait_difference

@@ -8,18 +8,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.kept_simulations import KeptSimulations
-from app.plans import Plan, make_plan
-from app.simulations import (
+from app.common.version import VERSION
+from app.plans.plan import Plan, make_plan
+from app.simulation.problem import (
     physics_content,
     report_content,
     report_from_content,
     simulation_key,
     simulation_problem,
 )
+from app.simulation.repository import KeptSimulations
 from app.store.database import Database
-from app.store.simulation_log import MOST_KEPT, SimulationLog, SimulationRow
-from app.version import VERSION
+from app.store.simulation_store import MOST_KEPT, SimulationLog, SimulationRow
 from core.errors import CheckError, NotFoundError
 from core.library.library import library
 from core.physics.parameters import PhysicsSet, physics_set, physics_sets
@@ -98,7 +98,7 @@ def test_what_another_program_computed_is_no_simulation_of_today(
     kept: KeptSimulations, monkeypatch: pytest.MonkeyPatch, name: str, other: object
 ) -> None:
     with monkeypatch.context() as before:
-        before.setattr(f"app.simulations.{name}", other)
+        before.setattr(f"app.simulation.problem.{name}", other)
         put(kept, walk_plan())
     assert kept.simulated(walk_plan()) is None
     standing = kept.standing(GAIT, walk_plan())

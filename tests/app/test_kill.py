@@ -20,7 +20,7 @@ from pathlib import Path
 
 import pytest
 
-from app.documents import parse_gait
+from app.documents.gait_json import parse_gait
 from tests.app.kill_worker import GAITS, number_of, opened
 from tests.studio_process import PROJECT, StudioProcess
 

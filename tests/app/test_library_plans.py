@@ -6,10 +6,10 @@ import json
 
 import pytest
 
-from app.open_gait import fresh_gait
-from app.plans import PlanSource, verdict_of
-from app.sequence_plans import plan_of
-from app.views import gait_view, verdict_view
+from app.gaits.open_gait import fresh_gait
+from app.gaits.views import gait_view, verdict_view
+from app.plans.plan import PlanSource, verdict_of
+from app.plans.sequence_plan import plan_of
 from core.errors import CheckError
 from core.library.library import Group, library
 from solver_jobs import solve_live

@@ -9,13 +9,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.documents import gait_content
-from app.live_desk import FAILED_SECONDS, FIRST_SECONDS, MOST_PLANS, NEXT_SECONDS, LiveDesk
-from app.plans import make_plan
-from app.reach_rings import CORNERS, reach_rings
-from app.settling import settled
-from app.timings import timing_content
-from app.views import plan_view
+from app.documents.gait_json import gait_content
+from app.gaits.live_preview import (
+    FAILED_SECONDS,
+    FIRST_SECONDS,
+    MOST_PLANS,
+    NEXT_SECONDS,
+    LiveDesk,
+)
+from app.gaits.normalise import settled
+from app.gaits.views import plan_view
+from app.jobs.timing_view import timing_content
+from app.plans.plan import make_plan
+from app.plans.reach_outline_view import CORNERS, reach_rings
 from core.errors import InputError, StateError
 from core.gait.gait import Gait, heading_step, motion_problem
 from core.library.library import library

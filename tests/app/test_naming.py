@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from app.naming import free_name
+from app.common.names import free_name
 from core.gait.gait import MOST_NAME
 
 

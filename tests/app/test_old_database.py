@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from app.documents import gait_content
-from app.gait_desk import GaitDesk
-from app.live_desk import LiveDesk
+from app.documents.gait_json import gait_content
+from app.gaits.live_preview import LiveDesk
+from app.gaits.service import GaitDesk
 from app.store.database import Database
-from app.store.files import GaitFiles
+from app.store.gait_files import GaitFiles
 from core.errors import InputError, StateError
 from core.gait.gait import Gait
 from core.library.library import library

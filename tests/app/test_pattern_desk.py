@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.pattern_desk import PatternDesk, PatternQuestion, next_length
+from app.pattern_search.service import PatternDesk, PatternQuestion, next_length
 from core.errors import InputError, NotFoundError, StateError
 from core.patterns.problem import (
     Pattern,

@@ -8,9 +8,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from app.bench import physics_cases
 from app.bench.cases import Case, all_cases
-from app.bench.physics_cases import (
+from app.bench.physics import cases as physics_cases
+from app.bench.physics.cases import (
     manual_problem,
     own_problem,
     published_problem,

@@ -11,14 +11,14 @@ from typing import Any
 
 import pytest
 
-from app.approvals import Word
-from app.gait_desk import GaitDesk
-from app.live_desk import LiveDesk
-from app.plan_settling import PlanSettling
-from app.plans import PlanSource
-from app.session import Session
+from app.gaits.approvals import Word
+from app.gaits.live_preview import LiveDesk
+from app.gaits.planner import PlanSettling
+from app.gaits.service import GaitDesk
+from app.plans.plan import PlanSource
+from app.session.command_queue import Session
 from app.store.database import Database
-from app.store.files import GaitFiles
+from app.store.gait_files import GaitFiles
 from core.errors import InputError
 from core.problem.motion_problem import MotionProblem
 from solver_jobs import MotionResult, SolveStatus, solve_live

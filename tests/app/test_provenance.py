@@ -9,15 +9,15 @@ from typing import Any
 
 import pytest
 
-from app.documents import asked_hash
-from app.gait_desk import GaitDesk
-from app.history import Author
-from app.plans import PlanSource
-from app.provenance import provenance_view, result_provenance
+from app.common.version import VERSION
+from app.documents.gait_json import asked_hash
+from app.documents.trajectory_json import content_sha256, trajectory_content
+from app.gaits.service import GaitDesk
+from app.plans.plan import PlanSource
+from app.plans.provenance import provenance_view, result_provenance
 from app.store.database import Database
-from app.store.files import GaitFiles
-from app.trajectory_content import content_sha256, trajectory_content
-from app.version import VERSION
+from app.store.gait_files import GaitFiles
+from app.undo.history import Author
 from core.gait.gait import Gait, motion_problem
 from core.library.library import library
 from core.robot.model import load_robot

@@ -10,17 +10,22 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.approvals import Word
-from app.documents import gait_content, parse_gait
+from app.documents.gait_json import gait_content, parse_gait
 from app.export.formats import ExportFormat, export
-from app.export.reading import read_gait
+from app.export.import_gait import read_gait
 from app.export.source import Exportable, exportable_plan
-from app.gait_desk import GaitDesk
-from app.history import Author
-from app.plans import Plan, PlanSource, make_plan, verdict_of
-from app.sequence_documents import AskedPart, made_sequence
+from app.gaits.approvals import Word
+from app.gaits.sequence_documents import AskedPart, made_sequence
+from app.gaits.service import GaitDesk
+from app.plans.plan import (
+    Plan,
+    PlanSource,
+    make_plan,
+    verdict_of,
+)
 from app.store.database import Database
-from app.store.files import GaitFiles
+from app.store.gait_files import GaitFiles
+from app.undo.history import Author
 from core.errors import InputError, StateError
 from core.findings import Severity
 from core.gait.gait import Gait, Orientation, motion_problem

@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from app.bridge.emulated import EmulatedRobot
+from app.bridge.bridge import RobotBridge
 from app.bridge.lease import GONE_SECONDS
-from app.bridge.robot import RobotBridge
 from app.bridge.states import RobotState
-from app.history import Author
-from app.robot_lease import LeaseDesk
+from app.emulator.emulated_robot import EmulatedRobot
+from app.robot.operator_lease import LeaseDesk
+from app.undo.history import Author
 from core.errors import StateError
 from tests.bridge.virtual_robot import make_plan
 from tests.studio_process import Answer, StudioProcess, running_studio, wait_for

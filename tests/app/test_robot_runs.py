@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from app.bridge.emulated import EmulatedRobot
+from app.emulator.emulated_robot import EmulatedRobot
 from tests.studio_process import StudioProcess, wait_for
 
 SPEED = 20.0

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.documents import gait_content
+from app.documents.gait_json import gait_content
 from core.library.library import manual_entry
 from core.robot.model import ROBOT_NAMES, load_robot
 from core.wire.waypoints import parse_waypoint_csv

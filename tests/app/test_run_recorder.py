@@ -9,17 +9,17 @@ from pathlib import Path
 
 import pytest
 
-from app import run_recorder
-from app.bridge.emulated import start_emulator
 from app.bridge.states import Direction, LinkState, RobotState, Transition
-from app.robot_view import RunOrigin
-from app.run_recorder import RunRecorder
-from app.runs.abandoned import end_abandoned
-from app.runs.desk import RunDesk
-from app.runs.kept import KeptRun, KeptRuns
+from app.emulator.emulated_robot import start_emulator
+from app.robot import run_recorder
+from app.robot.recorded_bridge import KeptRun, KeptRuns
+from app.robot.run_recorder import RunRecorder
+from app.robot.views import RunOrigin
+from app.runs.recovery import end_abandoned
+from app.runs.service import RunDesk
 from app.store.database import Database
 from app.store.run_journal import Entry, EntryKind, RunJournal
-from app.store.run_log import RunFilter, RunLog
+from app.store.run_store import RunFilter, RunLog
 from app.store.run_writer import RunWriter
 from core.errors import StateError
 from tests.bridge.virtual_robot import make_plan

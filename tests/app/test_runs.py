@@ -12,15 +12,15 @@ import numpy as np
 import pytest
 from mcap.reader import make_reader
 
-from app.bridge.emulated import EmulatedRobot
 from app.bridge.states import Direction, LinkState, RobotState, Transition
-from app.run_recorder import RunRecorder
+from app.emulator.emulated_robot import EmulatedRobot
+from app.robot.run_recorder import RunRecorder
 from app.runs.csv_file import run_csv
-from app.runs.desk import RunDesk
 from app.runs.mcap_file import run_mcap
 from app.runs.motion import measured_trajectory
+from app.runs.service import RunDesk
 from app.store.database import Database
-from app.store.run_log import RunFilter, RunLog
+from app.store.run_store import RunFilter, RunLog
 from core.errors import NotFoundError, StateError
 from tests.ran_robot import STARTED, keep_run, ran
 from tests.studio_process import StudioProcess, wait_for

@@ -8,7 +8,7 @@ from starlette.middleware import Middleware
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
-from app.security import PAGE_POLICY, Access, Guard
+from app.web.access import PAGE_POLICY, Access, Guard
 
 
 def client(

@@ -12,10 +12,10 @@ from typing import Any
 
 import pytest
 
-from app.bridge.emulated import EmulatedRobot, start_emulator
-from app.runs.desk import RunDesk
+from app.emulator.emulated_robot import EmulatedRobot, start_emulator
+from app.runs.service import RunDesk
 from app.store.database import Database
-from app.store.run_log import RunFilter
+from app.store.run_store import RunFilter
 from tests.app.command import run, run_json
 from tests.studio_process import PROJECT, wait_for
 

@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
-from app.documents import gait_content, gait_from_content, motion_hash
-from app.migrations import filled
-from app.plans import make_plan
+from app.documents.gait_json import gait_content, gait_from_content, motion_hash
+from app.documents.migrations import filled
+from app.plans.plan import make_plan
 from core.errors import InputError
 from core.library.library import library
 from solver_jobs import solve_live

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from app.bridge.emulated import EmulatedRobot
-from app.documents import gait_content
+from app.documents.gait_json import gait_content
+from app.emulator.emulated_robot import EmulatedRobot
 from core.gait.gait import Gait
 from core.gait.sequence_part import SequencePart
 from core.library.library import library

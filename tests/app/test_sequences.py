@@ -13,18 +13,29 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.approvals import Word
-from app.documents import gait_content, gait_from_content, motion_hash, parse_gait
+from app.documents.gait_json import (
+    gait_content,
+    gait_from_content,
+    motion_hash,
+    parse_gait,
+)
+from app.documents.trajectory_json import trajectory_content
 from app.export.gait_diagram import facts
-from app.gait_desk import GaitDesk
-from app.history import Author
-from app.live_desk import LiveDesk
-from app.plans import PlanSource
-from app.sequence_documents import AskedPart, SourceState, made_sequence, refreshed, source_states
-from app.sequence_plans import runs_without_result
+from app.gaits.approvals import Word
+from app.gaits.live_preview import LiveDesk
+from app.gaits.sequence_documents import (
+    AskedPart,
+    SourceState,
+    made_sequence,
+    refreshed,
+    source_states,
+)
+from app.gaits.service import GaitDesk
+from app.plans.plan import PlanSource
+from app.plans.sequence_plan import runs_without_result
 from app.store.database import Database
-from app.store.files import GaitFiles
-from app.trajectory_content import trajectory_content
+from app.store.gait_files import GaitFiles
+from app.undo.history import Author
 from core.errors import CheckError, InputError
 from core.gait.gait import Gait, motion_problem
 from core.gait.sequence_part import SequencePart
@@ -191,7 +202,7 @@ def test_a_sequence_in_a_sequence_stands_for_its_parts(desk: GaitDesk, tour: str
 def test_a_sequence_too_large_for_a_document_is_refused_when_it_is_made(
     desk: GaitDesk, tour: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("app.documents.MOST_BYTES", 4000)
+    monkeypatch.setattr("app.documents.gait_json.MOST_BYTES", 4000)
     with pytest.raises(InputError, match=r"Tour would make a gait document of \d kB; at most 4 kB"):
         made_sequence("Tour", TOUR, desk.document)
     with pytest.raises(InputError, match="at most 4 kB"):

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from app.bridge.delivery import ARRIVAL_MM
-from app.bridge.emulated import EmulatedRobot, start_emulator
+from app.emulator.emulated_robot import EmulatedRobot, start_emulator
 from tests.studio_process import StudioProcess, footfall, running_studio, wait_for
 
 SPEED = 15.0

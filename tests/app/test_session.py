@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from app.session import Session
+from app.session.command_queue import Session
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.settling import in_agreement, settled
+from app.gaits.normalise import in_agreement, settled
 from core.errors import InputError, StateError
 from core.gait.gait import Gait
 from core.library.library import library

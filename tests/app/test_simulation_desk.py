@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 import pytest
 
-from app.job_book import JobBook
-from app.kept_simulations import KeptSimulations
-from app.open_gait import OpenGait, fresh_gait
-from app.simulation_desk import SimulationDesk
+from app.gaits.open_gait import OpenGait, fresh_gait
+from app.jobs.repository import JobBook
+from app.simulation.repository import KeptSimulations
+from app.simulation.service import SimulationDesk
 from app.store.database import Database
-from app.store.simulation_log import SimulationLog
+from app.store.simulation_store import SimulationLog
 from core.errors import NotFoundError, StateError
 from core.library.library import library
 from core.physics.motion import SimulatedMotion

@@ -14,7 +14,7 @@ from anyio.to_thread import current_default_thread_limiter
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
-from app.routes import robot
+from app.routes.robot import robot
 
 PATIENCE = 60.0
 

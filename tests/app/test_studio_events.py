@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
-from app.open_gait import OpenGait
-from app.sequence_documents import AskedPart, made_sequence
+from app.gaits.open_gait import OpenGait
+from app.gaits.sequence_documents import AskedPart, made_sequence
 from app.studio import Studio
 
 DEADLINE = 60

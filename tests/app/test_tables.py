@@ -8,9 +8,9 @@ import pytest
 from fastapi import FastAPI
 from starlette.testclient import TestClient
 
-from app.documents import gait_content
-from app.routes.edge import install_error_handlers
-from app.routes.tables import router
+from app.documents.gait_json import gait_content
+from app.routes.gaits.segment_tables import router
+from app.web.dependencies import install_error_handlers
 from core.gait.gait import drawn_timeline
 from core.library.library import library
 

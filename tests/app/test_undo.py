@@ -9,11 +9,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.gait_desk import GaitDesk
-from app.history import LEAST_STEPS, MOST_ENTRIES, MOST_STEPS, Author, fresh_history
-from app.live_desk import LiveDesk
+from app.gaits.live_preview import LiveDesk
+from app.gaits.service import GaitDesk
 from app.store.database import Database
-from app.store.files import GaitFiles
+from app.store.gait_files import GaitFiles
+from app.undo.history import (
+    LEAST_STEPS,
+    MOST_ENTRIES,
+    MOST_STEPS,
+    Author,
+    fresh_history,
+)
 from core.errors import StateError
 from core.gait.gait import Gait
 from core.library.library import library
@@ -56,7 +62,7 @@ def test_a_long_log_keeps_what_undo_needs_and_no_more() -> None:
 
 
 def test_a_large_log_still_keeps_a_hundred_steps(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("app.history.MOST_CHARACTERS", 40_000)
+    monkeypatch.setattr("app.undo.history.MOST_CHARACTERS", 40_000)
     history = fresh_history(json.dumps({"name": 0}))
     for number in range(1, 200):
         text = json.dumps({"name": number, "recorded": "1" * 500})

@@ -13,11 +13,11 @@ from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
-from app.gait_desk import GaitDesk
-from app.history import Author
-from app.live_desk import LiveDesk
+from app.gaits.live_preview import LiveDesk
+from app.gaits.service import GaitDesk
 from app.store.database import Database
-from app.store.files import GaitFiles
+from app.store.gait_files import GaitFiles
+from app.undo.history import Author
 from core.errors import StateError
 from core.gait.gait import Gait
 from solver_jobs import SolveStatus

@@ -8,14 +8,19 @@ from pathlib import Path
 
 import pytest
 
-from app.approvals import Word
-from app.gait_desk import GaitDesk
-from app.history import Author
-from app.live_desk import LiveDesk
+from app.gaits.approvals import Word
+from app.gaits.live_preview import LiveDesk
+from app.gaits.service import GaitDesk
+from app.gaits.versions import (
+    AUTOMATIC_EDITS,
+    AUTOMATIC_SECONDS,
+    MOST_NAME,
+    VersionKind,
+)
 from app.store.database import Database
-from app.store.files import GaitFiles
-from app.store.gait_log import MOST_AUTOMATIC
-from app.versions import AUTOMATIC_EDITS, AUTOMATIC_SECONDS, MOST_NAME, VersionKind
+from app.store.gait_files import GaitFiles
+from app.store.gait_store import MOST_AUTOMATIC
+from app.undo.history import Author
 from core.errors import InputError, NotFoundError
 from core.library.library import library
 from solver_jobs import SolveStatus

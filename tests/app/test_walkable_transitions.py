@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from app.routes.pattern_models import TransitionQuestion
-from app.routes.pattern_problems import Posed, posed
+from app.routes.patterns.problems import Posed, posed
+from app.routes.patterns.schema import TransitionQuestion
 from core.library.library import library
 from core.patterns.problem import FREE, PatternRules
 

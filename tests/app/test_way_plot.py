@@ -9,9 +9,15 @@ import numpy as np
 import pytest
 
 from app.export.drawing import Trace
+from app.export.path_plot import (
+    EDGE,
+    HEAD,
+    SIZE,
+    Ways,
+    way_plot,
+)
 from app.export.png import png
 from app.export.svg import svg
-from app.export.way_plot import EDGE, HEAD, SIZE, Ways, way_plot
 
 COLOURS = ("#2e9e5b", "#d64545", "#e08a1e", "#3b78d8")
 CORNERS = np.array([[0.04, 0.0], [0.0, 0.04], [-0.04, 0.0], [0.0, -0.04]])

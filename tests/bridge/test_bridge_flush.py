@@ -5,8 +5,8 @@ from collections.abc import Callable
 
 import pytest
 
-from app.bridge.gate import Gate
 from app.bridge.states import LinkState, RobotState
+from app.bridge.write_gate import Gate
 from core.errors import RobotError
 from core.wire.messages import encode_flush
 from tests.bridge.virtual_robot import VirtualRobot, make_plan, payloads, random_plan

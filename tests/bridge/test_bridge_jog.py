@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from app.bridge.gate import Gate, Kind
 from app.bridge.jog import JogPlan
-from app.bridge.profiles import ProfileName
 from app.bridge.states import LinkState, RobotState
-from app.robot_view import jog_stop_seconds
+from app.bridge.write_gate import Gate, Kind
+from app.emulator.profiles import ProfileName
+from app.robot.views import jog_stop_seconds
 from core.errors import InputError, StateError
 from core.jog.check import check_jog
 from core.jog.steps import JogPart, JogStep

@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.bridge.emulated import EmulatedRobot
-from app.bridge.faults import Fault
-from app.bridge.firmware import Firmware
-from app.bridge.ports import Port, PtyPort, TcpPort
-from app.bridge.profiles import PROFILES, ProfileName
-from app.bridge.robot import RobotBridge
+from app.bridge.bridge import RobotBridge
 from app.bridge.states import Direction, LinkState, RobotSnapshot, RobotState
 from app.bridge.transport import Transport
+from app.emulator.emulated_robot import EmulatedRobot
+from app.emulator.faults import Fault
+from app.emulator.firmware import Firmware
+from app.emulator.ports import Port, PtyPort, TcpPort
+from app.emulator.profiles import PROFILES, ProfileName
 from core.errors import RobotError, StateError
 from core.wire.messages import encode_waypoint
 from tests.bridge.virtual_robot import make_plan, random_plan

@@ -10,11 +10,18 @@ from pathlib import Path
 
 import pytest
 
-from app.bench.bridge_process import Piece, Studio, Tap, emulator_process, sleeper, wait_until
-from app.bench.bridge_still import BOUNDS, seconds_to_stand
-from app.bench.bridge_stop import _lost, kill_rounds, stop_latencies
-from app.bench.bridge_telemetry import LINES_A_SECOND, bench_telemetry, lines_between
-from app.bridge.profiles import ProfileName
+from app.bench.robot.processes import (
+    Piece,
+    Studio,
+    Tap,
+    emulator_process,
+    sleeper,
+    wait_until,
+)
+from app.bench.robot.standstill import BOUNDS, seconds_to_stand
+from app.bench.robot.stop import _lost, kill_rounds, stop_latencies
+from app.bench.robot.telemetry import LINES_A_SECOND, bench_telemetry, lines_between
+from app.emulator.profiles import ProfileName
 
 GENEROUS = 2.0
 """On a machine that is busy with other things, s; the benchmark measures what it is on a quiet one."""

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.bridge.profiles import ProfileName
 from app.bridge.run import start_targets
 from app.bridge.states import LinkState, RobotState, RunPhase
+from app.emulator.profiles import ProfileName
 from core.errors import InputError, StateError
 from core.wire.messages import encode_flush, encode_waypoint
 from core.wire.timing import START_MOVE, deafness, longest_start_move

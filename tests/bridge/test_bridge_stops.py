@@ -5,9 +5,9 @@ from collections.abc import Callable
 
 import pytest
 
-from app.bridge.faults import Fault
+from app.bridge.messages import NOT_SENT, NOT_STOPPED, clearing_sentence
 from app.bridge.states import LinkState, RobotState
-from app.bridge.words import NOT_SENT, NOT_STOPPED, clearing_sentence
+from app.emulator.faults import Fault
 from core.errors import StateError
 from core.wire.messages import encode_flush
 from tests.bridge.virtual_robot import VirtualRobot, make_plan, payloads, random_plan

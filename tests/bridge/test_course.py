@@ -8,7 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.bridge.course import MOST_ITERATIONS, Course, beginnings, why_not_repeated
+from app.bridge.run_range import (
+    MOST_ITERATIONS,
+    Course,
+    beginnings,
+    why_not_repeated,
+)
 from app.bridge.states import RobotState, RunPhase, RunPlan
 from core.errors import InputError
 from tests.bridge.virtual_robot import VirtualRobot, make_plan

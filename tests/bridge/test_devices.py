@@ -7,14 +7,14 @@ from pathlib import Path
 
 import pytest
 
+from app.bridge.bridge import RobotBridge
 from app.bridge.devices import SerialDevice, found_again
-from app.bridge.emulated import start_emulator
-from app.bridge.faults import Fault
-from app.bridge.ports import PtyPort, TcpPort
-from app.bridge.robot import RobotBridge
 from app.bridge.states import LinkState, RobotSnapshot
 from app.bridge.transport import serial_devices
-from app.robot_ports import RobotPorts
+from app.emulator.emulated_robot import start_emulator
+from app.emulator.faults import Fault
+from app.emulator.ports import PtyPort, TcpPort
+from app.robot.ports import RobotPorts
 from tests.bridge.virtual_robot import VirtualRobot
 
 PATIENCE = 60.0

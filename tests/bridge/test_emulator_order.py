@@ -5,8 +5,8 @@ from itertools import pairwise
 
 import pytest
 
-from app.bridge.firmware import Firmware
-from app.bridge.profiles import PROFILES, ProfileName
+from app.emulator.firmware import Firmware
+from app.emulator.profiles import PROFILES, ProfileName
 
 STROKES = "2,19.5,7.5,0.5,12.34,5,10,15.25,3.3,8.8,17,1"
 NUMBERS = re.compile(r"(?<![\w.])-?\d+\.\d+")

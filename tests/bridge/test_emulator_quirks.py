@@ -4,12 +4,19 @@ import threading
 
 import pytest
 
-from app.bridge.c_text import Fields, c_string, padded_text, print_pieces, to_float, to_int
-from app.bridge.emulated import EmulatedRobot, start_emulator
-from app.bridge.faults import Fault
-from app.bridge.firmware import Firmware
-from app.bridge.ports import PtyPort
-from app.bridge.profiles import PROFILES, ProfileName
+from app.emulator.c_text import (
+    Fields,
+    c_string,
+    padded_text,
+    print_pieces,
+    to_float,
+    to_int,
+)
+from app.emulator.emulated_robot import EmulatedRobot, start_emulator
+from app.emulator.faults import Fault
+from app.emulator.firmware import Firmware
+from app.emulator.ports import PtyPort
+from app.emulator.profiles import PROFILES, ProfileName
 from core.wire.timing import LONGEST_SCAN
 
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from app.bridge.firmware import Firmware
-from app.bridge.memory import ARM, X86
-from app.bridge.profiles import PROFILES, ProfileName
+from app.emulator.firmware import Firmware
+from app.emulator.memory import ARM, X86
+from app.emulator.profiles import PROFILES, ProfileName
 
 FOLDER = Path(__file__).parents[3] / "shared" / "protocol"
 NUMBER = re.compile(r"-?\d+\.\d+")

@@ -10,10 +10,10 @@ from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
-from app.bridge.faults import Fault
-from app.bridge.profiles import ProfileName
+from app.bridge.messages import NOT_STOPPED
 from app.bridge.states import IN_RUN, LinkState, RobotState
-from app.bridge.words import NOT_STOPPED
+from app.emulator.faults import Fault
+from app.emulator.profiles import ProfileName
 from core.errors import StateError
 from core.wire.messages import (
     HIGHEST_MM,

@@ -4,13 +4,20 @@ import random
 
 import pytest
 
-import app.bench.bridge_soak as bridge_soak
-from app.bench.bridge_judge import Findings, Judge
-from app.bench.bridge_soak import SoakRound, bench_soak, soak
+import app.bench.robot.soak as bridge_soak
+from app.bench.robot.judge import Findings, Judge
+from app.bench.robot.soak import SoakRound, bench_soak, soak
 from app.bridge.delivery import Delivery
-from app.bridge.faults import Cable, Delayer, Dropper, Fault, Garbler, Splitter
-from app.bridge.gate import Gate
 from app.bridge.states import RobotState
+from app.bridge.write_gate import Gate
+from app.emulator.faults import (
+    Cable,
+    Delayer,
+    Dropper,
+    Fault,
+    Garbler,
+    Splitter,
+)
 from core.wire.lines import Telemetry
 from tests.bridge.virtual_robot import VirtualRobot, random_plan
 
@@ -42,7 +49,7 @@ def test_the_judge_sees_a_session_that_believes_every_echo(monkeypatch: pytest.M
 
     monkeypatch.setattr(Delivery, "_await_echo", believe)
     monkeypatch.setattr(Delivery, "_await_point", believe)
-    monkeypatch.setattr("app.bridge.faults.GARBLE_CHANCE", 0.01)
+    monkeypatch.setattr("app.emulator.faults.GARBLE_CHANCE", 0.01)
     assert play(Fault.GARBLE, 6).violations > 0
 
 

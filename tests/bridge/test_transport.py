@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from app.bridge.emulated import start_emulator
-from app.bridge.ports import PtyPort
-from app.bridge.robot import RobotBridge
+from app.bridge.bridge import RobotBridge
 from app.bridge.states import LinkState
 from app.bridge.transport import Transport
+from app.emulator.emulated_robot import start_emulator
+from app.emulator.ports import PtyPort
 from core.errors import InputError, RobotError
 
 PATIENCE = 60.0

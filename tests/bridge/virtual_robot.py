@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from app.bridge.states import Direction, LinkState, RobotSnapshot, RobotState, RunPlan
-from app.bridge.virtual import VirtualBridge
+from app.emulator.virtual_link import VirtualBridge
 from core.findings import Approval
 from core.wire.waypoints import Waypoints
 

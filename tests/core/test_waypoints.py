@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from app.bridge.firmware import Firmware
-from app.bridge.profiles import PROFILES, ProfileName
+from app.emulator.firmware import Firmware
+from app.emulator.profiles import PROFILES, ProfileName
 from core.arrays import Floats
 from core.errors import InputError
 from core.gait.manual_motion import manual_motion

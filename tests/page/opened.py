@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 from playwright.sync_api import Browser, BrowserContext, Page, expect
 
-from app.bench.page import CHROMIUM_WORDS
+from app.bench.page.edits import CHROMIUM_WORDS
 from tests.chromium import LONG_MS, chromium_path
 
 _FLAT: dict[Browser, Browser] = {}

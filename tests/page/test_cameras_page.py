@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from app.bridge.emulated import EmulatedRobot
+from app.emulator.emulated_robot import EmulatedRobot
 from tests.app.trials.rendered import SIZE, write_video
 from tests.app.trials.test_cameras_http import walked
 from tests.app.trials.test_videos_http import SETUP, TRACK

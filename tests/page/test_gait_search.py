@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from app.bench.gait_list import fill
+from app.bench.page.gait_list import fill
 from tests.page.opened import opened_page
 from tests.studio_process import StudioProcess, running_studio
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from app.documents import gait_content
+from app.documents.gait_json import gait_content
 from core.gait.held_feet import HeldFeet
 from tests.held_gaits import lifting, wave
 from tests.page.opened import opened_page

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from app.bench.long_timeline import FEET, SAMPLES, long_gait
-from app.documents import gait_from_content
+from app.bench.page.long_timeline import FEET, SAMPLES, long_gait
+from app.documents.gait_json import gait_from_content
 from core.gait.gait import motion_problem
 from core.robot.model import load_robot
 from tests.studio_process import footfall

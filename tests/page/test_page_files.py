@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from app.routes.module_page import LATER
+from app.web.page import LATER
 
 STATIC = Path(__file__).resolve().parents[2] / "app" / "static"
 MODULES = sorted(STATIC.rglob("*.js"))

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from app.bridge.emulated import EmulatedRobot
+from app.emulator.emulated_robot import EmulatedRobot
 from tests.page.opened import look, opened_page
 from tests.page.robot_panel import name
 from tests.studio_process import StudioProcess, wait_for

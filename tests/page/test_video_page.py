@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from app.trials.video import jpeg
+from app.vision.video_io import jpeg
 from tests.app.trials import rendered
 from tests.app.trials.test_lens import CORNERS, seen_from
 from tests.app.trials.test_videos_http import SETUP

@@ -10,7 +10,7 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from app.bridge.delivery import ARRIVAL_MM
-from app.bridge.emulated import EmulatedRobot, start_emulator
+from app.emulator.emulated_robot import EmulatedRobot, start_emulator
 from tests.page.opened import look, opened_page
 from tests.studio_process import StudioProcess, running_studio, wait_for
 

@@ -8,7 +8,7 @@ from fastapi import FastAPI, Response
 from fastapi.responses import HTMLResponse
 from fastapi.staticfiles import StaticFiles
 
-from app.routes.viser import make_viser_router
+from app.routes.viser_proxy import make_viser_router
 from app.scene import Scenes, plan_poses
 from core.gait.gait import motion_problem
 from core.library.library import optimised_entry

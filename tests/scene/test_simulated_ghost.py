@@ -10,7 +10,7 @@ import pytest
 
 from app.scene.ghost import ghost_blob
 from app.scene.simulated_ghost import FRAMES_A_SECOND, simulated_blob
-from app.simulation_content import motion_content
+from app.simulation.view import motion_content
 from core.physics.metrics import report
 from core.physics.motion import SimulatedMotion
 from tests.simulated_walk import BEHIND, followed, walk_problem, walk_report

@@ -14,7 +14,7 @@ from websockets.sync.client import ClientConnection, connect
 from websockets.sync.server import ServerConnection, serve
 from websockets.typing import Subprotocol
 
-from app.routes.viser import client_page, is_refused, make_viser_router
+from app.routes.viser_proxy import client_page, is_refused, make_viser_router
 from core.errors import InputError
 from tests.scene.serving import serving
 

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-from app.learning.desk import LearningDesk
+from app.learning.service import LearningDesk
 from app.store.database import Database
 from core.errors import SimulationCancelledError
 from core.identification.learning import Walk

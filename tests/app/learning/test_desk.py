@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 
-from app.kept_simulations import KeptSimulations
-from app.learning.desk import LearningDesk
-from app.simulations import simulation_key
+from app.learning.service import LearningDesk
+from app.simulation.problem import simulation_key
+from app.simulation.repository import KeptSimulations
 from app.store.database import Database
-from app.store.learning_log import LearningLog
-from app.store.simulation_log import SimulationLog
+from app.store.learning_store import LearningLog
+from app.store.simulation_store import SimulationLog
 from core.errors import InputError, NotFoundError, StateError
 from core.physics.parameters import physics_set
 from core.robot.model import load_robot

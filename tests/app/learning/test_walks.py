@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.learning.table import walks_of_table
+from app.learning.published_trials import walks_of_table
 from app.learning.walks import SentTrial, walks_of
-from app.runs.plan_content import sent_content
+from app.runs.plan_json import sent_content
 from app.store.database import Database
-from app.trials.desk import TrialDesk, TrialWords
 from app.trials.planned import PlannedFeet
+from app.trials.service import TrialDesk, TrialWords
 from core.errors import InputError
 from core.robot.model import load_robot
 from core.trials.alignment import repeated_motion

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from app.trials.eyes import Eyes, open_eyes
+from app.vision.services import Eyes, open_eyes
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from app.trials.video import Picture
+from app.vision.video_io import Picture
 from core.arrays import Floats
 from core.vision.camera import Lens, PlatformView
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from app.bench.film import draw_film, stepping_feet
-from app.trials.tracking import track_video
+from app.bench.page.film import draw_film, stepping_feet
+from app.vision.tracking import track_video
 
 
 def test_the_feet_of_the_film_are_found_where_they_were_drawn(tmp_path: Path) -> None:

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from app.store.database import Database
-from app.store.trial_beside import TrialBesideLog
-from app.trials.beside import TrialsBeside
-from app.trials.desk import TrialDesk, TrialWords
+from app.store.trial_reference_store import TrialBesideLog
+from app.trials.comparison import TrialsBeside
 from app.trials.planned import sent_problem
-from app.trials.simulated import NOT_KNOWN, TrialSimulations
+from app.trials.service import TrialDesk, TrialWords
+from app.trials.simulated_feet import NOT_KNOWN, TrialSimulations
 from core.errors import CheckError, InputError, NotFoundError
 from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
+from app.cameras import service as camera_desk
+from app.cameras.address import CameraAddress
+from app.cameras.service import CameraDesk
+from app.cameras.setup_service import SetupDesk
+from app.store.camera_setup_store import SetupLog
 from app.store.database import Database
-from app.store.setup_log import SetupLog
-from app.trials import camera_desk
-from app.trials.camera_address import CameraAddress
-from app.trials.camera_desk import CameraDesk
-from app.trials.setup_desk import SetupDesk
 from core.errors import InputError, NotFoundError
 
 RECORDS = {"name": "Lab camera", "use": "side", "setup": "", "records": True}

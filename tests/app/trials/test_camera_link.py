@@ -9,12 +9,12 @@ from pathlib import Path
 
 import pytest
 
-from app.bench.film import Film, draw_film, stepping_feet
-from app.trials.camera_address import CameraAddress
-from app.trials.camera_link import CameraError, CameraLink
-from app.trials.footage import PICTURES
-from app.trials.recorder import RecordOrder
-from app.trials.recording_file import Recording, read_table
+from app.bench.page.film import Film, draw_film, stepping_feet
+from app.cameras.address import CameraAddress
+from app.cameras.process import CameraError, CameraLink
+from app.vision.footage import PICTURES
+from app.vision.recorder import RecordOrder
+from app.vision.recording_file import Recording, read_table
 from core.errors import InputError
 from tests.studio_process import wait_for
 

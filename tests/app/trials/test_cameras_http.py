@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.bridge.emulated import start_emulator
-from app.bridge.profiles import ProfileName
-from app.trials.video import read_picture
+from app.emulator.emulated_robot import start_emulator
+from app.emulator.profiles import ProfileName
+from app.vision.video_io import read_picture
 from tests.app.trials.rendered import SIZE, write_video
 from tests.app.trials.test_videos_http import FILMED, SETUP
 from tests.core.trials.tracks import RATE

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from app.store.database import Database
-from app.trials.desk import TrialDesk, TrialWords, compared
 from app.trials.planned import PlannedFeet
+from app.trials.service import TrialDesk, TrialWords, compared
 from app.trials.tables import COLUMNS, table_csv, table_latex
 from core.errors import InputError, NotFoundError, StateError
 from tests.core.trials.tracks import STANCE, stepping_track

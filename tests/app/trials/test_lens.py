@@ -6,8 +6,8 @@ import cv2
 import numpy as np
 import pytest
 
-from app.trials.boards import FoundLens, board_corners, lens_of_corners
-from app.trials.video import Picture, jpeg, read_picture
+from app.vision.checkerboard import FoundLens, board_corners, lens_of_corners
+from app.vision.video_io import Picture, jpeg, read_picture
 from core.arrays import Floats
 from core.errors import InputError
 from tests.app.trials.rendered import LENS, SIZE, distorting_maps

@@ -10,9 +10,9 @@ from PIL import Image
 
 from app.store.database import Database
 from app.trials import photos as limits
-from app.trials.desk import TrialDesk, TrialWords
-from app.trials.eyes import Eyes
 from app.trials.photos import TrialPhotos
+from app.trials.service import TrialDesk, TrialWords
+from app.vision.services import Eyes
 from core.errors import InputError, NotFoundError
 from tests.core.trials.test_picture_size import picture
 from tests.core.trials.tracks import stepping_track

@@ -12,18 +12,18 @@ import numpy as np
 import pytest
 
 from app.export.drawing import dashed
-from app.runs.desk import RunDesk
+from app.runs.service import RunDesk
 from app.store.database import Database
-from app.store.trial_beside import TrialBesideLog
-from app.trials import beside as limits
-from app.trials.beside import TrialsBeside
-from app.trials.desk import TrialDesk, TrialWords
-from app.trials.eyes import Eyes
+from app.store.trial_reference_store import TrialBesideLog
+from app.trials import comparison as limits
+from app.trials.comparison import TrialsBeside
 from app.trials.photos import TrialPhotos
-from app.trials.report import TrialReports
-from app.trials.report_page import number
-from app.trials.report_plots import ways_from_above
-from app.trials.simulated import TrialSimulations
+from app.trials.report.page import number
+from app.trials.report.plots import ways_from_above
+from app.trials.report.service import TrialReports
+from app.trials.service import TrialDesk, TrialWords
+from app.trials.simulated_feet import TrialSimulations
+from app.vision.services import Eyes
 from core.errors import NotFoundError
 from core.vision.track import FootTrack
 from solver_jobs import Simulator

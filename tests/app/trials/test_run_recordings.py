@@ -13,15 +13,15 @@ import numpy as np
 import pytest
 
 from app.bridge.states import LinkState, RobotSnapshot, RobotState
+from app.cameras.service import SIDE, CameraDesk
 from app.store.database import Database
-from app.store.run_log import RunLog
-from app.trials.camera_desk import SIDE, CameraDesk
-from app.trials.eyes import Eyes
-from app.trials.recorder import Recorded, RecordOrder
-from app.trials.recording_file import RecordingWriter
-from app.trials.run_recordings import RunRecordings
-from app.trials.video import jpeg
-from app.trials.video_desk import VideoDesk
+from app.store.run_store import RunLog
+from app.videos.run_recording import RunRecordings
+from app.videos.service import VideoDesk
+from app.vision.recorder import Recorded, RecordOrder
+from app.vision.recording_file import RecordingWriter
+from app.vision.services import Eyes
+from app.vision.video_io import jpeg
 from tests.studio_process import wait_for
 
 GREY = jpeg(np.full((48, 64, 3), 120, dtype=np.uint8))

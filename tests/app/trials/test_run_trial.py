@@ -9,9 +9,9 @@ import pytest
 
 from app.runs.record import RunRecord, read_record
 from app.store.database import Database
-from app.store.run_log import RunLog
+from app.store.run_store import RunLog
 from app.trials.run_trial import run_trial
-from app.trials.tracking import VideoTrack
+from app.vision.tracking import VideoTrack
 from core.errors import InputError, StateError
 from core.vision.track import FootTrack
 from tests.ran_robot import keep_run

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from app.cameras.service import devices
 from app.cli.served_cameras import served_cameras
-from app.trials.camera_desk import devices
 from core.errors import InputError
 
 

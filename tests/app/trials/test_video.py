@@ -8,8 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.trials.tracking import VideoTrack, missing_remarks, track_of_pixels, track_video
-from app.trials.video import VideoFile
+from app.vision.tracking import (
+    VideoTrack,
+    missing_remarks,
+    track_of_pixels,
+    track_video,
+)
+from app.vision.video_io import VideoFile
 from core.errors import InputError
 from core.vision import image_header as picture_size
 from core.vision.camera import FOOT_COLOURS

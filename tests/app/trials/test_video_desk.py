@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 from app.store.database import Database
-from app.store.video_log import VideoLog
-from app.trials import video_desk
-from app.trials.eyes import Eyes, Look, seen
-from app.trials.footage import PICTURES
-from app.trials.picture_tasks import FactsOf
-from app.trials.recording_file import Recording, RecordingWriter
-from app.trials.video import jpeg, read_picture
-from app.trials.video_desk import VideoDesk
-from app.trials.video_files import Upload
+from app.store.video_store import VideoLog
+from app.videos import service as video_desk
+from app.videos.files import Upload
+from app.videos.service import VideoDesk
+from app.vision.footage import PICTURES
+from app.vision.recording_file import Recording, RecordingWriter
+from app.vision.services import Eyes, Look, seen
+from app.vision.video_io import jpeg, read_picture
+from app.vision.worker import FactsOf
 from core.errors import FootfallError, InputError, StateError
 from tests.studio_process import wait_for
 

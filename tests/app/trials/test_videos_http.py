@@ -12,7 +12,7 @@ from urllib.request import Request, urlopen
 import numpy as np
 import pytest
 
-from app.trials.video import read_picture
+from app.vision.video_io import read_picture
 from tests.app.trials.rendered import LENS, SIZE, VIEW, write_video
 from tests.core.trials.tracks import RATE, stepping_track
 from tests.studio_process import StudioProcess, running_studio, wait_for

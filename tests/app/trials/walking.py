@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from app.runs.plan_content import sent_content
+from app.runs.plan_json import sent_content
 from app.trials.planned import PlannedFeet
 from core.trials.alignment import repeated_motion
 from core.vision.track import FootTrack

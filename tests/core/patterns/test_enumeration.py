@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.bench.pattern_cases import random_small
+from app.bench.patterns.cases import random_small
 from core.errors import InputError
 from core.patterns.brute_force import least_weighted_sum
 from core.patterns.problem import FREE, PatternRules

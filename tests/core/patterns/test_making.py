@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from app.documents import gait_content, gait_from_content
+from app.documents.gait_json import gait_content, gait_from_content
 from core.arrays import Bools
 from core.errors import InputError
 from core.gait.gait import (

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from ortools.sat.python.cp_model import CpSolver
 
-from app.bench.pattern_cases import random_periodic, random_transition
+from app.bench.patterns.cases import random_periodic, random_transition
 from core.arrays import Bools, Floats
 from core.motion.support_polygon import polygon_margin, support_polygon
 from core.patterns.check import broken_rules, check_pattern

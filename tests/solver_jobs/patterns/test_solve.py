@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.bench.pattern_cases import random_periodic, random_small, random_transition
+from app.bench.patterns.cases import random_periodic, random_small, random_transition
 from core.arrays import Bools
 from core.errors import InputError
 from core.patterns.brute_force import least_weighted_sum

@@ -1,0 +1,132 @@
+"""Random edits through both tiers: is every answer solved and checked, or infeasible and explained?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+from app.bench.edited_gaits import EditedGait, edited_gait
+from app.bench.measure import Row
+from app.plans.verified_result import Judgement, judge
+from core.errors import InputError
+from core.gait.gait import motion_problem
+from core.problem.motion_problem import Boundary, MotionProblem
+from core.robot.model import load_robot
+from solver_jobs import SolveStatus, solve_exact, solve_live
+
+COUNT = 500
+SEED = 3
+
+
+class Outcome(StrEnum):
+    """What became of an edit in one tier."""
+
+    SOLVED = "solved"
+    """Solved, and the checker confirms it."""
+    INFEASIBLE = "infeasible"
+    """No motion, with sentences that say why."""
+    REFUSED = "refused"
+    """No problem can be made of it; a sentence says why."""
+    FAILED = "failed"
+    """Neither; the tier owes an answer."""
+
+
+@dataclass(frozen=True, eq=False)
+class Answers:
+    """Both tiers' answers to one edit.
+
+    Args:
+        edit: what was asked.
+        live: outcome of the live tier.
+        exact: outcome of the exact tier.
+        reason: why they disagree, or the sentence of a refusal or failure; else empty.
+    """
+
+    edit: EditedGait
+    live: Outcome
+    exact: Outcome
+    reason: str
+
+    @property
+    def disagree(self) -> bool:
+        """Whether one tier has a motion and the other says there is none."""
+        return {self.live, self.exact} == {Outcome.SOLVED, Outcome.INFEASIBLE}
+
+
+def answers(edit: EditedGait) -> Answers:
+    """Asks both tiers."""
+    try:
+        problem = motion_problem(edit.gait, load_robot(edit.gait.robot))
+    except InputError as error:
+        return Answers(edit, Outcome.REFUSED, Outcome.REFUSED, error.sentence)
+    live = judge(problem, solve_live(problem))
+    exact = judge(problem, solve_exact(problem))
+    found = Answers(edit, outcome_of(live), outcome_of(exact), "")
+    return replace(found, reason=_reason(found, live, exact))
+
+
+def outcome_of(judged: Judgement) -> Outcome:
+    """What a tier's answer is worth."""
+    if judged.status is SolveStatus.SOLVED:
+        return Outcome.SOLVED
+    explained = judged.status is SolveStatus.INFEASIBLE and judged.explanation
+    return Outcome.INFEASIBLE if explained else Outcome.FAILED
+
+
+def _reason(found: Answers, live: Judgement, exact: Judgement) -> str:
+    if Outcome.FAILED in (found.live, found.exact):
+        return " ".join(live.explanation if found.live is Outcome.FAILED else exact.explanation)
+    if not found.disagree:
+        return ""
+    if found.exact is Outcome.INFEASIBLE:
+        return f"The exact tier missed a motion: {exact.explanation[0]}"
+    return f"{live.explanation[0]} {_freedom(exact)}"
+
+
+def _freedom(exact: Judgement) -> str:
+    """Which freedom that the live tier does not have the exact one needed, found by taking it away."""
+    problem = exact.problem
+    plane = exact.trajectory.body_world[:, 2] - problem.model.com_height
+    lowest, highest = plane.min() * 1000, plane.max() * 1000
+    if not _solves(_at_given_height(problem)):
+        return f"The exact tier moves the body between {lowest:.1f} and {highest:.1f} mm."
+    if problem.boundary is Boundary.PERIODIC:
+        return "The exact tier chooses where the feet stand at first, and how high the body is."
+    feet = [swing.foot for swing in problem.timeline.swings()]
+    if len(feet) > len(set(feet)):
+        return "The exact tier chooses the footholds between the first and the last."
+    return "The exact tier chooses how each swing rises, and has discs where the live tier has polygons."
+
+
+def _at_given_height(problem: MotionProblem) -> MotionProblem:
+    heights = [pose.body_world[2] - problem.model.com_height for pose in (problem.start, problem.goal)]
+    return replace(problem, limits=replace(problem.limits, plane_height=(min(heights), max(heights))))
+
+
+def _solves(problem: MotionProblem) -> bool:
+    return judge(problem, solve_exact(problem)).status is SolveStatus.SOLVED
+
+
+def bench_edits(count: int = COUNT, seed: int = SEED) -> list[Row]:
+    """Counts the outcomes, then every disagreement and failure by itself."""
+    found = [answers(edited_gait(seed, number)) for number in range(count)]
+    rows = [
+        _count(outcome.value, sum(a.live is outcome for a in found), sum(a.exact is outcome for a in found))
+        for outcome in Outcome
+    ]
+    disagreeing = [a for a in found if a.disagree]
+    rows.append(_count("disagree", len(disagreeing), len(disagreeing)))
+    told = [a for a in found if a.disagree or Outcome.FAILED in (a.live, a.exact)]
+    return rows + [
+        {
+            "edit": f"{seed}/{a.edit.number}: {a.edit.words}",
+            "live": a.live.value,
+            "exact": a.exact.value,
+            "reason": a.reason,
+        }
+        for a in told
+    ]
+
+
+def _count(name: str, live: int, exact: int) -> Row:
+    return {"edit": name, "live": str(live), "exact": str(exact), "reason": ""}

@@ -1,0 +1,381 @@
+"""The robot bridge: the session on a real line, with its threads.
+
+Two threads live here while a line is open: the transport's reader, which only queues what arrives, and
+the worker, which feeds the session, keeps its deadlines and tells the subscribers. Stop needs neither.
+"""
+
+from __future__ import annotations
+
+import logging
+import queue
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+from app.bridge.jog import JogPlan
+from app.bridge.state_machine import RobotSession
+from app.bridge.states import IN_RUN, Direction, LinkState, RobotSnapshot, RunPlan, Transition
+from app.bridge.stop_confirmation import STOP_LIMIT
+from app.bridge.transport import Transport
+from app.bridge.write_gate import Clock, Gate, Log
+from core.errors import RobotError, StateError
+
+logger = logging.getLogger(__name__)
+
+TICK = 0.05
+"""Longest time between two looks at the deadlines, s."""
+
+TELEMETRY_PERIOD = 0.05
+"""Subscribers hear of strokes at most 20 times a second."""
+
+Callback = Callable[[RobotSnapshot], None]
+Opener = Callable[[str, Callable[[bytes], None], Callable[[str], None]], Transport]
+
+
+@dataclass(frozen=True)
+class _Bytes:
+    data: bytes
+    time: float
+
+
+@dataclass(frozen=True)
+class _HungUp:
+    line: int
+    reason: str
+
+
+def _log_nothing(direction: Direction, data: bytes, when: float) -> None:
+    del direction, data, when
+
+
+class RobotBridge:
+    """The robot for the rest of the program; every method may be called from any thread.
+
+    Args:
+        log: told of all bytes both ways, with the time of `clock`; must return at once.
+        clock: seconds that only grow; every deadline is measured with it.
+        tick: longest time between two looks at the deadlines, s of real time.
+        opener: opens a line.
+    """
+
+    def __init__(
+        self,
+        log: Log = _log_nothing,
+        *,
+        clock: Clock = time.monotonic,
+        tick: float = TICK,
+        opener: Opener = Transport,
+    ) -> None:
+        self._log = log
+        self._clock = clock
+        self._tick = tick
+        self._opener = opener
+        self._gate = Gate(log, clock)
+        self._session = RobotSession(self._gate)
+        self._lock = threading.Lock()
+        self._opening = threading.Lock()
+        self._leaving = threading.Lock()
+        self._inbox: queue.SimpleQueue[_Bytes | _HungUp | None] = queue.SimpleQueue()
+        self._subscribers: tuple[Callback, ...] = ()
+        self._transport: Transport | None = None
+        self._lines_opened = 0
+        self._told_revision, self._told_readings, self._told_at = -1, -1, 0.0
+        self._closing = False
+        self._worker = threading.Thread(target=self._work, name="robot bridge", daemon=True)
+        self._worker.start()
+
+    # Watching
+
+    @property
+    def snapshot(self) -> RobotSnapshot:
+        """Everything there is to show, now."""
+        with self._lock:
+            return self._session.snapshot(self._clock())
+
+    @property
+    def transitions(self) -> tuple[Transition, ...]:
+        """The last thousand changes of state with their causes."""
+        with self._lock:
+            return tuple(self._session.transitions)
+
+    def subscribe(self, callback: Callback) -> Callable[[], None]:
+        """Calls `callback` from the worker's thread, soon and on each change, on telemetry at most at 20 Hz.
+
+        The callback must return at once; it may use every verb but `disconnect` and `close`.
+
+        Returns:
+            A function that ends the subscription.
+        """
+        self._subscribers = (*self._subscribers, callback)
+        self._told_revision = -1
+        self._inbox.put(None)
+
+        def unsubscribe() -> None:
+            self._subscribers = tuple(c for c in self._subscribers if c is not callback)
+
+        return unsubscribe
+
+    # The link
+
+    def connect(self, device: str) -> None:
+        """Opens the line; the link is ready when the robot answers, which the snapshot tells.
+
+        Args:
+            device: path of a serial device, or `socket://HOST:PORT`.
+
+        Raises:
+            StateError: a robot is connected.
+            RobotError: the device is absent or busy.
+        """
+        with self._opening:
+            self._require_free()
+            self._lines_opened += 1
+            transport = self._open(device, self._lines_opened)
+            with self._lock:
+                self._transport = transport
+                self._gate.attach(transport)
+                self._session.opened(device, self._clock())
+        self._inbox.put(None)
+
+    def disconnect(self) -> None:
+        """Closes the line; a run under way is stopped first, and waited for as long as a ramp may last.
+
+        Who calls it while another does waits for that, and closes no line that was opened meanwhile.
+        """
+        line = self._lines_opened
+        with self._leaving:
+            if line == self._lines_opened:
+                self._leave()
+
+    def close(self) -> None:
+        """Disconnects and ends the bridge; doing it twice, or twice at once, does no harm."""
+        self.disconnect()
+        with self._leaving:
+            self._closing = True
+        self._inbox.put(None)
+        self._worker.join()
+
+    # The robot
+
+    def arm(self, by: str) -> None:
+        """Lets the robot be moved by `send` and `reset`.
+
+        Raises:
+            StateError: the robot is not disarmed or done.
+        """
+        self._do(lambda now: self._session.arm(by, now))
+
+    def disarm(self, by: str) -> None:
+        """Takes back the permission to move an armed robot; does nothing in any other state."""
+        self._do(lambda now: self._session.disarm(by, now))
+
+    def send(self, plan: RunPlan, by: str, run_id: str | None = None) -> str:
+        """Moves to the start pose slowly, then through the approved waypoints.
+
+        Args:
+            plan: what a person approved.
+            by: who sends it.
+            run_id: name for the run, so that its record can begin before the first byte; made up if None.
+
+        Returns:
+            The run's name.
+
+        Raises:
+            StateError: the robot is not armed, or the plan was edited after its approval.
+            InputError: a stroke cannot be sent.
+        """
+        with self._lock:
+            name = self._session.send(plan, by, self._clock(), run_id)
+        self._inbox.put(None)
+        return name
+
+    def pause(self, by: str) -> None:
+        """Lets the run go on to the next pose with all feet down and wait there.
+
+        Raises:
+            StateError: no run is moving.
+        """
+        self._do(lambda now: self._session.pause(by, now))
+
+    def resume(self, by: str) -> None:
+        """Goes on with a paused run.
+
+        Raises:
+            StateError: no run is paused, or a motor was moved meanwhile.
+        """
+        self._do(lambda now: self._session.resume(by, now))
+
+    def stop(self, by: str) -> None:
+        """Sends the stop at once and latches it; never refuses, and may be repeated."""
+        reason = None
+        try:
+            self._gate.stop()
+        except RobotError as error:
+            reason = error.sentence
+        with self._lock:
+            self._latch_stop(by, reason)
+
+    def try_stop(self, by: str) -> Callable[[], None] | None:
+        """Does what `stop` does as far as that needs no waiting, for a thread that must not wait.
+
+        Unless a message is just going out, the stop is on the wire when this returns.
+
+        Returns:
+            What is left to do, by a thread that may wait; None if nothing is.
+        """
+        reason = None
+        try:
+            if not self._gate.try_stop():
+                return partial(self.stop, by)
+        except RobotError as error:
+            reason = error.sentence
+        if not self._lock.acquire(blocking=False):
+            return partial(self._latch_sent_stop, by, reason)
+        try:
+            self._latch_stop(by, reason)
+        finally:
+            self._lock.release()
+        return None
+
+    def clear(self, by: str) -> None:
+        """Lets a stopped robot go, after replacing its target by where it stands.
+
+        No motor moves, unless one stands outside 0.5 to 19.5 mm by nearly 1 mm: the sentence names it.
+
+        Raises:
+            StateError: nothing is stopped, the robot still moves, or may yet confirm the stop in time.
+        """
+        self._do(lambda now: self._session.clear(by, now))
+
+    def reset(self, by: str) -> None:
+        """Sends every motor to 0.5 mm.
+
+        Raises:
+            StateError: the robot is not armed.
+        """
+        self._do(lambda now: self._session.reset(by, now))
+
+    def jog(self, plan: JogPlan, by: str) -> None:
+        """Moves motors by steps that a person chose.
+
+        Raises:
+            StateError: the robot is not armed, does not stand still, or stands elsewhere than thought.
+            InputError: a stroke cannot be sent.
+        """
+        self._do(lambda now: self._session.jog(plan, by, now))
+
+    # Inside
+
+    def _latch_sent_stop(self, by: str, reason: str | None) -> None:
+        with self._lock:
+            self._latch_stop(by, reason)
+
+    def _latch_stop(self, by: str, reason: str | None) -> None:
+        if reason is not None:
+            self._session.hung_up(reason, self._clock())
+        self._session.stop(by, self._clock(), is_sent=reason is None)
+        self._inbox.put(None)
+
+    def _do(self, wish: Callable[[float], None]) -> None:
+        with self._lock:
+            wish(self._clock())
+        self._inbox.put(None)
+
+    def _hear(self, data: bytes) -> None:
+        now = self._clock()
+        self._log(Direction.FROM_ROBOT, data, now)
+        self._inbox.put(_Bytes(data, now))
+
+    def _require_free(self) -> None:
+        with self._lock:
+            if self._session.link not in (LinkState.DISCONNECTED, LinkState.LOST):
+                raise StateError(f"{self._session.device} is connected. Disconnect it first.")
+            self._close_line()
+
+    def _open(self, device: str, line: int) -> Transport:
+        def report(reason: str) -> None:
+            self._inbox.put(_HungUp(line, reason))
+
+        try:
+            return self._opener(device, self._hear, report)
+        except RobotError as error:
+            with self._lock:
+                self._session.refused(device, error.sentence)
+            self._inbox.put(None)
+            raise
+
+    def _leave(self) -> None:
+        if self.snapshot.robot in IN_RUN:
+            self.stop("disconnect")
+        self._await_stop()
+        with self._lock:
+            self._close_line()
+            if self._session.link is not LinkState.DISCONNECTED:
+                self._session.closed(self._clock())
+        self._inbox.put(None)
+
+    def _close_line(self) -> None:
+        transport, self._transport = self._transport, None
+        self._gate.attach(None)
+        if transport is not None:
+            transport.close()
+
+    def _await_stop(self) -> None:
+        deadline = self._clock() + STOP_LIMIT
+        settled = threading.Event()
+
+        def look(_: RobotSnapshot | None = None) -> None:
+            with self._lock:
+                if not self._session.awaits_stop:
+                    settled.set()
+
+        unsubscribe = self.subscribe(look)
+        look()
+        while not settled.is_set() and self._clock() < deadline:
+            settled.wait(self._tick)
+        unsubscribe()
+
+    def _work(self) -> None:
+        while not self._closing:
+            items = self._take()
+            with self._lock:
+                for item in items:
+                    self._feed(item)
+                self._session.tick(self._clock())
+            self._tell()
+
+    def _take(self) -> list[_Bytes | _HungUp]:
+        items: list[_Bytes | _HungUp] = []
+        try:
+            item = self._inbox.get(timeout=self._tick)
+            while True:
+                if item is not None:
+                    items.append(item)
+                item = self._inbox.get_nowait()
+        except queue.Empty:
+            return items
+
+    def _feed(self, item: _Bytes | _HungUp) -> None:
+        if self._session.link is LinkState.DISCONNECTED:
+            return
+        if isinstance(item, _Bytes):
+            self._session.received(item.data, item.time)
+        elif item.line == self._lines_opened:
+            self._session.hung_up(item.reason, self._clock())
+
+    def _tell(self) -> None:
+        now = self._clock()
+        with self._lock:
+            revision, readings = self._session.revision, self._session.watch.readings
+            fresh = readings != self._told_readings and now - self._told_at >= TELEMETRY_PERIOD
+            if revision == self._told_revision and not fresh:
+                return
+            self._told_revision, self._told_readings, self._told_at = revision, readings, now
+            snapshot = self._session.snapshot(now)
+        for callback in self._subscribers:
+            try:
+                callback(snapshot)
+            except Exception:
+                logger.exception("A subscriber of the robot bridge failed.")

@@ -1,0 +1,206 @@
+"""The bridge's link to the robot: opening, silence, loss, faults, and the stop's way through all of them.
+
+It knows no runs; `RobotSession` does, and says through the two methods at the end what it is busy with.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+
+from app.bridge.handshake import START_LIMIT, Opening
+from app.bridge.messages import (
+    CONNECTING,
+    NOT_CONNECTED,
+    RESTARTED,
+    restless_sentence,
+    silent_sentence,
+    stranger_sentence,
+    without_remedy,
+)
+from app.bridge.state_log import Ledger
+from app.bridge.states import IN_RUN, LinkState, RobotState
+from app.bridge.stop_procedure import StopWay
+from app.bridge.telemetry import Watch
+from app.bridge.write_gate import Gate
+from core.errors import RobotError
+from core.wire.lines import (
+    Line,
+    LineReader,
+    SetupFinished,
+    SetupMoving,
+)
+
+SILENCE_LIMIT = 4.0
+"""An answering robot is never silent longer than 2.5 s (PROTOCOL 5.4), s."""
+
+
+class RobotLink(Ledger, ABC):
+    """One link to one robot.
+
+    Args:
+        gate: the way out.
+
+    Attributes:
+        device: what is or was connected.
+        watch: what the robot's lines tell.
+    """
+
+    def __init__(self, gate: Gate) -> None:
+        super().__init__()
+        self.device: str | None = None
+        self.watch = Watch(0.0)
+        self._gate = gate
+        self._stop = StopWay(self, gate)
+        self._opening = Opening(0.0)
+        self._reader = LineReader()
+        self._hung_up = False
+        self._clearing = False
+
+    @property
+    def in_run(self) -> bool:
+        """Whether a run or a reset is under way."""
+        return self.robot in IN_RUN
+
+    @property
+    def awaits_stop(self) -> bool:
+        """Whether a stop stands that a robot in reach has not confirmed yet."""
+        return self._stop.pending and self.link in (LinkState.CONNECTING, LinkState.READY)
+
+    def opened(self, device: str, now: float) -> None:
+        """A line was opened."""
+        self.device = device
+        self._opening = Opening(now)
+        self._stop.restart(now)
+        self._hung_up = False
+        self._reader = LineReader()
+        self.watch = Watch(now)
+        self.become(now, f"{device} was opened.", CONNECTING, link=LinkState.CONNECTING)
+
+    def refused(self, device: str, reason: str) -> None:
+        """A line could not be opened."""
+        self.device = device
+        self.last_error = reason
+        self.revision += 1
+
+    def closed(self, now: float) -> None:
+        """The line was closed on purpose."""
+        self._drop_run(now)
+        self.become(
+            now,
+            "Disconnected.",
+            NOT_CONNECTED,
+            link=LinkState.DISCONNECTED,
+            robot=RobotState.UNKNOWN,
+        )
+
+    def hung_up(self, reason: str, now: float) -> None:
+        """The line broke."""
+        self._hung_up = True
+        self._lose(reason, now)
+
+    def received(self, data: bytes, now: float) -> None:
+        """Bytes came from the robot."""
+        self.watch.heard(now)
+        for line in self._reader.feed(data):
+            self.watch.see(line, now)
+            self._see(line, now)
+
+    def tick(self, now: float) -> None:
+        """Time has passed: silence, standing still, deadlines."""
+        if self.link in (LinkState.READY, LinkState.CONNECTING):
+            self._check_silence(now)
+        if self.link is not LinkState.DISCONNECTED and not self._clearing:
+            self._check_stop(now)
+
+    def _see(self, line: Line, now: float) -> None:
+        if isinstance(line, SetupMoving | SetupFinished):
+            self._see_restart(now)
+        self._stop.see(line, now)
+        if self.link is not LinkState.READY and not self._hung_up:
+            self._open_up(line, now)
+
+    def _see_restart(self, now: float) -> None:
+        if self.link is LinkState.CONNECTING or self._hung_up:
+            return
+        self._fault(RESTARTED, now)
+        self._opening.restart(now)
+        self.become(now, "The board restarted.", self.sentence, link=LinkState.CONNECTING)
+
+    def _open_up(self, line: Line, now: float) -> None:
+        if self._opening.settled(now, self.watch):
+            self._become_ready(now)
+        elif self._opening.flush_due(line, self.watch):
+            self._opening.flushed(now, self.watch)
+            try:
+                self._gate.flush()
+            except RobotError as error:
+                self.hung_up(error.sentence, now)
+
+    def _become_ready(self, now: float) -> None:
+        self._gate.trust()
+        robot = self.robot
+        if robot is RobotState.UNKNOWN and self._stop.stands:
+            robot = RobotState.STOPPING if self._stop.pending else RobotState.STOPPED
+        elif robot is RobotState.UNKNOWN:
+            robot = RobotState.DISARMED
+        sentence = self._stop.describe(robot)
+        self.become(now, "The robot answers.", sentence, link=LinkState.READY, robot=robot)
+
+    def _check_silence(self, now: float) -> None:
+        silence = now - self.watch.last_byte
+        if self.link is LinkState.READY and silence > SILENCE_LIMIT:
+            self._lose(silent_sentence(silence, SILENCE_LIMIT, self._place), now)
+        elif self.link is LinkState.CONNECTING and self._opening.overdue(now):
+            if self._opening.flushed_at is None:
+                sentence = stranger_sentence(self.device, START_LIMIT, talks=self.watch.talks)
+            else:
+                sentence = restless_sentence(self.device, START_LIMIT)
+            self._lose(sentence, now)
+
+    def _check_stop(self, now: float) -> None:
+        try:
+            self._stop.check(now, still=self.watch.stands_still(now), may_send=not self._hung_up)
+        except RobotError as error:
+            self.hung_up(error.sentence, now)
+
+    def _send_stop(self, now: float) -> None:
+        try:
+            self._stop.send(now)
+        except RobotError as error:
+            self.hung_up(error.sentence, now)
+
+    def _fault(self, sentence: str, now: float) -> None:
+        self._drop_run(now)
+        latched = self.robot in (RobotState.STOPPING, RobotState.STOPPED)
+        self._stop.begin(now, text=self._stop.text if latched else None, cause=sentence)
+        self.last_error = sentence
+        robot = RobotState.STOPPING if latched else RobotState.FAULT
+        self.become(now, sentence, self._stop.describe(robot), robot=robot)
+        self._send_stop(now)
+
+    def _lose(self, sentence: str, now: float) -> None:
+        if self.link is LinkState.LOST:
+            return
+        robot = RobotState.FAULT if self.in_run or self._clearing else self.robot
+        if robot in (RobotState.ARMED, RobotState.DISARMED, RobotState.DONE):
+            robot = RobotState.UNKNOWN
+        begun = robot is RobotState.FAULT is not self.robot
+        if begun:
+            self._stop.begin(now, cause=without_remedy(sentence))
+        self._drop_run(now)
+        self.watch.idle_lines = 0
+        self.last_error = sentence
+        self.become(now, sentence, sentence, link=LinkState.LOST, robot=robot)
+        if begun and not self._hung_up:
+            self._send_stop(now)
+
+    # What the robot is busy with
+
+    @property
+    @abstractmethod
+    def _place(self) -> str:
+        """Where the run under way is, for a person, or empty."""
+
+    @abstractmethod
+    def _drop_run(self, now: float) -> None:
+        """Gives up what is under way."""

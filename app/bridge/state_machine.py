@@ -1,0 +1,319 @@
+"""The bridge's state machine, without threads, clocks or ports: lines, ticks and wishes in, messages out.
+
+Whoever drives it serialises the calls and says what time it is. Link and robot have a state each,
+and each change has its cause.
+"""
+
+from __future__ import annotations
+
+import itertools
+import re
+import uuid
+
+from app.bridge.delivery import (
+    MOVE,
+    PATIENCE,
+    RESTART,
+    START_PATIENCE,
+    STORE,
+    Delivery,
+    Stage,
+    arrival_deadline,
+)
+from app.bridge.jog import Jog, JogPlan
+from app.bridge.link import RobotLink
+from app.bridge.messages import NOT_SENT, SENTENCES, clearing_sentence
+from app.bridge.run import Move, Run
+from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPhase, RunPlan
+from app.bridge.telemetry import STALE_TIME
+from app.bridge.write_gate import Gate, Kind
+from core.errors import RobotError, StateError
+from core.wire.lines import Line
+from core.wire.messages import (
+    HIGHEST_MM,
+    LOWEST_MM,
+    MOTORS,
+    RESET_MM,
+    encode_release,
+    encode_reset,
+    encode_waypoint,
+)
+
+
+class RobotSession(RobotLink):
+    """One robot on one link.
+
+    Args:
+        gate: the way out.
+    """
+
+    def __init__(self, gate: Gate) -> None:
+        super().__init__(gate)
+        self._run: Run | None = None
+        self._jog: Jog | None = None
+        self._delivery: Delivery | None = None
+        self._permit = -1
+        self._numbers = itertools.count(1)
+
+    def snapshot(self, now: float) -> RobotSnapshot:
+        """Everything there is to show."""
+        strokes = self.watch.strokes_mm
+        return RobotSnapshot(
+            link=self.link,
+            robot=self.robot,
+            sentence=self.sentence,
+            strokes=None if strokes is None else tuple(s / 1000.0 for s in strokes),
+            run=None if self._run is None else self._run.progress(now),
+            stop_text=self._stop.text,
+            unknown_lines=self.watch.unknown_lines,
+            device=self.device,
+            last_error=self.last_error,
+            measured_scan=self.watch.longest_scan,
+            number=next(self._numbers),
+            jog=None if self._jog is None else self._jog.progress(),
+        )
+
+    def tick(self, now: float) -> None:
+        """Time has passed: silence, standing still, deadlines."""
+        super().tick(now)
+        if self._delivery is not None and self.watch.strokes_mm is not None:
+            self._delivery.check(now, self.watch.strokes_mm)
+            self._settle_delivery(now)
+
+    # Wishes
+
+    def arm(self, by: str, now: float) -> None:
+        """Lets the robot be moved."""
+        self.require_link("armed")
+        self.require_robot(RobotState.DISARMED, RobotState.DONE, remedy="Only a disarmed robot can be armed.")
+        self._permit = self._gate.permit()
+        self.become(now, f"Armed by {by}.", SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
+
+    def disarm(self, by: str, now: float) -> None:
+        """Takes back the permission to move an armed robot; does nothing in any other state."""
+        if self.robot is RobotState.ARMED:
+            self._permit = -1
+            sentence = SENTENCES[RobotState.DISARMED]
+            self.become(now, f"Disarmed by {by}.", sentence, robot=RobotState.DISARMED)
+
+    def send(self, plan: RunPlan, by: str, now: float, run_id: str | None = None) -> str:
+        """Begins a run and returns its name, which is made up unless given."""
+        self.require_link("sent a plan")
+        self.require_robot(RobotState.ARMED, remedy="Arm the robot, then send the plan.")
+        run = Run(plan, self._measured_now(now), run_id or uuid.uuid4().hex[:12], by, now)
+        self._run = run
+        cause = f"Run {run.run_id} sent by {by}."
+        self.become(now, cause, SENTENCES[RobotState.MOVING], robot=RobotState.MOVING)
+        self._send_next(now)
+        return run.run_id
+
+    def reset(self, by: str, now: float) -> None:
+        """Sends every motor to 0.5 mm."""
+        self.require_link("reset")
+        self.require_robot(RobotState.ARMED, remedy="Arm the robot, then reset it.")
+        self._measured_now(now)
+        self._run = None
+        sentence = f"Every motor goes to {RESET_MM} mm."
+        self.become(now, f"Reset by {by}.", sentence, robot=RobotState.MOVING)
+        self._deliver(encode_reset(), (RESET_MM,) * MOTORS, RESTART, now, kind=Kind.RESET)
+
+    def jog(self, plan: JogPlan, by: str, now: float) -> None:
+        """Moves motors by steps that a person chose, from where an armed robot stands still."""
+        self.require_link("jogged")
+        self.require_robot(RobotState.ARMED, remedy="Arm the robot, then jog it.")
+        if not self.watch.stands_still(now):
+            raise StateError("The robot does not stand still yet. Wait until it does, then jog it.")
+        self._jog = Jog(plan, self._measured(), by)
+        self._run = None
+        self.become(now, f"Jog by {by}: {plan.text}.", f"Jog: {plan.text}.", robot=RobotState.MOVING)
+        self._send_jog(now)
+
+    def pause(self, by: str, now: float) -> None:
+        """Ends the movement at the next pose with all feet down."""
+        self.require_robot(RobotState.MOVING, remedy="Only a run that moves can be paused.")
+        if self._run is None:
+            what = "reset" if self._jog is None else "jog"
+            raise StateError(f"A {what} cannot be paused. Stop it instead.")
+        self.become(now, f"Pause by {by}.", SENTENCES[RobotState.PAUSING], robot=RobotState.PAUSING)
+
+    def resume(self, by: str, now: float) -> None:
+        """Goes on with a paused run."""
+        remedy = "Only a paused run can be resumed."
+        self.require_robot(RobotState.PAUSED, RobotState.PAUSING, remedy=remedy)
+        waiting = self.robot is RobotState.PAUSED
+        if waiting and self._run is not None:
+            self.require_link("resumed")
+            self._run.require_in_place(self._measured_now(now))
+        self.become(now, f"Resumed by {by}.", SENTENCES[RobotState.MOVING], robot=RobotState.MOVING)
+        if waiting:
+            self._send_next(now)
+
+    def stop(self, by: str, now: float, *, is_sent: bool = True) -> None:
+        """Latches a stop whose bytes are already out, or which the line did not take.
+
+        A fault that it comes after is still told of.
+        """
+        if self.link is LinkState.DISCONNECTED:
+            return
+        stands = self.robot is RobotState.STOPPED and not self._stop.pending
+        if (stands or self.robot is RobotState.STOPPING) and not self._clearing:
+            return
+        cause = self._stop.cause if self.robot is RobotState.FAULT else ""
+        self._stop.begin(now, text=self._describe_stop(by, now), cause=cause)
+        self._drop_run(now)
+        sentence = self._stop.describe(RobotState.STOPPING) if is_sent else f"{cause} {NOT_SENT}".strip()
+        self.become(now, f"Stop by {by}.", sentence, robot=RobotState.STOPPING)
+
+    def clear(self, by: str, now: float) -> None:
+        """Replaces what the stopped robot would go on with by where it stands, then lets it go."""
+        self.require_link("cleared")
+        states = (RobotState.STOPPED, RobotState.FAULT, RobotState.STOPPING)
+        self.require_robot(*states, remedy="There is nothing to clear.")
+        self._stop.require_settled(now)
+        if not self.watch.stands_still(now):
+            raise StateError("The robot does not stand still yet. Wait until it does, then clear.")
+        measured = self._measured()
+        target = tuple(round(min(max(s, LOWEST_MM), HIGHEST_MM), 4) for s in measured)
+        self._permit = self._gate.permit()
+        self._clearing = True
+        sentence = clearing_sentence(measured, target, confirmed=not self._stop.pending)
+        self.become(now, f"Clear by {by}.", sentence)
+        message = encode_waypoint([s / 1000.0 for s in target], 1.0)
+        self._deliver(message, target, STORE, now, kind=Kind.CLEAR)
+
+    # Messages on their way
+
+    def _see(self, line: Line, now: float) -> None:
+        super()._see(line, now)
+        if self._delivery is not None:
+            self._delivery.see(line)
+            self._settle_delivery(now)
+
+    def _send_next(self, now: float) -> None:
+        if self._run is None:
+            return
+        move: Move = self._run.next_move()
+        patience = START_PATIENCE if move.phase is RunPhase.START_POSE else PATIENCE
+        self._deliver(move.message, move.target_mm, MOVE, now, patience=patience)
+
+    def _send_jog(self, now: float) -> None:
+        if self._jog is None:
+            return
+        move = self._jog.next_move()
+        self._deliver(move.message, move.target_mm, MOVE, now, patience=START_PATIENCE, kind=Kind.JOG)
+
+    def _deliver(
+        self,
+        message: bytes,
+        target_mm: tuple[float, ...],
+        stages: tuple[Stage, ...],
+        now: float,
+        *,
+        patience: float = PATIENCE,
+        early_end: bool = False,
+        kind: Kind = Kind.WAYPOINT,
+    ) -> None:
+        distance = max(abs(t - m) for t, m in zip(target_mm, self._measured(), strict=True))
+        deadline = arrival_deadline(distance, patience)
+        self._delivery = Delivery(message, target_mm, stages, now, deadline, early_end=early_end)
+        self.revision += 1
+        try:
+            self._gate.write(message, self._permit, kind)
+        except RobotError as error:
+            self.hung_up(error.sentence, now)
+
+    def _settle_delivery(self, now: float) -> None:
+        delivery = self._delivery
+        if delivery is None:
+            return
+        if delivery.failure is not None:
+            self._fail(delivery.failure, now)
+        elif delivery.arrived:
+            self._delivery = None
+            if self._clearing:
+                self._go_on_clearing(delivery, now)
+            elif self._jog is not None:
+                self._go_on_jogging(self._jog, now)
+            else:
+                self._go_on_running(now)
+
+    def _fail(self, failure: str, now: float) -> None:
+        place = f" {self._place[0].upper()}{self._place[1:]}." if self._place else ""
+        self._fault(f"{failure}{place} The robot said last: {_words(self.watch.last_line)}.", now)
+
+    def _go_on_running(self, now: float) -> None:
+        run = self._run
+        if run is None:
+            self.become(now, "Reset done.", SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
+            return
+        run.arrive()
+        self.revision += 1
+        if run.finished:
+            run.end(now)
+            self._permit = -1
+            self.become(
+                now, "The last waypoint was reached.", SENTENCES[RobotState.DONE], robot=RobotState.DONE
+            )
+        elif self.robot is RobotState.PAUSING and run.may_hold:
+            self.become(now, "All feet are down.", SENTENCES[RobotState.PAUSED], robot=RobotState.PAUSED)
+        else:
+            self._send_next(now)
+
+    def _go_on_jogging(self, jog: Jog, now: float) -> None:
+        jog.arrive()
+        self.revision += 1
+        if jog.finished:
+            self._jog = None
+            self.become(now, "Jog done.", SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
+        else:
+            self._send_jog(now)
+
+    def _go_on_clearing(self, delivery: Delivery, now: float) -> None:
+        if delivery.payload.startswith("p"):
+            self._deliver(encode_release(), delivery.target_mm, RESTART, now, early_end=True, kind=Kind.CLEAR)
+            return
+        self._clearing = False
+        self._stop.lift()
+        self._permit = -1
+        self.become(now, "Cleared.", SENTENCES[RobotState.DISARMED], robot=RobotState.DISARMED)
+
+    # Ends
+
+    @property
+    def _place(self) -> str:
+        work = self._jog or self._run
+        return work.place if work is not None and self.in_run else ""
+
+    def _drop_run(self, now: float) -> None:
+        self._delivery = None
+        self._jog = None
+        self._clearing = False
+        self._permit = -1
+        if self._run is not None:
+            self._run.end(now)
+
+    def _describe_stop(self, by: str, now: float) -> str:
+        if self._run is not None and self.in_run:
+            return f"stopped at {self._run.elapsed(now):.1f} s by {by}"
+        return f"stopped by {by}"
+
+    def _measured(self) -> tuple[float, ...]:
+        if self.watch.strokes_mm is None:
+            raise StateError("The robot has not told its strokes yet. Wait for its telemetry.")
+        return self.watch.strokes_mm
+
+    def _measured_now(self, now: float) -> tuple[float, ...]:
+        age = now - self.watch.last_reading
+        if age > STALE_TIME:
+            raise StateError(
+                f"The robot has not told its strokes for {age:.1f} s (limit {STALE_TIME} s). Wait for its "
+                "telemetry; if none comes, stop the robot and look at its cable."
+            )
+        return self._measured()
+
+
+def _words(line: Line | None) -> str:
+    """A line's kind in words, for people: `ErrorScan` becomes “error scan”."""
+    if line is None:
+        return "nothing"
+    return re.sub(r"(?<!^)(?=[A-Z])", " ", type(line).__name__).lower()

@@ -1,0 +1,151 @@
+"""Setups of cameras for the page and scripts: named documents with revisions, deleted and brought back."""
+
+from __future__ import annotations
+
+import sqlite3
+import time
+import uuid
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from app.cameras.setup_schema import SetupDocument
+from app.common.json_values import finite
+from app.store.camera_setup_store import SetupLog, SetupRow
+from app.store.database import Database
+from core.errors import NotFoundError, StateError
+from core.vision.setup import CameraSetup
+
+
+class SetupDesk:
+    """How cameras see the platform; every method may be called from any thread.
+
+    Args:
+        database: where setups are kept.
+        changed: called when the list is another.
+    """
+
+    def __init__(self, database: Database, changed: Callable[[], None] = lambda: None) -> None:
+        self._log = SetupLog(database)
+        self._changed = changed
+
+    def views(self, *, is_deleted: bool = False) -> list[dict[str, Any]]:
+        """All setups, the last changed first."""
+        return [_view(row) for row in self._log.found(is_deleted=is_deleted)]
+
+    def view(self, setup: str, revision: int | None = None) -> dict[str, Any]:
+        """A setup with what it amounts to."""
+        return _view(self._known(setup, revision))
+
+    def check(self, document: SetupDocument) -> dict[str, Any]:
+        """What a setup would amount to; nothing is kept.
+
+        Raises:
+            InputError: a value that no setup can have.
+        """
+        return _view(SetupRow("", 0, 0.0, document.model_dump(mode="json"), False))
+
+    def add(self, document: SetupDocument) -> dict[str, Any]:
+        """Keeps a new setup."""
+        return self._keep(uuid.uuid4().hex[:12], 1, document)
+
+    def change(self, setup: str, revision: int, document: SetupDocument) -> dict[str, Any]:
+        """Keeps a new revision.
+
+        Raises:
+            StateError: somebody changed it meanwhile.
+        """
+        if self._known(setup).revision != revision:
+            raise self._moved_on(setup, revision)
+        return self._keep(setup, revision + 1, document)
+
+    def _keep(self, setup: str, revision: int, document: SetupDocument) -> dict[str, Any]:
+        row = SetupRow(setup, revision, time.time(), document.model_dump(mode="json"), False)
+        view = _view(row)
+        try:
+            self._log.add(setup, revision, row.made, row.content)
+        except sqlite3.IntegrityError:
+            raise self._moved_on(setup, revision - 1) from None
+        self._changed()
+        return view
+
+    def _moved_on(self, setup: str, revision: int) -> StateError:
+        found = self._known(setup).revision
+        return StateError(
+            f"The setup was changed meanwhile: it has revision {found}, and you changed {revision}. Load it "
+            "again and repeat your change.",
+            "revision",
+        )
+
+    def delete(self, setup: str) -> None:
+        """Takes a setup out of the list; `restore` brings it back."""
+        self._known(setup)
+        self._log.put_deleted(setup, time.time())
+        self._changed()
+
+    def restore(self, setup: str) -> dict[str, Any]:
+        """Brings a deleted setup back."""
+        self._known(setup)
+        self._log.put_deleted(setup, None)
+        self._changed()
+        return self.view(setup)
+
+    def complete(self, setup: str) -> tuple[CameraSetup, int]:
+        """A setup that can track, and its revision.
+
+        Raises:
+            InputError: something is missing.
+        """
+        row = self._known(setup)
+        made = SetupDocument.model_validate(row.content).setup()
+        made.tracking()
+        return made, row.revision
+
+    def _known(self, setup: str, revision: int | None = None) -> SetupRow:
+        row = self._log.get(setup, revision)
+        if row is None:
+            which = "" if revision is None else f" of revision {revision}"
+            raise NotFoundError(f"There is no setup {setup}{which}.", "setup")
+        return row
+
+
+def _view(row: SetupRow) -> dict[str, Any]:
+    setup = SetupDocument.model_validate(row.content).setup()
+    return {
+        "id": row.id,
+        "revision": row.revision,
+        "made": row.made,
+        "deleted": row.is_deleted,
+        "setup": row.content,
+        "ready": not setup.missing,
+        "missing": list(setup.missing),
+        "view": None if setup.missing else _platform(setup),
+    }
+
+
+def _platform(setup: CameraSetup) -> dict[str, Any]:
+    """Where the platform is, and how well the clicked points agree."""
+    off_mm = setup.off * 1000.0
+    outline = setup.outline
+    across = np.linalg.norm(np.roll(outline, -1, axis=0) - outline, axis=1).mean()
+    content: dict[str, Any] = finite(
+        {
+            "off_mm": np.round(off_mm, 4).tolist(),
+            "worst_mm": float(off_mm.max()),
+            "mm_per_pixel": float(100.0 / across),
+            "outline": np.round(outline, 2).tolist(),
+            "seen": np.round(setup.seen(setup.places), 2).tolist(),
+            "grid": [
+                {
+                    "axis": line.axis,
+                    "at_cm": round(line.at * 100.0, 6),
+                    "line": np.round(line.pixels, 1).tolist(),
+                }
+                for line in setup.grid
+                if np.isfinite(line.pixels).all()
+            ],
+            "doubt": setup.doubt,
+        }
+    )
+    return content

@@ -1,0 +1,1 @@
+"""The gait document as JSON: schema, reading and writing, migrations."""

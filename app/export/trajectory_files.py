@@ -1,0 +1,115 @@
+"""Trajectory and waypoint files on disk."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from app.store.gait_files import write_atomically
+from core.errors import InputError
+from core.motion.trajectory import Trajectory
+from core.motion.trajectory_npz import MotionFile, parse_npz
+from core.wire.trajectory_csv import (
+    TrajectoryFile,
+    format_companion,
+    format_trajectory_csv,
+    parse_trajectory_csv,
+)
+from core.wire.waypoints import Waypoints, format_waypoint_csv, parse_waypoint_csv
+
+LOWEST_BODY = 0.005
+"""A centre of mass is never lower all the time, m."""
+COMPANION_SUFFIX = ".footfall.json"
+
+
+def read_text(path: Path) -> str:
+    """A text file's content, without the mark of byte order.
+
+    Raises:
+        InputError: it is absent, not readable, or no text.
+    """
+    return read_whole_text(path).removeprefix("\ufeff")
+
+
+def read_whole_text(path: Path) -> str:
+    """A text file's content to the last character, whatever ends its lines (see `read_text`)."""
+    try:
+        return path.read_bytes().decode()
+    except OSError as error:
+        raise InputError(f"{path} cannot be read: {error.strerror}.", str(path)) from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path} is not a text file in UTF-8.", str(path)) from error
+
+
+def companion_path(path: Path) -> Path:
+    """`X.footfall.json` beside `X.csv`."""
+    return path.with_name(path.stem + COMPANION_SUFFIX)
+
+
+def read_trajectory(path: Path) -> TrajectoryFile:
+    """Reads a trajectory CSV and its companion where there is one.
+
+    Raises:
+        InputError: it is malformed, or not in the world's frame.
+    """
+    companion = companion_path(path)
+    companion_text = read_text(companion) if companion.exists() else None
+    return parse_world_trajectory(read_text(path), path.name, companion_text)
+
+
+def parse_world_trajectory(text: str, name: str, companion_text: str | None = None) -> TrajectoryFile:
+    """Reads the text of a trajectory CSV in the world's frame.
+
+    Args:
+        text: the CSV's text.
+        name: the file's name, for messages.
+        companion_text: text of the companion JSON, where there is one.
+
+    Raises:
+        InputError: it is malformed, or not in the world's frame.
+    """
+    read = parse_trajectory_csv(text, name, companion_text)
+    require_world_frame(read.trajectory, name)
+    return read
+
+
+def require_world_frame(trajectory: Trajectory, name: str) -> None:
+    """A motion's body is somewhere above the ground, as in the world's frame.
+
+    Raises:
+        InputError: it is not.
+    """
+    if (trajectory.body_world[:, 2] < LOWEST_BODY).all():
+        raise InputError(
+            f"{name}: the body's height is 0 throughout, as in files whose feet are given from their "
+            "own modules' centres. A trajectory has the height of the centre of mass in its third row.",
+            name,
+        )
+
+
+def write_trajectory(path: Path, trajectory: Trajectory) -> None:
+    """Writes a trajectory CSV and its companion, each whole or not at all."""
+    text = format_trajectory_csv(trajectory)
+    write_atomically(path, text)
+    write_atomically(companion_path(path), format_companion(trajectory, text))
+
+
+def read_motion_npz(path: Path) -> MotionFile:
+    """Reads a motion from an NPZ.
+
+    Raises:
+        InputError: it cannot be read, or is no motion.
+    """
+    try:
+        return parse_npz(path.read_bytes(), path.name)
+    except OSError as error:
+        raise InputError(f"{path} cannot be read: {error.strerror}.", str(path)) from error
+
+
+def read_waypoints(path: Path) -> Waypoints:
+    """Reads a waypoint CSV."""
+    return parse_waypoint_csv(read_text(path), name=path.name)
+
+
+def write_waypoints(path: Path, waypoints: Waypoints) -> None:
+    """Writes a waypoint CSV whole or not at all."""
+    write_atomically(path, format_waypoint_csv(waypoints))

@@ -1,0 +1,1 @@
+"""The open gaits: editing, saving, versions, approvals, and the plan of each."""

@@ -1,0 +1,196 @@
+"""Plans that follow an edit while it is still under way: documents in, checked answers of the live tier out.
+
+It knows documents, not the open gaits, and may be called from any thread; nothing here changes the desk.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import threading
+import time
+from collections import OrderedDict
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import Any, Protocol, TypeVar
+
+from app.documents.gait_json import gait_content, gait_from_content, motion_hash
+from app.gaits.normalise import settled
+from app.gaits.views import plan_view
+from app.plans.plan import Plan, Solve
+from app.plans.sequence_plan import plan_of
+from core.errors import StateError
+from core.gait.gait import Gait
+from core.problem.motion_problem import MotionProblem
+from solver_jobs import MotionResult, RemedySearch, SolveStatus
+
+FIRST_SECONDS = 40.0
+"""How long a plan may wait for the first answer of the live tier's process, which still loads the solver."""
+NEXT_SECONDS = 4.0
+"""How long it may wait for the answers after that: the session waits along."""
+FAILED_SECONDS = 5.0
+"""How long a solver that broke off is not asked for the same motion again."""
+MOST_RESULTS, MOST_PLANS = 64, 12
+"""Answers that are remembered, enough for every part of a sequence, and plans."""
+
+Value = TypeVar("Value")
+
+
+class LiveTier(Protocol):
+    """What is asked of the live tier; `solver_jobs.LiveSolver` in the studio."""
+
+    @property
+    def process_id(self) -> int | None:
+        """Number of the process that answers; another one, or None, once it was ended."""
+
+    def solve(self, problem: MotionProblem, timeout: float) -> MotionResult:
+        """Solves a problem and waits for the answer."""
+
+    def remedies(self, gait: Gait) -> RemedySearch:
+        """Changes that make an infeasible gait feasible."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Failure:
+    result: MotionResult
+    until: float
+
+
+class LiveDesk:
+    """Asks the live tier, and remembers its last answers.
+
+    Args:
+        tier: what solves.
+        clock: s, for how long a failure is remembered.
+    """
+
+    def __init__(self, tier: LiveTier, clock: Callable[[], float] = time.monotonic) -> None:
+        self._tier = tier
+        self._clock = clock
+        self._answered_by: int | None = None
+        self._failures: OrderedDict[str, _Failure] = OrderedDict()
+        self._lock = threading.Lock()
+        self._asking = threading.Lock()
+        self._results: OrderedDict[str, MotionResult] = OrderedDict()
+        self._plans: OrderedDict[str, Plan] = OrderedDict()
+
+    def solve_for(self, gait: Gait) -> Solve:
+        """What asks the live tier for a gait; an answer that is remembered is not asked for again."""
+        return partial(self._solve, motion_hash(gait))
+
+    def _solve(self, gait: str, problem: MotionProblem) -> MotionResult:
+        # A sequence asks for several problems: the steps between its parts, which differ by their ends.
+        motion = f"{gait} {_ends(problem)}"
+        # A page asks while the desk asks for the same edit: the second finds the first one's answer.
+        with self._asking:
+            known = self._known(motion)
+            if known is not None:
+                return known
+            result = self._ask(problem)
+            # A solver that broke off says nothing about the gait, so that it is asked again after a while.
+            if result.status in (SolveStatus.SOLVED, SolveStatus.INFEASIBLE):
+                _remember(self._results, motion, result, MOST_RESULTS)
+            else:
+                failure = _Failure(result, self._clock() + FAILED_SECONDS)
+                _remember(self._failures, motion, failure, MOST_RESULTS)
+            return result
+
+    def _known(self, motion: str) -> MotionResult | None:
+        failure = self._failures.get(motion)
+        if failure is not None and self._clock() < failure.until:
+            return failure.result
+        return self._results.get(motion)
+
+    def _ask(self, problem: MotionProblem) -> MotionResult:
+        """Waits long only for a process that has never answered: the first one, or one started anew."""
+        asked = self._tier.process_id
+        is_warm = asked is not None and asked == self._answered_by
+        result = self._tier.solve(problem, NEXT_SECONDS if is_warm else FIRST_SECONDS)
+        if result.status is not SolveStatus.FAILED:
+            self._answered_by = self._tier.process_id
+        return result
+
+    def keep(self, plan: Plan) -> Plan:
+        """Keeps a plan for a while, so that its poses can be asked for by its hash."""
+        with self._lock:
+            _remember(self._plans, plan.hash, plan, MOST_PLANS)
+        return plan
+
+    def kept(self, plan_hash: str) -> Plan:
+        """A plan that was kept.
+
+        Raises:
+            StateError: newer ones have taken its place.
+        """
+        with self._lock:
+            if plan_hash not in self._plans:
+                raise StateError("The plan changed meanwhile; ask for the new one.", "plan")
+            return self._plans[plan_hash]
+
+    def plan(self, gait: Gait) -> Plan:
+        """What a gait amounts to by the live tier; it is kept for a while (see `keep`)."""
+        return self.keep(plan_of(gait, lambda motion: None, self.solve_for))
+
+    def answer(self, before: Gait, document: Any | None, wants_remedies: bool) -> dict[str, Any]:
+        """What a gait would amount to, as JSON content.
+
+        Args:
+            before: the gait as it is on the desk.
+            document: the changed document; None for the gait as it is.
+            wants_remedies: whether to look for changes that make it feasible; takes longer.
+
+        Raises:
+            InputError: the document cannot be read, or makes no motion.
+            StateError: a locked cell would change.
+        """
+        gait = before if document is None else settled(before, gait_from_content(document, "document"))[0]
+        plan = self.plan(gait)
+        if plan.trajectory is None and plan.refusal is not None:
+            raise plan.refusal
+        view = plan_view(plan)
+        found = self._remedies(gait, plan) if wants_remedies else None
+        return {**_summary(view), "plan": view, **_remedies_content(found)}
+
+    def _remedies(self, gait: Gait, plan: Plan) -> RemedySearch:
+        """None are missing where the gait is feasible, or not the live tier's business."""
+        if plan.live is None or plan.live.status is not SolveStatus.INFEASIBLE:
+            return RemedySearch(remedies=(), complete=True)
+        return self._tier.remedies(gait)
+
+
+def _ends(problem: MotionProblem) -> str:
+    poses = (problem.start, problem.goal)
+    return hashlib.sha256(
+        b"".join(p.body_world.tobytes() + p.feet_world.tobytes() for p in poses)
+    ).hexdigest()
+
+
+def _summary(view: dict[str, Any]) -> dict[str, Any]:
+    """The answer in short; a gait made by hand is not the live tier's business."""
+    if view["live"] is not None:
+        return {"method": "live", **view["live"]}
+    nothing: dict[str, Any] = {
+        "seconds": 0.0,
+        "evidence": None,
+        "explanation": [],
+        "lacks": [],
+        "check": None,
+    }
+    return {"method": "table", "status": view["source"], **nothing}
+
+
+def _remedies_content(found: RemedySearch | None) -> dict[str, Any]:
+    if found is None:
+        return {"remedies": None, "remedies_complete": None}
+    remedies = [
+        {"label": remedy.label, "sentence": remedy.sentence, "document": gait_content(remedy.gait)}
+        for remedy in found.remedies
+    ]
+    return {"remedies": remedies, "remedies_complete": found.complete}
+
+
+def _remember(store: OrderedDict[str, Value], key: str, value: Value, most: int) -> None:
+    store[key] = value
+    store.move_to_end(key)
+    while len(store) > most:
+        store.popitem(last=False)

@@ -1,0 +1,169 @@
+"""What an edit carries with it: locks that hold, and timeline and segment table that agree."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from app.gaits.sequence_documents import settled_sequence
+from app.gaits.settling_held import settle_held
+from app.gaits.settling_results import settle_results
+from core.arrays import Bools
+from core.errors import StateError
+from core.gait.gait import Gait, with_iterations
+from core.gait.held_feet import HeldFeet
+from core.gait.held_rules import require_swinging
+from core.motion.contact_timeline import ContactTimeline
+from core.segments.from_timeline_edit import carried
+
+
+def settled(before: Gait, after: Gait) -> tuple[Gait, str | None]:
+    """What an edit makes of a gait: locks held, timeline and segment table in agreement.
+
+    Args:
+        before: the document as it was.
+        after: the document as it was changed.
+
+    Returns:
+        The gait, and a sentence where its segment table or its recorded motion was set aside.
+
+    Raises:
+        StateError: a locked cell would change.
+        InputError: the edit says that a foot is held up which stands.
+    """
+    if before.sequence or after.sequence:
+        return settled_sequence(before, after), None
+    require_locks(before, after)
+    tabled = settle_table(before, settle_drawing(before, after))
+    changed, notice = settle_held(*tabled, is_said=before.held != after.held)
+    return settle_results(before, changed, notice)
+
+
+def require_locks(before: Gait, after: Gait) -> None:
+    """Locked cells stay as they are until they are unlocked.
+
+    Raises:
+        StateError: naming the first locked cell that would change.
+    """
+    locked = before.timeline.locked
+    if not locked.any():
+        return
+    if after.timeline.stance.shape != locked.shape:
+        raise StateError("The timeline has locked cells; unlock them before you draw it anew.", "timeline")
+    _require_held(locked & after.timeline.locked & (before.timeline.stance != after.timeline.stance))
+
+
+def _require_held(changed: Bools) -> None:
+    if changed.any():
+        foot, sample = (int(i) + 1 for i in np.argwhere(changed)[0])
+        raise StateError(
+            f"Foot {foot}, sample {sample} is locked; unlock it before you change it.", "timeline"
+        )
+
+
+def settle_drawing(before: Gait, after: Gait) -> Gait:
+    """Repeats a drawn gait's timeline for other iterations, and turns it for another direction.
+
+    A timeline that was drawn differently in the same edit says itself what is meant and stays.
+
+    Raises:
+        InputError: the timeline cannot be repeated.
+        StateError: its locked cells would be lost.
+    """
+    same_drawing = np.array_equal(before.timeline.stance, after.timeline.stance)
+    if after.segment_table is not None or not same_drawing:
+        return after
+    if after.iterations != before.iterations:
+        as_drawn = replace(after, iterations=before.iterations, direction=before.direction)
+        repeated = with_iterations(as_drawn, after.iterations).timeline
+        if before.timeline.locked.any() and not repeated.locked.any():
+            raise StateError("The timeline has locked cells; unlock them before you repeat it.", "iterations")
+        after = replace(after, timeline=repeated)
+    turned = replace(after, timeline=_turned(after.timeline, before, after))
+    # Where the same edit says which feet are held, it means those of its own direction.
+    return replace(turned, held=_held(before, after)) if after.held == before.held else turned
+
+
+def in_agreement(gait: Gait) -> tuple[Gait, str | None]:
+    """A gait from elsewhere whose timeline follows its segment table, which is what moves the robot.
+
+    Returns:
+        The gait, and a sentence where its timeline said something else.
+
+    Raises:
+        InputError: its iterations cannot follow one another, or a foot is held up that stands.
+    """
+    if gait.segment_table is None:
+        require_swinging(gait.timeline, gait.held)
+        return gait, None
+    repeated = gait.segment_table.repeated(gait.iterations).turned(gait.quarter_turns)
+    implied = repeated.timeline(gait.timeline.sample_time)
+    if np.array_equal(implied.stance, gait.timeline.stance):
+        return gait, None
+    notice = "The document's timeline did not agree with its segment table; it now follows the table."
+    return replace(gait, timeline=implied), notice
+
+
+def _turned(timeline: ContactTimeline, before: Gait, after: Gait) -> ContactTimeline:
+    """The timeline of one gait's direction for the feet that step in another's."""
+    legs = timeline.leg_count
+    shift = _shift(before, after, legs)
+    stance, locked = (np.roll(cells, shift, axis=0) for cells in (timeline.stance, timeline.locked))
+    return replace(timeline, stance=stance, locked=locked)
+
+
+def _shift(before: Gait, after: Gait, legs: int) -> int:
+    """By how many places feet are handed on from one gait's direction to another's."""
+    return after.quarter_turns * legs // 4 - before.quarter_turns * legs // 4
+
+
+def _held(before: Gait, after: Gait) -> HeldFeet:
+    """The held feet of one gait's direction for those of another's."""
+    legs = after.timeline.leg_count
+    return after.held.turned(_shift(before, after, legs), legs)
+
+
+def settle_table(before: Gait, after: Gait) -> tuple[Gait, str | None]:
+    """Brings segment table and timeline of an edited gait into agreement.
+
+    Where only the table, direction or iterations changed, the timeline follows. Where the timeline was
+    drawn by hand, the table follows where it can, and is set aside where it cannot.
+
+    Returns:
+        The gait, and a sentence where the table was set aside or says something unusual.
+
+    Raises:
+        StateError: a locked cell would change.
+    """
+    table = after.segment_table
+    if table is None:
+        return after, None
+    repeated = table.repeated(after.iterations).turned(after.quarter_turns)
+    implied = repeated.timeline(after.timeline.sample_time)
+    if np.array_equal(after.timeline.stance, implied.stance):
+        return after, None
+    if before.segment_table is not None and np.array_equal(after.timeline.stance, before.timeline.stance):
+        return replace(after, timeline=_with_locks(before, after, implied)), None
+    found = carried(table, after.timeline, after.iterations, after.quarter_turns)
+    if found.table is not None:
+        return replace(after, segment_table=found.table), found.sentence
+    notice = (
+        f"The segment table cannot say what you drew: {found.sentence} It was set aside and the gait is now "
+        "a drawn one. Undo brings the table back."
+    )
+    return replace(after, segment_table=None), notice
+
+
+def _with_locks(before: Gait, after: Gait, implied: ContactTimeline) -> ContactTimeline:
+    """What a table implies, with the cells locked that were."""
+    drawn = _turned(after.timeline, before, after)
+    if not drawn.locked.any():
+        return implied
+    if drawn.stance.shape != implied.stance.shape:
+        raise StateError(
+            "The timeline has locked cells; unlock them before you change how many samples the table has.",
+            "segment_table",
+        )
+    _require_held(drawn.locked & (drawn.stance != implied.stance))
+    return replace(implied, locked=drawn.locked)

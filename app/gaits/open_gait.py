@@ -1,0 +1,140 @@
+"""A gait on the desk: its document, its log, and what was found and approved of it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from functools import lru_cache
+from typing import Any
+
+from app.documents.gait_json import gait_content, parse_gait
+from app.plans.plan import Plan
+from app.undo.history import History, LogEntry, fresh_history
+from core.errors import FootfallError
+from core.findings import Approval, Verdict
+from core.gait.gait import Gait
+
+VerdictOf = Callable[[Plan, Gait], Verdict]
+"""Checks a plan of a document as everything stands now, the physics included."""
+
+
+@dataclass(frozen=True)
+class OpenGait:
+    """One gait while it is open; every change makes a new value and a new revision.
+
+    Args:
+        id: of the gait.
+        builtin: whether a gait of this id comes with the program.
+        history: every document that it was.
+        gait: the present document.
+        revision: grows with every change of the document, undo included.
+        saved: the document as saved or built in; None for one that was never saved.
+        saved_at: when it was saved, s since the epoch; None where it was not.
+        notice: what the last edit had to set aside.
+        verdict: of the present revision, or None.
+        approval: of the present revision, or None.
+        kept_approval: of before the program's start, JSON text; looked at again once the plan is made.
+        revoked: why the last approval is gone, in a sentence; None where it stands or there was none.
+    """
+
+    id: str
+    builtin: bool
+    history: History
+    gait: Gait
+    revision: int
+    saved: Gait | None
+    saved_at: float | None
+    notice: str | None = None
+    verdict: Verdict | None = None
+    approval: Approval | None = None
+    kept_approval: str | None = None
+    revoked: str | None = None
+
+    @property
+    def before(self) -> Gait | None:
+        """The document before the present one; None where it was never changed."""
+        entry = self.history.before
+        return None if entry is None else gait_of(entry)
+
+    @property
+    def edited(self) -> bool:
+        """Whether the document differs from what is saved."""
+        return self.gait != self.saved
+
+    def undo_label(self, others: frozenset[str] = frozenset()) -> str | None:
+        """What undo would take back, for a page beside which others are connected."""
+        return self.history.label_of(self.history.undoable(others))
+
+    def redo_label(self, others: frozenset[str] = frozenset()) -> str | None:
+        """What redo would do again, for a page beside which others are connected."""
+        return self.history.label_of(self.history.redoable(others))
+
+    def changed(self, history: History, gait: Gait, notice: str | None = None) -> OpenGait:
+        """The gait with another document; what was found of the old one is gone."""
+        left = self.unapproved(f"The gait changed (“{history.present.label}”)")
+        return replace(left, history=history, gait=gait, revision=self.revision + 1, notice=notice)
+
+    def unapproved(self, why: str) -> OpenGait:
+        """The gait without verdict and approval.
+
+        Args:
+            why: what happened, as the beginning of a sentence.
+        """
+        had_one = self.approval is not None or self.kept_approval is not None
+        revoked = f"{why}, and its approval is gone." if had_one else self.revoked
+        return replace(self, verdict=None, approval=None, kept_approval=None, revoked=revoked)
+
+    def with_plan(self, plan: Plan, verdict_of: VerdictOf) -> OpenGait:
+        """The gait once its plan is known: an approval comes back that is of exactly this verdict.
+
+        Args:
+            plan: what it amounts to.
+            verdict_of: checks it as everything stands now.
+        """
+        if self.kept_approval is None:
+            return self
+        approval = approval_of(json.loads(self.kept_approval))
+        try:
+            verdict = verdict_of(plan, self.gait)
+        except FootfallError:
+            return self.unapproved("There is no plan any more")
+        if verdict.content_hash != approval.verdict_hash:
+            return self.unapproved(_what_changed(approval, verdict))
+        return replace(self, verdict=verdict, approval=approval, kept_approval=None)
+
+
+def _what_changed(approval: Approval, verdict: Verdict) -> str:
+    """Why a kept approval is not of today's verdict, as the beginning of a sentence."""
+    if approval.robot_hash and approval.robot_hash != verdict.robot_hash:
+        return "The robot's parameters changed"
+    if approval.waypoints_hash != verdict.waypoints_hash:
+        return "The plan is another one than before"
+    return "The rules of the check, or the simulation, say something else than before"
+
+
+def fresh_gait(gait_id: str, gait: Gait, builtin: bool, saved_at: float | None) -> OpenGait:
+    """A gait that was just opened."""
+    return OpenGait(gait_id, builtin, fresh_history(gait_text(gait)), gait, 1, gait, saved_at)
+
+
+def gait_text(gait: Gait) -> str:
+    """The document as one line of JSON."""
+    return json.dumps(gait_content(gait))
+
+
+def gait_of(entry: LogEntry) -> Gait:
+    """The document of an entry of the log."""
+    return _parsed(entry.document)
+
+
+def approval_of(content: dict[str, Any]) -> Approval:
+    """An approval out of its JSON content, whatever else stands beside it."""
+    known = {field.name for field in fields(Approval)}
+    values = {name: value for name, value in content.items() if name in known}
+    return Approval(**values | {"warnings": tuple(content.get("warnings", ()))})
+
+
+@lru_cache(maxsize=64)
+def _parsed(document: str) -> Gait:
+    return parse_gait(document)

@@ -1,0 +1,87 @@
+"""Plans are made beside the session: its thread goes on with other commands while a solver is at work."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from typing import Generic, TypeVar
+
+from app.gaits.plan_cache import AskedPlan
+from app.gaits.service import GaitDesk
+from app.plans.plan import Plan
+from app.session.command_queue import Session
+
+Result = TypeVar("Result")
+
+THREADS = 2
+"""Plans that are made at one time; the live tier solves one after the other."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Waiting(Generic[Result]):
+    """An action that waits for a gait's plan, and where its result goes."""
+
+    gait: str
+    action: Callable[[], Result]
+    future: Future[Result]
+
+
+class PlanSettling:
+    """Makes the plan that a command needs, and then lets the session do the command.
+
+    Args:
+        session: whose thread owns the desk.
+        desk: the gaits.
+    """
+
+    def __init__(self, session: Session, desk: GaitDesk) -> None:
+        self._session = session
+        self._desk = desk
+        self._makers = ThreadPoolExecutor(max_workers=THREADS, thread_name_prefix="plans")
+
+    def close(self) -> None:
+        """Ends the threads; what waits for a plan stays undone."""
+        self._makers.shutdown(cancel_futures=True)
+
+    def after(
+        self, gait_id: str, action: Callable[[], Result], future: Future[Result] | None = None
+    ) -> Future[Result]:
+        """Does something on the session's thread once the plan of a gait's present revision is known.
+
+        Args:
+            gait_id: which gait.
+            action: finds the plan made.
+            future: where its result goes; a new one for None.
+
+        Returns:
+            The future with what the action returns, or with what it or the gait's opening raises.
+        """
+        waiting = _Waiting(gait_id, action, Future() if future is None else future)
+        self._session.tell(partial(self._go_on, waiting, retry=True))
+        return waiting.future
+
+    def _go_on(self, waiting: _Waiting[Result], *, retry: bool) -> None:
+        """On the session's thread: the action, or its plan first."""
+        try:
+            asked = self._desk.unplanned(waiting.gait, retry=retry)
+            if asked is None:
+                waiting.future.set_result(waiting.action())
+            else:
+                self._makers.submit(self._make, asked, waiting)
+        except BaseException as error:  # it belongs to whoever waits for the result
+            waiting.future.set_exception(error)
+
+    def _make(self, asked: AskedPlan, waiting: _Waiting[Result]) -> None:
+        """On a thread of its own: the plan, which the session then takes over."""
+        try:
+            plan = self._desk.planned(asked.open_gait.gait)
+        except BaseException as error:  # it belongs to whoever waits for the result
+            waiting.future.set_exception(error)
+            return
+        self._session.tell(partial(self._take, asked, plan, waiting))
+
+    def _take(self, asked: AskedPlan, plan: Plan, waiting: _Waiting[Result]) -> None:
+        self._desk.take_plan(asked, plan)
+        self._go_on(waiting, retry=False)

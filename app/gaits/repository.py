@@ -1,0 +1,111 @@
+"""Where gaits lie when nobody has them open: the library, the saved files, and what is being edited.
+
+Only the session's thread calls this.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, replace
+from typing import Any
+
+from app.documents.gait_json import parse_gait
+from app.gaits.open_gait import OpenGait, fresh_gait, gait_of
+from app.gaits.trash import ROUTE, DeletedGait, deleted_gaits
+from app.store.gait_files import GaitFiles, free_id
+from app.store.gait_store import EditingRow, GaitLog, VersionRow
+from app.undo.history import History
+from core.errors import NotFoundError
+from core.gait.gait import Gait
+from core.library.library import library
+
+
+class GaitShelf:
+    """The gaits that are kept.
+
+    Args:
+        files: the saved ones.
+        log: what is edited of any.
+    """
+
+    def __init__(self, files: GaitFiles, log: GaitLog) -> None:
+        self._files = files
+        self._log = log
+        self._logged: dict[str, History] = {}
+
+    def stamps(self) -> dict[str, tuple[int, int] | None]:
+        """Built-in gaits first, then saved ones; each with what changes when its file does."""
+        stamps = self._files.stamps()
+        return {gait_id: stamps.get(gait_id) for gait_id in dict.fromkeys((*library(), *sorted(stamps)))}
+
+    def glance(self, gait_id: str) -> tuple[Gait, bool, bool]:
+        """A gait's present document, whether it is built in, and whether it is edited; not its history."""
+        saved, builtin, _ = self._saved(gait_id)
+        text = self._log.present_document(gait_id)
+        gait = saved if text is None else parse_gait(text)
+        return gait, builtin, gait != saved
+
+    def gait(self, gait_id: str) -> OpenGait:
+        """A gait as it was put last.
+
+        Raises:
+            NotFoundError: there is none of that id.
+        """
+        saved, builtin, saved_at = self._saved(gait_id)
+        row = self._log.editing(gait_id)
+        if row is None:
+            return fresh_gait(gait_id, saved, builtin, saved_at)
+        self._logged[gait_id] = row.history
+        present = gait_of(row.history.present)
+        opened = OpenGait(gait_id, builtin, row.history, present, row.revision, saved, saved_at, row.notice)
+        return replace(opened, kept_approval=row.approval)
+
+    def _saved(self, gait_id: str) -> tuple[Gait, bool, float | None]:
+        """The document as saved or built in, whether it is built in, and when it was saved."""
+        if not self._files.is_id(gait_id):
+            raise NotFoundError(f"There is no gait “{gait_id}”.", gait_id)
+        builtin, saved_at = library().get(gait_id), self._files.saved_at(gait_id)
+        if saved_at is not None:
+            return self._files.read(gait_id), builtin is not None, saved_at
+        if builtin is None:
+            raise NotFoundError(f"There is no gait “{gait_id}”.", gait_id)
+        return builtin.gait, True, None
+
+    def put(
+        self, open_gait: OpenGait, version: VersionRow | None = None, record: dict[str, Any] | None = None
+    ) -> None:
+        """Keeps what is edited of a gait, with version and approval record."""
+        kept = open_gait.kept_approval
+        approval = kept if open_gait.approval is None else json.dumps(asdict(open_gait.approval))
+        row = EditingRow(open_gait.revision, open_gait.history, open_gait.notice, approval)
+        self._log.put(open_gait.id, row, self._logged.get(open_gait.id), version, record)
+        self._logged[open_gait.id] = open_gait.history
+
+    def write(self, open_gait: OpenGait) -> OpenGait:
+        """Saves a gait's present document; gives the gait back as saved."""
+        self._files.write(open_gait.id, open_gait.gait)
+        return replace(open_gait, saved=open_gait.gait, saved_at=self._files.saved_at(open_gait.id))
+
+    def add(self, gait: Gait, taken: frozenset[str]) -> OpenGait:
+        """Saves a document as a new gait, under an id made from its name.
+
+        Args:
+            gait: the document.
+            taken: ids that it must not get, beside those on the shelf.
+        """
+        used = {ROUTE, *taken, *self.stamps(), *self._files.deleted_ids(), *self._log.ids()}
+        return self.write(fresh_gait(free_id(gait.name, used), gait, False, None))
+
+    def remove(self, gait_id: str) -> None:
+        """Takes a saved document away; `restore` brings it back."""
+        self._files.remove(gait_id)
+        self._logged.pop(gait_id, None)
+
+    def deleted(self) -> tuple[DeletedGait, ...]:
+        """What `restore` can bring back, the last deleted first."""
+        return deleted_gaits(self._files, self._log)
+
+    def restore(self, gait_id: str) -> None:
+        """Brings a document back that was taken away."""
+        self._files.restore(gait_id)
+        self._logged.pop(gait_id, None)

@@ -1,0 +1,118 @@
+"""Sequence documents on the desk: made from the ids of gaits, edited, and brought up to date with them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+from app.documents.gait_json import motion_hash, require_size
+from core.errors import FootfallError, InputError
+from core.gait.gait import Gait
+from core.gait.sequence_part import SequencePart
+from core.library.sequence import DERIVED, derived, sequence_gait
+
+GaitOf = Callable[[str], Gait]
+"""The gait of an id as it is now; raises where there is none."""
+
+
+class SourceState(StrEnum):
+    """How a part stands to the gait that it was copied from."""
+
+    SAME = "same"
+    CHANGED = "changed"
+    """The gait moves differently by now."""
+    GONE = "gone"
+    """There is no such gait any more, or it is not known."""
+
+
+@dataclass(frozen=True)
+class AskedPart:
+    """A gait by its id, and how often it runs."""
+
+    gait: str
+    times: int
+
+
+def made_sequence(name: str, asked: Iterable[AskedPart], gait_of: GaitOf, notes: str = "") -> Gait:
+    """A sequence of gaits that are on the desk; a sequence among them stands for its parts.
+
+    Args:
+        name: of the sequence.
+        asked: its parts.
+        gait_of: gives the gait of an id.
+        notes: a person's words.
+
+    Raises:
+        FootfallError: there is no such gait, the parts do not fit together, or are too large together.
+    """
+    parts: list[SequencePart] = []
+    for one in asked:
+        gait = gait_of(one.gait)
+        own = gait.sequence or (SequencePart(gait, one.times, one.gait),)
+        parts += own * one.times if gait.sequence else own
+    made = sequence_gait(name, parts, notes)
+    require_size(made, name)
+    return made
+
+
+def settled_sequence(before: Gait, after: Gait) -> Gait:
+    """What an edit makes of a sequence: its parts as they were given, all else as it follows from them.
+
+    Raises:
+        InputError: no part is left, a field that follows from the parts was changed, or parts do not fit.
+    """
+    if not after.sequence:
+        raise InputError("A sequence has at least one part; delete the sequence instead.", "sequence")
+    settled = derived(after)
+    for field in DERIVED:
+        asked = getattr(after, field)
+        if before.sequence and asked not in (getattr(before, field), getattr(settled, field)):
+            raise InputError(
+                f"The {field.replace('_', ' ')} of a sequence follows from its parts. Edit the gait that a "
+                "part comes from, and take it over again.",
+                field,
+            )
+    return settled
+
+
+def source_states(gait: Gait, gait_of: GaitOf) -> tuple[SourceState, ...]:
+    """How each part of a sequence stands to the gait that it was copied from."""
+    return tuple(_state(part, gait_of) for part in gait.sequence)
+
+
+def _state(part: SequencePart, gait_of: GaitOf) -> SourceState:
+    if part.source is None:
+        return SourceState.GONE
+    try:
+        now = gait_of(part.source)
+    except FootfallError:
+        return SourceState.GONE
+    return SourceState.SAME if motion_hash(now) == motion_hash(part.gait) else SourceState.CHANGED
+
+
+def refreshed(gait: Gait, gait_of: GaitOf, only: int | None = None) -> Gait:
+    """A sequence whose parts are the gaits as they are now, where they changed.
+
+    Args:
+        gait: the sequence.
+        gait_of: gives the gait of an id.
+        only: index of one part; None for all.
+
+    Raises:
+        InputError: it is no sequence or has no such part, a gait has become a sequence, parts do not fit, or
+            are too large together.
+    """
+    if not gait.sequence:
+        raise InputError(f"“{gait.name}” is no sequence; only a sequence takes gaits over.", "sequence")
+    if only is not None and not 0 <= only < len(gait.sequence):
+        raise InputError(f"The sequence has parts 0 to {len(gait.sequence) - 1}, and no {only}.", "part")
+    parts = tuple(
+        replace(part, gait=gait_of(part.source))
+        if part.source is not None and only in (None, index) and _state(part, gait_of) is SourceState.CHANGED
+        else part
+        for index, part in enumerate(gait.sequence)
+    )
+    taken_over = derived(replace(gait, sequence=parts))
+    require_size(taken_over, gait.name)
+    return taken_over

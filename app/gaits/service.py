@@ -1,0 +1,366 @@
+"""Everything that happens to gaits: opening, editing, saving, planning, checking and approving.
+
+Only the session's thread calls this.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from app.documents.gait_json import parse_gait
+from app.gaits.approvals import (
+    Approvals,
+    Word,
+    approval_record,
+    approved,
+    is_confirmed,
+)
+from app.gaits.normalise import in_agreement, settled
+from app.gaits.open_gait import OpenGait, gait_text
+from app.gaits.plan_cache import AskedPlan, PlanCache
+from app.gaits.repository import GaitShelf
+from app.gaits.trash import DeletedGait
+from app.gaits.undo import merged_gait
+from app.gaits.versions import VersionKind, Versions, is_said_already
+from app.plans.plan import Plan, Solve, verdict_of
+from app.plans.provenance import with_result
+from app.plans.sequence_plan import run_motions
+from app.store.database import Database
+from app.store.gait_files import GaitFiles
+from app.store.gait_store import GaitLog, VersionRow
+from app.undo.history import Author, Step
+from core.checks.simulation import Simulated
+from core.errors import StateError
+from core.findings import Verdict
+from core.gait.gait import Gait, drawn_timeline
+from core.library.library import library
+from core.library.sequence import derived
+
+_SCRIPT = Author()
+
+
+class GaitDesk:
+    """The open gaits.
+
+    Args:
+        files: the saved gaits.
+        database: histories, results and approvals.
+        solve_for: gives what asks the live tier for a gait.
+        connected: gives the pages that are connected.
+        clock: gives the time, s since the epoch.
+        simulated_for: gives the simulation of exactly a plan's waypoints, where there is one.
+    """
+
+    def __init__(
+        self,
+        files: GaitFiles,
+        database: Database,
+        solve_for: Callable[[Gait], Solve],
+        connected: Callable[[], frozenset[str]] = frozenset,
+        clock: Callable[[], float] = time.time,
+        simulated_for: Callable[[Plan], Simulated | None] = lambda plan: None,
+    ) -> None:
+        self._database = database
+        self._simulated_for = simulated_for
+        self._plans = PlanCache(database, solve_for, self._verdict_of)
+        self._connected = connected
+        log = GaitLog(database)
+        self.versions = Versions(log, clock)
+        self.approvals = Approvals(log)
+        self._shelf = GaitShelf(files, log)
+        self._open: dict[str, OpenGait] = {}
+
+    def marks(self) -> dict[str, tuple[object, ...]]:
+        """Built-in gaits first, then saved ones; each with what changes whenever its line in a list may."""
+        stamps = self._shelf.stamps()
+        ids = dict.fromkeys((*stamps, *self._open))
+        # A result's provenance is saved with the gait and is no edit, so that it makes no revision.
+        return {
+            gait_id: (stamps.get(gait_id), (there.revision, there.gait.provenance) if there else None)
+            for gait_id, there in ((gait_id, self._open.get(gait_id)) for gait_id in ids)
+        }
+
+    def glance(self, gait_id: str) -> tuple[Gait, bool, bool]:
+        """A gait's present document, whether it is built in, and whether it is edited; not its history."""
+        open_gait = self._open.get(gait_id)
+        if open_gait is not None:
+            return open_gait.gait, open_gait.builtin, open_gait.edited
+        return self._shelf.glance(gait_id)
+
+    def open_gait(self, gait_id: str) -> OpenGait:
+        """The gait's present state.
+
+        Raises:
+            NotFoundError: there is none of that id.
+        """
+        if gait_id not in self._open:
+            self._open[gait_id] = self._shelf.gait(gait_id)
+        return self._open[gait_id]
+
+    def touched_by(self, page: str) -> tuple[OpenGait, ...]:
+        """The gaits in memory that a page edited."""
+        return tuple(gait for gait in self._open.values() if page in gait.history.pages)
+
+    def document(self, gait_id: str) -> Gait:
+        """The gait's document as it is on the desk (see `open_gait`)."""
+        return self.open_gait(gait_id).gait
+
+    def sequences_with(self, gait_id: str) -> tuple[OpenGait, ...]:
+        """The sequences in memory of which a gait is a part."""
+        opened = self._open.values()
+        return tuple(s for s in opened if any(part.source == gait_id for part in s.gait.sequence))
+
+    def plan(self, gait_id: str) -> Plan:
+        """What the gait amounts to now; computed once a revision, here and now where it is not known yet."""
+        return self._plan_of(self.open_gait(gait_id))
+
+    def _plan_of(self, open_gait: OpenGait) -> Plan:
+        plan = self._plans.of(open_gait)
+        self._seen(open_gait, open_gait.with_plan(plan, self._verdict_of))
+        return plan
+
+    def _seen(self, before: OpenGait, now: OpenGait) -> None:
+        """Takes a gait with its plan over; an approval that it took away is gone in the database too."""
+        self._open[now.id] = now
+        if (before.approval or before.kept_approval) and not (now.approval or now.kept_approval):
+            self._put(now)
+
+    def planned(self, gait: Gait) -> Plan:
+        """What a document amounts to, whether or not it is the present one of a gait; any thread may ask."""
+        return self._plans.made(gait)
+
+    def unplanned(self, gait_id: str, *, retry: bool = False) -> AskedPlan | None:
+        """What is to be planned before the gait's plan is known; None where it is.
+
+        Args:
+            gait_id: which gait.
+            retry: whether a solver that broke off is to be asked again.
+        """
+        open_gait = self.open_gait(gait_id)
+        asked = self._plans.unplanned(open_gait, retry=retry)
+        if asked is None:
+            self._plan_of(open_gait)
+        return asked
+
+    def take_plan(self, asked: AskedPlan, plan: Plan) -> None:
+        """Takes over a plan that was made elsewhere, unless the gait or its results changed meanwhile."""
+        now = self._open.get(asked.open_gait.id)
+        if now is not None:
+            self._seen(now, self._plans.taken(asked, plan, now))
+
+    def ask_again(self, gait_id: str) -> None:
+        """Asks the live tier once more where it broke off; what was found of the old plan is gone."""
+        self.plan(gait_id)
+        asked = self.unplanned(gait_id, retry=True)
+        if asked is not None:
+            self.take_plan(asked, self.planned(asked.open_gait.gait))
+
+    def edit(
+        self, gait_id: str, gait: Gait, label: str, revision: int | None, author: Author = _SCRIPT
+    ) -> OpenGait:
+        """Puts a changed document on the desk, in the database too.
+
+        Args:
+            gait_id: which gait.
+            gait: the changed document.
+            label: what the edit is called.
+            revision: that the edit was made on; None for any.
+            author: whose edit it is.
+
+        Raises:
+            StateError: somebody else changed it since the given revision.
+        """
+        open_gait = self.open_gait(gait_id)
+        if revision is not None and revision != open_gait.revision:
+            raise StateError(
+                f"“{open_gait.gait.name}” was changed elsewhere; look at its new state and edit again.",
+                "revision",
+            )
+        changed, notice = settled(open_gait.gait, gait)
+        if changed == open_gait.gait:
+            return open_gait
+        return self._edited(open_gait, changed, label or "Edit", author, notice)
+
+    def _edited(
+        self, open_gait: OpenGait, gait: Gait, label: str, author: Author, notice: str | None = None
+    ) -> OpenGait:
+        version = self.versions.due(open_gait)
+        history = open_gait.history.edited(gait_text(gait), label, author, self._others(author))
+        return self._put(open_gait.changed(history.pruned(), gait, notice), version)
+
+    def _others(self, author: Author) -> frozenset[str]:
+        return self._connected() - {author.page}
+
+    def redraw(
+        self,
+        gait_id: str,
+        order: tuple[int, ...],
+        phase_knots: int,
+        closing_knots: int,
+        author: Author = _SCRIPT,
+    ) -> OpenGait:
+        """Draws the timeline anew from a foot order and phase lengths."""
+        open_gait = self.open_gait(gait_id)
+        options = replace(open_gait.gait.options, phase_knots=phase_knots, closing_knots=closing_knots)
+        changed = replace(open_gait.gait, order=order, options=options)
+        changed = replace(changed, timeline=drawn_timeline(changed))
+        return self.edit(gait_id, changed, f"Draw order {'-'.join(map(str, order))}", None, author)
+
+    def undo(self, gait_id: str, author: Author = _SCRIPT) -> OpenGait:
+        """Takes the author's newest edit back; the edits of others stay.
+
+        Raises:
+            StateError: there is none, or somebody changed the same since.
+        """
+        open_gait = self.open_gait(gait_id)
+        return self._stepped(open_gait, open_gait.history.undo(author, self._others(author)), author)
+
+    def redo(self, gait_id: str, author: Author = _SCRIPT) -> OpenGait:
+        """Does the author's newest undone edit again (see `undo`)."""
+        open_gait = self.open_gait(gait_id)
+        return self._stepped(open_gait, open_gait.history.redo(author, self._others(author)), author)
+
+    def _stepped(self, open_gait: OpenGait, step: Step, author: Author) -> OpenGait:
+        gait = merged_gait(open_gait.gait, step)
+        history = open_gait.history.stepped(step, gait_text(gait), author)
+        return self._put(open_gait.changed(history.pruned(), gait))
+
+    def save(self, gait_id: str, author: Author = _SCRIPT) -> OpenGait:
+        """Writes the present document to the data folder."""
+        open_gait = self.open_gait(gait_id)
+        plan = self._plans.known(open_gait)
+        if plan is not None and plan.provenance is not None:
+            open_gait = self._restated(open_gait, replace(open_gait.gait, provenance=plan.provenance))
+        self._open[gait_id] = self._shelf.write(open_gait)
+        self.versions.keep(open_gait, VersionKind.SAVED, author)
+        return self._open[gait_id]
+
+    def restore_version(self, gait_id: str, number: int, author: Author = _SCRIPT) -> OpenGait:
+        """Puts the document of a version on the desk again, as an edit that can be undone.
+
+        Raises:
+            NotFoundError: there is none of that number.
+        """
+        open_gait = self.open_gait(gait_id)
+        gait = parse_gait(self.versions.get(gait_id, number).document, f"version {number}")
+        if is_said_already(gait, open_gait.gait):
+            return open_gait
+        self.versions.keep(open_gait, VersionKind.BEFORE_RESTORE, author)
+        return self._edited(open_gait, gait, f"Restore version {number}", author)
+
+    def create(self, gait: Gait) -> OpenGait:
+        """Adds a gait under a new id made from its name, and saves it."""
+        gait, notice = in_agreement(derived(gait) if gait.sequence else gait)
+        created = replace(self._shelf.add(gait, frozenset(self._open)), notice=notice)
+        self.versions.keep(created, VersionKind.SAVED)
+        self._open[created.id] = created
+        return created
+
+    def delete(self, gait_id: str) -> OpenGait | None:
+        """Takes a saved gait away; `restore` brings it back.
+
+        Returns:
+            The gait that comes with the program under that id; None where none does.
+
+        Raises:
+            StateError: the gait comes with the program and was not saved over.
+        """
+        open_gait = self.open_gait(gait_id)
+        if open_gait.saved_at is None:
+            raise StateError(
+                f"“{open_gait.gait.name}” comes with the program and cannot be deleted; "
+                "undo takes edits back.",
+                gait_id,
+            )
+        self.versions.keep(open_gait, VersionKind.BEFORE_DELETE)
+        self._shelf.remove(gait_id)
+        self._close(gait_id)
+        return self._return(gait_id, "Delete what was saved") if open_gait.builtin else None
+
+    def deleted(self) -> tuple[DeletedGait, ...]:
+        """What `restore` can bring back, the last deleted first."""
+        return self._shelf.deleted()
+
+    def restore(self, gait_id: str) -> OpenGait:
+        """Brings a deleted gait back as it was, unsaved edits and what can be undone included."""
+        self._shelf.restore(gait_id)
+        self._close(gait_id)
+        return (
+            self._return(gait_id, "Bring back what was saved")
+            if gait_id in library()
+            else self.open_gait(gait_id)
+        )
+
+    def _return(self, gait_id: str, label: str) -> OpenGait:
+        """Goes back to what is saved or built in now, as an edit that can be undone."""
+        open_gait = self.open_gait(gait_id)
+        if open_gait.saved is None or open_gait.gait == open_gait.saved:
+            return open_gait
+        self.versions.keep(open_gait, VersionKind.BEFORE_RESTORE)
+        return self._edited(open_gait, open_gait.saved, label, _SCRIPT)
+
+    def _close(self, gait_id: str) -> None:
+        self._open.pop(gait_id, None)
+        self._plans.drop(gait_id)
+
+    def check(self, gait_id: str) -> OpenGait:
+        """Checks the present plan by every rule; an approval of another verdict is gone."""
+        self.ask_again(gait_id)
+        open_gait = self.confirmed(gait_id)
+        self._open[gait_id] = replace(open_gait, verdict=self._verdict_of(self.plan(gait_id), open_gait.gait))
+        return self._open[gait_id]
+
+    def confirmed(self, gait_id: str) -> OpenGait:
+        """The gait, without its approval where the verdict of this moment is not the approved one."""
+        plan, open_gait = self.plan(gait_id), self.open_gait(gait_id)
+        if is_confirmed(open_gait, plan, self._verdict_of):
+            return open_gait
+        return self._put(open_gait.unapproved("The check says something else than before"))
+
+    def _verdict_of(self, plan: Plan, gait: Gait) -> Verdict:
+        return verdict_of(plan, gait, self._simulated_for(plan))
+
+    def approve(self, gait_id: str, word: Word) -> OpenGait:
+        """Records a person's approval of the present verdict; see `app.gaits.approvals.approved`."""
+        plan, open_gait = self.plan(gait_id), self.open_gait(gait_id)
+        approval, verdict = approved(open_gait, plan, self._verdict_of, word)
+        version = self.versions.made(open_gait, VersionKind.APPROVED, Author(name=word.by))
+        number = self.versions.newest_number(gait_id) if version is None else version.number
+        record = approval_record(approval, number, plan, verdict)
+        return self._put(replace(open_gait, approval=approval, revoked=None), version, record)
+
+    def take_simulation(self, waypoints_hash: str) -> tuple[OpenGait, ...]:
+        """Takes verdict and approval from the open gaits whose waypoints were simulated since; gives them."""
+        checked = tuple(self._open.values())
+        touched = [g for g in checked if g.verdict and g.verdict.waypoints_hash == waypoints_hash]
+        return tuple(self._put(gait.unapproved("It was simulated since")) for gait in touched)
+
+    def take_result(self, motion: str, content: dict[str, Any]) -> tuple[OpenGait, ...]:
+        """Stores a checked result and gives back the open gaits whose plan it becomes."""
+        self._database.put_result(motion, content)
+        touched = []
+        for gait_id, open_gait in tuple(self._open.items()):
+            if motion in run_motions(open_gait.gait):
+                self._plans.drop(gait_id)
+                touched.append(self._resulted(open_gait, motion, content))
+        return tuple(touched)
+
+    def _resulted(self, open_gait: OpenGait, motion: str, content: dict[str, Any]) -> OpenGait:
+        """The gait with a result's provenance in its present document, which is no edit of anybody."""
+        resulted = open_gait.unapproved("The motion was optimised")
+        gait = with_result(open_gait.gait, motion, content)
+        return self._put(resulted) if gait == open_gait.gait else self._restated(resulted, gait)
+
+    def _restated(self, open_gait: OpenGait, gait: Gait) -> OpenGait:
+        return self._put(replace(open_gait, gait=gait, history=open_gait.history.restated(gait_text(gait))))
+
+    def _put(
+        self, open_gait: OpenGait, version: VersionRow | None = None, record: dict[str, Any] | None = None
+    ) -> OpenGait:
+        """Keeps a changed gait open and on the shelf, with version and approval record."""
+        self._shelf.put(open_gait, version, record)
+        self._open[open_gait.id] = open_gait
+        return open_gait

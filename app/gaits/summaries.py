@@ -1,0 +1,47 @@
+"""The list of gaits: a line each, made once and again only where its file or its editing changed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from app.gaits.service import GaitDesk
+from app.gaits.views import line_view
+from core.errors import FootfallError
+
+Line = dict[str, Any]
+"""What the list shows of a gait."""
+
+Mark = tuple[object, ...]
+"""Changes whenever a gait's line may."""
+
+
+class GaitList:
+    """The lines, kept by gait.
+
+    Args:
+        desk: the gaits.
+    """
+
+    def __init__(self, desk: GaitDesk) -> None:
+        self._desk = desk
+        self._kept: dict[str, tuple[Mark, Line | None]] = {}
+
+    def lines(self) -> list[Line]:
+        """A line of every gait that can be opened; one whose file is damaged is left out."""
+        marks = self._desk.marks()
+        self._kept = {gait_id: self._line(gait_id, mark) for gait_id, mark in marks.items()}
+        return [line for _, line in self._kept.values() if line is not None]
+
+    def has(self, gait_id: str) -> bool:
+        """Whether the list that was given out last has a gait."""
+        return self._kept.get(gait_id, ((), None))[1] is not None
+
+    def _line(self, gait_id: str, mark: Mark) -> tuple[Mark, Line | None]:
+        kept = self._kept.get(gait_id)
+        if kept is not None and kept[0] == mark:
+            return kept
+        try:
+            gait, builtin, edited = self._desk.glance(gait_id)
+        except FootfallError:
+            return mark, None
+        return mark, line_view(gait_id, gait, builtin, edited)

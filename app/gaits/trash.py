@@ -1,0 +1,51 @@
+"""The gaits that were deleted and can be brought back."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import dataclass
+
+from app.documents.gait_json import parse_gait
+from app.store.gait_files import GaitFiles
+from app.store.gait_store import GaitLog
+from core.errors import FootfallError
+from core.library.library import library
+
+ROUTE = "deleted"
+"""What the list is called among the addresses of gaits; no gait gets it as its id."""
+
+
+@dataclass(frozen=True)
+class DeletedGait:
+    """A gait in the trash.
+
+    Args:
+        id: by which it is brought back.
+        name: as it was last called, also where that was not saved.
+        when: it was deleted, s since the epoch.
+    """
+
+    id: str
+    name: str
+    when: float
+
+
+def deleted_gaits(files: GaitFiles, log: GaitLog) -> tuple[DeletedGait, ...]:
+    """What can be brought back, the last deleted first.
+
+    A damaged file cannot, nor one whose id is in use again.
+
+    Args:
+        files: the saved gaits and the trash.
+        log: what was edited and not saved.
+    """
+    found = []
+    for gait_id in files.deleted_ids():
+        if not files.is_id(gait_id) or files.saved_at(gait_id) is not None:
+            continue
+        with suppress(FootfallError):
+            gait, when = files.deleted(gait_id)
+            text = None if gait_id in library() else log.present_document(gait_id)
+            name = gait.name if text is None else parse_gait(text).name
+            found.append(DeletedGait(gait_id, name, when))
+    return tuple(sorted(found, key=lambda gait: gait.when, reverse=True))

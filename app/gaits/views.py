@@ -1,0 +1,205 @@
+"""What pages and scripts are shown: JSON content of gaits, plans and verdicts."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import asdict
+from datetime import UTC, datetime
+from typing import Any
+
+import numpy as np
+
+from app.common.json_values import finite
+from app.documents.gait_json import gait_content
+from app.gaits.open_gait import OpenGait
+from app.plans.plan import Plan
+from app.plans.provenance import provenance_view
+from app.plans.reach_outline_view import reach_rings
+from app.plans.verified_result import Judgement
+from core.arrays import Floats
+from core.checks.coupling import real_heights
+from core.findings import Approval, Verdict
+from core.gait.gait import Gait
+from core.gait.mirroring import mirror_of
+from core.gait.motion_source import making
+from core.library.library import library
+from core.motion.speeds import foot_speeds, motor_speeds
+from core.motion.trajectory import Trajectory
+from core.problem.motion_problem import MotionLimits
+from core.robot.model import RobotModel, load_robot
+from core.wire.timing import stop_time
+from core.wire.waypoint_merging import WaypointPlan
+from core.wire.waypoint_path import estimate_seconds
+
+
+def line_view(gait_id: str, gait: Gait, builtin: bool, edited: bool) -> dict[str, Any]:
+    """A line of the list of gaits.
+
+    Args:
+        gait_id: its id.
+        gait: its present document.
+        builtin: whether a gait of this id comes with the program.
+        edited: whether the document differs from what is saved.
+    """
+    return {
+        "id": gait_id,
+        "name": gait.name,
+        "kind": "builtin" if builtin else "saved",
+        "group": library()[gait_id].group.value if builtin else "Saved",
+        "robot": load_robot(gait.robot).title,
+        "source": making(gait).value,
+        "orientation": gait.orientation.value,
+        "order": list(gait.order),
+        "step": list(gait.step),
+        "edited": edited,
+        "walks": library()[gait_id].walks if builtin and not edited else None,
+    }
+
+
+def steps_view(open_gait: OpenGait, pages: frozenset[str]) -> dict[str, Any]:
+    """What can be undone and redone: by a script, and by each connected page."""
+    steps = {
+        page: {"undo": open_gait.undo_label(pages - {page}), "redo": open_gait.redo_label(pages - {page})}
+        for page in pages
+    }
+    return {"undo": open_gait.undo_label(pages), "redo": open_gait.redo_label(pages), "steps": steps}
+
+
+def gait_view(open_gait: OpenGait, plan: Plan, pages: frozenset[str] = frozenset()) -> dict[str, Any]:
+    """Everything that the page shows of one gait.
+
+    Args:
+        open_gait: the gait.
+        plan: what it amounts to.
+        pages: that are connected.
+    """
+    gait = open_gait.gait
+    saved_at = open_gait.saved_at
+    return {
+        **line_view(open_gait.id, gait, open_gait.builtin, open_gait.edited),
+        "revision": open_gait.revision,
+        "stamp": time.time_ns() // 1000,  # orders answers and events, which may overtake each other
+        "saved_at": None if saved_at is None else datetime.fromtimestamp(saved_at, UTC).isoformat(),
+        **steps_view(open_gait, pages),
+        "document": gait_content(gait),
+        "roles": list(gait.roles),
+        "mirror": mirror_of(gait, plan.model),
+        "notice": open_gait.notice,
+        "changed": open_gait.before is not None,
+        "provenance": provenance_view(gait, plan),
+        "plan": plan_view(plan),
+        "verdict": None if open_gait.verdict is None else verdict_view(open_gait.verdict),
+        "approval": None if open_gait.approval is None else approval_view(open_gait.approval),
+        "revoked": open_gait.revoked if open_gait.approval is None else None,
+    }
+
+
+def plan_view(plan: Plan) -> dict[str, Any]:
+    """A plan for preview and plots, SI but for strokes."""
+    refusal = plan.refusal
+    limits = plan.model.stroke
+    content: dict[str, Any] = {
+        "hash": plan.hash,
+        "source": plan.source.value,
+        "note": plan.note,
+        "seconds": plan.seconds,
+        "refusal": None if refusal is None else {"sentence": refusal.sentence, "where": refusal.where},
+        "times": [],
+        "contact": [],
+        "body": [],
+        "heading": [],
+        "feet": [],
+        "margin": [],
+        "balance": plan.balance,
+        "strokes_mm": None,
+        "stroke_limits_mm": [limits.lower * 1000, limits.upper * 1000],
+        "foot_speeds_mm_s": None,
+        "motor_speeds_mm_s": None,
+        "speed_limits_mm_s": {"foot": MotionLimits.foot_speed * 1000, "motor": limits.speed * 1000},
+        "real_heights_mm": None,
+        "slip": None if plan.slip is None else plan.slip.tolist(),
+        "waypoints_hash": None,
+        "waypoint_count": 0,
+        "robot_seconds": None,
+        "every_knot_seconds": None,
+        "stop_seconds": None,
+        "waypoint_strokes_mm": [],
+        "waypoint_times": [],
+        "duration": 0.0,
+        "live": None if plan.live is None else live_view(plan.live),
+        "parts": [asdict(part) for part in plan.parts],
+    }
+    trajectory = plan.trajectory
+    if trajectory is not None:
+        content |= {
+            "times": trajectory.times.tolist(),
+            "contact": trajectory.contact.tolist(),
+            "body": np.round(trajectory.body_world, 7).tolist(),
+            "heading": trajectory.heading.tolist(),
+            "feet": np.round(trajectory.feet_world, 7).tolist(),
+            "margin": finite(np.round(plan.margins, 7).tolist()),
+            "duration": float(trajectory.times[-1]),
+            "foot_speeds_mm_s": np.round(foot_speeds(trajectory) * 1000, 2).tolist(),
+            "motor_speeds_mm_s": finite(_motor_speeds_mm_s(plan.model, trajectory).tolist()),
+        }
+        if plan.model.is_coupled:
+            heights_mm = real_heights(plan.model, trajectory) * 1000
+            content["real_heights_mm"] = finite(np.round(heights_mm, 4).tolist())
+        if plan.waypoints is None:
+            content["strokes_mm"] = finite(np.round(plan.free_strokes * 1000, 4).tolist())
+    if plan.way is not None:
+        content |= _way_view(plan.way)
+    return content
+
+
+def _way_view(way: WaypointPlan) -> dict[str, Any]:
+    """What is sent of a plan."""
+    return {
+        "strokes_mm": way.knots.strokes_mm.tolist(),
+        "waypoints_hash": way.waypoints.content_hash,
+        "waypoint_count": way.waypoints.count,
+        "robot_seconds": round(estimate_seconds(way.waypoints), 1),
+        "every_knot_seconds": round(estimate_seconds(way.knots), 1),
+        "stop_seconds": round(stop_time(way.waypoints), 2),
+        "waypoint_strokes_mm": way.waypoints.strokes_mm.tolist(),
+        "waypoint_times": np.round(way.times, 4).tolist(),
+    }
+
+
+def _motor_speeds_mm_s(model: RobotModel, trajectory: Trajectory) -> Floats:
+    """(n, 3·legs), nan where a rod is too short."""
+    speeds = motor_speeds(model, trajectory).reshape(trajectory.knot_count, -1)
+    return np.round(speeds * 1000, 2)
+
+
+def live_view(answer: Judgement) -> dict[str, Any]:
+    """The live tier's answer as the checker sees it; indices count from 0."""
+    result, check = answer.result, answer.check
+    figures = {
+        "status": answer.status.value,
+        "seconds": result.solve_seconds,
+        "evidence": None if result.evidence is None else result.evidence.value,
+        "explanation": list(answer.explanation),
+        "lacks": [
+            {**asdict(lack), "rings": reach_rings(answer.problem, result.trajectory, lack)}
+            for lack in result.lacks
+        ],
+        "check": {
+            "max_violation": check.max_violation,
+            "violations": check.violations,
+            "min_margin": check.min_margin,
+            "min_cop_margin": check.min_cop_margin,
+        },
+    }
+    content: dict[str, Any] = finite(figures)
+    return content
+
+
+def verdict_view(verdict: Verdict) -> dict[str, Any]:
+    """A verdict with its findings, errors first; indices count from 0."""
+    return {**asdict(verdict), "passed": verdict.passed, "hash": verdict.content_hash}
+
+
+def approval_view(approval: Approval) -> dict[str, Any]:
+    """An approval."""
+    return asdict(approval)

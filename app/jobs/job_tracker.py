@@ -1,0 +1,101 @@
+"""Jobs of a kind while they are on: told of, cancelled and ended on the session's thread."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any, Protocol
+
+from app.jobs.repository import ENDED, JobBook
+
+Content = dict[str, Any]
+
+TELL_SECONDS = 0.2
+"""Between two reports of a job's progress."""
+
+
+class JobHandle(Protocol):
+    """What is being done."""
+
+    def cancel(self) -> None:
+        """Ends it."""
+
+
+class RunningJobs:
+    """Jobs that are on. Only the session's thread calls this, but for what says otherwise.
+
+    Args:
+        book: the list of jobs.
+        later: does something on the session's thread.
+        shown: told of each job that changed, on the session's thread.
+        sentence: what a job says of itself while it is at work.
+    """
+
+    def __init__(
+        self,
+        book: JobBook,
+        later: Callable[[Callable[[], None]], object],
+        shown: Callable[[Content], object],
+        sentence: str,
+    ) -> None:
+        self._book = book
+        self._later = later
+        self._shown = shown
+        self._sentence = sentence
+        self._on: dict[str, JobHandle] = {}
+
+    def begin(self, job_id: str, handle: JobHandle) -> None:
+        """Takes a job of the list as one that is on."""
+        self._on[job_id] = handle
+
+    def contents(self) -> list[Content]:
+        """The jobs that are on, as JSON content."""
+        return [self._book.content(job_id) for job_id in self._on]
+
+    def teller(self, job_id: str) -> Callable[[float], None]:
+        """What any thread tells the share that is done; it passes on what is not too soon after the last."""
+        told_at = 0.0
+
+        def tell(share: float) -> None:
+            nonlocal told_at
+            now = time.monotonic()
+            if now - told_at >= TELL_SECONDS:
+                told_at = now
+                self._later(lambda: self._progressed(job_id, share))
+
+        return tell
+
+    def cancel(self, job_id: str) -> Content:
+        """Asks a job to end; one that ended already stays as it is."""
+        job, handle = self._book.content(job_id), self._on.get(job_id)
+        if handle is not None and job["state"] not in ENDED:
+            job |= {"state": "cancelling", "sentence": "It ends in a moment."}
+            handle.cancel()
+        return job
+
+    def end(self, job_id: str, end: Content) -> None:
+        """Ends a job; any thread may say so.
+
+        Args:
+            job_id: which job.
+            end: its state, sentence and result.
+        """
+        self._later(lambda: self._ended(job_id, end))
+
+    def _progressed(self, job_id: str, share: float) -> None:
+        if job_id not in self._on:
+            return
+        job = self._book.content(job_id)
+        if job["state"] in ("queued", "running"):
+            started = job["started"] or time.time()
+            job |= {"state": "running", "started": started, "share": share, "sentence": self._sentence}
+            self._shown(job)
+
+    def _ended(self, job_id: str, end: Content) -> None:
+        del self._on[job_id]
+        job = self._book.content(job_id)
+        if job["state"] == "cancelling" and end["state"] != "done":
+            end = {"state": "cancelled", "sentence": "Cancelled."}
+        job |= {**end, "ended": time.time()}
+        self._book.keep(job)
+        self._shown(job)

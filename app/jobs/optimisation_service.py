@@ -1,0 +1,186 @@
+"""Optimisation jobs: asked for by gait, run in worker processes, believed only through the checker.
+
+Only the session's thread calls this.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+from app.documents.gait_json import asked_hash
+from app.documents.trajectory_json import trajectory_content
+from app.gaits.open_gait import OpenGait
+from app.jobs.repository import ENDED, JobBook
+from app.jobs.timing_view import timed_gait, timing_content, timing_problem
+from app.plans.plan import Plan, iterate_plan
+from app.plans.provenance import result_provenance
+from app.plans.verified_result import Judgement, judge
+from core.errors import InputError, StateError
+from core.gait.gait import Gait, motion_problem
+from core.gait.provenance import Provenance
+from core.motion.trajectory import Trajectory
+from core.problem.motion_problem import MotionProblem
+from core.robot.model import load_robot
+from solver_jobs import Job, JobKind, JobRunner, JobState, MotionResult, SolveStatus, TimingResult
+
+MOST_COURSES = 4
+"""Jobs whose every iteration can still be looked at."""
+
+
+KIND_WORDS = {JobKind.MOTION: "optimise", JobKind.TIMING: "timing"}
+"""Kinds of jobs as the page and scripts name them."""
+
+
+@dataclass(frozen=True)
+class JobOrigin:
+    """What a job is for: the gait as it was, its motion's hash and the problem."""
+
+    gait_id: str
+    gait: Gait
+    motion: str
+    problem: MotionProblem
+
+
+class JobDesk:
+    """The optimisations in the list of jobs.
+
+    Args:
+        book: the list of jobs.
+        runner: the worker processes.
+        take_result: told of a checked result: motion hash and content to keep.
+    """
+
+    def __init__(
+        self,
+        book: JobBook,
+        runner: JobRunner,
+        take_result: Callable[[str, dict[str, Any]], None],
+    ) -> None:
+        self._book = book
+        self._runner = runner
+        self._take_result = take_result
+        self._origins: dict[str, JobOrigin] = {}
+        self._courses: OrderedDict[str, tuple[Trajectory, ...]] = OrderedDict()
+
+    def submit(self, open_gait: OpenGait, kind: JobKind = JobKind.MOTION) -> dict[str, Any]:
+        """Starts the optimisation of a gait as it is now, or the search for its fastest timing.
+
+        Raises:
+            StateError: the gait is made by hand.
+            InputError: its timeline or options cannot be optimised.
+        """
+        # A recorded motion is what the gait has, not what is asked.
+        gait = replace(open_gait.gait, recorded=None)
+        if gait.segment_table is not None:
+            raise StateError(
+                "This gait is made by hand from its segment table. Draw on the timeline to make it one that "
+                "the optimiser works on.",
+                "gait",
+            )
+        problem = motion_problem(gait, load_robot(gait.robot))
+        if kind is JobKind.TIMING:
+            problem = timing_problem(gait, problem)
+        origin = JobOrigin(open_gait.id, gait, asked_hash(gait), problem)
+        job_id = self._runner.submit(problem, gait.name, kind)
+        self._origins[job_id] = origin
+        return self._book.begin(job_id, KIND_WORDS[kind], origin.gait_id, gait.name, origin.motion)
+
+    def cancel(self, job_id: str) -> dict[str, Any]:
+        """Asks a job to end; one that ended already stays as it is."""
+        content = self._book.content(job_id)
+        if content["state"] not in ENDED:
+            self._runner.cancel(job_id)
+        return content
+
+    def changed(self, job: Job) -> dict[str, Any] | None:
+        """Takes news from the runner and gives back the job as it is now."""
+        origin = self._origins.get(job.id)
+        if origin is None:
+            return None
+        content = self._book.content(job.id)
+        content |= {
+            "state": job.state.value,
+            "sentence": job.sentence,
+            "started": job.started,
+            "ended": job.ended,
+            "progress": [_iterate_content(iterate) for iterate in job.progress],
+        }
+        if isinstance(job.result, TimingResult):
+            content["result"] = timing_content(origin.gait, job.result)
+            provenance = self._keep_timed_motion(origin.gait, job.result)
+            if provenance is not None:
+                content["result"]["usable"]["document"]["provenance"] = asdict(provenance)
+        elif job.result is not None:
+            self._keep_course(content, job.result.course)
+            self._judge(content, origin, job.result)
+        self._book.keep(content)
+        return content
+
+    def _keep_course(self, content: dict[str, Any], course: tuple[Trajectory, ...]) -> None:
+        """Keeps the motions of a job's iterations in memory, in place of those of the oldest job."""
+        self._courses[content["id"]] = course
+        content["course"] = len(course)
+        while len(self._courses) > MOST_COURSES:
+            oldest, _ = self._courses.popitem(last=False)
+            self._book.content(oldest)["course"] = 0
+
+    def iterate(self, job_id: str, number: int) -> Plan:
+        """The motion at an iteration, to be looked at.
+
+        Raises:
+            NotFoundError: there is no such job.
+            StateError: its iterations are no longer kept.
+            InputError: it has no iteration of that number.
+        """
+        content = self._book.content(job_id)
+        course = self._courses.get(job_id, ())
+        if not course:
+            raise StateError(
+                f"The iterations of this job are not kept any more; those of the last {MOST_COURSES} jobs "
+                "are, until the studio ends. Optimise again to look at them.",
+                "course",
+            )
+        if not 0 <= number < len(course):
+            raise InputError(
+                f"This job has iterations 0 to {len(course) - 1}, and none of number {number}.", "course"
+            )
+        return iterate_plan(
+            self._origins[content["id"]].problem.model, course[number], number, len(course) - 1
+        )
+
+    def _keep_timed_motion(self, gait: Gait, result: TimingResult) -> Provenance | None:
+        """Keeps the exact motion of the gait in its new timings, so that it is there when they are used."""
+        timed = timed_gait(gait, result)
+        if timed is None or result.usable is None:
+            return None
+        judged = judge(motion_problem(timed, load_robot(timed.robot)), result.usable)
+        return self._keep(asked_hash(timed), judged) if judged.status is SolveStatus.SOLVED else None
+
+    def _keep(self, motion: str, judged: Judgement) -> Provenance:
+        """Hands a checked result on with its provenance."""
+        result = {**judged.content, "trajectory": trajectory_content(judged.trajectory)}
+        provenance = result_provenance(motion, result)
+        self._take_result(motion, {**result, "provenance": asdict(provenance)})
+        return provenance
+
+    def _judge(self, content: dict[str, Any], origin: JobOrigin, result: MotionResult) -> None:
+        """Believes a solved result only if the independent checker confirms it."""
+        judged = judge(origin.problem, result)
+        content["result"] = judged.content
+        if judged.status is SolveStatus.SOLVED:
+            self._keep(origin.motion, judged)
+        elif content["state"] == JobState.DONE.value:
+            content |= {"state": JobState.FAILED.value, "sentence": judged.explanation[0]}
+
+
+def _iterate_content(iterate: Any) -> dict[str, Any]:
+    values = asdict(iterate)
+    return {
+        "iteration": values["number"],
+        "objective": values["objective"],
+        "primal": values["primal_infeasibility"],
+        "dual": values["dual_infeasibility"],
+    }

@@ -1,0 +1,1 @@
+"""Searches for footfall patterns, one a page."""

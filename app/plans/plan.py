@@ -1,0 +1,310 @@
+"""From a gait to what can be seen, checked and sent."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+
+from app.documents.gait_json import sent_hash
+from app.documents.trajectory_json import content_sha256, trajectory_from_content
+from app.plans.planned_part import PlannedPart
+from app.plans.verified_result import Judgement, judge
+from core.arrays import Floats
+from core.checks.checked_plan import checked_plan
+from core.checks.coupling import coupling_note
+from core.checks.rules import check_plan
+from core.checks.simulation import Simulated
+from core.errors import CheckError, FootfallError, InputError
+from core.findings import Verdict
+from core.gait.gait import (
+    Gait,
+    GaitOptions,
+    motion_problem,
+    resting_poses,
+)
+from core.gait.held_feet import HeldFeet, held_sentence
+from core.gait.manual_motion import manual_motion, stance_slip
+from core.gait.provenance import Provenance
+from core.gait.recording import Recording, RecordingForm
+from core.motion.balance import balance_margins
+from core.motion.support_polygon import stability_margins
+from core.motion.trajectory import Trajectory
+from core.problem.initial_guess import initial_motion
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import MotionProblem, missing_support
+from core.recorded.recorded_motion import gait_trajectory
+from core.robot.kinematics import UnreachableError, free_strokes
+from core.robot.model import RobotModel, load_robot
+from core.wire.waypoint_merging import WaypointPlan, plan_waypoints
+from core.wire.waypoints import Waypoints
+from solver_jobs import MotionResult, SolveStatus
+
+AS_PLANNED = GaitOptions(merge=0.0, stop_bound=None)
+"""One waypoint a knot."""
+
+Solve = Callable[[MotionProblem], MotionResult]
+"""Asks the live tier."""
+
+
+class PlanSource(StrEnum):
+    """How a plan came about."""
+
+    MANUAL = "manual"
+    OPTIMISED = "optimised"
+    LIVE = "live"
+    RECORDED = "recorded"
+    """The motion of a file, as it stands."""
+    SEQUENCE = "sequence"
+    """The parts of a sequence, each in its own way."""
+    DRAFT = "draft"
+    ITERATE = "iterate"
+    """A motion on the solver's way to its answer; to be looked at only."""
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """What a gait amounts to now.
+
+    Args:
+        source: how it came about.
+        note: a sentence on that.
+        model: the robot.
+        trajectory: in the world frame; None where the document does not make one.
+        way: what would be sent, and where in the plan it is; None where a foot is out of reach.
+        refusal: why there is no trajectory or no waypoints.
+        slip: (legs,) of a manual gait or a recorded motion, m.
+        live: the live tier's answer, where it was asked.
+        seconds: time in the solver; None where none was asked.
+        result: SHA-256 of the stored result that it is; None for every other plan.
+        provenance: of that result, where it is known.
+        parts: of a sequence, and the moves between them; empty for a gait of its own.
+        made_of: hash of the document that it was made of; None where it is of none.
+    """
+
+    source: PlanSource
+    note: str
+    model: RobotModel
+    trajectory: Trajectory | None
+    way: WaypointPlan | None
+    refusal: FootfallError | None
+    slip: Floats | None = None
+    live: Judgement | None = None
+    seconds: float | None = None
+    result: str | None = None
+    provenance: Provenance | None = None
+    parts: tuple[PlannedPart, ...] = ()
+    made_of: str | None = None
+
+    @property
+    def waypoints(self) -> Waypoints | None:
+        """What would be sent; None where a foot is out of reach."""
+        return None if self.way is None else self.way.waypoints
+
+    @property
+    def broke_off(self) -> bool:
+        """Whether a solver gave no answer, so that it is worth asking again."""
+        failed = self.live is not None and self.live.status is SolveStatus.FAILED
+        return failed or any(part.broke_off for part in self.parts)
+
+    @property
+    def hash(self) -> str:
+        """SHA-256 that changes with anything that is seen or sent."""
+        digest = hashlib.sha256(f"{self.source}{self.model.name}".encode())
+        if self.trajectory is not None:
+            t = self.trajectory
+            for values in (t.times, t.body_world, t.heading, t.feet_world, t.contact):
+                digest.update(values.tobytes())
+        if self.way is not None:
+            digest.update(self.way.waypoints.strokes.tobytes())
+        return digest.hexdigest()
+
+    @property
+    def balance(self) -> float | None:
+        """Smallest margin that the check will find, m; None where there is none."""
+        if self.trajectory is None:
+            return None
+        smallest = float(balance_margins(self.model, self.trajectory)[0].min())
+        return smallest if np.isfinite(smallest) else None
+
+    @property
+    def free_strokes(self) -> Floats:
+        """(n, 3·legs) strokes that the motion needs, limits left aside, m; nan where no rod is that long."""
+        t = self.trajectory
+        if t is None:
+            return np.zeros((0, 3 * self.model.leg_count))
+        return free_strokes(self.model, t.feet_world, t.pose(self.model)).reshape(t.knot_count, -1)
+
+    @property
+    def margins(self) -> Floats:
+        """(n,) static stability margin, m."""
+        if self.trajectory is None:
+            return np.zeros(0)
+        t = self.trajectory
+        return stability_margins(t.body_world[:, :2], t.feet_world, t.contact)
+
+
+def make_plan(gait: Gait, result: dict[str, Any] | None, solve: Solve) -> Plan:
+    """The plan of a gait: recorded, by hand table, by a stored result of the exact tier, or by the live tier.
+
+    Args:
+        gait: the document.
+        result: the stored result for exactly this document, where there is one.
+        solve: asks the live tier; called only where nothing else makes the plan.
+    """
+    model = load_robot(gait.robot)
+    try:
+        if gait.recorded is not None:
+            return with_waypoints(_recorded_plan(gait, gait.recorded, model), gait.options)
+        if gait.segment_table is not None:
+            motion = manual_motion(gait, model)
+            note = _manual_note(float(motion.slip.max()))
+            return with_waypoints(
+                Plan(PlanSource.MANUAL, note, model, motion.trajectory, None, None, motion.slip), gait.options
+            )
+        problem = motion_problem(gait, model)
+        stored = _confirmed(problem, result)
+        if stored is not None and result is not None:
+            note = " ".join(filter(None, (_optimised_note(result), _held_note(gait, model))))
+            plan = Plan(PlanSource.OPTIMISED, note, model, stored, None, None)
+            return with_waypoints(_with_origin(plan, result), gait.options)
+        plan = _live_plan(problem, judge(problem, solve(problem)))
+        if plan.source is PlanSource.LIVE:
+            plan = replace(plan, note=" ".join(filter(None, (plan.note, _held_note(gait, model)))))
+        return with_waypoints(plan, gait.options)
+    except FootfallError as refusal:
+        return Plan(PlanSource.DRAFT, refusal.sentence, model, None, None, refusal)
+
+
+def iterate_plan(model: RobotModel, trajectory: Trajectory, number: int, last: int) -> Plan:
+    """A motion on the solver's way, to be looked at.
+
+    Args:
+        model: the robot.
+        trajectory: the motion at that iteration.
+        number: of the iteration, 0 for the start.
+        last: number of the last iteration.
+    """
+    note = f"Iteration {number} of {last}: a motion on the solver's way, not the plan."
+    return with_waypoints(Plan(PlanSource.ITERATE, note, model, trajectory, None, None), AS_PLANNED)
+
+
+def _with_origin(plan: Plan, result: dict[str, Any]) -> Plan:
+    kept = result.get("provenance")
+    return replace(
+        plan,
+        seconds=result["solve_seconds"],
+        result=content_sha256(result["trajectory"]),
+        provenance=None if kept is None else Provenance(**kept),
+    )
+
+
+def _recorded_plan(gait: Gait, recording: Recording, model: RobotModel) -> Plan:
+    """The recorded motion, as it stands.
+
+    Raises:
+        InputError: it cannot be read, or the document says another motion.
+    """
+    trajectory = gait_trajectory(gait, recording, model)
+    slip = stance_slip(trajectory.feet_world, trajectory.contact)
+    note = f"The recorded motion of {recording.file}, as it stands."
+    if recording.form is RecordingForm.WAYPOINTS:
+        note = f"The waypoints of {recording.file}; standing feet slide up to {slip.max() * 1000:.1f} mm."
+    return Plan(PlanSource.RECORDED, note, model, trajectory, None, None, slip)
+
+
+def _live_plan(problem: MotionProblem, answer: Judgement) -> Plan:
+    """The live tier's motion where it is confirmed, its nearest one where there is none, else a drawing."""
+    model, seconds = problem.model, answer.result.solve_seconds
+    if answer.status is SolveStatus.SOLVED:
+        note = _live_note(answer)
+        return Plan(PlanSource.LIVE, note, model, answer.trajectory, None, None, None, answer, seconds)
+    nearest = answer.trajectory if answer.status is SolveStatus.INFEASIBLE else initial_motion(problem)
+    note = missing_support(problem.timeline, problem.limits.margin) or " ".join(answer.explanation)
+    return Plan(PlanSource.DRAFT, note, model, nearest, None, None, None, answer, seconds)
+
+
+def with_waypoints(plan: Plan, options: GaitOptions) -> Plan:
+    """The plan with what would be sent, merged and cut, or with the reason why nothing can be.
+
+    Args:
+        plan: with its motion.
+        options: of the document, for merging and stop bound.
+    """
+    if plan.trajectory is None:
+        return plan
+    try:
+        way = plan_waypoints(plan.model, plan.trajectory, options.merge, options.stop_bound)
+    except UnreachableError as unreachable:
+        draft = plan.source is PlanSource.DRAFT
+        return replace(plan, refusal=InputError(plan.note, "timeline") if draft else unreachable)
+    words = (plan.note, coupling_note(plan.model, plan.trajectory))
+    return replace(plan, way=way, note=" ".join(filter(None, words)))
+
+
+def _confirmed(problem: MotionProblem, result: dict[str, Any] | None) -> Trajectory | None:
+    """A stored result's motion, if the checker still confirms it for this problem and this robot."""
+    if result is None:
+        return None
+    try:
+        trajectory = trajectory_from_content(result["trajectory"])
+        return trajectory if check_motion(problem, trajectory).confirmed else None
+    except (KeyError, TypeError, ValueError, InputError):
+        return None
+
+
+def _manual_note(slip: float) -> str:
+    return f"Made by hand from its segment table; standing feet slide up to {slip * 1000:.1f} mm."
+
+
+def _live_note(answer: Judgement) -> str:
+    return (
+        f"Solved by the live tier in {answer.result.solve_seconds * 1000:.0f} ms; every constraint is "
+        f"confirmed, largest violation {answer.check.max_violation:.1e}."
+    )
+
+
+def _held_note(gait: Gait, model: RobotModel) -> str:
+    """Which feet are held up, and where the body rests aside for it; nothing where none is."""
+    if not gait.held.any:
+        return ""
+    natural = resting_poses(replace(gait, held=HeldFeet()), model)
+    words = [held_sentence(gait.held)]
+    for pose, middle, end in zip(resting_poses(gait, model), natural, ("start", "end"), strict=True):
+        aside = float(np.linalg.norm(pose.body_world - middle.body_world))
+        if aside > 0.0:
+            words.append(
+                f"At the {end} the body rests {aside * 1000:.1f} mm aside, over the feet that stand."
+            )
+    return " ".join(filter(None, words))
+
+
+def _optimised_note(result: dict[str, Any]) -> str:
+    return (
+        f"Optimised in {result['iterations']} iterations, {result['solve_seconds'] * 1000:.0f} ms; every "
+        f"constraint confirmed, largest violation {result['max_violation']:.1e}."
+    )
+
+
+def verdict_of(plan: Plan, gait: Gait, simulated: Simulated | None = None) -> Verdict:
+    """Checks a plan by every rule.
+
+    Args:
+        plan: what the gait amounts to.
+        gait: the document that it is checked against.
+        simulated: a simulation of exactly these waypoints, where there is one.
+
+    Raises:
+        CheckError: there is nothing to check.
+    """
+    if plan.trajectory is None or plan.way is None:
+        sentence = "There is no plan to check." if plan.refusal is None else plan.refusal.sentence
+        raise CheckError(sentence, "plan")
+    is_fresh = plan.made_of is None or plan.made_of == sent_hash(gait)
+    is_draft = plan.source in (PlanSource.DRAFT, PlanSource.ITERATE)
+    checked = checked_plan(gait, plan.model, plan.trajectory, plan.way, is_draft=is_draft, is_fresh=is_fresh)
+    return check_plan(checked, simulated)

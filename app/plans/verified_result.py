@@ -1,0 +1,72 @@
+"""Believing a solver: only what the independent checker confirms counts as solved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from app.common.json_values import finite
+from core.motion.trajectory import Trajectory
+from core.problem.motion_check import MotionCheck, check_motion
+from core.problem.motion_problem import MotionProblem
+from solver_jobs import MotionResult, SolveStatus
+
+
+@dataclass(frozen=True, eq=False)
+class Judgement:
+    """A solver's result as the checker sees it.
+
+    Args:
+        status: the solver's, but failed where the checker does not confirm what is said to be solved.
+        explanation: sentences where it is not solved.
+        check: what the checker measured.
+        result: the solver's own report.
+        problem: what was asked.
+    """
+
+    status: SolveStatus
+    explanation: tuple[str, ...]
+    check: MotionCheck
+    result: MotionResult
+    problem: MotionProblem
+
+    @property
+    def trajectory(self) -> Trajectory:
+        """The motion, or the last iterate where there is none."""
+        return self.result.trajectory
+
+    @property
+    def content(self) -> dict[str, Any]:
+        """The figures as JSON content."""
+        figures = {
+            "status": self.status.value,
+            "iterations": self.result.iteration_count,
+            "objective": self.result.objective,
+            "solve_seconds": self.result.solve_seconds,
+            "build_seconds": self.result.build_seconds,
+            "max_violation": self.check.max_violation,
+            "violations": self.check.violations,
+            "min_margin": self.check.min_margin,
+            "min_cop_margin": self.check.min_cop_margin,
+            "explanation": list(self.explanation),
+        }
+        content: dict[str, Any] = finite(figures)
+        return content
+
+
+def judge(problem: MotionProblem, result: MotionResult) -> Judgement:
+    """Holds a result to the independent checker.
+
+    Args:
+        problem: what was asked.
+        result: what the solver says of it.
+    """
+    check = check_motion(problem, result.trajectory)
+    status, explanation = result.status, result.explanation
+    if status is SolveStatus.SOLVED and not check.confirmed:
+        status = SolveStatus.FAILED
+        explanation = (
+            f"The solver says it is solved, but the checker found {check.worst_family} violated by "
+            f"{check.max_violation:.1e}; the result is not used.",
+        )
+    return Judgement(status, explanation, check, result, problem)

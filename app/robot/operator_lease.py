@@ -1,0 +1,205 @@
+"""The operator lease at work: signs of life of the holder's page, and what happens when they end."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from app.bridge.bridge import RobotBridge
+from app.bridge.lease import Holding, Lease, Person, policy, refusal
+from app.bridge.states import IN_RUN, LinkState, RobotState
+from app.undo.history import SCRIPT, Author
+from core.errors import StateError
+
+logger = logging.getLogger(__name__)
+
+BEAT_SECONDS = 2.0
+"""The holder's page is asked for a sign of life this often, s."""
+
+TellPage = Callable[[str, dict[str, Any]], None]
+
+
+class LeaseDesk:
+    """Who holds the robot, for the rest of the program; every method may be called from any thread.
+
+    Args:
+        bridge: the robot.
+        changed: called when there is something new to show.
+        tell_page: sends an event to one page.
+        clock: seconds that only grow.
+        beat: time between two questions for a sign of life, s.
+    """
+
+    def __init__(
+        self,
+        bridge: RobotBridge,
+        changed: Callable[[], None],
+        tell_page: TellPage,
+        clock: Callable[[], float] = time.monotonic,
+        beat: float = BEAT_SECONDS,
+    ) -> None:
+        self._bridge = bridge
+        self._changed = changed
+        self._tell_page = tell_page
+        self._lease = Lease(clock)
+        self._beat_seconds = beat
+        self._lock = threading.Lock()
+        self._last_deed = object()
+        self._closing = threading.Event()
+        self._thread = threading.Thread(target=self._beat_on, name="robot lease", daemon=True)
+        self._thread.start()
+
+    def close(self) -> None:
+        """Ends the signs of life."""
+        self._closing.set()
+        self._thread.join(timeout=5)
+
+    @contextmanager
+    def held_by(self, author: Author, *, ends: bool = False) -> Iterator[None]:
+        """What is done inside needs the lease; who gets it by this loses it again where the deed is refused.
+
+        Args:
+            author: who does it.
+            ends: nobody holds the robot after it, unless somebody did more with it meanwhile.
+
+        Raises:
+            StateError: somebody else holds the robot.
+        """
+        who = person(author)
+        with self._lock:
+            taken = self._lease.admit(who, is_idle=self._is_idle, is_away=self._is_away)
+            deed = self._last_deed = object()
+        try:
+            yield
+        except Exception:
+            if taken:
+                self._let_go(who, deed)
+            raise
+        if ends:
+            self._let_go(who, deed, to_asker=False)
+        else:
+            self._changed()
+
+    def heard(self, page: str) -> None:
+        """A page gave a sign of life."""
+        with self._lock:
+            is_back = self._lease.heard(page)
+        if is_back:
+            self._changed()
+
+    def ask(self, author: Author) -> None:
+        """Asks for the robot; see `Lease.ask`."""
+        self._do(lambda: self._lease.ask(person(author)))
+
+    def give(self, author: Author) -> None:
+        """Gives the robot to whoever asked; see `Lease.give`."""
+        self._hand_over(author, self._lease.give)
+
+    def keep(self, author: Author) -> None:
+        """Says no to whoever asked; see `Lease.keep`."""
+        self._do(lambda: self._lease.keep(person(author)))
+
+    def take(self, author: Author) -> None:
+        """Takes the robot over; see `Lease.take`."""
+        self._hand_over(author, self._lease.take)
+
+    def release(self, author: Author) -> None:
+        """Lets the robot go; see `Lease.release`.
+
+        Raises:
+            StateError: they do not hold it, or a run is on and nobody asks for it.
+        """
+
+        def let_go(who: Person) -> None:
+            if self._lease.now.asker is None and self._bridge.snapshot.robot in IN_RUN:
+                raise StateError("A run is on. Stop it, or let it end, before you let the robot go.", "lease")
+            self._lease.release(who)
+
+        self._hand_over(author, let_go)
+
+    def view(self) -> dict[str, Any]:
+        """The lease as JSON content."""
+        with self._lock:
+            now = self._lease.now
+        if now.is_free(is_idle=self._is_idle, is_away=self._is_away):
+            now = Holding()
+        holder, asker = now.holder, now.asker
+        return {
+            "page": None if holder is None else holder.page,
+            "name": None if holder is None else holder.title,
+            "is_script": holder is not None and holder.is_script,
+            "is_gone": now.is_gone,
+            "can_be_taken": now.can_be_taken,
+            "asker": None if asker is None else {"page": asker.page, "name": asker.title},
+            "refusal": None if holder is None else refusal(now),
+            "policy": None if holder is None else policy(holder),
+        }
+
+    @property
+    def _is_idle(self) -> bool:
+        now = self._bridge.snapshot
+        busy = {*IN_RUN, RobotState.ARMED, RobotState.STOPPING}
+        return now.link is not LinkState.READY or now.robot not in busy
+
+    @property
+    def _is_away(self) -> bool:
+        return self._bridge.snapshot.link in (LinkState.LOST, LinkState.DISCONNECTED)
+
+    def _hand_over(self, author: Author, act: Callable[[Person], None]) -> None:
+        """Changes the holder; who holds the robot then arms it themselves."""
+        who = person(author)
+        with self._lock:
+            before = self._lease.now.holder
+            act(who)
+            after = self._lease.now.holder
+            if before is not None and (after is None or after.page != before.page):
+                self._bridge.disarm(f"{who.title}, for the robot changed hands")
+        self._changed()
+
+    def _do(self, wish: Callable[[], None]) -> None:
+        with self._lock:
+            wish()
+        self._changed()
+
+    def _let_go(self, who: Person, deed: object, *, to_asker: bool = True) -> None:
+        """Takes the robot from who did a deed, unless somebody did more with it since."""
+        with self._lock:
+            holder = self._lease.now.holder
+            if holder is not None and holder.page == who.page and deed is self._last_deed:
+                (self._lease.release if to_asker else self._lease.drop)(who)
+        self._changed()
+
+    def _beat_on(self) -> None:
+        while not self._closing.wait(self._beat_seconds):
+            try:
+                self._beat()
+            except Exception:
+                logger.exception("The robot's holder was not asked for a sign of life.")
+
+    def _beat(self) -> None:
+        with self._lock:
+            holder = self._lease.now.holder
+            is_gone = self._lease.note_gone()
+        if holder is None or holder.is_script:
+            return
+        self._tell_page(holder.page, {"type": "beat"})
+        if is_gone:
+            self._hold_on(holder)
+
+    def _hold_on(self, holder: Person) -> None:
+        """The stated policy: on to the next pose with all feet down, and wait there."""
+        try:
+            if self._bridge.snapshot.robot is RobotState.MOVING:
+                self._bridge.pause(f"the studio, as {holder.title} is gone")
+        except StateError as refused:  # the run ended meanwhile, or it is a reset, which ends by itself
+            logger.info("Not paused although %s is gone: %s", holder.title, refused.sentence)
+        self._changed()
+
+
+def person(author: Author) -> Person:
+    """Who asks, for the lease."""
+    return Person(author.page, author.name, is_script=author.page == SCRIPT)

@@ -1,0 +1,179 @@
+"""The robot as the studio sees it: the bridge, the emulated robot behind it, and the record of runs."""
+
+from __future__ import annotations
+
+import secrets
+import threading
+import time
+from collections.abc import Callable
+from typing import Any
+
+from app.bridge.run_range import WHOLE, Course
+from app.bridge.states import LinkState, RobotSnapshot, RunPlan
+from app.emulator.emulated_robot import EmulatedRobot, start_emulator
+from app.emulator.faults import Fault
+from app.gaits.open_gait import OpenGait
+from app.plans.plan import Plan
+from app.robot.operator_lease import LeaseDesk, TellPage
+from app.robot.ports import RobotPorts
+from app.robot.recorded_bridge import KeptRun, KeptRuns
+from app.robot.run_summary import run_summary, unwired
+from app.robot.views import (
+    EMULATOR,
+    RunOrigin,
+    allowed,
+    robot_view,
+)
+from app.runs.plan_json import run_plan_content
+from app.store.database import Database
+from core.errors import StateError
+
+MOST_SHOWN = 200
+"""Changes of state that a page shows."""
+
+
+class RobotDesk:
+    """Verbs on the robot, and what is shown of it.
+
+    Args:
+        database: where runs are kept.
+        device: `emulator`, a serial device, or `socket://HOST:PORT`.
+        changed: told with the robot's view whenever it changes.
+        ports: which devices there are.
+        tell_page: sends an event to one page.
+
+    Attributes:
+        lease: who holds the robot.
+        ports: which devices there are.
+    """
+
+    def __init__(
+        self,
+        database: Database,
+        device: str,
+        changed: Callable[[dict[str, Any]], None],
+        ports: RobotPorts,
+        tell_page: TellPage = lambda page, event: None,
+    ) -> None:
+        self._device = device
+        self._emulator: EmulatedRobot | None = None
+        self._connecting = threading.Lock()
+        self._runs = KeptRuns(database, self._show)
+        self.bridge = self._runs.bridge
+        self._changed = changed
+        self.ports = ports
+        self.lease = LeaseDesk(self.bridge, self._show, tell_page)
+        self.bridge.subscribe(lambda snapshot: self._changed(self.view(snapshot)))
+
+    def close(self) -> None:
+        """Stops a run, closes the line and ends the emulated robot."""
+        self.lease.close()
+        self._runs.close()
+        self._close_emulator()
+
+    def connect(self, device: str | None) -> None:
+        """Opens the line to the studio's robot, or to another device."""
+        wanted = device or self._device
+        with self._connecting:
+            if self.bridge.snapshot.link in (LinkState.CONNECTING, LinkState.READY):
+                raise StateError("The robot is connected already. Disconnect it first.", "connect")
+            self._close_emulator()
+            if wanted == EMULATOR:
+                self._emulator = start_emulator()
+                self.bridge.connect(self._emulator.device)
+            else:
+                self.bridge.connect(wanted)
+                self.ports.connected(wanted)
+            self._device = wanted
+
+    def ports_view(self) -> dict[str, Any]:
+        """Serial devices, the one that was used last, and where a lost one is plugged in now."""
+        is_lost = self.bridge.snapshot.link is LinkState.LOST and self._device != EMULATOR
+        return self.ports.view(is_lost=is_lost)
+
+    def transitions(self) -> list[dict[str, Any]]:
+        """The last changes of link and robot with their causes, oldest first; `at` is seconds since 1970."""
+        offset = time.time() - time.monotonic()
+        return [
+            {"at": one.time + offset, "link": one.link.value, "robot": one.robot.value, "cause": one.cause}
+            for one in self.bridge.transitions[-MOST_SHOWN:]
+        ]
+
+    def disconnect(self) -> None:
+        """Stops a run and closes the line; may take as long as the move that is on."""
+        with self._connecting:
+            self.bridge.disconnect()
+            self._close_emulator()
+
+    def strike(self, fault: Fault | None) -> None:
+        """Has something go wrong with the emulated robot, or ends all that lasts.
+
+        Raises:
+            StateError: another robot is connected, or none.
+        """
+        if self._emulator is None:
+            raise StateError("Only the emulated robot has faults on request. Connect it first.", "name")
+        if fault is None:
+            self._emulator.mend()
+        else:
+            self._emulator.inject(fault)
+
+    def _close_emulator(self) -> None:
+        if self._emulator is not None:
+            self._emulator.close()
+            self._emulator = None
+
+    def send(
+        self,
+        open_gait: OpenGait,
+        plan: Plan,
+        waypoints_hash: str | None,
+        by: str,
+        course: Course = WHOLE,
+    ) -> None:
+        """Sends a gait's approved waypoints.
+
+        Raises:
+            StateError: there is no approval of exactly these waypoints, or the robot is not armed.
+            InputError: the run cannot begin at that waypoint, or the gait cannot be repeated.
+        """
+        approval, way = open_gait.approval, plan.way
+        if approval is None or way is None:
+            raise StateError(
+                f"“{open_gait.gait.name}” is not approved as it is now. Check it and approve it first.",
+                "approve",
+            )
+        waypoints = way.waypoints
+        if waypoints_hash is not None and waypoints_hash != waypoints.content_hash:
+            raise StateError(
+                "The gait changed since you looked at it; look at the run again.", "waypoints_hash"
+            )
+        if (reason := unwired(plan)) is not None:
+            raise StateError(reason, "robot")
+        run_plan = RunPlan(waypoints, approval, way.hold_ok, course)
+        content = run_plan_content(plan, way, approval)
+        origin = RunOrigin(secrets.token_hex(6), open_gait.id, open_gait.gait.name, waypoints, way.times)
+        self._runs.send(run_plan, KeptRun(origin, content), by)
+
+    def run_summary(self, open_gait: OpenGait, plan: Plan, course: Course = WHOLE) -> dict[str, Any]:
+        """What a person should know before they press Send; see `app.robot.run_summary`."""
+        snapshot = self.bridge.snapshot
+        reason = unwired(plan) or self._send_hindrance(open_gait, snapshot)
+        return run_summary(plan, course, snapshot, reason)
+
+    def _send_hindrance(self, open_gait: OpenGait, snapshot: RobotSnapshot) -> str | None:
+        if open_gait.approval is None:
+            return "This gait is not approved as it is now. Check it and approve it first."
+        return allowed(snapshot)["send"]
+
+    def view(self, snapshot: RobotSnapshot | None = None) -> dict[str, Any]:
+        """The robot as JSON content."""
+        return {
+            **robot_view(snapshot or self.bridge.snapshot, self._device, self._runs.origin),
+            "previous_run": self._runs.previous,
+            "record_trouble": self._runs.trouble,
+            "lease": self.lease.view(),
+        }
+
+    def _show(self) -> None:
+        self._changed(self.view())

@@ -1,0 +1,186 @@
+"""What is shown of the robot: JSON content from the bridge's snapshot."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunProgress
+from app.emulator.motors import TRAVEL_MM
+from core.arrays import Floats
+from core.wire.messages import RESET_MM
+from core.wire.timing import (
+    ARRIVAL_THRESHOLD,
+    LONGEST_SCAN,
+    OVERRUN,
+    ramp_time,
+    stop_time,
+)
+from core.wire.waypoints import Waypoints
+
+EMULATOR = "emulator"
+"""Name of the studio's own emulated robot among devices."""
+
+RESET_DISTANCE = (TRAVEL_MM - RESET_MM) / 1000.0
+"""A reset's longest move: from the motors' far stop (PROTOCOL 3), m."""
+
+RUNNING = frozenset({RobotState.MOVING, RobotState.PAUSING, RobotState.PAUSED, RobotState.STOPPING})
+"""States in which a run has not ended."""
+
+
+@dataclass(frozen=True)
+class RunOrigin:
+    """Which gait a run came from."""
+
+    run_id: str
+    gait: str
+    gait_name: str
+    waypoints: Waypoints
+    times: Floats
+    """(count,) the plan's time of each waypoint, s."""
+
+
+def robot_view(shown: RobotSnapshot, device: str, origin: RunOrigin | None) -> dict[str, Any]:
+    """The robot for pages and scripts.
+
+    Args:
+        shown: the bridge's snapshot.
+        device: what the studio calls the robot.
+        origin: where the last run that this studio sent came from.
+    """
+    run = shown.run
+    known = origin if run is not None and origin is not None and origin.run_id == run.run_id else None
+    strokes_mm = None if shown.strokes is None else np.round(np.multiply(shown.strokes, 1e3), 3).tolist()
+    return {
+        "stamp": shown.number,  # orders answers and events, which may overtake each other
+        "link": shown.link.value,
+        "robot": shown.robot.value,
+        "sentence": shown.sentence,
+        "device": device,
+        "emulated": device == EMULATOR,
+        "strokes_mm": strokes_mm,
+        "stop_text": None if shown.robot is RobotState.STOPPING else shown.stop_text,
+        "unknown_lines": shown.unknown_lines,
+        "last_error": shown.last_error,
+        "run": None if run is None else _run_view(shown, run, known),
+        "jog": None if shown.jog is None else asdict(shown.jog),
+        "commanded_mm": None if run is None or known is None else _commanded_mm(run, known),
+        "stop_seconds": _stop_seconds(shown, origin),
+        "allowed": allowed(shown),
+    }
+
+
+def stop_seconds(waypoints: Waypoints, snapshot: RobotSnapshot, approved: Waypoints | None = None) -> float:
+    """Longest time until a stop takes effect, s, by the measured scan where there is one (`stop_time`)."""
+    return stop_time(waypoints, snapshot.measured_scan or LONGEST_SCAN, approved)
+
+
+def jog_stop_seconds(largest_move: float, snapshot: RobotSnapshot) -> float:
+    """The same of a jog.
+
+    Args:
+        largest_move: largest distance of a motor in one of its moves, m.
+        snapshot: of the robot.
+    """
+    scan = snapshot.measured_scan or LONGEST_SCAN
+    return scan + ramp_time(largest_move + ARRIVAL_THRESHOLD) + OVERRUN
+
+
+def _stop_seconds(shown: RobotSnapshot, origin: RunOrigin | None) -> float | None:
+    """The same of what is on or was the last; a reset is one move, which nothing cuts."""
+    if shown.jog is not None:
+        return jog_stop_seconds(shown.jog.largest_move, shown)
+    if shown.run is None and shown.robot in RUNNING:
+        return (shown.measured_scan or LONGEST_SCAN) + ramp_time(RESET_DISTANCE) + OVERRUN
+    return None if origin is None else stop_seconds(origin.waypoints, shown)
+
+
+def run_end(shown: RobotSnapshot, run: RunProgress) -> str:
+    """How a run ended, also where the robot was armed or cleared again since."""
+    if shown.link is LinkState.LOST:
+        return "lost"
+    if shown.robot in (RobotState.ARMED, RobotState.DISARMED):
+        return (RobotState.DONE if run.reached == run.count else RobotState.STOPPED).value
+    return shown.robot.value
+
+
+def _run_view(shown: RobotSnapshot, run: RunProgress, known: RunOrigin | None) -> dict[str, Any]:
+    """The run that is on or was the last; where its gait is known, also where in the plan it is."""
+    content: dict[str, Any] = {
+        "id": run.run_id,
+        "phase": run.phase.value if shown.robot in RUNNING else "ended",
+        "sent": run.sent,
+        "reached": run.reached,
+        "count": run.count,
+        "elapsed": run.elapsed,
+        "iteration": run.iteration,
+        "iterations": run.iterations,
+        "operator": run.by,
+        "gait": None,
+        "gait_name": None,
+        "waypoints_hash": None,
+        "plan_time": None,
+    }
+    if known is not None:
+        content |= {
+            "gait": known.gait,
+            "gait_name": known.gait_name,
+            "waypoints_hash": known.waypoints.content_hash,
+            "plan_time": float(known.times[run.waypoint_reached]),
+        }
+    return content
+
+
+def _commanded_mm(run: RunProgress, known: RunOrigin) -> list[float]:
+    row: list[float] = known.waypoints.strokes_mm[run.waypoint_sent].tolist()
+    return row
+
+
+def allowed(snapshot: RobotSnapshot) -> dict[str, str | None]:
+    """Why each button is disabled; None where it may be pressed."""
+    link, robot = snapshot.link, snapshot.robot
+    is_ready = link is LinkState.READY
+    linked = None if is_ready else "Connect the robot first."
+
+    def only(states: set[RobotState], otherwise: str) -> str | None:
+        return linked or (None if robot in states else otherwise)
+
+    connected = link in (LinkState.CONNECTING, LinkState.READY)
+    return {
+        "connect": "The robot is connected." if connected else None,
+        "disconnect": _why_not_disconnect(link, robot),
+        "arm": only({RobotState.DISARMED, RobotState.DONE}, _why_not_arm(robot)),
+        "send": only({RobotState.ARMED}, "Arm the robot first."),
+        "pause": only({RobotState.MOVING} if snapshot.run else set(), _why_not_pause(robot)),
+        "resume": only({RobotState.PAUSED}, "No run is paused."),
+        "clear": only({RobotState.STOPPED, RobotState.FAULT, RobotState.STOPPING}, "Nothing is stopped."),
+        "reset": only({RobotState.ARMED}, "Arm the robot first."),
+        "jog": only({RobotState.ARMED}, _why_not_jog(robot)),
+    }
+
+
+def _why_not_disconnect(link: LinkState, robot: RobotState) -> str | None:
+    if link is LinkState.DISCONNECTED:
+        return "No robot is connected."
+    return "Stop the run first." if link is LinkState.READY and robot in RUNNING else None
+
+
+def _why_not_pause(robot: RobotState) -> str:
+    """Of a robot on which no run moves; a reset or a jog ends by itself."""
+    return "Only a run can be paused; Stop ends this." if robot is RobotState.MOVING else "Nothing is moving."
+
+
+def _why_not_jog(robot: RobotState) -> str:
+    if robot is RobotState.PAUSED:
+        return "A run is paused: resume it, or stop it and arm the robot again."
+    return "It moves." if robot in RUNNING else "Arm the robot first."
+
+
+def _why_not_arm(robot: RobotState) -> str:
+    if robot is RobotState.ARMED:
+        return "The robot is armed."
+    if robot in (RobotState.STOPPED, RobotState.FAULT):
+        return "Clear the stop first."
+    return "Wait until the robot stands still."

@@ -1,0 +1,1 @@
+"""Routes of gaits: documents, versions, approvals, exports, sequences and simulations."""

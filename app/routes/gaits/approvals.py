@@ -1,0 +1,73 @@
+"""Approvals of a gait: their list, and what changed from one to another."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Depends
+
+from app.gaits.approvals import ApprovalRecord, approval_difference, approval_figures
+from app.studio import Studio
+from app.web.dependencies import on_planned, studio_of
+
+router = APIRouter(prefix="/api/gaits/{gait_id}/approvals", tags=["approvals"])
+TheStudio = Annotated[Studio, Depends(studio_of)]
+
+
+@router.get("")
+async def list_approvals(gait_id: str, studio: TheStudio) -> dict[str, Any]:
+    """A gait's approvals, the newest first, and which one stands."""
+
+    def approvals() -> dict[str, Any]:
+        stands = studio.gaits.open_gait(gait_id).approval
+        records = studio.gaits.approvals.all(gait_id)
+        return {"approvals": [_line(record, record.approval == stands) for record in records]}
+
+    return await on_planned(studio, gait_id, approvals)
+
+
+@router.get("/{number}/difference")
+async def difference(gait_id: str, number: int, studio: TheStudio, to: int | None = None) -> dict[str, Any]:
+    """What another approval, or the gait as it is now, has that this one has not; in sentences."""
+
+    def groups() -> dict[str, Any]:
+        approvals = studio.gaits.approvals
+        before = approvals.get(gait_id, number)
+        after = _present(studio, gait_id) if to is None else _sides(approvals.get(gait_id, to))
+        open_gait = studio.gaits.open_gait(gait_id)
+        document = open_gait.gait if to is None else approvals.document(gait_id, approvals.get(gait_id, to))
+        documents = (approvals.document(gait_id, before), document)
+        found = approval_difference(documents, _sides(before), after)
+        return {
+            "from": number,
+            "to": to,
+            "groups": [{"title": group.title, "sentences": list(group.sentences)} for group in found],
+        }
+
+    return await on_planned(studio, gait_id, groups)
+
+
+def _line(record: ApprovalRecord, stands: bool) -> dict[str, Any]:
+    return {
+        "number": record.number,
+        **asdict(record.approval),
+        "version": record.version,
+        "figures": record.figures,
+        "stands": stands,
+    }
+
+
+def _sides(record: ApprovalRecord) -> dict[str, Any]:
+    return {**asdict(record.approval), "figures": record.figures}
+
+
+def _present(studio: Studio, gait_id: str) -> dict[str, Any]:
+    """The gait as it is; without figures where it was not checked."""
+    open_gait, plan = studio.gaits.open_gait(gait_id), studio.gaits.plan(gait_id)
+    verdict = open_gait.verdict
+    return {
+        "waypoints_hash": None if plan.waypoints is None else plan.waypoints.content_hash,
+        "robot_hash": plan.model.parameters_hash,
+        "figures": {} if verdict is None else approval_figures(plan, verdict),
+    }

@@ -1,0 +1,261 @@
+"""Gaits: list, documents, edits, plans, checks and approvals."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, replace
+from functools import partial
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Depends, Query, Request, Response
+from fastapi.responses import JSONResponse
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from starlette.concurrency import run_in_threadpool
+
+from app.bridge.run_range import Course
+from app.documents.gait_json import MOST_BYTES, gait_content, parse_gait
+from app.gaits.approvals import Word
+from app.gaits.open_gait import OpenGait
+from app.gaits.trash import ROUTE
+from app.gaits.views import approval_view, verdict_view
+from app.scene.overlay import plan_poses
+from app.studio import Studio
+from app.web.dependencies import (
+    TheAuthor,
+    changed,
+    on_planned,
+    on_session,
+    studio_of,
+)
+from core.errors import InputError, StateError
+from core.gait.gait import MOST_NAME, Gait
+
+router = APIRouter(prefix="/api/gaits", tags=["gaits"])
+TheStudio = Annotated[Studio, Depends(studio_of)]
+
+_DOCUMENT = {
+    "requestBody": {
+        "required": True,
+        "content": {"application/json": {"schema": {"$ref": "/api/schema/gait"}}},
+    }
+}
+
+
+class Redraw(BaseModel):
+    """A foot order and phase lengths to draw the timeline from."""
+
+    model_config = ConfigDict(extra="forbid")
+    order: list[int]
+    phase_knots: int = Field(default=5, ge=2, le=50)
+    closing_knots: int = Field(default=5, ge=0, le=100)
+
+
+class Approve(BaseModel):
+    """Who approves, and the verdict that they saw."""
+
+    model_config = ConfigDict(extra="forbid")
+    by: str = Field(max_length=80)
+    verdict_hash: str | None = None
+    accept_warnings: bool = Field(False, description="They have seen every warning of it and accept it.")
+
+
+class Live(BaseModel):
+    """A document to try, and whether changes that make it feasible are wanted."""
+
+    model_config = ConfigDict(extra="forbid")
+    document: dict[str, Any] | None = None
+    remedies: bool = False
+
+
+async def _document(request: Request) -> bytes:
+    body = await request.body()
+    if len(body) > MOST_BYTES:
+        raise InputError(f"The gait document has {len(body)} bytes; at most {MOST_BYTES} are read.", "body")
+    return body
+
+
+@router.get("")
+async def list_gaits(studio: TheStudio) -> dict[str, Any]:
+    """Built-in and saved gaits."""
+    return {"gaits": await on_session(studio, studio.summaries)}
+
+
+@router.get(f"/{ROUTE}")
+async def list_deleted(studio: TheStudio) -> dict[str, Any]:
+    """Deleted gaits that can be brought back, the last deleted first: id, name, when (s since the epoch)."""
+    deleted = await on_session(studio, studio.gaits.deleted)
+    return {"gaits": [asdict(gait) for gait in deleted]}
+
+
+@router.post("", status_code=201, openapi_extra=_DOCUMENT)
+async def create_gait(
+    request: Request,
+    studio: TheStudio,
+    copy_of: Annotated[str | None, Query(max_length=80)] = None,
+    name: Annotated[str | None, Query(max_length=120)] = None,
+) -> dict[str, Any]:
+    """Saves a new gait from a document, or from a copy of another."""
+    body = await _document(request)
+
+    def create() -> OpenGait:
+        gait = parse_gait(body, "body") if copy_of is None else _copy(studio.gaits.document(copy_of), name)
+        return studio.gaits.create(gait)
+
+    return await changed(studio, create)
+
+
+def _copy(gait: Gait, name: str | None) -> Gait:
+    """The gait under another name; its own with “copy” behind it where none is given."""
+    word = " copy"
+    return replace(gait, name=name or f"{gait.name[: MOST_NAME - len(word)]}{word}")
+
+
+@router.get("/{gait_id}")
+async def read_gait(gait_id: str, studio: TheStudio) -> dict[str, Any]:
+    """The gait's document as it is on the desk."""
+    return await on_session(studio, lambda: gait_content(studio.gaits.open_gait(gait_id).gait))
+
+
+@router.get("/{gait_id}/view")
+async def view_gait(gait_id: str, studio: TheStudio) -> dict[str, Any]:
+    """The gait with its plan, verdict and approval."""
+    return await on_planned(studio, gait_id, lambda: studio.view(gait_id))
+
+
+@router.put("/{gait_id}", openapi_extra=_DOCUMENT)
+async def edit_gait(
+    gait_id: str,
+    request: Request,
+    studio: TheStudio,
+    author: TheAuthor,
+    label: Annotated[str, Query(max_length=120)] = "Edit",
+    revision: int | None = None,
+) -> dict[str, Any]:
+    """Puts a changed document on the desk as one undo step."""
+    body = await _document(request)
+
+    def edit() -> OpenGait:
+        return studio.gaits.edit(gait_id, parse_gait(body, "body"), label, revision, author)
+
+    return await changed(studio, edit)
+
+
+@router.delete("/{gait_id}")
+async def delete_gait(gait_id: str, studio: TheStudio) -> dict[str, Any]:
+    """Takes a saved gait away; it can be restored."""
+
+    def delete() -> dict[str, Any]:
+        instead = studio.gaits.delete(gait_id)
+        if instead is not None:
+            studio.publish_soon(instead.id)
+        studio.publish_list()
+        return {"deleted": gait_id}
+
+    return await on_session(studio, delete)
+
+
+@router.post("/{gait_id}/redraw")
+async def redraw_gait(gait_id: str, redraw: Redraw, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+    """Draws the timeline anew from a foot order."""
+    change = partial(
+        studio.gaits.redraw, gait_id, tuple(redraw.order), redraw.phase_knots, redraw.closing_knots, author
+    )
+    return await changed(studio, change)
+
+
+@router.post("/{gait_id}/undo")
+async def undo(gait_id: str, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+    """Takes back the newest edit of who asks; a page names itself by the header X-Footfall-Page."""
+    return await changed(studio, lambda: studio.gaits.undo(gait_id, author))
+
+
+@router.post("/{gait_id}/redo")
+async def redo(gait_id: str, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+    """Does the newest undone edit of who asks again."""
+    return await changed(studio, lambda: studio.gaits.redo(gait_id, author))
+
+
+@router.post("/{gait_id}/save")
+async def save(gait_id: str, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+    """Writes the gait to the data folder."""
+    return await changed(studio, lambda: studio.gaits.save(gait_id, author))
+
+
+@router.post("/{gait_id}/restore")
+async def restore(gait_id: str, studio: TheStudio) -> dict[str, Any]:
+    """Brings a deleted gait back."""
+    return await changed(studio, lambda: studio.gaits.restore(gait_id))
+
+
+@router.post("/{gait_id}/live", response_model=dict[str, Any])
+async def live(gait_id: str, request: Request, studio: TheStudio) -> JSONResponse:
+    """What the gait, or a changed document of it, would amount to; the desk stays as it is."""
+    asked = _asked(await _document(request))
+    gait = await on_session(studio, lambda: studio.gaits.open_gait(gait_id).gait)
+    # As a finished answer: the framework's own way through every number takes longer than all the rest.
+    return await run_in_threadpool(
+        lambda: JSONResponse(studio.live.answer(gait, asked.document, asked.remedies))
+    )
+
+
+def _asked(body: bytes) -> Live:
+    try:
+        return Live.model_validate_json(body or b"{}")
+    except ValidationError as error:
+        first = error.errors()[0]
+        field = ".".join(str(part) for part in first["loc"])
+        raise InputError(f"body, field {field}: {first['msg']}.", f"body.{field}") from error
+
+
+@router.post("/{gait_id}/check")
+async def check(gait_id: str, studio: TheStudio) -> dict[str, Any]:
+    """Checks the plan by every rule and gives the verdict."""
+
+    def checked() -> dict[str, Any]:
+        open_gait = studio.gaits.check(gait_id)
+        studio.publish_gait(open_gait)
+        if open_gait.verdict is None:
+            raise StateError("The check gave no verdict.", "check")
+        return verdict_view(open_gait.verdict)
+
+    return await on_planned(studio, gait_id, checked)
+
+
+@router.post("/{gait_id}/approve")
+async def approve(gait_id: str, approval: Approve, studio: TheStudio) -> dict[str, Any]:
+    """Records a person's approval of the present verdict."""
+
+    def approved() -> dict[str, Any]:
+        word = Word(approval.by, approval.verdict_hash, approval.accept_warnings)
+        open_gait = studio.gaits.approve(gait_id, word)
+        studio.publish_gait(open_gait)
+        if open_gait.approval is None:
+            raise StateError("The approval was not recorded.", "approve")
+        return approval_view(open_gait.approval)
+
+    return await on_planned(studio, gait_id, approved)
+
+
+@router.get("/{gait_id}/poses", response_class=Response)
+async def poses(gait_id: str, plan: str, studio: TheStudio) -> Response:
+    """Every moving part's pose over the plan, for playback; binary."""
+    shown = await on_planned(studio, gait_id, lambda: studio.gaits.plan(gait_id))
+    if shown.hash != plan:
+        shown = studio.live.kept(plan)
+    trajectory = shown.trajectory
+    if trajectory is None:
+        raise StateError("This plan cannot be shown: there is no motion.", "plan")
+    blob = await run_in_threadpool(plan_poses, shown.model, trajectory)
+    return Response(blob.to_bytes(), media_type="application/octet-stream")
+
+
+@router.get("/{gait_id}/run")
+async def run(
+    gait_id: str, studio: TheStudio, first: Annotated[int, Query(alias="from")] = 0, iterations: int = 1
+) -> dict[str, Any]:
+    """What a person should know before they press Send."""
+
+    def summary() -> dict[str, Any]:
+        open_gait, plan = studio.gaits.open_gait(gait_id), studio.gaits.plan(gait_id)
+        return studio.robot.run_summary(open_gait, plan, Course(first, iterations))
+
+    return await on_planned(studio, gait_id, summary)

@@ -1,0 +1,72 @@
+"""Sequences: gaits chained into one, and brought up to date with the gaits that they were made of."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Depends, Query
+from pydantic import BaseModel, ConfigDict, Field
+
+from app.gaits.open_gait import OpenGait
+from app.gaits.sequence_documents import AskedPart, made_sequence, refreshed
+from app.studio import Studio
+from app.web.dependencies import (
+    TheAuthor,
+    changed,
+    on_session,
+    studio_of,
+)
+from core.gait.sequence_part import MOST_PARTS, MOST_TIMES
+
+router = APIRouter(prefix="/api", tags=["sequences"])
+TheStudio = Annotated[Studio, Depends(studio_of)]
+
+
+class NewPart(BaseModel):
+    """A gait by its id, and how often it runs."""
+
+    model_config = ConfigDict(extra="forbid")
+    gait: str = Field(max_length=80)
+    times: int = Field(default=1, ge=1, le=MOST_TIMES)
+
+
+class NewSequence(BaseModel):
+    """A name, and the gaits that follow each other; a sequence among them stands for its parts."""
+
+    model_config = ConfigDict(extra="forbid")
+    name: str = Field(max_length=120)
+    parts: list[NewPart] = Field(min_length=1, max_length=MOST_PARTS)
+    notes: str = Field(default="", max_length=20_000)
+
+
+@router.post("/sequences", status_code=201)
+async def create_sequence(asked: NewSequence, studio: TheStudio) -> dict[str, Any]:
+    """Saves a new gait that chains others, and gives its view."""
+
+    def create() -> OpenGait:
+        parts = [AskedPart(part.gait, part.times) for part in asked.parts]
+        gait = made_sequence(asked.name, parts, studio.gaits.document, asked.notes)
+        return studio.gaits.create(gait)
+
+    return await changed(studio, create)
+
+
+@router.post("/gaits/{gait_id}/sequence/refresh")
+async def refresh_sequence(
+    gait_id: str, studio: TheStudio, author: TheAuthor, part: Annotated[int | None, Query(ge=0)] = None
+) -> dict[str, Any]:
+    """Takes over the gaits that changed since they became parts: all, or that of one part (from 0)."""
+
+    def refresh() -> OpenGait:
+        gait = refreshed(studio.gaits.document(gait_id), studio.gaits.document, part)
+        label = "Take over changed gaits" if part is None else f"Take over part {part + 1}"
+        return studio.gaits.edit(gait_id, gait, label, None, author)
+
+    return await changed(studio, refresh)
+
+
+@router.post("/gaits/{gait_id}/sequence/optimise", status_code=202)
+async def optimise_parts(gait_id: str, studio: TheStudio) -> dict[str, Any]:
+    """Starts the exact tier for each part that has no exact motion yet."""
+    views = await on_session(studio, lambda: studio.submit_parts(gait_id))
+    return {"jobs": [view["id"] for view in views]}

@@ -1,0 +1,115 @@
+"""Versions of a gait: list, naming, differences in words, going back."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Depends
+from pydantic import BaseModel, ConfigDict, Field
+
+from app.documents.gait_json import gait_content, motion_hash, parse_gait
+from app.gaits.open_gait import OpenGait
+from app.gaits.versions import MOST_NAME, VersionKind, is_said_already
+from app.store.gait_store import VersionRow
+from app.studio import Studio
+from app.web.dependencies import (
+    TheAuthor,
+    changed,
+    on_planned,
+    on_session,
+    studio_of,
+)
+from core.gait.gait import Gait
+from core.gait.gait_difference import gait_difference
+
+router = APIRouter(prefix="/api/gaits/{gait_id}/versions", tags=["versions"])
+TheStudio = Annotated[Studio, Depends(studio_of)]
+
+
+class Naming(BaseModel):
+    """What a person calls the present state."""
+
+    model_config = ConfigDict(extra="forbid")
+    name: str = Field(pattern=r"\S", max_length=MOST_NAME)
+
+
+@router.get("")
+async def list_versions(gait_id: str, studio: TheStudio) -> dict[str, Any]:
+    """A gait's versions, the newest first."""
+
+    def versions() -> dict[str, Any]:
+        open_gait = studio.gaits.open_gait(gait_id)
+        motion = motion_hash(open_gait.gait)
+        return {"versions": [_line(row, open_gait, motion) for row in studio.gaits.versions.all(gait_id)]}
+
+    return await on_session(studio, versions)
+
+
+@router.post("", status_code=201)
+async def name_version(gait_id: str, naming: Naming, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+    """Keeps the present state under a name."""
+
+    def keep() -> dict[str, Any]:
+        open_gait = studio.gaits.open_gait(gait_id)
+        row = studio.gaits.versions.keep(open_gait, VersionKind.NAMED, author, naming.name)
+        studio.publish_gait(open_gait)
+        return _line(row, open_gait, row.motion)
+
+    return await on_planned(studio, gait_id, keep)
+
+
+@router.get("/{number}")
+async def read_version(gait_id: str, number: int, studio: TheStudio) -> dict[str, Any]:
+    """A version with its document."""
+
+    def version() -> dict[str, Any]:
+        row = studio.gaits.versions.get(gait_id, number)
+        open_gait = studio.gaits.open_gait(gait_id)
+        line = _line(row, open_gait, motion_hash(open_gait.gait))
+        return {**line, "document": gait_content(_gait(row))}
+
+    return await on_session(studio, version)
+
+
+@router.get("/{number}/difference")
+async def difference(gait_id: str, number: int, studio: TheStudio, to: int | None = None) -> dict[str, Any]:
+    """What another version, or the present document, says that this version does not; in sentences."""
+
+    def groups() -> dict[str, Any]:
+        versions, open_gait = studio.gaits.versions, studio.gaits.open_gait(gait_id)
+        before = _gait(versions.get(gait_id, number))
+        after = open_gait.gait if to is None else _gait(versions.get(gait_id, to))
+        found = gait_difference(before, after)
+        return {
+            "from": number,
+            "to": to,
+            "groups": [{"title": group.title, "sentences": list(group.sentences)} for group in found],
+        }
+
+    return await on_session(studio, groups)
+
+
+@router.post("/{number}/restore")
+async def restore_version(gait_id: str, number: int, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+    """Puts a version's document on the desk again, as an edit that can be undone."""
+    return await changed(studio, lambda: studio.gaits.restore_version(gait_id, number, author))
+
+
+def _gait(row: VersionRow) -> Gait:
+    return parse_gait(row.document, f"version {row.number}")
+
+
+def _line(row: VersionRow, open_gait: OpenGait, motion: str) -> dict[str, Any]:
+    """A line of the list; `motion` is the present document's hash."""
+    same_motion = row.motion == motion
+    return {
+        "number": row.number,
+        "made": datetime.fromtimestamp(row.made, UTC).isoformat(),
+        "kind": row.kind,
+        "name": row.name,
+        "by": row.by,
+        "motion": row.motion,
+        "present": same_motion and is_said_already(_gait(row), open_gait.gait),
+        "same_motion": same_motion,
+    }

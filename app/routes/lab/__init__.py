@@ -1,0 +1,1 @@
+"""Routes of the laboratory: trials, cameras, videos and learning from trials."""

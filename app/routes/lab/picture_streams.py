@@ -1,0 +1,60 @@
+"""What routes of videos and cameras share: a picture with what tracking finds in it, and streams."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from fastapi import Query
+from pydantic import BaseModel, ConfigDict, Field
+from starlette.concurrency import run_in_threadpool
+
+from app.cameras.setup_schema import Colours, LimitsDocument, SetupDocument
+from app.studio import Studio
+from app.videos.service import LOOK_SECONDS
+from app.vision.services import seen
+from app.vision.worker import LookAt, Source
+from core.vision.setup import FEET, TrackingSetup
+
+Width = Annotated[int | None, Query(ge=16, le=8192)]
+"""A picture is shown no wider than so many pixels."""
+
+BOUNDARY = "picture"
+"""Between two pictures of a stream."""
+
+
+class LookRequest(BaseModel):
+    """How a picture is looked at: whose colour (`foot` from 1, null for none), limits, setup for places."""
+
+    model_config = ConfigDict(extra="forbid")
+    foot: int | None = Field(default=1, ge=1, le=FEET)
+    colours: Colours
+    limits: LimitsDocument = Field(default_factory=LimitsDocument)
+    shows: Literal["mask", "plain"] = "mask"
+    setup: SetupDocument | None = None
+    most: int = Field(default=1280, ge=16, le=8192)
+
+    def tracking(self) -> TrackingSetup | None:
+        """The setup, where it is complete."""
+        setup = None if self.setup is None else self.setup.setup()
+        return None if setup is None or setup.missing else setup.tracking()
+
+
+async def look_at(studio: Studio, source: Source, look: LookRequest) -> dict[str, Any]:
+    """A picture with what tracking would find in it."""
+    task = LookAt(
+        source,
+        None if look.foot is None else look.foot - 1,
+        tuple(colour.range() for colour in look.colours),
+        look.limits.limits(),
+        look.tracking(),
+        look.shows == "mask",
+        look.most,
+    )
+    found: dict[str, Any] = await run_in_threadpool(lambda: seen(studio.seeing.eyes.near, task, LOOK_SECONDS))
+    return found
+
+
+def part(picture: bytes) -> bytes:
+    """A picture as a part of a stream."""
+    head = f"--{BOUNDARY}\r\nContent-Type: image/jpeg\r\nContent-Length: {len(picture)}\r\n\r\n"
+    return head.encode() + picture + b"\r\n"

@@ -1,0 +1,40 @@
+"""What stands beside trials: plan and physics, tracks in the plan's frame for 3D, bands over several."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Depends, Query
+from starlette.concurrency import run_in_threadpool
+
+from app.studio import Studio
+from app.web.dependencies import studio_of
+
+router = APIRouter(prefix="/api/trials", tags=["trials"])
+TheStudio = Annotated[Studio, Depends(studio_of)]
+
+
+@router.get("/band")
+async def read_band(trial: Annotated[list[str], Query()], studio: TheStudio) -> dict[str, Any]:
+    """Trials over each other in the plan's frame, by iteration: mean, spread, each trial and the plan; cm."""
+    return await run_in_threadpool(studio.beside.band, trial)
+
+
+@router.get("/{trial}/beside")
+async def read_beside(trial: str, studio: TheStudio) -> dict[str, Any]:
+    """Figures of planned, simulated and tracked feet; how the simulation stands; its ways for a plot, cm."""
+    return await run_in_threadpool(studio.beside.figures, trial)
+
+
+@router.post("/{trial}/simulation", status_code=202)
+async def simulate_trial(trial: str, studio: TheStudio) -> dict[str, Any]:
+    """Begins to simulate what the robot was sent, unless that is done or on; tells how it stands."""
+    return await run_in_threadpool(studio.beside.simulate, trial)
+
+
+@router.get("/{trial}/scene")
+async def read_scene(
+    trial: str, studio: TheStudio, lap: Annotated[int, Query(ge=1, le=1000)] = 1
+) -> dict[str, Any]:
+    """The track over a lap of the plan by shares of the whole walk, its gaps, and how the robot stood; m."""
+    return await run_in_threadpool(lambda: studio.beside.scene(trial, lap))

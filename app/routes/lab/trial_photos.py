@@ -1,0 +1,81 @@
+"""Photos of trials: adding, captions, deleting, the pictures themselves."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Depends, Query, Request, Response
+from pydantic import BaseModel, ConfigDict, Field
+from starlette.concurrency import run_in_threadpool
+
+from app.studio import Studio
+from app.trials.photos import check_bytes
+from app.web.dependencies import TheAuthor, studio_of
+
+router = APIRouter(prefix="/api/trials/{trial}/photos", tags=["trials"])
+TheStudio = Annotated[Studio, Depends(studio_of)]
+
+_PICTURE = {
+    "requestBody": {
+        "required": True,
+        "content": {
+            kind: {"schema": {"type": "string", "format": "binary"}} for kind in ("image/png", "image/jpeg")
+        },
+    }
+}
+
+
+class Caption(BaseModel):
+    """What a person says of a photo; nothing takes the words away."""
+
+    model_config = ConfigDict(extra="forbid")
+    caption: str = Field(max_length=500)
+
+
+@router.get("")
+async def list_photos(trial: str, studio: TheStudio) -> dict[str, Any]:
+    """A trial's photos, in the order in which they came."""
+    return {"photos": await run_in_threadpool(studio.photos.photos, trial)}
+
+
+@router.post("", status_code=201, openapi_extra=_PICTURE)
+async def add_photo(
+    trial: str,
+    request: Request,
+    studio: TheStudio,
+    author: TheAuthor,
+    name: Annotated[str, Query(min_length=1, max_length=200)] = "The photo",
+) -> dict[str, Any]:
+    """Keeps the PNG or JPEG picture that is the request's body, without place, time and camera."""
+    gathered = bytearray()
+    async for chunk in request.stream():
+        gathered += chunk
+        check_bytes(len(gathered), name)
+    return await run_in_threadpool(lambda: studio.photos.add(trial, bytes(gathered), name, author.name))
+
+
+@router.put("/{photo}")
+async def caption_photo(trial: str, photo: str, words: Caption, studio: TheStudio) -> dict[str, Any]:
+    """Keeps a caption."""
+    return await run_in_threadpool(lambda: studio.photos.caption(trial, photo, words.caption.strip()))
+
+
+@router.delete("/{photo}")
+async def delete_photo(trial: str, photo: str, studio: TheStudio) -> dict[str, Any]:
+    """Takes a photo away; it can be restored."""
+    await run_in_threadpool(studio.photos.delete, trial, photo)
+    return {"id": photo, "deleted": True}
+
+
+@router.post("/{photo}/restore")
+async def restore_photo(trial: str, photo: str, studio: TheStudio) -> dict[str, Any]:
+    """Brings a deleted photo back."""
+    return await run_in_threadpool(studio.photos.restore, trial, photo)
+
+
+@router.get("/{photo}/picture", response_class=Response)
+async def read_picture(trial: str, photo: str, studio: TheStudio, small: bool = False) -> Response:
+    """The photo as JPEG, or its thumbnail."""
+    content = await run_in_threadpool(studio.photos.picture, trial, photo, is_small=small)
+    headers = {"cache-control": "private, max-age=31536000, immutable"}
+    return Response(content, media_type="image/jpeg", headers=headers)

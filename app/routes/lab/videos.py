@@ -1,0 +1,232 @@
+"""Videos: uploading, looking, tuning, tracking."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import AsyncIterator
+from typing import Annotated, Any
+from urllib.parse import quote
+
+from fastapi import APIRouter, Depends, Query, Request
+from fastapi.responses import FileResponse, Response, StreamingResponse
+from pydantic import BaseModel, ConfigDict, Field
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import ClientDisconnect
+
+from app.routes.lab.camera_setups import Corners, board_of
+from app.routes.lab.picture_streams import (
+    BOUNDARY,
+    LookRequest,
+    Width,
+    look_at,
+    part,
+)
+from app.routes.lab.trials import (
+    Iterations,
+    Length,
+    Name,
+    planned_for,
+)
+from app.studio import Studio
+from app.trials.service import TrialWords
+from app.videos.files import MOST_BYTES, Upload
+from app.videos.tracking_service import TrackOrder
+from app.vision.footage import PICTURES
+from app.vision.worker import BoardIn, Source
+from app.web.dependencies import TheAuthor, on_session, studio_of
+from core.errors import FootfallError
+
+router = APIRouter(prefix="/api/videos", tags=["videos"])
+TheStudio = Annotated[Studio, Depends(studio_of)]
+Frame = Annotated[int | None, Query(ge=0)]
+
+GATHER = 1 << 20
+"""Bytes of an upload that are written at one time."""
+
+BOARD_FRAMES = 24
+"""Pictures of a video that are looked through for a checkerboard where none are named."""
+
+
+class _Body(BaseModel):
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+
+
+class TrackRequest(_Body):
+    """What a video shows; `run` brings the plan that the robot was sent, `gait` the plan it has now."""
+
+    setup: str = Field(max_length=200)
+    name: Name
+    expected_cm: Length
+    iterations: Iterations = 1
+    gait: str = Field(default="", max_length=200)
+    run: str = Field(default="", max_length=200)
+    note: str = Field(default="", max_length=4000)
+
+
+class BoardsRequest(_Body):
+    """In which pictures a checkerboard is looked for; null takes some from the whole video."""
+
+    columns: Corners
+    rows: Corners
+    frames: list[Annotated[int, Field(ge=0)]] | None = Field(default=None, min_length=1, max_length=100)
+
+
+@router.get("")
+async def list_videos(
+    studio: TheStudio, run: Annotated[str, Query(max_length=200)] = "", deleted: bool = False
+) -> dict[str, Any]:
+    """Videos, the newest first, of one run or all."""
+    views = await run_in_threadpool(studio.seeing.videos.views, run, is_deleted=deleted)
+    return {"videos": views, "most_bytes": MOST_BYTES}
+
+
+@router.post("", status_code=201)
+async def upload(
+    request: Request,
+    response: Response,
+    studio: TheStudio,
+    name: Annotated[str, Query(min_length=1, max_length=200)],
+) -> dict[str, Any]:
+    """Keeps the video that is the request's body; what is no video or breaks off leaves nothing.
+
+    A file that is kept already is not kept twice: the answer is 200 with `again` and the video that is there.
+    """
+    said = request.headers.get("content-length", "")
+    size = int(said) if said.isdigit() else None
+    taken = await run_in_threadpool(studio.seeing.videos.begin, name, size)
+    try:
+        await _take(request, taken)
+        kept = await run_in_threadpool(studio.seeing.videos.keep, taken)
+        if kept["again"]:
+            response.status_code = 200
+        return kept
+    except ClientDisconnect:
+        return {}  # nobody is there to read it
+    finally:
+        await run_in_threadpool(taken.discard)
+
+
+async def _take(request: Request, taken: Upload) -> None:
+    gathered = bytearray()
+    async for chunk in request.stream():
+        gathered += chunk
+        if len(gathered) >= GATHER:
+            data, gathered = bytes(gathered), bytearray()
+            await run_in_threadpool(taken.add, data)
+    await run_in_threadpool(lambda: taken.add(bytes(gathered)))
+
+
+@router.get("/{video}")
+async def read_video(video: str, studio: TheStudio) -> dict[str, Any]:
+    """A video."""
+    return await run_in_threadpool(studio.seeing.videos.view, video)
+
+
+@router.delete("/{video}")
+async def delete_video(video: str, studio: TheStudio) -> dict[str, Any]:
+    """Takes a video out of the list; it can be restored."""
+    await run_in_threadpool(studio.seeing.videos.delete, video)
+    return {"id": video, "deleted": True}
+
+
+@router.post("/{video}/restore")
+async def restore_video(video: str, studio: TheStudio) -> dict[str, Any]:
+    """Brings a deleted video back."""
+    return await run_in_threadpool(studio.seeing.videos.restore, video)
+
+
+@router.get("/{video}/picture.jpg", response_class=Response)
+async def picture_of_video(
+    video: str,
+    studio: TheStudio,
+    frame: Frame = None,
+    seconds: Annotated[float | None, Query(ge=0.0, le=1e6)] = None,
+    most: Width = None,
+) -> Response:
+    """One picture, by its number or by the video's time."""
+    videos = studio.seeing.videos
+    content = await run_in_threadpool(lambda: videos.picture(videos.source(video, frame, seconds), most))
+    return Response(content, media_type="image/jpeg", headers={"cache-control": "no-cache"})
+
+
+@router.get("/{video}/file", response_class=Response)
+async def file_of_video(video: str, studio: TheStudio) -> FileResponse:
+    """The video as it is kept; a recording as JPEG pictures one after the other (MJPEG)."""
+    path, view = await run_in_threadpool(
+        lambda: (studio.seeing.videos.path(video), studio.seeing.videos.view(video))
+    )
+    is_recording = path.is_dir()
+    name = quote(f"{view['name']}.mjpeg" if is_recording else view["name"])
+    headers = {"content-disposition": f"attachment; filename*=UTF-8''{name}"}
+    return FileResponse(path / PICTURES if is_recording else path, headers=headers)
+
+
+@router.get("/{video}/stream", response_class=Response)
+async def play_video(
+    video: str,
+    studio: TheStudio,
+    from_frame: Annotated[int, Query(ge=0)] = 0,
+    speed: Annotated[float, Query(gt=0.0, le=20.0)] = 1.0,
+    most: Width = 960,
+) -> StreamingResponse:
+    """The video's pictures in real time (multipart), to its end; late ones are left out."""
+    view = await run_in_threadpool(studio.seeing.videos.view, video)
+    first = await run_in_threadpool(studio.seeing.videos.source, video, from_frame)
+    pace = max(view["rate"], 1.0) * speed
+
+    async def parts() -> AsyncIterator[bytes]:
+        begun, number = time.monotonic(), from_frame
+        while number < view["frames"] and not studio.hub.is_closed:
+            source = Source(first.path, number, name=first.name)
+            try:
+                yield part(await run_in_threadpool(studio.seeing.videos.picture, source, most))
+            except FootfallError:  # a file may hold fewer pictures than it says
+                return
+            number = max(number + 1, from_frame + int((time.monotonic() - begun) * pace))
+            await asyncio.sleep(max(0.0, begun + (number - from_frame) / pace - time.monotonic()))
+
+    return StreamingResponse(parts(), media_type=f"multipart/x-mixed-replace; boundary={BOUNDARY}")
+
+
+@router.post("/{video}/look")
+async def look_at_video(
+    video: str, look: LookRequest, studio: TheStudio, frame: Frame = None
+) -> dict[str, Any]:
+    """A picture with what tracking would find in it."""
+    source = await run_in_threadpool(studio.seeing.videos.source, video, frame)
+    return await look_at(studio, source, look)
+
+
+@router.post("/{video}/boards")
+async def find_boards(video: str, asked: BoardsRequest, studio: TheStudio) -> dict[str, Any]:
+    """Where a checkerboard is in some of a video's pictures."""
+    view = await run_in_threadpool(studio.seeing.videos.view, video)
+    frames = asked.frames
+    if frames is None:
+        count = min(BOARD_FRAMES, max(view["frames"], 1))
+        frames = [number * max(view["frames"] - 1, 0) // max(count - 1, 1) for number in range(count)]
+    boards = []
+    for frame in frames:
+        source = await run_in_threadpool(studio.seeing.videos.source, video, frame)
+        boards.append(await board_of(studio, BoardIn(source, (asked.columns, asked.rows))))
+    return {"boards": boards}
+
+
+@router.post("/{video}/track", status_code=202)
+async def track(video: str, asked: TrackRequest, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+    """Starts following the feet; the job's result names the trial."""
+    gait, gait_name, planned = await planned_for(studio, asked.run, asked.gait, asked.iterations)
+    words = TrialWords(
+        asked.name,
+        author.name,
+        asked.expected_cm,
+        asked.iterations,
+        asked.note,
+        gait,
+        gait_name,
+        asked.run,
+    )
+    order = TrackOrder(video, asked.setup, words, planned)
+    content = await on_session(studio, lambda: studio.submit_tracking(order))
+    return {"id": content["id"]}

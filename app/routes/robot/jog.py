@@ -1,0 +1,139 @@
+"""Steps by hand: one motor, one foot or the body, looked at first and then made."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Depends, Response
+from pydantic import BaseModel, ConfigDict, Field
+from starlette.concurrency import run_in_threadpool
+
+from app.robot.jog_service import JogLook, JogWish
+from app.routes.robot.robot import SOMEBODY, Deed, named
+from app.scene.ghost import ghost_blob
+from app.studio import Studio
+from app.web.dependencies import (
+    MOST_MOTORS,
+    TheAuthor,
+    strokes_from_mm,
+    studio_of,
+)
+from core.errors import InputError
+from core.jog.steps import (
+    MOST_STEPS,
+    Axis,
+    JogPart,
+    JogStep,
+)
+from core.robot.model import RobotModel, load_robot
+
+router = APIRouter(prefix="/api/robot", tags=["robot"])
+TheStudio = Annotated[Studio, Depends(studio_of)]
+
+Millimetres = Annotated[float, Field(allow_inf_nan=False)]
+
+
+class Step(BaseModel):
+    """One step: of a `motor` of a `foot`, of a foot along an axis, or of the body along an axis."""
+
+    model_config = ConfigDict(extra="forbid")
+    part: JogPart
+    by_mm: Millimetres
+    """How far, mm; of a motor the change of its stroke, which grows downwards."""
+    foot: int | None = None
+    """Counted from 1."""
+    motor: int | None = None
+    """Within the foot, counted from 1."""
+    axis: Axis | None = None
+    """Of the robot: x forwards, y to the left, z up."""
+
+
+class Look(BaseModel):
+    """Whose ranges are to be told."""
+
+    model_config = ConfigDict(extra="forbid")
+    part: JogPart
+    foot: int = 1
+
+
+class Target(BaseModel):
+    """Where steps begin and what they are."""
+
+    model_config = ConfigDict(extra="forbid")
+    steps: list[Step] = Field(max_length=MOST_STEPS)
+    robot: str = "deltawalker"
+    from_mm: list[Millimetres] | None = Field(default=None, max_length=MOST_MOTORS)
+    """Strokes to begin with, of previews only; the measured ones where none are given."""
+
+    def wish(self, look: Look | None = None) -> JogWish:
+        """The steps for the desk.
+
+        Raises:
+            InputError: there is no such robot, or the strokes are not its.
+        """
+        model = load_robot(self.robot)
+        given = None if self.from_mm is None else strokes_from_mm(model, self.from_mm, "from_mm")
+        return JogWish(model, tuple(_step(one) for one in self.steps), given, _look(model, look))
+
+
+class Jog(Target, Deed):
+    """Steps to look at (`preview`) or to make."""
+
+    preview: bool = False
+    """Tells target and findings, and moves nothing."""
+    look: Look | None = None
+    seen_mm: list[Millimetres] | None = Field(default=None, max_length=MOST_MOTORS)
+    """Target that the person saw; refused where the robot would go elsewhere."""
+
+
+class Ghost(Target):
+    """Steps whose target is to be drawn, and where the body stands in the scene."""
+
+    x: float = Field(default=0.0, allow_inf_nan=False)
+    y: float = Field(default=0.0, allow_inf_nan=False)
+    heading: float = Field(default=0.0, allow_inf_nan=False)
+
+
+@router.post("/jog")
+async def jog(studio: TheStudio, author: TheAuthor, wish: Jog) -> dict[str, Any]:
+    """Moves one motor, one foot or the body by small steps; with `preview` only tells where they would lead.
+
+    Needs an armed robot that stands still with no run on, and the lease. Findings are judged anew from where
+    it stands then. The answer is the preview's content, or the robot's view.
+    """
+    steps = wish.wish(wish.look)
+    if wish.preview:
+        return await run_in_threadpool(studio.jog.preview, steps)
+    doer = named(author, wish)
+
+    def moved() -> None:
+        with studio.robot.lease.held_by(doer):
+            studio.jog.move(steps, doer.name or SOMEBODY, wish.seen_mm)
+
+    await run_in_threadpool(moved)
+    return studio.robot.view()
+
+
+@router.post("/jog/ghost", response_class=Response)
+async def ghost(studio: TheStudio, target: Ghost) -> Response:
+    """The robot at the target as poses of lines; binary, laid out as those of a plan."""
+    steps = target.wish()
+
+    def blob() -> bytes:
+        motion = studio.jog.ghost(steps, (target.x, target.y, target.heading))
+        return ghost_blob(steps.model, motion).to_bytes()
+
+    return Response(await run_in_threadpool(blob), media_type="application/octet-stream")
+
+
+def _step(step: Step) -> JogStep:
+    foot, motor = (None if number is None else number - 1 for number in (step.foot, step.motor))
+    return JogStep(step.part, step.by_mm / 1000.0, foot, motor, step.axis)
+
+
+def _look(model: RobotModel, look: Look | None) -> JogLook | None:
+    if look is None:
+        return None
+    if not 1 <= look.foot <= model.leg_count:
+        raise InputError(f"There is no foot {look.foot}; it must lie in 1 to {model.leg_count}.", "look.foot")
+    return JogLook(look.part, look.foot - 1)

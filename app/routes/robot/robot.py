@@ -1,0 +1,209 @@
+"""The robot: its state, and the verbs that move it or stop it."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from dataclasses import replace
+from enum import StrEnum
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Body, Depends
+from pydantic import BaseModel, ConfigDict, Field
+from starlette.concurrency import run_in_threadpool
+
+from app.bridge.run_range import Course
+from app.studio import Studio
+from app.undo.history import Author
+from app.web.dependencies import TheAuthor, on_planned, studio_of
+
+router = APIRouter(prefix="/api/robot", tags=["robot"])
+TheStudio = Annotated[Studio, Depends(studio_of)]
+
+SOMEBODY = "somebody on the page"
+MOST_NAME = 80
+"""Characters of a person's name."""
+
+
+class Deed(BaseModel):
+    """Who does it."""
+
+    model_config = ConfigDict(extra="forbid")
+    by: str = Field(default=SOMEBODY, max_length=MOST_NAME)
+
+
+TheDeed = Annotated[Deed | None, Body()]
+
+
+class Connect(Deed):
+    """Which robot to connect; the studio's own where none is named."""
+
+    device: str | None = Field(default=None, max_length=200)
+
+
+class Send(Deed):
+    """Which gait to send, the hash that the person saw, and which of its waypoints."""
+
+    gait: str
+    waypoints_hash: str | None = None
+    first: int = Field(default=0, alias="from")
+    """Waypoint to begin with, 0-based; all feet must be down there."""
+    iterations: int = 1
+
+
+async def _moved(
+    studio: Studio,
+    author: Author,
+    deed: Deed | None,
+    action: Callable[[str], object],
+    *,
+    ends: bool = False,
+) -> dict[str, Any]:
+    """Does what needs the lease, in the name of who does it; where it `ends`, nobody holds the robot then."""
+    doer = named(author, deed)
+
+    def done() -> None:
+        with studio.robot.lease.held_by(doer, ends=ends):
+            action(doer.name or SOMEBODY)
+
+    await run_in_threadpool(done)
+    return studio.robot.view()
+
+
+def named(author: Author, deed: Deed | None) -> Author:
+    """Who does it: the name in the body goes before that of the page."""
+    named = deed is not None and "by" in deed.model_fields_set and deed.by.strip()
+    return replace(author, name=deed.by) if deed is not None and named else author
+
+
+@router.get("")
+async def read_robot(studio: TheStudio) -> dict[str, Any]:
+    """Link, robot, run, measured strokes, and who holds the robot."""
+    return studio.robot.view()
+
+
+@router.get("/ports")
+async def read_ports(studio: TheStudio) -> dict[str, Any]:
+    """Serial devices with description and serial number, the last one, and where a lost one is now."""
+    return await run_in_threadpool(studio.robot.ports_view)
+
+
+@router.get("/transitions")
+async def read_transitions(studio: TheStudio) -> dict[str, Any]:
+    """The last changes of link and robot with their causes, oldest first."""
+    return {"transitions": studio.robot.transitions()}
+
+
+@router.post("/connect")
+async def connect(
+    studio: TheStudio, author: TheAuthor, deed: Annotated[Connect | None, Body()] = None
+) -> dict[str, Any]:
+    """Opens the line. The board may reset, and its motors may move for about 8 s."""
+    return await _moved(studio, author, deed, lambda _: studio.robot.connect(deed.device if deed else None))
+
+
+@router.post("/disconnect")
+async def disconnect(studio: TheStudio, author: TheAuthor, deed: TheDeed = None) -> dict[str, Any]:
+    """Stops a run and closes the line; nobody holds the robot then."""
+    return await _moved(studio, author, deed, lambda _: studio.robot.disconnect(), ends=True)
+
+
+async def send_stop(studio: Studio, by: str) -> None:
+    """Stops the robot; a name that is too long or none is no reason to refuse it.
+
+    Args:
+        studio: whose robot.
+        by: who stops it.
+    """
+    name = by.strip()[:MOST_NAME] or SOMEBODY
+    # On this very thread: on a busy computer each further one takes its time to wake up.
+    left = studio.robot.bridge.try_stop(name)
+    if left is not None:
+        # A lane of its own: it must not wait behind anything else that the server does.
+        await asyncio.get_running_loop().run_in_executor(studio.stop_lane, left)
+
+
+@router.post("/stop")
+async def stop(studio: TheStudio, by: str = SOMEBODY) -> dict[str, Any]:
+    """Stops the robot: at once on the wire, in effect after the move that is running.
+
+    A body is not read, and the lease is not asked for. Of a long name 80 characters are kept.
+    """
+    await send_stop(studio, by)
+    return studio.robot.view()
+
+
+@router.post("/send")
+async def send(studio: TheStudio, author: TheAuthor, wish: Send) -> dict[str, Any]:
+    """Sends a gait's approved waypoints, after the slow way to the start pose."""
+    doer, course = named(author, wish), Course(wish.first, wish.iterations)
+
+    def sent() -> None:
+        with studio.robot.lease.held_by(doer):
+            open_gait, plan = studio.gaits.confirmed(wish.gait), studio.gaits.plan(wish.gait)
+            studio.robot.send(open_gait, plan, wish.waypoints_hash, doer.name or SOMEBODY, course)
+
+    await on_planned(studio, wish.gait, sent)
+    return studio.robot.view()
+
+
+@router.post("/arm")
+async def arm(studio: TheStudio, author: TheAuthor, deed: TheDeed = None) -> dict[str, Any]:
+    """Lets the robot be moved."""
+    return await _moved(studio, author, deed, studio.robot.bridge.arm)
+
+
+@router.post("/pause")
+async def pause(studio: TheStudio, author: TheAuthor, deed: TheDeed = None) -> dict[str, Any]:
+    """Waits at the next pose with all feet down."""
+    return await _moved(studio, author, deed, studio.robot.bridge.pause)
+
+
+@router.post("/resume")
+async def resume(studio: TheStudio, author: TheAuthor, deed: TheDeed = None) -> dict[str, Any]:
+    """Goes on with a paused run."""
+    return await _moved(studio, author, deed, studio.robot.bridge.resume)
+
+
+@router.post("/clear")
+async def clear(studio: TheStudio, author: TheAuthor, deed: TheDeed = None) -> dict[str, Any]:
+    """Lets a stopped robot go after replacing its target by where it stands."""
+    return await _moved(studio, author, deed, studio.robot.bridge.clear)
+
+
+@router.post("/reset")
+async def reset(studio: TheStudio, author: TheAuthor, deed: TheDeed = None) -> dict[str, Any]:
+    """Sends every motor to 0.5 mm."""
+    return await _moved(studio, author, deed, studio.robot.bridge.reset)
+
+
+class HandOver(StrEnum):
+    """What can be done about who holds the robot."""
+
+    ASK = "ask"
+    """Asks the holder for it; where nobody holds it, it is theirs at once."""
+    GIVE = "give"
+    """The holder gives it to whoever asked."""
+    KEEP = "keep"
+    """The holder says no."""
+    TAKE = "take"
+    """Takes it from a holder who is gone, or from a script."""
+    RELEASE = "release"
+    """The holder lets it go."""
+
+
+@router.post("/lease/{act}")
+async def hand_over(
+    studio: TheStudio, author: TheAuthor, act: HandOver, deed: TheDeed = None
+) -> dict[str, Any]:
+    """Asks for the robot, gives it, keeps it, takes it over or lets it go."""
+    lease, doer = studio.robot.lease, named(author, deed)
+    verbs: dict[HandOver, Callable[[Author], None]] = {
+        HandOver.ASK: lease.ask,
+        HandOver.GIVE: lease.give,
+        HandOver.KEEP: lease.keep,
+        HandOver.TAKE: lease.take,
+        HandOver.RELEASE: lease.release,
+    }
+    await run_in_threadpool(verbs[act], doer)
+    return studio.robot.view()

@@ -1,0 +1,35 @@
+"""Runs whose program is gone: their records are completed from what it left behind."""
+
+from __future__ import annotations
+
+import json
+
+from app.store.database import Database
+from app.store.run_journal import Entry, EntryKind, abandoned_journal
+from app.store.run_rows import add_bytes, add_states, byte_row, put_run, state_row
+from app.store.run_store import RunLog
+
+ABANDONED = "The program that sent this run ended while it was on; nothing resumes by itself."
+
+
+def end_abandoned(database: Database) -> None:
+    """Calls runs interrupted whose program is gone; those of another program that lives go on."""
+    log = RunLog(database)
+    for content in log.running():
+        run = content["id"]
+        with abandoned_journal(database.path.parent, run) as entries:
+            row = log.get(run)
+            if entries is not None and row is not None and row.content["state"] == "running":
+                _complete(database, run, row.content, entries)
+
+
+def _complete(database: Database, run: str, content: dict[str, object], entries: tuple[Entry, ...]) -> None:
+    pieces = [entry for entry in entries if entry.kind.is_bytes]
+    states = [entry for entry in entries if entry.kind is EntryKind.STATE]
+    ends = [json.loads(entry.data) for entry in entries if entry.kind is EntryKind.END]
+    end = ends[-1] if ends else content | {"state": "interrupted", "sentence": ABANDONED}
+    known = RunLog(database).counts(run)
+    with database.writing() as connection:
+        add_bytes(connection, [byte_row(run, entry) for entry in pieces[known.pieces :]])
+        add_states(connection, [state_row(run, entry) for entry in states[known.states :]])
+        put_run(connection, end)

@@ -1,0 +1,179 @@
+"""Runs for the page and scripts: list, figures, series, notes, deleting, files."""
+
+from __future__ import annotations
+
+import time
+from datetime import UTC, datetime
+from typing import Any
+
+import numpy as np
+
+from app.common.json_values import finite
+from app.runs.record import RunRecord, known_row, read_record
+from app.runs.recovery import end_abandoned
+from app.store.database import Database
+from app.store.run_store import RunFilter, RunLog, RunRow
+from core.arrays import Floats
+from core.errors import FootfallError
+from core.runs.analysis import run_errors
+
+FIGURES_VERSION = 2
+"""Figures that another version computed are computed again."""
+
+
+class RunDesk:
+    """What there is to see of runs; every method may be called from any thread.
+
+    Args:
+        database: where runs are kept.
+    """
+
+    def __init__(self, database: Database) -> None:
+        self._database = database
+        self._log = RunLog(database)
+
+    def found(self, wanted: RunFilter, offset: int, most: int) -> dict[str, Any]:
+        """Some of the runs that a filter leaves, the newest first, and what can be filtered by."""
+        end_abandoned(self._database)
+        rows = self._log.found(wanted, offset, most)
+        return {
+            "runs": [self._line(row) for row in rows],
+            "total": self._log.count(wanted),
+            "offset": offset,
+            **self._log.choices(),
+        }
+
+    def summary(self, run: str) -> dict[str, Any]:
+        """A run with its plan's words, its states and its errors."""
+        row = known_row(self._log, run)
+        plan, began = self._log.plan(run) or {}, row.content["started_monotonic"]
+        return {
+            **self._line(row),
+            "approval": plan.get("approval"),
+            "merge": plan.get("merge"),
+            "stop_bound": plan.get("stop_bound"),
+            "states": [
+                {"time": at - began, "link": link, "robot": robot, "cause": cause}
+                for at, link, robot, cause in self._log.states_of(run)
+            ],
+        }
+
+    def strokes(self, run: str, most: int) -> dict[str, Any]:
+        """Measured and commanded strokes over time, thinned to about `most` samples, arrivals always kept."""
+        record = self.record(run)
+        kept = _thinned(record, most)
+        return {
+            "id": run,
+            "waypoints_hash": record.content["waypoints_hash"],
+            "count": len(record.series.times),
+            "times": np.round(record.series.times[kept], 4).tolist(),
+            "plan_times": _rounded(record.plan_times[kept], 4),
+            "laps": [_lap(record, index) for index in kept],
+            "measured_mm": np.round(record.series.measured_mm[kept], 4).tolist(),
+            "foot_heights_mm": _mm(record.foot_heights[kept]),
+            "commanded_mm": _rounded(record.commanded_mm[kept], 4),
+            "arrivals": [
+                {"waypoint": c.index, "lap": c.lap, "sent": c.sent, "arrived": finite(c.arrived)}
+                for c in record.series.streamed
+            ],
+        }
+
+    def record(self, run: str) -> RunRecord:
+        """A run as it was kept, for its files."""
+        return read_record(self._log, run)
+
+    def note(self, run: str, text: str) -> dict[str, Any]:
+        """Keeps a person's note."""
+        known_row(self._log, run)
+        self._log.put_note(run, text)
+        return self.summary(run)
+
+    def delete(self, run: str) -> dict[str, Any]:
+        """Takes a run out of every list; `restore` brings it back."""
+        known_row(self._log, run)
+        self._log.put_deleted(run, time.time())
+        return {"id": run, "deleted": True}
+
+    def restore(self, run: str) -> dict[str, Any]:
+        """Brings a deleted run back."""
+        known_row(self._log, run)
+        self._log.put_deleted(run, None)
+        return self.summary(run)
+
+    def _line(self, row: RunRow) -> dict[str, Any]:
+        content = row.content
+        keys = ("id", "gait", "gait_name", "waypoints_hash", "by", "state", "sentence")
+        return {
+            **{key: content[key] for key in keys},
+            "started": _iso(content["started"]),
+            "ended": None if content["ended"] is None else _iso(content["ended"]),
+            "seconds": content.get("seconds"),
+            "reached": content.get("reached"),
+            "count": content.get("count"),
+            "left_out": content.get("left_out", 0),
+            "note": row.note,
+            "deleted": row.deleted is not None,
+            "errors": self._errors(row),
+        }
+
+    def _errors(self, row: RunRow) -> dict[str, Any] | None:
+        """Figures of a run; kept once it has ended. None where it was kept without its plan."""
+        run, is_on = row.content["id"], row.content["ended"] is None and row.content["state"] == "running"
+        kept = None if is_on else self._log.figures(run)
+        if kept is not None and kept["version"] == FIGURES_VERSION:
+            return kept
+        try:
+            figures = _figures(self.record(run))
+        except FootfallError:
+            return None
+        if not is_on:
+            self._log.put_figures(run, figures)
+        return figures
+
+
+def _figures(record: RunRecord) -> dict[str, Any]:
+    errors = run_errors(record.plan, record.series)
+    largest = errors.motor_largest
+    worst = int(largest.argmax()) if errors.arrived else None
+    return {
+        "version": FIGURES_VERSION,
+        "arrived": errors.arrived,
+        "largest_mm": None if worst is None else _mm(largest)[worst],
+        "largest_motor": worst,
+        "motor_mean_mm": _mm(errors.motor_mean),
+        "motor_largest_mm": _mm(largest),
+        "motor_waypoint": errors.motor_waypoint.tolist(),
+        "foot_mean_mm": _mm(errors.foot_mean),
+        "foot_largest_mm": _mm(errors.foot_largest),
+        "foot_path_mm": _mm(errors.foot_path),
+        "body_largest_mm": finite(errors.body_largest * 1000.0),
+        "seconds": finite(errors.seconds),
+        "estimate": finite(errors.estimate),
+        "start_seconds": finite(errors.start_seconds),
+    }
+
+
+def _mm(values: Floats) -> list[Any]:
+    return _rounded(values * 1000.0, 4)
+
+
+def _rounded(values: Floats, digits: int) -> list[Any]:
+    """As JSON content, null where a value is not known."""
+    content: list[Any] = finite(np.round(values, digits).tolist())
+    return content
+
+
+def _iso(seconds: float) -> str:
+    return datetime.fromtimestamp(seconds, UTC).isoformat()
+
+
+def _lap(record: RunRecord, index: int) -> int:
+    aim = int(record.series.aims[index])
+    return record.series.commands[aim].lap if aim >= 0 else 0
+
+
+def _thinned(record: RunRecord, most: int) -> list[int]:
+    times = record.series.times
+    every = max(1, -(-len(times) // most))
+    arrived = [c.arrived for c in record.series.streamed if c.is_reached]
+    return sorted({*range(0, len(times), every), *np.searchsorted(times, arrived).tolist()})

@@ -1,0 +1,133 @@
+"""The web application: page, API, events and the 3D preview behind one port."""
+
+from __future__ import annotations
+
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from fastapi import FastAPI
+from fastapi.responses import HTMLResponse
+from fastapi_offline import FastAPIOffline
+from starlette.middleware import Middleware
+
+from app.common.version import VERSION
+from app.documents.gait_json import gait_schema
+from app.routes import (
+    events,
+    jobs,
+    robots,
+    scene,
+)
+from app.routes.gaits import (
+    approvals,
+    exports,
+    gaits,
+    sequences,
+    simulations,
+    versions,
+)
+from app.routes.gaits import (
+    segment_tables as tables,
+)
+from app.routes.lab import (
+    camera_setups as setups,
+)
+from app.routes.lab import (
+    cameras,
+    learning,
+    trial_photos,
+    trial_reports,
+    trials,
+    videos,
+)
+from app.routes.lab import (
+    trial_comparisons as trial_beside,
+)
+from app.routes.patterns import search as patterns
+from app.routes.robot import (
+    jog,
+    robot,
+    robot_faults,
+    runs,
+)
+from app.routes.viser_proxy import make_viser_router
+from app.scene.registry import Scenes
+from app.studio import Studio
+from app.web.access import Access, Guard
+from app.web.assets import REVALIDATED, Assets
+from app.web.body_limit import BodyLimit
+from app.web.dependencies import install_error_handlers
+from app.web.page import ModulePage
+
+MOST_MESSAGE_BYTES = 64 * 1024 * 1024
+"""Largest web-socket message; the scene's meshes travel in one."""
+
+
+_ROUTERS = (
+    exports.router,
+    sequences.router,
+    gaits.router,
+    approvals.router,
+    versions.router,
+    jobs.router,
+    patterns.router,
+    robot.router,
+    robot_faults.router,
+    jog.router,
+    runs.router,
+    simulations.router,
+    tables.router,
+    trial_beside.router,
+    trial_photos.router,
+    trial_reports.router,
+    trials.router,
+    learning.router,
+    setups.router,
+    videos.router,
+    cameras.router,
+    robots.router,
+    scene.router,
+    events.router,
+)
+"""A router whose paths would also fit another one's stands before that."""
+
+
+def make_app(studio: Studio, scenes: Scenes, access: Access) -> FastAPI:
+    """Assembles the routes.
+
+    Args:
+        studio: everything with state.
+        scenes: the 3D scenes.
+        access: who may talk to it.
+    """
+    app = FastAPIOffline(
+        title="Footfall Studio",
+        version=VERSION,
+        redoc_url=None,
+        middleware=[Middleware(Guard, access=access), Middleware(BodyLimit)],
+    )
+    app.state.studio = studio
+    install_error_handlers(app)
+    for router in (*_ROUTERS, make_viser_router(scenes.of)):
+        app.include_router(router)
+    static = Path(str(resources.files("app").joinpath("static"))).resolve()
+
+    module_page = ModulePage(static)
+
+    @app.get("/api/health", tags=["studio"])
+    async def health() -> dict[str, str]:
+        """Whether the studio answers."""
+        return {"status": "ok", "version": VERSION}
+
+    @app.get("/api/schema/gait", tags=["gaits"])
+    async def schema() -> dict[str, Any]:
+        """JSON Schema of the gait document."""
+        return gait_schema()
+
+    @app.get("/", include_in_schema=False)
+    async def page() -> HTMLResponse:
+        return HTMLResponse(module_page.now().text, headers=REVALIDATED)
+
+    app.mount("/static", Assets(static, module_page), name="static")
+    return app

@@ -1,0 +1,141 @@
+"""Runs the studio until a signal ends it."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import secrets
+import signal
+import socket
+import sys
+import webbrowser
+from collections.abc import Callable, Generator
+from dataclasses import dataclass
+from pathlib import Path
+
+import uvicorn
+
+from app.cameras.address import CameraAddress
+from app.scene.registry import Scenes
+from app.server.application import MOST_MESSAGE_BYTES, make_app
+from app.studio import Studio
+from app.web.access import LOOPBACK_NAMES, Access
+from core.errors import InputError
+
+GRACE_SECONDS = 3
+"""Open connections get this long when the studio ends."""
+
+
+@dataclass(frozen=True)
+class ServeOptions:
+    """How to serve (see `footfall serve --help`)."""
+
+    host: str
+    port: int
+    device: str
+    data: Path
+    token: str | None
+    opens_browser: bool
+    cameras: tuple[CameraAddress, ...] = ()
+
+
+class _Server(uvicorn.Server):
+    """A server whose signals are ours: ending by a signal is a normal end."""
+
+    def __init__(self, config: uvicorn.Config, ready: Callable[[], None]) -> None:
+        super().__init__(config)
+        self._ready = ready
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """Starts listening, then says so."""
+        await super().startup(sockets)
+        self._ready()
+
+    @contextlib.contextmanager
+    def capture_signals(self) -> Generator[None, None, None]:
+        """Leaves signals to `serve`."""
+        yield
+
+
+def serve(options: ServeOptions, announce: Callable[[str], None]) -> None:
+    """Serves until SIGINT or SIGTERM; then the robot is stopped and everything is closed.
+
+    Args:
+        options: how to serve.
+        announce: told the URL as soon as the studio answers.
+
+    Raises:
+        InputError: the port is busy, or the data folder cannot be used.
+    """
+    listening = _listen(options.host, options.port)
+    token = options.token
+    if token is None and options.host not in LOOPBACK_NAMES:
+        token = secrets.token_urlsafe(18)
+    scenes = Scenes()
+    with contextlib.closing(listening):
+        studio = Studio(options.data, options.device, options.cameras)
+        try:
+            app = make_app(studio, scenes, Access(options.host, token))
+            config = uvicorn.Config(
+                app,
+                log_level="warning",
+                access_log=False,
+                lifespan="off",
+                ws_max_size=MOST_MESSAGE_BYTES,
+                ws_per_message_deflate=False,
+                timeout_graceful_shutdown=GRACE_SECONDS,
+            )
+            url = _url(options.host, listening.getsockname()[1], token)
+            server = _Server(config, lambda: _tell(url, announce, options.opens_browser))
+            asyncio.run(_serve_until_signal(server, listening, studio))
+        finally:
+            studio.close()
+            scenes.stop()
+
+
+async def _serve_until_signal(server: _Server, listening: socket.socket, studio: Studio) -> None:
+    loop = asyncio.get_running_loop()
+
+    def end() -> None:
+        # The robot first: connections that are still open may take their time to close.
+        studio.stop_run("the end of the studio")
+        server.should_exit = True
+        studio.hub.close()
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        loop.add_signal_handler(number, end)
+    await server.serve(sockets=[listening])
+
+
+def _listen(host: str, port: int) -> socket.socket:
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    # The protocol is named so that asyncio sends each answer's pieces at once (TCP_NODELAY): 40 ms a request.
+    listening = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
+    listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listening.bind((host, port))
+        listening.listen(128)
+    except (OSError, OverflowError) as error:
+        listening.close()
+        reason = error.strerror if isinstance(error, OSError) else "the number is out of range"
+        raise InputError(
+            f"Port {port} on {host} cannot be used: {reason}. End the program that uses it, or choose "
+            "another with --port.",
+            "--port",
+        ) from error
+    return listening
+
+
+def _url(host: str, port: int, token: str | None) -> str:
+    shown = f"[{host}]" if ":" in host else host
+    return f"http://{shown}:{port}/" + (f"?token={token}" if token else "")
+
+
+def _tell(url: str, announce: Callable[[str], None], opens_browser: bool) -> None:
+    announce(url)
+    has_screen = sys.platform in ("darwin", "win32") or any(
+        os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY")
+    )
+    if opens_browser and has_screen:
+        webbrowser.open(url)

@@ -1,0 +1,135 @@
+"""From a plan to what the physics is asked, what that depends on, and its report as content."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import asdict, fields
+from typing import Any
+
+import numpy as np
+
+from app.common.json_values import finite
+from app.common.version import VERSION
+from app.plans.plan import Plan
+from core.errors import CheckError, InputError
+from core.motion.trajectory import Trajectory
+from core.physics.masses import default_physics, part_masses
+from core.physics.parameters import PhysicsSet, physics_sets
+from core.physics.problem import Rig, SimulationProblem
+from core.physics.report import SimulationReport
+from core.robot.model import RobotModel
+from core.wire.waypoint_merging import WaypointPlan
+
+FORM = 2
+"""Of what is kept of a simulation; grows with a change of the physics or its report between versions."""
+
+
+def simulation_problem(plan: Plan, physics: PhysicsSet) -> SimulationProblem:
+    """What the physics is asked of a plan: exactly the waypoints that would be sent.
+
+    Raises:
+        CheckError: the plan has no waypoints.
+    """
+    if plan.trajectory is None or plan.way is None:
+        sentence = "There is no plan to simulate." if plan.refusal is None else plan.refusal.sentence
+        raise CheckError(sentence, "plan")
+    return way_problem(plan.model, plan.trajectory, plan.way, physics)
+
+
+def way_problem(
+    model: RobotModel,
+    trajectory: Trajectory,
+    way: WaypointPlan,
+    physics: PhysicsSet,
+    rig: Rig = Rig.WALKING,
+) -> SimulationProblem:
+    """The same of a motion and what is sent of it."""
+    return SimulationProblem(
+        model, way.waypoints, trajectory, way.times, way.contact, way.standing, physics, rig
+    )
+
+
+def fitting_sets(model: RobotModel) -> tuple[PhysicsSet, ...]:
+    """The sets of physics parameters whose masses the robot has, its usual one first."""
+    usual = default_physics(model)
+    others = (one for one in physics_sets().values() if one != usual and _has_masses(model, one))
+    return (usual, *others)
+
+
+def _has_masses(model: RobotModel, physics: PhysicsSet) -> bool:
+    try:
+        part_masses(model, physics)
+    except InputError:
+        return False
+    return True
+
+
+def simulation_key(plan: Plan, physics: PhysicsSet) -> str:
+    """Hash of everything that a simulation of a plan depends on, this program's version included."""
+    waypoints = "" if plan.waypoints is None else plan.waypoints.content_hash
+    robot, parameters = plan.model.parameters_hash, json.dumps(physics_content(physics), sort_keys=True)
+    parts = [VERSION, str(FORM), robot, plan.hash, waypoints, parameters]
+    return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+
+
+def physics_content(physics: PhysicsSet) -> dict[str, Any]:
+    """A set of physics parameters as JSON content, SI."""
+    content: dict[str, Any] = finite(asdict(physics))
+    return content
+
+
+def physics_from_content(content: dict[str, Any]) -> PhysicsSet:
+    """Inverse of `physics_content`."""
+    values: dict[str, Any] = {
+        name: tuple(value) if isinstance(value, list) else value for name, value in content.items()
+    }
+    return PhysicsSet(**values)
+
+
+def report_content(report: SimulationReport) -> dict[str, Any]:
+    """A report as JSON content, SI."""
+    values = {field.name: getattr(report, field.name) for field in fields(report)}
+    content: dict[str, Any] = finite(
+        {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in values.items()}
+    )
+    return content
+
+
+def report_from_content(content: dict[str, Any]) -> SimulationReport:
+    """Inverse of `report_content`."""
+    values: dict[str, Any] = {
+        name: np.array(value) if isinstance(value, list) else value for name, value in content.items()
+    }
+    return SimulationReport(**values)
+
+
+def report_figures(report: SimulationReport) -> dict[str, Any]:
+    """The figures that scripts get of a simulated run, SI, those of feet and motors from foot 1 on."""
+    content: dict[str, Any] = finite(
+        {
+            "mean_error": {
+                "body": report.body_error,
+                "feet": report.feet_error.tolist(),
+                "feet_mean": report.feet_mean_error,
+            },
+            "max_tilt": report.max_tilt,
+            "max_tilt_time": report.max_tilt_time,
+            "fell": report.fell,
+            "fell_time": report.fell_time,
+            "slip": report.slip.tolist(),
+            "swing_load": report.swing_load.tolist(),
+            "distance": report.distance,
+            "planned_distance": report.planned_distance,
+            "heading": report.heading,
+            "planned_heading": report.planned_heading,
+            "min_margin": report.min_margin,
+            "motor_error": report.motor_error.tolist(),
+            "saturation": report.saturation.tolist(),
+            "loop_error": report.loop_error,
+            "seconds": float(report.arrival_times[-1]),
+            "realtime_factor": report.realtime_factor,
+            "ended_early": report.ended_early,
+        }
+    )
+    return content

@@ -1,0 +1,91 @@
+"""The simulations that are kept: which one is of a plan as it is now, and its report; any thread may ask."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from app.plans.plan import Plan
+from app.simulation.problem import report_from_content, simulation_key, simulation_problem
+from app.store.simulation_store import SimulationLog, SimulationRow
+from core.checks.simulation import Simulated
+from core.errors import NotFoundError
+from core.physics.masses import default_physics
+from core.physics.parameters import PhysicsSet, physics_sets
+
+
+class KeptSimulations:
+    """The simulations.
+
+    Args:
+        log: where they are kept.
+        told: hears of the waypoints' hash of each one that is kept.
+        sets: every set of physics parameters that there is now.
+    """
+
+    def __init__(
+        self,
+        log: SimulationLog,
+        told: Callable[[str], None] = lambda waypoints: None,
+        sets: Callable[[], Iterable[PhysicsSet]] = lambda: physics_sets().values(),
+    ) -> None:
+        self._log = log
+        self._told = told
+        self._sets = sets
+
+    def put(self, row: SimulationRow, content: dict[str, Any]) -> None:
+        """Keeps a simulation; variations that are known of the same stay where it has none of its own."""
+        before = self._log.content(row.key)
+        if content["variations"] is None and before is not None:
+            content = {**content, "variations": before["variations"]}
+        self._log.put(row, content)
+        self._told(row.waypoints)
+
+    def content(self, key: str) -> dict[str, Any]:
+        """A simulation for pages and scripts.
+
+        Raises:
+            NotFoundError: there is none, or it was long ago.
+        """
+        content = self._log.content(key)
+        if content is None:
+            raise NotFoundError(
+                "There is no such simulation, or it is not kept any more. Simulate again.", key
+            )
+        return content
+
+    def standing(self, gait_id: str, plan: Plan) -> dict[str, Any] | None:
+        """The newest simulation of a gait, rather one of its plan as it is; None where there is none."""
+        rows = self._log.of_gait(gait_id)
+        if not rows:
+            return None
+        now = self.keys_of(plan)
+        fresh = next((row for row in rows if row.key in now), None)
+        row = fresh or rows[0]
+        return {"key": row.key, "physics": row.physics, "made": row.made, "fresh": fresh is not None}
+
+    def is_fresh(self, gait_id: str, key: str, plan: Plan) -> bool:
+        """Whether a simulation is kept and is of the gait's plan as it is now."""
+        return key in self.keys_of(plan) and any(row.key == key for row in self._log.of_gait(gait_id))
+
+    def simulated(self, plan: Plan) -> Simulated | None:
+        """A simulation of a plan as it is now, for its verdict; None where there is none.
+
+        One with the robot's usual parameters goes before the newest one, so that what they find stands
+        whatever else is tried.
+        """
+        if plan.waypoints is None:
+            return None
+        sets = {simulation_key(plan, physics): physics for physics in self._sets()}
+        usual = default_physics(plan.model).name
+        rows = [row for row in self._log.of_waypoints(plan.waypoints.content_hash) if row.key in sets]
+        for row in sorted(rows, key=lambda row: row.physics != usual):
+            content = self._log.content(row.key)
+            if content is not None:
+                problem = simulation_problem(plan, sets[row.key])
+                return Simulated(report_from_content(content["report"]), problem)
+        return None
+
+    def keys_of(self, plan: Plan) -> frozenset[str]:
+        """What simulations of a plan are kept under, with each physics set."""
+        return frozenset(simulation_key(plan, physics) for physics in self._sets())

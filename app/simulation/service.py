@@ -1,0 +1,196 @@
+"""Simulations as jobs in the list: asked for by gait, run in the physics' own process, then kept.
+
+Only the session's thread calls this; a thread a simulation waits for its answer.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+import uuid
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any, Protocol
+
+from app.common.json_values import finite
+from app.common.version import VERSION
+from app.gaits.open_gait import OpenGait
+from app.jobs.job_tracker import RunningJobs
+from app.jobs.repository import JobBook
+from app.plans.plan import Plan
+from app.simulation.problem import (
+    physics_content,
+    report_content,
+    report_figures,
+    report_from_content,
+    simulation_key,
+    simulation_problem,
+)
+from app.simulation.repository import KeptSimulations
+from app.simulation.view import motion_content, report_sentence, variations_content
+from app.store.simulation_store import SimulationRow
+from core.errors import FootfallError, StateError
+from core.physics.findings import physics_outcomes
+from core.physics.masses import part_masses
+from core.physics.metrics import report
+from core.physics.motion import SimulatedMotion
+from core.physics.parameters import PhysicsSet
+from core.physics.problem import SimulationProblem
+from core.physics.variations import VariedRun
+
+_log = logging.getLogger(__name__)
+
+Content = dict[str, Any]
+
+KIND = "simulate"
+"""What pages and scripts call these jobs."""
+
+
+class SimulationAnswer(Protocol):
+    """What came of a simulation."""
+
+    @property
+    def motion(self) -> SimulatedMotion:
+        """Of the parameters as they are."""
+
+    @property
+    def runs(self) -> Sequence[VariedRun]:
+        """Of their variations."""
+
+
+class SimulationHandle(Protocol):
+    """A simulation under way; `solver_jobs.Simulation` in the studio."""
+
+    def result(self) -> SimulationAnswer:
+        """Waits for its answer."""
+
+    def cancel(self) -> None:
+        """Ends it."""
+
+
+class SimulationTier(Protocol):
+    """What simulates, one problem after the other; `solver_jobs.Simulator` in the studio."""
+
+    def submit(
+        self,
+        problem: SimulationProblem,
+        variations: int = 0,
+        *,
+        progress: Callable[[float], object] = lambda share: None,
+    ) -> SimulationHandle:
+        """Begins a simulation."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Work:
+    """A simulation that is on: its job, where it is kept, what it is of, and the hold on it."""
+
+    job: Content
+    row: SimulationRow
+    plan: str
+    physics: PhysicsSet
+    problem: SimulationProblem
+    handle: SimulationHandle
+
+
+class SimulationDesk:
+    """The simulations in the list of jobs.
+
+    Args:
+        tier: what simulates.
+        book: the list of jobs.
+        kept: where simulations are kept.
+        later: does something on the session's thread.
+        shown: told of each job that changed, on the session's thread.
+    """
+
+    def __init__(
+        self,
+        tier: SimulationTier,
+        book: JobBook,
+        kept: KeptSimulations,
+        later: Callable[[Callable[[], None]], object],
+        shown: Callable[[Content], None],
+    ) -> None:
+        self._tier = tier
+        self._book = book
+        self._kept = kept
+        self._running = RunningJobs(book, later, shown, "The physics is at it.")
+        self._waiting: list[threading.Thread] = []
+
+    def submit(self, open_gait: OpenGait, plan: Plan, physics: PhysicsSet, variations: int = 0) -> Content:
+        """Starts a simulation of exactly the waypoints that would be sent.
+
+        Args:
+            open_gait: which gait.
+            plan: what it amounts to now.
+            physics: the parameters.
+            variations: how many variations of them are tried as well.
+
+        Raises:
+            CheckError: the plan has no waypoints.
+            InputError: the robot has no such masses.
+            StateError: this gait is being simulated.
+        """
+        if any(job["gait"] == open_gait.id for job in self._running.contents()):
+            raise StateError("This gait is being simulated. Wait for it, or cancel that job.", "gait")
+        part_masses(plan.model, physics)
+        problem, key = simulation_problem(plan, physics), simulation_key(plan, physics)
+        job_id = uuid.uuid4().hex[:12]
+        handle = self._tier.submit(problem, variations, progress=self._running.teller(job_id))
+        more = {"share": 0.0, "physics": physics.name, "variations": variations}
+        job = self._book.begin(job_id, KIND, open_gait.id, open_gait.gait.name, key, **more)
+        row = SimulationRow(open_gait.id, key, problem.waypoints.content_hash, physics.name, time.time())
+        work = _Work(job, row, plan.hash, physics, problem, handle)
+        self._running.begin(job_id, handle)
+        thread = threading.Thread(target=self._await, args=(work,), name=f"simulation-{job_id}", daemon=True)
+        self._waiting = [one for one in self._waiting if one.is_alive()] + [thread]
+        thread.start()
+        return job
+
+    def close(self) -> None:
+        """Waits for the threads of simulations, whose answers are there once what simulates is closed."""
+        for thread in self._waiting:
+            thread.join()
+
+    def cancel(self, job_id: str) -> Content:
+        """Asks a simulation to end; one that ended already stays as it is."""
+        return self._running.cancel(job_id)
+
+    def _await(self, work: _Work) -> None:
+        """Waits for the answer, in a thread of its own, and hands it to the session."""
+        end: Content
+        try:
+            content = _content(work, work.handle.result())
+            self._kept.put(work.row, content)
+            end = {"state": "done", "sentence": report_sentence(content["report"]), "share": 1.0}
+            end["result"] = report_figures(report_from_content(content["report"]))
+        except FootfallError as error:
+            end = {"state": "failed", "sentence": error.sentence}
+        except Exception as error:
+            _log.exception("A simulation broke off.")
+            end = {"state": "failed", "sentence": f"The simulation broke off: {error!r}."}
+        self._running.end(work.job["id"], end)
+
+
+def _content(work: _Work, answer: SimulationAnswer) -> Content:
+    """Everything that is kept of a simulation."""
+    figures = report(work.problem, answer.motion)
+    outcomes = physics_outcomes(figures, work.problem)
+    content: Content = {
+        "key": work.row.key,
+        "gait": work.row.gait,
+        "plan": work.plan,
+        "robot": work.problem.model.name,
+        "waypoints_hash": work.row.waypoints,
+        "program": VERSION,
+        "physics": physics_content(work.physics),
+        "made": work.row.made,
+        "seconds": answer.motion.seconds,
+        "report": report_content(figures),
+        "findings": finite([asdict(finding) for one in outcomes for finding in one.findings]),
+        "variations": variations_content(answer.runs) if answer.runs else None,
+        "motion": motion_content(work.problem, answer.motion, figures),
+    }
+    return content

@@ -1,0 +1,207 @@
+"""Logs and versions of gaits in the database.
+
+A change and the version that goes with it are one transaction: after a kill both are there, or neither.
+"""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from dataclasses import astuple, dataclass
+from typing import Any
+
+from app.store.database import Database
+from app.undo.history import (
+    Author,
+    Deed,
+    History,
+    LogEntry,
+)
+
+MOST_AUTOMATIC = 200
+"""Automatic versions that are kept of a gait; of all others every one is kept."""
+
+_VERSION_COLUMNS = "number, made, kind, name, by, position, motion, document"
+
+
+@dataclass(frozen=True)
+class EditingRow:
+    """Where a gait's editing stands."""
+
+    revision: int
+    history: History
+    notice: str | None
+    approval: str | None
+
+
+@dataclass(frozen=True)
+class VersionRow:
+    """A document worth going back to.
+
+    Args:
+        number: counts from 1, a gait at a time.
+        made: s since the epoch.
+        kind: why it was kept.
+        name: a person's name for it, or nothing.
+        by: whose name stands by it, or nothing.
+        position: of the document in the gait's log when it was made.
+        motion: hash of what a motion depends on.
+        document: JSON text.
+    """
+
+    number: int
+    made: float
+    kind: str
+    name: str
+    by: str
+    position: int
+    motion: str
+    document: str
+
+
+class GaitLog:
+    """Histories and versions.
+
+    Args:
+        database: where they are kept.
+    """
+
+    def __init__(self, database: Database) -> None:
+        self._database = database
+
+    def editing(self, gait: str) -> EditingRow | None:
+        """A gait's editing state, or None where it was never edited."""
+        rows = self._database.rows(
+            "SELECT revision, last, done, undone, notice, approval FROM open_gait WHERE gait=?", gait
+        )
+        if not rows:
+            return None
+        revision, last, done, undone, notice, approval = rows[0]
+        found = self._database.rows(
+            "SELECT position, label, document, page, name FROM history WHERE gait=?", gait
+        )
+        entries = {at: LogEntry(label, text, Author(page, name)) for at, label, text, page, name in found}
+        history = History(entries, last, _deeds(done), _deeds(undone))
+        return EditingRow(revision, history, notice, approval)
+
+    def ids(self) -> frozenset[str]:
+        """Every gait of which anything is kept."""
+        rows = self._database.rows("SELECT gait FROM open_gait UNION SELECT gait FROM version")
+        return frozenset(row[0] for row in rows)
+
+    def present_document(self, gait: str) -> str | None:
+        """A gait's present document as JSON text, or None where it was never edited."""
+        rows = self._database.rows(
+            "SELECT h.document FROM open_gait o JOIN history h ON h.gait = o.gait AND h.position = o.last "
+            "WHERE o.gait=?",
+            gait,
+        )
+        return rows[0][0] if rows else None
+
+    def put(
+        self,
+        gait: str,
+        row: EditingRow,
+        stored: History | None,
+        version: VersionRow | None = None,
+        approval: dict[str, Any] | None = None,
+    ) -> None:
+        """Stores an editing state, and in the same transaction a version and an approval's record with it.
+
+        Args:
+            gait: its id.
+            row: the state.
+            stored: the history that is in the database already; None where there is none.
+            version: to be kept as well.
+            approval: for the record of approvals.
+        """
+        before = {} if stored is None else stored.entries
+        history = row.history
+        added = [(at, entry) for at, entry in history.entries.items() if before.get(at) is not entry]
+        gone = [(gait, at) for at in before if at not in history.entries]
+        with self._database.writing() as connection:
+            if stored is None:
+                connection.execute("DELETE FROM history WHERE gait=?", (gait,))
+            connection.executemany("DELETE FROM history WHERE gait=? AND position=?", gone)
+            connection.executemany(
+                "INSERT OR REPLACE INTO history(gait, position, label, document, page, name) "
+                "VALUES(?,?,?,?,?,?)",
+                [(gait, at, e.label, e.document, e.author.page, e.author.name) for at, e in added],
+            )
+            connection.execute(
+                "INSERT OR REPLACE INTO open_gait(gait, revision, last, done, undone, notice, approval) "
+                "VALUES(?,?,?,?,?,?,?)",
+                (
+                    gait,
+                    row.revision,
+                    history.last,
+                    json.dumps([astuple(deed) for deed in history.done]),
+                    json.dumps([astuple(deed) for deed in history.undone]),
+                    row.notice,
+                    row.approval,
+                ),
+            )
+            if version is not None:
+                _insert_version(connection, gait, version)
+            if approval is not None:
+                content = json.dumps(approval, allow_nan=False)
+                connection.execute("INSERT INTO approval(gait, content) VALUES(?,?)", (gait, content))
+
+    def approvals(self, gait: str) -> list[tuple[int, dict[str, Any]]]:
+        """The record of a gait's approvals with their numbers, the newest first."""
+        rows = self._database.rows(
+            "SELECT number, content FROM approval WHERE gait=? ORDER BY number DESC", gait
+        )
+        return [(number, json.loads(content)) for number, content in rows]
+
+    def versions(self, gait: str) -> tuple[VersionRow, ...]:
+        """A gait's versions, the newest first."""
+        rows = self._database.rows(
+            f"SELECT {_VERSION_COLUMNS} FROM version WHERE gait=? ORDER BY number DESC", gait
+        )
+        return tuple(VersionRow(*row) for row in rows)
+
+    def version(self, gait: str, number: int) -> VersionRow | None:
+        """One version, or None where there is none of that number."""
+        rows = self._database.rows(
+            f"SELECT {_VERSION_COLUMNS} FROM version WHERE gait=? AND number=?", gait, number
+        )
+        return VersionRow(*rows[0]) if rows else None
+
+    def newest_version(self, gait: str) -> VersionRow | None:
+        """The version that was made last."""
+        rows = self._database.rows(
+            f"SELECT {_VERSION_COLUMNS} FROM version WHERE gait=? ORDER BY number DESC LIMIT 1", gait
+        )
+        return VersionRow(*rows[0]) if rows else None
+
+    def add_version(self, gait: str, version: VersionRow) -> None:
+        """Stores a version."""
+        with self._database.writing() as connection:
+            _insert_version(connection, gait, version)
+
+
+def _deeds(text: str) -> tuple[Deed, ...]:
+    return tuple(Deed(*deed) for deed in json.loads(text))
+
+
+def _insert_version(connection: sqlite3.Connection, gait: str, version: VersionRow) -> None:
+    connection.execute(
+        f"INSERT INTO version(gait, {_VERSION_COLUMNS}) VALUES(?,?,?,?,?,?,?,?,?)",
+        (
+            gait,
+            version.number,
+            version.made,
+            version.kind,
+            version.name,
+            version.by,
+            version.position,
+            version.motion,
+            version.document,
+        ),
+    )
+    connection.execute(
+        "DELETE FROM version WHERE gait=:gait AND kind='automatic' AND number NOT IN (SELECT number "
+        "FROM version WHERE gait=:gait AND kind='automatic' ORDER BY number DESC LIMIT :most)",
+        {"gait": gait, "most": MOST_AUTOMATIC},
+    )

@@ -1,0 +1,136 @@
+"""A trial beside its plan and physics: figures of the three, its track in the plan's frame, and bands."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from app.trials.bands import band_content
+from app.trials.figures import movement_content, path_content
+from app.trials.record import ROBOT, TrialRecord
+from app.trials.service import MOST_PLACES, TrialDesk
+from app.trials.simulated_feet import TrialSimulations
+from core.errors import InputError
+from core.robot.model import load_robot
+from core.trials.alignment import foot_gaps, placed_motion, track_of_motion
+from core.trials.movement import foot_movements, mean_movement
+from core.vision.track import FootTrack
+
+SCENE_PLACES = 400
+"""Places of a foot's way in 3D."""
+MOST_TOGETHER = 20
+"""Trials that are laid over each other."""
+
+
+class TrialsBeside:
+    """What stands beside trials; every method may be called from any thread.
+
+    Args:
+        desk: the trials.
+        simulations: of what their robots were sent.
+    """
+
+    def __init__(self, desk: TrialDesk, simulations: TrialSimulations) -> None:
+        self._desk = desk
+        self._simulations = simulations
+
+    def figures(self, trial: str) -> dict[str, Any]:
+        """How the trial's simulation stands, a row of figures a source, and physics' feet for a plot."""
+        record = self._desk.record(trial)
+        simulated, remark = self._simulated(record)
+        rows = [_row(source, record, motion) for source, motion in self.sources(record).items()]
+        return {
+            "id": trial,
+            "simulation": {**self._simulations.standing(trial), "remark": remark},
+            "rows": rows,
+            "simulated": None if simulated is None else path_content(simulated, MOST_PLACES),
+        }
+
+    def sources(self, record: TrialRecord) -> dict[str, FootTrack]:
+        """The feet as `planned`, `simulated` and `tracked`, those that there are, in the track's frame."""
+        simulated, _ = self._simulated(record)
+        known = {"planned": record.placed_plan, "simulated": simulated, "tracked": record.track}
+        return {source: motion for source, motion in known.items() if motion is not None}
+
+    def simulate(self, trial: str) -> dict[str, Any]:
+        """Starts a trial's simulation where there is none; tells how it stands."""
+        self._desk.record(trial)
+        return self._simulations.begin(trial)
+
+    def _simulated(self, record: TrialRecord) -> tuple[FootTrack | None, str]:
+        """Physics' feet in the track's frame, and a remark on them."""
+        feet = self._simulations.feet(record.content["id"])
+        if feet is None or record.planned is None:
+            return None, ""
+        times, places = feet.repeated(record.planned.laps)
+        words = f"Physics: {feet.physics}. {feet.ended_early}".strip()
+        return placed_motion(times, places, record.alignment), words
+
+    def scene(self, trial: str, lap: int = 1) -> dict[str, Any]:
+        """The track in the frame of the plan's lap, m, by shares of the whole walk; and how the robot stood.
+
+        Raises:
+            InputError: there is no such lap.
+        """
+        record = self._desk.record(trial)
+        track = track_of_motion(record.track, record.alignment_of_lap(lap))
+        kept = _thinned(track.times.size, SCENE_PLACES)
+        shares = np.interp(kept, [0, *record.ends], np.linspace(0.0, 1.0, len(record.ends) + 1))
+        return {
+            "id": trial,
+            "name": record.content["name"],
+            "gait": record.content["gait"],
+            "robot": ROBOT,
+            "laps": record.laps,
+            "playing": _playing(record, lap),
+            "turn_deg": math.degrees(record.alignment.turn),
+            "gaps_mm": (record.alignment.gaps * 1000.0).tolist(),
+            "colours": list(load_robot(ROBOT).colours),
+            "shares": np.round(shares, 5).tolist(),
+            "feet": np.round(track.feet[kept].swapaxes(0, 1), 5).tolist(),
+            "filled": track.filled[kept].T.tolist(),
+        }
+
+    def band(self, trials: Sequence[str]) -> dict[str, Any]:
+        """Several trials over each other in the plan's frame: their mean way, the spread, and the plan; cm.
+
+        Raises:
+            InputError: too many, the same twice, or of other feet or iterations.
+        """
+        if not 1 <= len(set(trials)) == len(trials) <= MOST_TOGETHER:
+            raise InputError(f"Choose 1 to {MOST_TOGETHER} different trials.", "trial")
+        records = [self._desk.record(trial) for trial in trials]
+        return band_content(records)
+
+
+def _playing(record: TrialRecord, lap: int) -> list[float]:
+    """Shares of the walk at which a lap of the plan begins and ends; outside of 0 to 1 it was not done.
+
+    Plans begin at 0 s; a run from a later pose on begins within the first lap.
+    """
+    if record.planned is None:
+        return [0.0, 1.0]
+    begin, end = float(record.planned.times[0]), float(record.planned.times[-1])
+    first = (lap - 1) * record.lap_seconds
+    return [(time - begin) / (end - begin) for time in (first, first + record.lap_seconds)]
+
+
+def _row(source: str, record: TrialRecord, motion: FootTrack) -> dict[str, Any]:
+    """Mean figures of a motion, and how far its feet are from the tracked ones on the average."""
+    mean = movement_content(mean_movement(foot_movements(motion, record.expected)))
+    keys = ("distance", "angle_deg", "error_percent", "net_distance", "net_angle_deg", "net_error_percent")
+    gaps = foot_gaps(record.track, record.ends, motion) * 1000.0 if motion is not record.track else None
+    return {
+        "source": source,
+        **{key: mean[key] for key in keys},
+        "gap_mm": None if gaps is None else float(gaps.mean()),
+        "gaps_mm": None if gaps is None else gaps.tolist(),
+    }
+
+
+def _thinned(count: int, most: int) -> Any:
+    every = max(1, -(-count // most))
+    return np.unique(np.append(np.arange(0, count, every), count - 1))

@@ -1,0 +1,111 @@
+"""Gaits by steps compared, as parts of a report: the table, and the trials of each over each other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+from app.trials.report.page import (
+    moment,
+    number,
+    plot,
+    table,
+    text,
+)
+from app.trials.report.plots import band_from_above
+from app.trials.service import compared
+from core.errors import InputError
+
+MOST_BANDS = 40
+"""Gaits whose trials are drawn; the file would be too large to read."""
+
+BandOf = Callable[[Sequence[str]], dict[str, Any]]
+"""Trials over each other by their ids (`app.trials.bands.band_content`)."""
+
+_KEY = "Each trial thin, their mean solid, the plan dotted; in the robot's frame, cm. Their ends lie apart by"
+
+
+def compared_parts(
+    lines: Sequence[dict[str, Any]],
+    band_of: Callable[[Sequence[str]], dict[str, Any]],
+    colours: Sequence[str],
+) -> Iterator[str]:
+    """The parts.
+
+    Args:
+        lines: of the list of trials.
+        band_of: lays trials over each other.
+        colours: a colour a foot.
+    """
+    by_id, groups = {line["id"]: line for line in lines}, compared(lines)
+    yield _compared_table(groups)
+    for index, group in enumerate(groups):
+        yield f"<h2>{text(_group_name(group))}</h2>"
+        if index < MOST_BANDS:
+            yield _band(group["trials"], band_of, colours, f"band{index}")
+        yield _trials_table([by_id[trial] for trial in group["trials"]])
+
+
+def _band(
+    trials: Sequence[str],
+    band_of: Callable[[Sequence[str]], dict[str, Any]],
+    colours: Sequence[str],
+    name: str,
+) -> str:
+    try:
+        feet = band_of(trials)["feet"]
+    except InputError as error:  # of other feet, or too many: the table below still has them
+        return f'<p class="quiet">{text(error.sentence)}</p>'
+    apart = ", ".join(f"foot {index + 1} {foot['end_spread_cm']:.2f}" for index, foot in enumerate(feet))
+    return plot(band_from_above(feet, colours), name, f"{_KEY} {apart} cm.")
+
+
+def _group_name(group: Mapping[str, Any]) -> str:
+    return f"{group['gait_name']}, {number(group['step_cm'], 1)} cm a step"
+
+
+def _compared_table(groups: Sequence[Mapping[str, Any]]) -> str:
+    def spread(group: Mapping[str, Any], key: str, decimals: int) -> str:
+        by = group[f"{key}_spread"]
+        return number(group[key], decimals) + ("" if by is None else f" ± {number(by, decimals)}")
+
+    rows = [
+        (
+            text(_group_name(group)),
+            [
+                str(len(group["trials"])),
+                number(group["expected_cm"], 1),
+                spread(group, "distance", 2),
+                spread(group, "angle_deg", 0),
+                spread(group, "error_percent", 0),
+                spread(group, "net_distance", 2),
+                spread(group, "speed_mm_s", 2),
+                spread(group, "slip_cm", 2),
+            ],
+        )
+        for group in groups
+    ]
+    head = ["", "trials", "wanted cm", "cm", "angle °", "error %", "first to last cm", "mm/s", "slip cm"]
+    return table(
+        "Distance, angle on the platform and error as published; ± is the standard deviation of the trials",
+        head,
+        rows,
+    )
+
+
+def _trials_table(lines: Sequence[Mapping[str, Any]]) -> str:
+    rows = [
+        (
+            text(line["name"])
+            + (f'<br><span class="quiet">{text(line["note"])}</span>' if line["note"] else ""),
+            [
+                line["by"] or "–",
+                moment(line["made"]),
+                number(line["distance"], 2),
+                number(line["angle_deg"], 0),
+                number(line["error_percent"], 0),
+            ],
+        )
+        for line in lines
+    ]
+    return table("Trials, angles on the platform", ["", "by", "added", "cm", "angle °", "error %"], rows)

@@ -1,0 +1,241 @@
+"""Reports of trials as one HTML file: a trial with plan, physics, photos and origin, and gaits compared."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from app.runs.plan_json import ran_plan
+from app.runs.service import RunDesk
+from app.trials.comparison import TrialsBeside
+from app.trials.photos import TrialPhotos
+from app.trials.record import ROBOT, TrialRecord
+from app.trials.report.comparison import compared_parts
+from app.trials.report.page import (
+    facts,
+    foot_name,
+    footer,
+    moment,
+    number,
+    page,
+    photo,
+    plot,
+    table,
+    text,
+)
+from app.trials.report.plots import ways_from_above, ways_over_time
+from app.trials.service import TrialDesk
+from core.arrays import Floats
+from core.errors import FootfallError
+from core.robot.model import load_robot
+from core.vision.track import FootTrack
+
+_LINES = {"tracked": "solid", "simulated": "dashed", "planned": "dotted"}
+
+
+_ENDS = {
+    "hand": "moved by hand",
+    "run": "by the log of the run",
+    "tracks": "found from the steps of the tracked feet",
+}
+
+
+class TrialReports:
+    """Writes reports; every method may be called from any thread.
+
+    Args:
+        desk: the trials.
+        beside: their plans and physics.
+        photos: their photos.
+        runs: the runs that they are of.
+    """
+
+    def __init__(self, desk: TrialDesk, beside: TrialsBeside, photos: TrialPhotos, runs: RunDesk) -> None:
+        self._desk = desk
+        self._beside = beside
+        self._photos = photos
+        self._runs = runs
+        self._colours = load_robot(ROBOT).colours
+
+    def trial(self, trial: str) -> str:
+        """One trial; its simulation only where it is there already."""
+        record, summary = self._desk.record(trial), self._desk.summary(trial)
+        beside, sources = self._beside.figures(trial), self._beside.sources(record)
+        key = _key(record, sources)
+        parts = [
+            facts(_words(summary)),
+            f'<p class="note">{text(summary["note"])}</p>' if summary["note"] else "",
+            _beside_table(beside["rows"]),
+            f'<p class="quiet">{text(beside["simulation"]["remark"])}</p>',
+            *_astray(summary),
+            plot(
+                ways_from_above(sources, self._colours),
+                "above",
+                f"From above, in the platform's frame, cm. {key}",
+            ),
+            plot(
+                ways_over_time(_along(record, sources), self._colours, "s"),
+                "time",
+                f"Ways over time, along the direction in which the tracked feet went. {key}",
+            ),
+            _iterations(summary["parts"]),
+            self._movements(
+                "Movement as published (largest excursions), angles on the platform", summary, ""
+            ),
+            self._movements("Movement, first to last frame, angles on the platform", summary, "net_"),
+            self._slips(summary["slip"]),
+            *self._gaps(summary, record),
+            *self._pictures(trial),
+            "<h2>Origin</h2>",
+            facts(self._origin(trial, summary)),
+        ]
+        return page(summary["name"], parts, footer())
+
+    def compared(self) -> str:
+        """All gaits by steps compared, with the trials of each over each other."""
+        lines = self._desk.lines()
+        return page("Gaits compared", compared_parts(lines, self._beside.band, self._colours), footer())
+
+    def _movements(self, caption: str, summary: Mapping[str, Any], kind: str) -> str:
+        def cells(movement: Mapping[str, float]) -> list[str]:
+            keys = (f"{kind}distance", f"{kind}angle_deg", f"{kind}error_percent")
+            return [number(movement[key], decimals) for key, decimals in zip(keys, (2, 1, 0), strict=True)]
+
+        figures = summary["figures"]
+        rows = [(foot_name(i, self._colours), cells(foot)) for i, foot in enumerate(figures["feet"])]
+        rows.append(("mean", cells(figures)))
+        if summary["plan"] is not None:
+            rows.append(("planned", cells(summary["plan"]["figures"])))
+        return table(caption, ["", "cm", "angle °", "error %"], rows)
+
+    def _slips(self, slip: Sequence[Sequence[float]]) -> str:
+        rows = [
+            (foot_name(i, self._colours), [number(max(stands), 2), number(sum(stands) / len(stands), 2)])
+            for i, stands in enumerate(slip)
+        ]
+        return table("Slip of standing feet, cm", ["", "largest", "mean"], rows)
+
+    def _gaps(self, summary: Mapping[str, Any], record: TrialRecord) -> Iterator[str]:
+        times = record.track.times
+        rows = [
+            (
+                foot_name(gap["foot"] - 1, self._colours),
+                [number(times[gap[end]], 2) for end in ("first", "last")],
+            )
+            for gap in summary["gaps"]
+        ]
+        if rows:
+            yield table("Gaps, filled by straight lines", ["", "from s", "to s"], rows)
+
+    def _pictures(self, trial: str) -> Iterator[str]:
+        photos = self._photos.photos(trial)
+        if photos:
+            pictures = [photo(self._photos.picture(trial, one["id"]), one["caption"]) for one in photos]
+            yield f'<h2>Photos</h2><div class="pictures">{"".join(pictures)}</div>'
+
+    def _origin(self, trial: str, summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+        """Where everything comes from."""
+        yield "Trial", trial
+        yield "Track, SHA-256", hashlib.sha256(self._desk.track(trial).encode()).hexdigest()
+        yield "Gait", f"{summary['gait_name'] or '–'} ({summary['gait'] or 'no id'})"
+        sent = self._desk.sent(trial)
+        if sent is not None:
+            yield "Waypoints, SHA-256", ran_plan(sent).waypoints.content_hash
+        if summary["run"]:
+            yield from self._run_words(summary["run"])
+        source = summary["source"]
+        if source is not None:
+            yield "Camera setup", f"{source['setup_name']}, revision {source['setup_revision']}"
+            yield "Video", source["video"] or source["camera"] or "–"
+
+    def _run_words(self, run: str) -> Iterator[tuple[str, str]]:
+        yield "Run", run
+        try:
+            content = self._runs.summary(run)
+        except FootfallError as error:
+            yield "", error.sentence
+            return
+        yield "Robot held by", content["by"] or "–"
+        yield "Started", content["started"]
+        yield "Ended", content["ended"] or "–"
+        yield "Result", content["sentence"] or content["state"]
+
+
+def _words(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    yield "By", summary["by"] or "–"
+    yield "Added", moment(summary["made"])
+    yield "Gait", summary["gait_name"] or "–"
+    yield "Wanted", f"{number(summary['expected_cm'], 2)} cm in {summary['iterations']} iterations"
+    yield "Ends of iterations", _ENDS[summary["ends_from"]]
+    yield "Frames", f"{summary['frames']}, {number(summary['frame_rate'], 1)} a second"
+    yield (
+        "Gaps",
+        f"{len(summary['gaps'])}, {summary['filled']} places filled" if summary["filled"] else "none",
+    )
+    plan = summary["plan"]
+    if plan is not None:
+        apart = number(max(plan["gaps_cm"]) * 10.0, 1)
+        yield (
+            "Placement",
+            f"plan turned by {number(plan['turn_deg'], 1)}°, feet of the first frame ± {apart} mm",
+        )
+
+
+def _beside_table(rows: Sequence[Mapping[str, Any]]) -> str:
+    cells = [
+        (
+            row["source"],
+            [
+                number(row["net_distance"], 2),
+                number(row["net_angle_deg"], 1),
+                number(row["net_error_percent"], 0),
+                number(row["gap_mm"], 1),
+            ],
+        )
+        for row in rows
+    ]
+    head = ["", "cm", "angle °", "error %", "feet from tracked, mm"]
+    return table("Mean of the feet, first to last frame, angles on the platform", head, cells)
+
+
+def _iterations(parts: Sequence[Mapping[str, Any]]) -> str:
+    rows = [
+        (
+            f"iteration {index + 1}",
+            [number(part["net_distance"], 2), number(part["seconds"], 1), number(part["speed_mm_s"], 2)],
+        )
+        for index, part in enumerate(parts)
+    ]
+    return table("Iterations, first to last", ["", "cm", "s", "mm/s"], rows)
+
+
+def _astray(summary: Mapping[str, Any]) -> Iterator[str]:
+    if summary["plan"] is not None and summary["plan"]["astray_sentence"]:
+        yield f"<p>{text(summary['plan']['astray_sentence'])}</p>"
+
+
+def _key(record: TrialRecord, sources: Mapping[str, FootTrack]) -> str:
+    """What the lines of the plots mean."""
+    lines = ", ".join(f"{source} {line}" for source, line in _LINES.items() if source in sources)
+    unseen = "; grey where a foot was not seen" if record.track.filled.any() else ""
+    return f"{lines.capitalize()}{unseen}."
+
+
+def _along(record: TrialRecord, sources: Mapping[str, FootTrack]) -> dict[str, tuple[Floats, Floats]]:
+    """Ways of the feet along the tracked direction, cm, at times of the trial from its begin."""
+    net = (record.track.feet[-1] - record.track.feet[0]).mean(axis=0)
+    direction = net / max(math.hypot(*net), 1e-9)
+    clock, count = record.track.times - record.track.times[0], len(record.ends)
+    lines = {}
+    for source, motion in sources.items():
+        times = clock
+        if motion is not record.track:
+            shares = (motion.times - motion.times[0]) / (motion.times[-1] - motion.times[0])
+            frames = np.interp(shares * count, np.arange(count + 1), [0, *record.ends])
+            times = np.interp(frames, np.arange(clock.size), clock)
+        lines[source] = times, (motion.feet - motion.feet[0]) @ direction * 100.0
+    return lines

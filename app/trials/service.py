@@ -1,0 +1,326 @@
+"""Trials for the page and scripts: adding, figures beside the plan, ends of iterations, tables."""
+
+from __future__ import annotations
+
+import time
+import uuid
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from app.store.database import Database
+from app.store.trial_reference_store import TrialBesideLog
+from app.store.trial_store import TrialLog, TrialRow
+from app.trials.figures import path_content, plan_content, track_content
+from app.trials.planned import PlannedFeet
+from app.trials.record import ROBOT, TrialRecord, kept_track, told_ends, trial_record
+from app.trials.track_source import Sight, astray_content, fit_content
+from core.arrays import Floats
+from core.errors import InputError, NotFoundError, StateError
+from core.robot.model import load_robot
+from core.trials.alignment import align, placed_motion
+from core.trials.iterations import find_iterations
+from core.vision.track import FootTrack
+from core.vision.track_csv import format_track_csv
+
+MOST_PLACES = 600
+"""Places of a foot's way in a plot."""
+
+
+@dataclass(frozen=True)
+class TrialWords:
+    """What a person says of a trial.
+
+    Args:
+        name: of the trial.
+        by: who did it.
+        expected_cm: wanted distance of the whole walk.
+        iterations: how many the track shows.
+        note: anything else.
+        gait: the id of the gait that walked, or "".
+        gait_name: its name then.
+        run: the id of the robot's run, or "".
+    """
+
+    name: str
+    by: str
+    expected_cm: float
+    iterations: int
+    note: str = ""
+    gait: str = ""
+    gait_name: str = ""
+    run: str = ""
+
+
+class TrialDesk:
+    """What there is to see of trials; every method may be called from any thread.
+
+    Args:
+        database: where trials are kept.
+        changed: told the id, revision and whether it is deleted, of a trial that is new or another now.
+    """
+
+    def __init__(
+        self, database: Database, changed: Callable[[dict[str, Any]], None] = lambda change: None
+    ) -> None:
+        self._changed = changed
+        self._log = TrialLog(database)
+        self._beside = TrialBesideLog(database)
+        self._lines: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {}
+
+    def add(
+        self, track: FootTrack, words: TrialWords, planned: PlannedFeet | None, sight: Sight | None = None
+    ) -> dict[str, Any]:
+        """Keeps a new trial and tells its figures.
+
+        Args:
+            track: where the feet were.
+            words: what a person says of it.
+            planned: where the feet were to be; None where that is not known.
+            sight: how a camera saw the track; None where it came as a file.
+
+        Raises:
+            InputError: the track is too short for its iterations.
+        """
+        find_iterations(track, words.iterations)
+        content = {
+            "id": uuid.uuid4().hex[:12],
+            "made": time.time(),
+            **vars(words),
+            "frame_rate": float(1.0 / np.median(np.diff(track.times))),
+            "ends": None,
+            "plan": None if planned is None else _kept_plan(planned),
+            "sight": None if sight is None else sight.content(),
+        }
+        self._log.add(content, format_track_csv(track))
+        if planned is not None and planned.sent is not None:
+            self._beside.put_sent(content["id"], dict(planned.sent))
+        return self._told(content["id"])
+
+    def lines(self) -> list[dict[str, Any]]:
+        """All trials, the newest first, each with its mean figures."""
+        return [self._line(row) for row in self._log.found()]
+
+    def _line(self, row: TrialRow) -> dict[str, Any]:
+        """A trial's line, computed once for what is known of it."""
+        content, line = self._lines.get(row.content["id"], ({}, {}))
+        if content != row.content:
+            line = _line(row)
+            self._lines[row.content["id"]] = (row.content, line)
+        return line
+
+    def summary(self, trial: str) -> dict[str, Any]:
+        """A trial's figures, each foot's and each iteration's, beside its plan's."""
+        return _summary(self._known(trial))
+
+    def paths(self, trial: str) -> dict[str, Any]:
+        """The feet's ways, tracked and planned, for a plot; cm in the track's frame."""
+        row = self._known(trial)
+        track, plan = kept_track(row), row.content["plan"]
+        content: dict[str, Any] = {"id": trial, "track": path_content(track, MOST_PLACES), "plan": None}
+        if plan is not None:
+            times, feet = _plan_arrays(plan)
+            placed = placed_motion(times, feet, align(track, feet[0]))
+            content["plan"] = path_content(placed, MOST_PLACES)
+        return content
+
+    def change(self, trial: str, revision: int, changes: dict[str, Any]) -> dict[str, Any]:
+        """Changes name, note, wanted distance, iterations or their ends.
+
+        Args:
+            trial: its id.
+            revision: that the changes are made from.
+            changes: what is another now.
+
+        Raises:
+            NotFoundError: there is no such trial.
+            StateError: it is deleted, or somebody changed it meanwhile.
+            InputError: the ends are no frames in order, or the iterations too many.
+        """
+        row = self.require_listed(trial)
+        if revision != revision_of(row.content):
+            raise _moved_on(row, revision)
+        content = {**row.content, **changes, "revision": revision + 1}
+        if content["iterations"] != row.content["iterations"] and "ends" not in changes:
+            content["ends"] = None
+        changed = TrialRow(content, row.track, row.is_deleted)
+        shown = _summary(changed)
+        if not self._log.change(content, revision):
+            raise _moved_on(self.require_listed(trial), revision)
+        self._tell(changed)
+        return shown
+
+    def delete(self, trial: str) -> None:
+        """Takes a trial out of the list; `restore` brings it back."""
+        self._known(trial)
+        self._log.put_deleted(trial, time.time())
+        self._tell(self._known(trial))
+
+    def restore(self, trial: str) -> dict[str, Any]:
+        """Brings a deleted trial back."""
+        self._known(trial)
+        self._log.put_deleted(trial, None)
+        return self._told(trial)
+
+    def record(self, trial: str) -> TrialRecord:
+        """A trial as it was kept, for what is laid over it."""
+        return trial_record(self._known(trial))
+
+    def sent(self, trial: str) -> dict[str, Any] | None:
+        """What the robot was sent in a trial (`app.runs.plan_json.sent_content`); None where not known."""
+        return self._beside.sent(self._known(trial).content["id"])
+
+    def track(self, trial: str) -> str:
+        """The track as a file in centimetres; what was not seen is empty."""
+        return self._known(trial).track
+
+    def require_listed(self, trial: str) -> TrialRow:
+        """A trial that may be changed.
+
+        Raises:
+            StateError: it is deleted.
+        """
+        row = self._known(trial)
+        if row.is_deleted:
+            raise StateError(f"The trial “{row.content['name']}” is deleted. Bring it back first.", "trial")
+        return row
+
+    def _told(self, trial: str) -> dict[str, Any]:
+        row = self._known(trial)
+        self._tell(row)
+        return _summary(row)
+
+    def _tell(self, row: TrialRow) -> None:
+        revision = revision_of(row.content)
+        self._changed({"id": row.content["id"], "revision": revision, "deleted": row.is_deleted})
+
+    def _known(self, trial: str) -> TrialRow:
+        row = self._log.get(trial)
+        if row is None:
+            raise NotFoundError(f"There is no trial {trial}.", "trial")
+        return row
+
+
+def revision_of(content: dict[str, Any]) -> int:
+    """How often a trial was changed, from 1; trials kept before revisions were counted have 1."""
+    return int(content.get("revision", 1))
+
+
+def _moved_on(row: TrialRow, revision: int) -> StateError:
+    return StateError(
+        f"The trial was changed meanwhile: it has revision {revision_of(row.content)}, and you changed "
+        f"{revision}. Load it again and repeat your change.",
+        "revision",
+    )
+
+
+def _kept_plan(planned: PlannedFeet) -> dict[str, Any]:
+    feet = np.round(planned.feet, 6)
+    laps = {"laps": planned.laps, "lap_seconds": planned.lap_seconds}
+    return {"times": planned.times.tolist(), "feet": feet.tolist(), **laps}
+
+
+def _plan_arrays(plan: dict[str, Any]) -> tuple[Floats, Floats]:
+    return np.array(plan["times"]), np.array(plan["feet"])
+
+
+_WORDS = ("id", "made", "name", "by", "note", "gait", "gait_name", "run", "expected_cm", "iterations")
+
+
+def _summary(row: TrialRow) -> dict[str, Any]:
+    content, track = row.content, kept_track(row)
+    expected = content["expected_cm"] / 100.0
+    found = find_iterations(track, content["iterations"])
+    told, ends_from = told_ends(content)
+    ends = found.ends if told is None else told
+    if len(ends) != content["iterations"]:
+        raise InputError(f"{content['iterations']} iterations need as many ends.", "ends")
+    length = load_robot(ROBOT).shape.plate_across
+    summary = {
+        **{key: content[key] for key in _WORDS},
+        "revision": revision_of(content),
+        "frame_rate": content["frame_rate"],
+        "deleted": row.is_deleted,
+        "ends_by_hand": content["ends"] is not None,
+        "ends_from": ends_from,
+        **_sight_content(content.get("sight")),
+        **track_content(track, expected, found, ends, length),
+        "plan": None,
+    }
+    if content["plan"] is not None:
+        times, feet = _plan_arrays(content["plan"])
+        plan = plan_content(times, feet, align(track, feet[0]), expected)
+        astray = astray_content(summary["figures"], plan["figures"])
+        summary["plan"] = {**plan, **fit_content(plan["gaps_cm"]), **astray}
+    return summary
+
+
+def _sight_content(sight: dict[str, Any] | None) -> dict[str, Any]:
+    if sight is None:
+        return {"source": None, "unseen": [], "false": [], "remarks": [], "first_seconds": 0.0}
+    return {
+        **{key: sight[key] for key in ("source", "unseen", "false", "remarks")},
+        "first_seconds": sight["times"][0],
+    }
+
+
+def _line(row: TrialRow) -> dict[str, Any]:
+    summary = _summary(row)
+    mean = summary["figures"]
+    speeds = [part["speed_mm_s"] for part in summary["parts"]]
+    plan = summary["plan"]
+    walk = summary["expected_cm"] if plan is None else plan["figures"]["net_distance"]
+    return {
+        **{key: summary[key] for key in _WORDS},
+        "step_cm": round(walk / summary["iterations"], 2),
+        **{key: mean[key] for key in ("distance", "angle_deg", "error_percent")},
+        **{key: mean[key] for key in ("net_distance", "net_angle_deg", "net_error_percent")},
+        "part_distances": [part["net_distance"] for part in summary["parts"]],
+        "seconds": summary["seconds"],
+        "speed_mm_s": float(np.mean(speeds)),
+        "slip_cm": float(np.max(summary["slip"])),
+        "filled": summary["filled"],
+    }
+
+
+def compared(lines: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Trials of one gait, step and count of iterations together: mean and spread of their figures, by name.
+
+    The step is the plan's that is kept with a trial; without a plan it is what was wanted.
+
+    Args:
+        lines: of the list.
+    """
+    groups: dict[tuple[str, float, int], list[dict[str, Any]]] = {}
+    for line in lines:
+        key = (line["gait_name"] or line["name"], line["step_cm"], line["iterations"])
+        groups.setdefault(key, []).append(line)
+    return [_group(*key, groups[key]) for key in sorted(groups)]
+
+
+def _group(name: str, step: float, iterations: int, trials: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    def folded(key: str, fold: Callable[[list[float]], Any]) -> float:
+        return float(fold([trial[key] for trial in trials]))
+
+    keys = (
+        "distance",
+        "angle_deg",
+        "error_percent",
+        "net_distance",
+        "net_angle_deg",
+        "speed_mm_s",
+        "slip_cm",
+    )
+    spread = {f"{key}_spread": folded(key, lambda v: np.std(v, ddof=1)) for key in keys if len(trials) > 1}
+    return {
+        "gait_name": name,
+        "step_cm": step,
+        "iterations": iterations,
+        "trials": [trial["id"] for trial in trials],
+        "expected_cm": folded("expected_cm", np.mean),
+        **{key: folded(key, np.mean) for key in keys},
+        **{f"{key}_spread": spread.get(f"{key}_spread") for key in keys},
+        "distances": [trial["distance"] for trial in reversed(trials)],
+    }

@@ -1,0 +1,1 @@
+"""A document's history: its log, who may undo what, three-way merge."""

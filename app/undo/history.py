@@ -1,0 +1,276 @@
+"""A gait's log: every document that it ever was, by whom, and what of it can be undone by whom.
+
+The log only grows. Undo is a new entry in which one edit is taken back and everybody else's edits stay; redo
+likewise. A page undoes its own edits, and those of pages that are gone.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from types import MappingProxyType
+from typing import Any
+
+from app.undo.merge import (
+    Path,
+    merge,
+    place_words,
+    say_the_same,
+    value_at,
+)
+from core.errors import StateError
+
+MOST_STEPS = 300
+"""Edits that can be undone."""
+
+MOST_ENTRIES = 1000
+"""Entries that are kept; of older ones those that undo and redo need."""
+
+MOST_CHARACTERS, LEAST_STEPS = 100_000_000, 100
+"""A log of more characters keeps what this many edits need; a recorded motion has up to 2 million."""
+
+SCRIPT = "api"
+"""The page of whoever names none: scripts, and the program itself."""
+
+
+@dataclass(frozen=True)
+class Author:
+    """Who edits: the page, which is one tab of a browser, and the person's name where it is known."""
+
+    page: str = SCRIPT
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class LogEntry:
+    """The document after a change, as JSON text, what the change was called, and whose it was."""
+
+    label: str
+    document: str
+    author: Author = field(default_factory=Author)
+
+    @cached_property
+    def content(self) -> Any:
+        """The document's JSON content; not to be changed."""
+        return json.loads(self.document)
+
+
+@dataclass(frozen=True)
+class Deed:
+    """That an edit was done or undone.
+
+    Args:
+        position: of the edit in the log.
+        since: position of the entry that did or undid it last.
+        page: which did so.
+    """
+
+    position: int
+    since: int
+    page: str
+
+
+@dataclass(frozen=True)
+class Step:
+    """An undo or redo as it comes out.
+
+    Args:
+        position: of the edit in the log.
+        label: what the edit is called.
+        again: whether it is done again, not taken back.
+        content: the document that it comes to.
+        alone: the document that it would come to, had nobody else edited since.
+        exact: whether nobody else's edit stands in between.
+    """
+
+    position: int
+    label: str
+    again: bool
+    content: Any
+    alone: Any
+    exact: bool
+
+
+@dataclass(frozen=True)
+class History:
+    """The log and its two stacks.
+
+    Args:
+        entries: by position; the document before an edit stands at the position before it.
+        last: position of the present document.
+        done: edits that can be undone, the newest last.
+        undone: edits that can be done again, the newest last.
+    """
+
+    entries: Mapping[int, LogEntry]
+    last: int
+    done: tuple[Deed, ...] = ()
+    undone: tuple[Deed, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "entries", MappingProxyType(dict(self.entries)))
+
+    @property
+    def present(self) -> LogEntry:
+        """The newest entry."""
+        return self.entries[self.last]
+
+    @property
+    def before(self) -> LogEntry | None:
+        """The entry before it."""
+        return self.entries.get(self.last - 1)
+
+    @property
+    def pages(self) -> frozenset[str]:
+        """Pages that something in the log is of."""
+        return frozenset(entry.author.page for entry in self.entries.values())
+
+    def edited(self, document: str, label: str, author: Author, others: frozenset[str]) -> History:
+        """The log with one more edit; what its author could do again is gone.
+
+        Args:
+            document: after the edit, JSON text.
+            label: what the edit is called.
+            author: whose it is.
+            others: the other pages that are connected.
+        """
+        undone = tuple(deed for deed in self.undone if deed.page in others)
+        added = self._added(LogEntry(label, document, author))
+        done = (*self.done, Deed(added.last, added.last, author.page))
+        return replace(added, done=done[-MOST_STEPS:], undone=undone)
+
+    def restated(self, document: str) -> History:
+        """The log with its newest document said anew: what is no edit, such as a result's provenance."""
+        entry = replace(self.present, document=document)
+        return replace(self, entries={**self.entries, self.last: entry})
+
+    def undoable(self, others: frozenset[str]) -> Deed | None:
+        """What undo takes back: the newest edit that is of none of the other pages."""
+        return next((deed for deed in reversed(self.done) if deed.page not in others), None)
+
+    def redoable(self, others: frozenset[str]) -> Deed | None:
+        """What redo does again."""
+        return next((deed for deed in reversed(self.undone) if deed.page not in others), None)
+
+    def label_of(self, deed: Deed | None) -> str | None:
+        """What an edit is called."""
+        return None if deed is None else self.entries[deed.position].label
+
+    def undo(self, author: Author, others: frozenset[str]) -> Step:
+        """What taking the author's newest edit back comes to.
+
+        Raises:
+            StateError: there is none, or somebody else changed the same since.
+        """
+        deed = self.undoable(others)
+        if deed is None:
+            raise StateError("There is nothing to undo.", "undo")
+        return self._step(deed, author, others, again=False)
+
+    def redo(self, author: Author, others: frozenset[str]) -> Step:
+        """What doing the author's newest undone edit again comes to.
+
+        Raises:
+            StateError: there is none, or somebody else changed the same since.
+        """
+        deed = self.redoable(others)
+        if deed is None:
+            raise StateError("There is nothing to redo.", "redo")
+        return self._step(deed, author, others, again=True)
+
+    def _step(self, deed: Deed, author: Author, others: frozenset[str], *, again: bool) -> Step:
+        before, after = deed.position - 1, deed.position
+        base, want = (before, after) if again else (after, before)
+        old, new, present = (self.entries[at].content for at in (base, want, self.last))
+        merged = merge(old, new, present)
+        touched = tuple(dict.fromkeys((*merged.conflicts, *merged.changed, *merged.spans)))
+        claims = self._claims(deed, touched, others)
+        label = self.entries[deed.position].label
+        places = merged.conflicts or tuple(place for place in touched if place in claims)
+        if places:
+            who = claims.get(places[0]) or self._changer(places[0], deed.position, others)
+            raise StateError(
+                f"“{label}” cannot be {'done again' if again else 'undone'}: {_called(who, author)} changed "
+                f"{place_words(places)} since. Change it by hand, or restore an earlier version.",
+                "history",
+            )
+        exact = say_the_same(present, old)
+        return Step(deed.position, label, again, new if exact else merged.content, new, exact)
+
+    def _claims(self, deed: Deed, places: tuple[Path, ...], others: frozenset[str]) -> dict[Path, Author]:
+        """Places that others changed after an edit, and who did; also where they changed them back."""
+        claims: dict[Path, Author] = {}
+        for later in self.done:
+            if later.since <= deed.position or later.page not in others:
+                continue
+            entry, before = self.entries[later.position], self.entries[later.position - 1]
+            claims |= {
+                place: replace(entry.author, page=later.page)
+                for place in places
+                if value_at(entry.content, place) != value_at(before.content, place)
+            }
+        return claims
+
+    def _changer(self, place: Path, since: int, others: frozenset[str]) -> Author | None:
+        """Who of the others changed a place last, also by undoing; None where the log no longer says."""
+        for at in range(self.last, since, -1):
+            entry, before = self.entries.get(at), self.entries.get(at - 1)
+            if entry is None or before is None or entry.author.page not in others:
+                continue
+            if value_at(entry.content, place) != value_at(before.content, place):
+                return entry.author
+        return None
+
+    def stepped(self, step: Step, document: str, author: Author) -> History:
+        """The log with one edit taken back, or done again.
+
+        Args:
+            step: of `undo` or `redo`.
+            document: what it comes to, JSON text.
+            author: who does so.
+        """
+        word = "Redo" if step.again else "Undo"
+        added = self._added(LogEntry(f"{word}: {step.label}", document, author))
+        deed = Deed(step.position, added.last, author.page)
+        done, undone = (_without(deeds, step.position) for deeds in (self.done, self.undone))
+        if step.again:
+            return replace(added, done=(*done, deed), undone=undone)
+        return replace(added, done=done, undone=(*undone, deed))
+
+    def _added(self, entry: LogEntry) -> History:
+        entries = {**self.entries, self.last + 1: entry}
+        return replace(self, entries=entries, last=self.last + 1)
+
+    def pruned(self) -> History:
+        """The log without old entries that nothing needs, where it has grown long or large.
+
+        Where it is large all the same, as with recorded motions, fewer edits can be undone.
+        """
+        size = sum(len(entry.document) for entry in self.entries.values())
+        if len(self.entries) <= MOST_ENTRIES and size <= MOST_CHARACTERS:
+            return self
+        done = self.done if size <= MOST_CHARACTERS else self.done[-LEAST_STEPS:]
+        edits = {self.last, *(deed.position for deed in (*done, *self.undone))}
+        needed = {at for edit in edits for at in (edit - 1, edit)}
+        entries = {at: entry for at, entry in self.entries.items() if at in needed}
+        return replace(self, entries=entries, done=done)
+
+
+def _without(deeds: tuple[Deed, ...], position: int) -> tuple[Deed, ...]:
+    return tuple(deed for deed in deeds if deed.position != position)
+
+
+def _called(other: Author | None, author: Author) -> str:
+    """Somebody as an author would call them."""
+    if other is None:
+        return "somebody"
+    if other.name and other.name != author.name:
+        return other.name
+    return "a script" if other.page == SCRIPT else "another tab"
+
+
+def fresh_history(document: str) -> History:
+    """The log of a gait that was just opened."""
+    return History({0: LogEntry("Open", document)}, 0)

@@ -1,0 +1,98 @@
+"""Everything that sees the robot: setups, videos, tracking, cameras, recordings of runs."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from app.cameras.address import CameraAddress
+from app.cameras.service import CameraDesk
+from app.cameras.setup_service import SetupDesk
+from app.jobs.repository import JobBook
+from app.runs.service import RunDesk
+from app.store.database import Database
+from app.trials.service import TrialDesk
+from app.videos.run_recording import RunRecordings
+from app.videos.service import VideoDesk
+from app.videos.tracking_service import TrackDesk
+from app.vision.services import open_eyes
+
+Content = dict[str, Any]
+
+
+class Seeing:
+    """Setups, videos and their tracking.
+
+    Args:
+        data: the data folder.
+        database: where is kept what is known of them.
+        book: the list of jobs.
+        trials: where tracks go.
+        runs: the records of runs.
+        files: video files that are played as cameras.
+        later: does something on the session's thread.
+        show_job: told of a job that changed, on the session's thread.
+        publish: tells every page.
+
+    Attributes:
+        eyes: the processes that look at pictures.
+        setups: how cameras see the platform.
+        videos: uploads and recordings.
+        tracks: videos that are tracked; for the session's thread.
+        cameras: of this computer.
+        recordings: of runs.
+    """
+
+    def __init__(
+        self,
+        data: Path,
+        database: Database,
+        book: JobBook,
+        trials: TrialDesk,
+        runs: RunDesk,
+        files: Sequence[CameraAddress],
+        later: Callable[[Callable[[], object]], None],
+        show_job: Callable[[Content], object],
+        publish: Callable[[Content], None],
+    ) -> None:
+        self._publish, self._show_job = publish, show_job
+        self.eyes = open_eyes()
+        self.setups = SetupDesk(database, self._tell_setups)
+        self.videos = VideoDesk(
+            data, database, self.eyes, lambda view: publish({"type": "video", "video": view})
+        )
+        self.videos.tidy()
+        self.tracks = TrackDesk(
+            self.eyes, book, self.videos, self.setups, trials, runs, later, self._show_tracking
+        )
+
+        self._is_telling = threading.Lock()
+        self.cameras = CameraDesk(database, self.setups, files, self._tell_cameras)
+        self.cameras.stand_by()
+        self.recordings = RunRecordings(
+            database, self.cameras, self.setups, self.videos, runs, trials, self.tell_trial
+        )
+
+    def close(self) -> None:
+        """Ends recordings and processes."""
+        self.recordings.close()
+        self.cameras.close()
+        self.eyes.close()
+
+    def tell_trial(self, trial: str) -> None:
+        """Tells every page of a new trial."""
+        self._publish({"type": "trials", "trial": trial})
+
+    def _tell_setups(self) -> None:
+        self._publish({"type": "setups", "setups": self.setups.views()})
+
+    def _tell_cameras(self) -> None:
+        with self._is_telling:  # the last to tell is the last that looked
+            self._publish({"type": "cameras", "cameras": self.cameras.views()})
+
+    def _show_tracking(self, job: Content) -> None:
+        if job["state"] == "done":
+            self.tell_trial(job["result"]["trial"])
+        self._show_job(job)

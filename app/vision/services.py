@@ -1,0 +1,102 @@
+"""The processes that look at pictures, and how to ask them."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from app.vision.worker import Task, run_picture_worker
+from core.errors import FootfallError, StateError
+from solver_jobs import Question, QuestionService
+
+_log = logging.getLogger(__name__)
+
+
+class Look(Question[Task, float, Any]):
+    """A question about pictures.
+
+    Args:
+        task: what is asked.
+        progress: told the share that is done.
+        done: told the answer, from a thread of the service's; None where somebody waits for it.
+        failed: told why there is none.
+    """
+
+    def __init__(
+        self,
+        task: Task,
+        progress: Callable[[float], object] = lambda share: None,
+        done: Callable[[Any], object] = lambda answer: None,
+        failed: Callable[[FootfallError], object] = lambda error: None,
+    ) -> None:
+        super().__init__(task, progress)
+        self._done, self._failed = done, failed
+
+    def unanswered(self, seconds: float) -> Any:
+        """Nothing comes of a look that was ended."""
+        raise StateError("It was cancelled." if self.is_ending else "The pictures could not be read in time.")
+
+    def answer(self, result: Any) -> None:
+        """Ends the wait; where what is to be done with the answer fails, the service says so by `fail`."""
+        self._done(result)
+        super().answer(result)
+
+    def fail(self, error: FootfallError) -> None:
+        """Ends the wait with a sentence."""
+        super().fail(error)
+        try:
+            self._failed(error)
+        except Exception:
+            # The service's thread must live on for the questions that follow.
+            _log.exception("It could not be kept that there is no answer: %s", error)
+
+
+@dataclass(frozen=True)
+class Eyes:
+    """The processes: a process each for looks that a person waits for, for checkerboards, and for tracking.
+
+    Each is started by its first question.
+    """
+
+    near: QuestionService[Look]
+    boards: QuestionService[Look]
+    tracker: QuestionService[Look]
+
+    def close(self) -> None:
+        """Ends the processes and whatever waits for them."""
+        for service in (self.near, self.boards, self.tracker):
+            service.close()
+
+
+def seen(service: QuestionService[Look], task: Task, seconds: float) -> Any:
+    """The answer to a question about pictures.
+
+    Args:
+        service: which process answers.
+        task: what is asked.
+        seconds: longest wait.
+
+    Raises:
+        FootfallError: it was refused.
+        StateError: the answer does not come in time; the question is ended.
+    """
+    look = service.ask(Look(task))
+    try:
+        return look.result(seconds)
+    except TimeoutError:
+        look.cancel()
+        raise StateError(
+            f"The pictures could not be read within {seconds:.0f} s: the computer is busy. Try again.",
+            "picture",
+        ) from None
+
+
+def open_eyes() -> Eyes:
+    """The processes, none started yet."""
+    return Eyes(
+        QuestionService("picture reader", run_picture_worker),
+        QuestionService("checkerboard finder", run_picture_worker),
+        QuestionService("video tracker", run_picture_worker),
+    )

@@ -14,7 +14,13 @@ from core.physics.problem import SimulationProblem
 from core.physics.variations import VariedRun
 from core.problem.motion_problem import MotionProblem
 from solver_jobs.nlp.timing import TimingResult, fastest_timing
-from solver_jobs.results import Evidence, Iterate, Lack, MotionResult, SolveStatus
+from solver_jobs.results.motion import (
+    Evidence,
+    Iterate,
+    Lack,
+    MotionResult,
+    SolveStatus,
+)
 from solver_jobs.tiers.frontier import Frontier, FrontierSearch
 from solver_jobs.tiers.remedies import Remedy, RemedySearch
 from solver_jobs.workers.batch_simulation_service import TravelQuestion, TravelSimulator

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from app.bench.measure import Row, conditions
+from app.bench.common.measure import Row, conditions
 from app.bench.page.edits import bench_page
 from app.bench.page.gait_list import bench_gait_list
 from app.bench.page.scene import bench_scene

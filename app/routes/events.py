@@ -11,7 +11,7 @@ from starlette.websockets import WebSocketDisconnect
 
 from app.routes.robot.robot import send_stop
 from app.session.event_hub import Subscriber
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.web.dependencies import is_page, on_session
 
 router = APIRouter()

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from starlette.concurrency import run_in_threadpool
 
 from app.gaits.views import plan_view
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.web.dependencies import (
     TheAuthor,
     on_planned,

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Depends
 from pydantic import BaseModel, ConfigDict, Field
 
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.web.dependencies import changed, studio_of
 from core.gait.gait import (
     MOST_NAME,

@@ -11,7 +11,7 @@ from starlette.concurrency import run_in_threadpool
 from app.plans.plan import Plan
 from app.scene.ghost import ghost_blob
 from app.scene.reach import reach_table
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.web.dependencies import on_planned, on_session, studio_of
 from core.errors import StateError
 from core.motion.trajectory import Trajectory

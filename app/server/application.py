@@ -53,7 +53,7 @@ from app.routes.robot import (
 )
 from app.routes.viser_proxy import make_viser_router
 from app.scene.registry import Scenes
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.web.access import Access, Guard
 from app.web.assets import REVALIDATED, Assets
 from app.web.body_limit import BodyLimit

@@ -19,7 +19,7 @@ import uvicorn
 from app.cameras.address import CameraAddress
 from app.scene.registry import Scenes
 from app.server.application import MOST_MESSAGE_BYTES, make_app
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.web.access import LOOPBACK_NAMES, Access
 from core.errors import InputError
 

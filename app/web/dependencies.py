@@ -14,7 +14,7 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 
 from app.gaits.open_gait import OpenGait
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.undo.history import Author
 from app.web.body_limit import BodyTooLargeError, body_refusal
 from core.arrays import Floats

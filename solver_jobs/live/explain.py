@@ -16,7 +16,7 @@ from solver_jobs.live.rows import NOBODY, Rows
 from solver_jobs.nlp.constraint import Family
 from solver_jobs.nlp.diagnosis import knot_ranges
 from solver_jobs.nlp.presolve import low_swings
-from solver_jobs.results import Evidence, Lack
+from solver_jobs.results.motion import Evidence, Lack
 
 NOTABLE = 0.005
 """Misses (mm, mm/s) that are worth a sentence."""

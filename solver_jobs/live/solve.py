@@ -28,7 +28,7 @@ from solver_jobs.live.rows import DiscPolygon, Rows, balance, body_speed, foot_s
 from solver_jobs.nlp.assembly import box_of
 from solver_jobs.nlp.constraint import situation_of
 from solver_jobs.nlp.presolve import obstacles
-from solver_jobs.results import Evidence, MotionResult, SolveStatus
+from solver_jobs.results.motion import Evidence, MotionResult, SolveStatus
 
 COARSE, FINE, AROUND = 16, 64, 32
 """Edges of the polygons that stand for discs: while dragging, before saying no, and in a proof."""

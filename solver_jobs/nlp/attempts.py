@@ -23,7 +23,7 @@ from solver_jobs.nlp.variables import (
     unpacked,
     vector_of_trajectory,
 )
-from solver_jobs.results import Iterate
+from solver_jobs.results.motion import Iterate
 
 Progress = Callable[[Iterate], bool]
 """Is told of each iteration; false cancels."""

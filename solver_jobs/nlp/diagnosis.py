@@ -10,7 +10,7 @@ from core.arrays import Floats
 from solver_jobs.nlp.compiled_problem import Structure
 from solver_jobs.nlp.constraint import Family, RowConstraint, Situation
 from solver_jobs.nlp.messages import FAMILY_WORDS, REMEDIES
-from solver_jobs.results import Lack
+from solver_jobs.results.motion import Lack
 
 NOTABLE = 1e-3
 """Violations (mm, N, mm/s) that are worth a sentence."""

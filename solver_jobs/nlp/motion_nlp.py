@@ -21,7 +21,7 @@ from solver_jobs.nlp.diagnosis import (
 )
 from solver_jobs.nlp.presolve import obstacles
 from solver_jobs.nlp.warm_starts import Memory
-from solver_jobs.results import Evidence, MotionResult, SolveStatus
+from solver_jobs.results.motion import Evidence, MotionResult, SolveStatus
 
 SUCCEEDED = "Solve_Succeeded"
 STOPPED = "User_Requested_Stop"

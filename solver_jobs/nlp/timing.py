@@ -24,7 +24,7 @@ from core.motion.trajectory import Trajectory, turn_trajectory
 from core.problem.initial_guess import closed_contact
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import MotionProblem
-from solver_jobs.results import Iterate, MotionResult, SolveStatus
+from solver_jobs.results.motion import Iterate, MotionResult, SolveStatus
 
 SMALLEST_PHASE = 0.2
 """Default of the shortest duration of a phase, s."""

@@ -31,7 +31,7 @@ from solver_jobs.nlp.constraint import Family, situation_of
 from solver_jobs.nlp.diagnosis import DIAGNOSED
 from solver_jobs.nlp.motion_nlp import STOPPED, SUCCEEDED, solve_motion
 from solver_jobs.nlp.variables import make_symbols, stretched
-from solver_jobs.results import Iterate, MotionResult, SolveStatus
+from solver_jobs.results.motion import Iterate, MotionResult, SolveStatus
 
 LONGEST_PHASE = 60.0
 """No phase gets longer than this, s."""

@@ -9,7 +9,7 @@ from core.problem.motion_problem import Cost, MotionProblem
 from solver_jobs.live.solve import solve_live
 from solver_jobs.nlp.attempts import Progress
 from solver_jobs.nlp.motion_nlp import solve_motion
-from solver_jobs.results import Evidence, MotionResult, SolveStatus
+from solver_jobs.results.motion import Evidence, MotionResult, SolveStatus
 
 _WITHOUT = (SolveStatus.INFEASIBLE, SolveStatus.FAILED)
 """How a search without a motion ends."""

@@ -23,7 +23,7 @@ from core.motion.trajectory import Trajectory
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import MotionProblem
 from core.robot.model import RobotModel
-from solver_jobs.results import Iterate, MotionResult, SolveStatus
+from solver_jobs.results.motion import Iterate, MotionResult, SolveStatus
 
 HEIGHTS = tuple(0.053 + 0.0005 * k for k in range(16))
 """Actuator planes at start and goal that are tried, m: the body's bounds in steps of 0.5 mm."""

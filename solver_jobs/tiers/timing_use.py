@@ -9,7 +9,7 @@ import numpy as np
 from core.problem.motion_check import check_motion
 from solver_jobs.nlp.attempts import Progress
 from solver_jobs.nlp.timing import TimingResult, rounded_timeline
-from solver_jobs.results import SolveStatus
+from solver_jobs.results.motion import SolveStatus
 from solver_jobs.tiers.exact_from_live import solve_exact
 
 SAMPLE_TIMES = np.arange(0.15, 0.405, 0.01)

@@ -7,7 +7,7 @@ from enum import StrEnum
 
 from core.problem.motion_problem import MotionProblem
 from solver_jobs.nlp.timing import TimingResult
-from solver_jobs.results import Iterate, MotionResult, SolveStatus
+from solver_jobs.results.motion import Iterate, MotionResult, SolveStatus
 
 
 class JobKind(StrEnum):

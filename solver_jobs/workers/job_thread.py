@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 from solver_jobs.nlp.timing import TimingResult
-from solver_jobs.results import Iterate, MotionResult
+from solver_jobs.results.motion import Iterate, MotionResult
 from solver_jobs.workers.job import (
     STATE_OF_STATUS,
     Job,

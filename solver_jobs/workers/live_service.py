@@ -16,7 +16,7 @@ from typing import Any
 from core.gait.gait import Gait
 from core.problem.initial_guess import initial_motion
 from core.problem.motion_problem import MotionProblem
-from solver_jobs.results import Evidence, MotionResult, SolveStatus
+from solver_jobs.results.motion import Evidence, MotionResult, SolveStatus
 from solver_jobs.tiers.remedies import RemedySearch
 from solver_jobs.workers.live_worker import (
     Answered,

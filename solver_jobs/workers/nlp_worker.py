@@ -13,7 +13,7 @@ from multiprocessing.connection import Connection
 
 from core.problem.motion_problem import MotionProblem
 from solver_jobs.nlp.timing import TimingResult, fastest_timing
-from solver_jobs.results import Iterate, MotionResult, SolveStatus
+from solver_jobs.results.motion import Iterate, MotionResult, SolveStatus
 from solver_jobs.workers.job import JobKind
 
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from app.bench import BENCHMARKS
-from app.bench.cases import Case, all_cases
-from app.bench.edited_gaits import edited_gait
+from app.bench.common.cases import Case, all_cases
+from app.bench.common.edited_gaits import edited_gait
 from app.bench.solvers.edits import Outcome, answers, bench_edits
 from app.bench.solvers.frontier import bench_frontier
 from app.bench.solvers.live import bench_live, grouped_gait

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from app.bench.common.published import PublishedRun
 from app.bench.physics import runs as physics_runs
 from app.bench.physics.cases import manual_problem
 from app.bench.physics.page import physics_page
@@ -22,7 +23,6 @@ from app.bench.physics.tables import (
     paper_rows,
     published_rows,
 )
-from app.bench.published import PublishedRun
 from core.errors import InputError
 from core.physics.parameters import physics_set
 from core.physics.problem import SimulationProblem

@@ -6,7 +6,7 @@ from functools import cache
 
 import pytest
 
-from app.bench.measure import Row
+from app.bench.common.measure import Row
 from app.bench.robot.walk import PUBLISHED, bench_walk
 from core.wire.timing import OVERRUN
 

@@ -12,7 +12,7 @@ from app.documents.trajectory_json import trajectory_content
 from app.gaits.service import GaitDesk
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
-from app.studio import Studio
+from app.studio.studio import Studio
 from core.gait.gait import motion_problem
 from core.gait.sequence_part import SequencePart
 from core.library.library import library

@@ -19,7 +19,7 @@ from app.gaits.summaries import GaitList
 from app.session.event_hub import Subscriber
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
-from app.studio import Studio
+from app.studio.studio import Studio
 from core.errors import InputError
 from core.gait.gait import Gait
 from core.library.library import library

@@ -8,7 +8,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from app.bench.cases import Case, all_cases
+from app.bench.common.cases import Case, all_cases
+from app.bench.common.published import Reference
 from app.bench.physics import cases as physics_cases
 from app.bench.physics.cases import (
     manual_problem,
@@ -18,7 +19,6 @@ from app.bench.physics.cases import (
     tipping,
     walker,
 )
-from app.bench.published import Reference
 from core.motion.support_polygon import stability_margins
 from core.motion.trajectory import Trajectory
 from core.physics.parameters import physics_set

@@ -12,7 +12,7 @@ import pytest
 
 from app.gaits.open_gait import OpenGait
 from app.gaits.sequence_documents import AskedPart, made_sequence
-from app.studio import Studio
+from app.studio.studio import Studio
 
 DEADLINE = 60
 

@@ -23,7 +23,7 @@ from core.problem.motion_problem import Boundary, MotionProblem, Workspace
 from core.robot.model import load_robot
 from solver_jobs.live.solve import quick_motion, solve_live
 from solver_jobs.nlp.motion_nlp import solve_motion
-from solver_jobs.results import Evidence, MotionResult, SolveStatus
+from solver_jobs.results.motion import Evidence, MotionResult, SolveStatus
 from tests.solver_jobs.cases import GAITS, gait_problem
 
 MODEL = load_robot("deltawalker")

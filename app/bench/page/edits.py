@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.bench.measure import Row
+from app.bench.common.measure import Row
 from app.bench.page.long_timeline import (
     NAME,
     dragging,

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.bench.measure import Row, milliseconds, seconds_of
+from app.bench.common.measure import Row, milliseconds, seconds_of
 from app.bench.page.edits import (
     READY_MS,
     SIZE,

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from app.bench.measure import Row
+from app.bench.common.measure import Row
 from app.bench.page.edits import (
     READY_MS,
     SIZE,

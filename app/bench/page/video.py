@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from app.bench.measure import Row, milliseconds
+from app.bench.common.measure import Row, milliseconds
 from app.bench.page.film import (
     ACROSS,
     Film,

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.bench.measure import Row, milliseconds
+from app.bench.common.measure import Row, milliseconds
 from app.bench.patterns.cases import random_periodic, random_small, random_transition
 from core.patterns.brute_force import least_weighted_sum
 from core.patterns.check import check_pattern, weighted_sum

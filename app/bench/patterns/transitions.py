@@ -25,7 +25,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from app.bench.measure import Row
+from app.bench.common.measure import Row
 from app.plans.verified_result import Judgement, judge
 from core.arrays import Floats
 from core.gait.gait import Gait, heading_angle, motion_problem

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.bench.cases import Case, all_cases
-from app.bench.published import Reference
+from app.bench.common.cases import Case, all_cases
+from app.bench.common.published import Reference
 from app.export.trajectory_files import read_text
 from app.learning.published_trials import problem_within_range
 from app.plans.verified_result import judge

@@ -6,8 +6,8 @@ import math
 from pathlib import Path
 from typing import Any
 
-from app.bench.measure import Row
-from app.bench.published import Reference
+from app.bench.common.measure import Row
+from app.bench.common.published import Reference
 from app.export.trajectory_files import read_text
 from app.learning.published_trials import walks_of_table
 from app.learning.runner import WalkRunner

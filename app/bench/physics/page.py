@@ -7,8 +7,8 @@ from html import escape
 
 import numpy as np
 
+from app.bench.common.published import PublishedRun
 from app.bench.physics.runs import ManualCase, OptimisedCase, Walked
-from app.bench.published import PublishedRun
 from app.common.version import VERSION
 from app.export.path_plot import Ways, way_plot
 from app.export.svg import svg

@@ -8,6 +8,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.bench.common.published import (
+    MANUAL_FEET,
+    MANUAL_HEIGHT,
+    TABLE_4_1,
+    TABLE_4_2,
+    PublishedRun,
+    Reference,
+)
 from app.bench.physics.cases import (
     manual_problem,
     own_problem,
@@ -15,7 +23,6 @@ from app.bench.physics.cases import (
     solved_cases,
     tipping,
 )
-from app.bench.published import MANUAL_FEET, MANUAL_HEIGHT, TABLE_4_1, TABLE_4_2, PublishedRun, Reference
 from core.arrays import Floats
 from core.motion.trajectory import Trajectory
 from core.physics.findings import longest_slides

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from app.bench.measure import Row
+from app.bench.common.measure import Row
+from app.bench.common.published import PAPER_TABLE_I, PublishedRun, Reference
 from app.bench.physics.page import physics_page
 from app.bench.physics.runs import (
     ManualCase,
@@ -20,7 +21,6 @@ from app.bench.physics.runs import (
     tipped,
     walked,
 )
-from app.bench.published import PAPER_TABLE_I, PublishedRun, Reference
 from app.store.gait_files import write_atomically
 from core.errors import InputError
 from core.physics.findings import TILT_LIMIT

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.bench.measure import Row
+from app.bench.common.measure import Row
 from app.bench.robot.soak import bench_soak
 from app.bench.robot.standstill import bench_still
 from app.bench.robot.stop import bench_kill, bench_stop

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from app.bench.measure import Row
+from app.bench.common.measure import Row
 from app.bench.robot.judge import Findings, Judge
 from app.bridge.messages import NOT_STOPPED
 from app.bridge.states import IN_RUN, LinkState, RobotState, RunPlan

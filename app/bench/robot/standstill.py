@@ -6,7 +6,7 @@ import random
 
 import numpy as np
 
-from app.bench.measure import Row
+from app.bench.common.measure import Row
 from app.bridge.states import IN_RUN, LinkState, RobotState, RunPlan
 from app.emulator.profiles import ProfileName
 from app.emulator.virtual_link import VirtualBridge

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from app.bench.measure import Row, milliseconds
+from app.bench.common.measure import Row, milliseconds
 from app.bench.robot.processes import (
     Piece,
     Studio,

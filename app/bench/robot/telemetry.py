@@ -13,7 +13,7 @@ import numpy as np
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from app.bench.measure import Row, milliseconds
+from app.bench.common.measure import Row, milliseconds
 from app.bench.robot.processes import (
     ANSWER_SECONDS,
     Studio,

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from app.bench.measure import Row
+from app.bench.common.measure import Row
 from app.emulator.firmware import Firmware
 from app.emulator.profiles import PROFILES, ProfileName
 from app.export.trajectory_files import read_trajectory
@@ -34,7 +34,7 @@ from core.wire.waypoint_merging import (
 from core.wire.waypoints import Waypoints
 from solver_jobs import SolveStatus, solve_live
 
-PUBLISHED = Path(__file__).resolve().parents[3] / "shared/reference/trajectories/direction1/walk_a.csv"
+PUBLISHED = Path(__file__).resolve().parents[4] / "shared/reference/trajectories/direction1/walk_a.csv"
 """The published walk of 10 mm, where it is at hand."""
 
 WAYS: tuple[tuple[float, float | None], ...] = ((0.0, None), (0.001, None), (0.001, 1.0), (0.001, 0.8))

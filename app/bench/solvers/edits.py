@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from app.bench.edited_gaits import EditedGait, edited_gait
-from app.bench.measure import Row
+from app.bench.common.edited_gaits import EditedGait, edited_gait
+from app.bench.common.measure import Row
 from app.plans.verified_result import Judgement, judge
 from core.errors import InputError
 from core.gait.gait import motion_problem

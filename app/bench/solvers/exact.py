@@ -8,7 +8,12 @@ from functools import partial
 
 import numpy as np
 
-from app.bench.measure import REPEATS, Row, milliseconds, seconds_of
+from app.bench.common.measure import (
+    REPEATS,
+    Row,
+    milliseconds,
+    seconds_of,
+)
 from app.bench.solvers.live import grouped_gait
 from core.gait.gait import (
     Gait,

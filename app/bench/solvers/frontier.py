@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 
-from app.bench.measure import Row, seconds_of
+from app.bench.common.measure import Row, seconds_of
 from core.gait.gait import Gait
 from core.library.library import Group, group_ids, library
 from core.motion.heading_profile import Turning

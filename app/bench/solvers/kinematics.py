@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 
-from app.bench.measure import Row, median_seconds
+from app.bench.common.measure import Row, median_seconds
 from core.robot.kinematics import BodyPose, walker_feet, walker_strokes
 from core.robot.leg import foot_from_strokes
 from core.robot.model import load_robot

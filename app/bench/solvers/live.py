@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.bench.measure import Row, milliseconds
+from app.bench.common.measure import Row, milliseconds
 from app.plans.verified_result import judge
 from core.gait.gait import (
     Gait,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from app.bench.measure import Row
+from app.bench.common.measure import Row
 from core.gait.gait import Gait, drawn_timeline, motion_problem
 from core.library.library import library
 from core.problem.motion_check import check_motion

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.bench.cases import Case, all_cases
-from app.bench.measure import Row, milliseconds
+from app.bench.common.cases import Case, all_cases
+from app.bench.common.measure import Row, milliseconds
 from app.plans.verified_result import Judgement, judge
 from core.gait.gait import Gait, drawn_timeline, motion_problem
 from core.motion.trajectory import Trajectory, turn_trajectory

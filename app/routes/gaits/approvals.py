@@ -8,7 +8,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Depends
 
 from app.gaits.approvals import ApprovalRecord, approval_difference, approval_figures
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.web.dependencies import on_planned, studio_of
 
 router = APIRouter(prefix="/api/gaits/{gait_id}/approvals", tags=["approvals"])

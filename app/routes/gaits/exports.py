@@ -14,7 +14,7 @@ from app.export.formats import NEED_NO_MOTION, ExportedFile, ExportFormat, expor
 from app.export.import_gait import NO_FILE, read_gait
 from app.export.source import Exportable, exportable_plan
 from app.gaits.open_gait import OpenGait
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.web.dependencies import (
     changed,
     on_planned,

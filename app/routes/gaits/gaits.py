@@ -18,7 +18,7 @@ from app.gaits.open_gait import OpenGait
 from app.gaits.trash import ROUTE
 from app.gaits.views import approval_view, verdict_view
 from app.scene.overlay import plan_poses
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.web.dependencies import (
     TheAuthor,
     changed,

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.gaits.open_gait import OpenGait
 from app.gaits.sequence_documents import AskedPart, made_sequence, refreshed
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.web.dependencies import (
     TheAuthor,
     changed,

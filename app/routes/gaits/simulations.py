@@ -9,7 +9,7 @@ from fastapi.responses import Response
 from starlette.concurrency import run_in_threadpool
 
 from app.scene.simulated_ghost import simulated_blob
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.web.dependencies import studio_of
 from core.robot.model import load_robot
 

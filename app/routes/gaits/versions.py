@@ -12,7 +12,7 @@ from app.documents.gait_json import gait_content, motion_hash, parse_gait
 from app.gaits.open_gait import OpenGait
 from app.gaits.versions import MOST_NAME, VersionKind, is_said_already
 from app.store.gait_store import VersionRow
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.web.dependencies import (
     TheAuthor,
     changed,

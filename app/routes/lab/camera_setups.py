@@ -18,7 +18,7 @@ from app.cameras.setup_schema import (
     SetupDocument,
     Side,
 )
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.vision.services import seen
 from app.vision.worker import (
     BoardIn,

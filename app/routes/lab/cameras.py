@@ -20,7 +20,7 @@ from app.routes.lab.picture_streams import (
     look_at,
     part,
 )
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.vision.worker import BoardIn, Source, data_url
 from app.web.dependencies import studio_of
 from core.errors import FootfallError

@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from starlette.concurrency import run_in_threadpool
 
 from app.cameras.setup_schema import Colours, LimitsDocument, SetupDocument
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.videos.service import LOOK_SECONDS
 from app.vision.services import seen
 from app.vision.worker import LookAt, Source

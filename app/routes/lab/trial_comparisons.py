@@ -7,7 +7,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Depends, Query
 from starlette.concurrency import run_in_threadpool
 
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.web.dependencies import studio_of
 
 router = APIRouter(prefix="/api/trials", tags=["trials"])

@@ -8,7 +8,7 @@ from fastapi import APIRouter, Depends, Query, Request, Response
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.concurrency import run_in_threadpool
 
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.trials.photos import check_bytes
 from app.web.dependencies import TheAuthor, studio_of
 

@@ -28,7 +28,7 @@ from app.routes.lab.trials import (
     Name,
     planned_for,
 )
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.trials.service import TrialWords
 from app.videos.files import MOST_BYTES, Upload
 from app.videos.tracking_service import TrackOrder

@@ -17,7 +17,7 @@ from app.gaits.views import plan_view
 from app.pattern_search.service import PatternQuestion, Search
 from app.routes.patterns.problems import AnyQuestion, Posed, posed
 from app.routes.patterns.schema import PatternUse, Question
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.undo.history import SCRIPT, Author
 from app.web.dependencies import (
     TheAuthor,

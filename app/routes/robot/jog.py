@@ -11,7 +11,7 @@ from starlette.concurrency import run_in_threadpool
 from app.robot.jog_service import JogLook, JogWish
 from app.routes.robot.robot import SOMEBODY, Deed, named
 from app.scene.ghost import ghost_blob
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.web.dependencies import (
     MOST_MOTORS,
     TheAuthor,

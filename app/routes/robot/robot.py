@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from starlette.concurrency import run_in_threadpool
 
 from app.bridge.run_range import Course
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.undo.history import Author
 from app.web.dependencies import TheAuthor, on_planned, studio_of
 

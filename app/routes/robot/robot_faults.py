@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict
 from starlette.concurrency import run_in_threadpool
 
 from app.emulator.faults import Fault
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.web.dependencies import studio_of
 
 router = APIRouter(prefix="/api/robot", tags=["robot"])

@@ -14,7 +14,7 @@ from app.runs.csv_file import run_csv
 from app.runs.motion import measured_trajectory
 from app.scene.ghost import ghost_blob
 from app.store.run_store import RunFilter
-from app.studio import Studio
+from app.studio.studio import Studio
 from app.web.dependencies import studio_of
 
 router = APIRouter(prefix="/api/runs", tags=["runs"])

@@ -1,0 +1,1 @@
+"""What all benchmarks use: measuring, published cases and figures, edited gaits."""

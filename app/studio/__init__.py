@@ -1,0 +1,1 @@
+"""The studio: every service behind one command queue, and what it publishes to the pages."""

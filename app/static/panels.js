@@ -1,15 +1,15 @@
 /** The panels that a person turns to later, and the 3D preview, whose client takes the browser's time for itself. */
 
-import { mountCheck } from "./check.js";
-import { mountRobot } from "./robot.js";
-import { mountRuns } from "./runs.js";
-import { mountSegments } from "./segments.js";
-import { mountSequence } from "./sequence.js";
-import { mountSequenceBand } from "./sequence_band.js";
-import { mountSimulate } from "./simulate.js";
-import { mountStage } from "./stage.js";
-import { mountTrialEntry } from "./trial_entry.js";
-import { mountVersions } from "./versions.js";
+import { mountCheck } from "./check/check.js";
+import { mountRobot } from "./robot/robot.js";
+import { mountRuns } from "./runs/runs.js";
+import { mountSegments } from "./segments/segments.js";
+import { mountSequence } from "./sequence/sequence.js";
+import { mountSequenceBand } from "./sequence/sequence_band.js";
+import { mountSimulate } from "./check/simulate.js";
+import { mountStage } from "./preview/stage.js";
+import { mountTrialEntry } from "./lab/entry.js";
+import { mountVersions } from "./shell/versions.js";
 
 /**
  * Builds them.

@@ -85,9 +85,9 @@ def test_the_style_sheets_come_as_one_in_the_order_of_the_html(studio: StudioPro
 
 
 def test_a_file_is_packed_for_who_takes_it_so(studio: StudioProcess) -> None:
-    _, plain, body = get(studio, "static/main.js")
+    _, plain, body = get(studio, "static/editor.js")
     assert "content-encoding" not in plain
-    status, headers, packed = get(studio, "static/main.js", **{"accept-encoding": "gzip, br"})
+    status, headers, packed = get(studio, "static/editor.js", **{"accept-encoding": "gzip, br"})
     assert (status, headers["content-encoding"], headers["vary"]) == (200, "gzip", "accept-encoding")
     assert gzip.decompress(packed) == body
     assert len(packed) < 0.6 * len(body)

@@ -188,7 +188,7 @@ def test_a_gait_that_is_not_listed_yet_stays_when_the_line_opens_anew(
         kept = page.evaluate(
             """async () => {
                 const [{ createStore }, { selectAfterHello }] = await Promise.all(
-                    ["store", "gaits"].map((name) => import(`/static/${name}.js`)));
+                    ["state/store", "shell/gait_list"].map((name) => import(`/static/${name}.js`)));
                 const gaits = [{ id: "walk" }];
                 const [fresh, gone] = [{ id: "amble" }, null].map((view) =>
                     createStore({ gaits, selected: "amble", view }));

@@ -200,7 +200,7 @@ def test_a_deleted_gait_is_brought_back_after_a_reload(page: Page, studio: Studi
 
 def test_notices_of_a_gait_go_with_it_and_three_stand_at_once(page: Page) -> None:
     show = """async () => {
-      const { toast } = await import("/static/toasts.js");
+      const { toast } = await import("/static/lib/toasts.js");
       toast("It is deleted.", { action: { label: "Bring it back", act: () => {} } });
       for (const sentence of ["One.", "Two.", "Not pasted.", "Imported with remarks."]) toast(sentence);
     }"""

@@ -16,8 +16,8 @@ LONGEST_DRAWING_MS = 50.0
 FOUR_FEET = {"foot-1", "foot-2", "foot-3", "foot-4"}
 
 DRAW = """async ([legs, samples]) => {
-  const { createStore } = await import("/static/store.js");
-  const { mountPlots } = await import("/static/plots.js");
+  const { createStore } = await import("/static/state/store.js");
+  const { mountPlots } = await import("/static/plots/plots.js");
   const store = createStore();
   document.querySelector("#plots").replaceChildren();
   mountPlots(store);
@@ -173,7 +173,7 @@ def test_twelve_feet_of_240_samples_are_drawn_at_once(page: Page) -> None:
 def test_more_samples_than_pixels_are_thinned_and_keep_their_extremes(page: Page) -> None:
     path = page.evaluate(
         """async () => {
-          const { acrossOf, pathOf, WIDTH } = await import("/static/curves.js");
+          const { acrossOf, pathOf, WIDTH } = await import("/static/plots/curves.js");
           const times = Array.from({ length: 60000 }, (_, index) => index * 0.001);
           const axis = { samples: 60000, columns: 60000, first: 0, shown: 60000, step: 0.001, duration: 60 };
           const across = acrossOf(axis, times);
@@ -199,7 +199,7 @@ def test_where_a_stroke_is_not_known_the_strip_is_marked(page: Page, studio: Stu
 def test_a_grid_has_at_most_a_hundred_lines_a_side(page: Page) -> None:
     said = page.evaluate(
         """async () => {
-            const { ground, gridPlaces } = await import("/static/trial_plot.js");
+            const { ground, gridPlaces } = await import("/static/trials/trial_plot.js");
             const drawn = ({ lines, step }) => [lines.length, step];
             const far = (end) => drawn(ground([{ x: [-1.5, end], y: [0, 2] }]));
             return [far(3), far(5000), gridPlaces(-1.5, 2, 1), gridPlaces(-15, 25, 10)];

@@ -106,7 +106,7 @@ def test_a_stop_goes_out_on_two_ways_of_which_each_is_enough(
 
 
 def test_stop_works_while_the_page_is_still_being_read(ada: Page, held_still: StudioProcess) -> None:
-    ada.route("**/static/main.js", lambda route: route.abort())
+    ada.route("**/static/editor.js", lambda route: route.abort())
     ada.reload()
     with ada.expect_response("**/api/robot/stop"):
         ada.get_by_role("button", name="Stop", exact=True).press("Enter")

@@ -123,8 +123,8 @@ def test_a_deleted_run_comes_back(page: Page) -> None:
 
 
 TRACE = """async () => {
-  const { mountTrace } = await import("/static/run_trace.js");
-  const { createStore } = await import("/static/store.js");
+  const { mountTrace } = await import("/static/runs/run_trace.js");
+  const { createStore } = await import("/static/state/store.js");
   const store = createStore();
   mountTrace(store);
   const tell = async (robot, reached, plan_time, phase = "streaming", id = "r", hash = "h") => {

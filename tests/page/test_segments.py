@@ -243,7 +243,7 @@ def test_message_and_numbers_stand_beside_the_table(page: Page, studio: StudioPr
 def test_a_manual_plan_that_cannot_be_carried_out_is_not_green(page: Page) -> None:
     said = page.evaluate(
         """async () => {
-            const { planState } = await import("/static/answer.js");
+            const { planState } = await import("/static/optimise/live_answer.js");
             const plan = { source: "manual", live: null, times: [0, 1], refusal: null, balance: 0.01 };
             const unreachable = { ...plan, refusal: { sentence: "Too far." } };
             return [plan, { ...plan, balance: -0.004 }, unreachable].map(planState);

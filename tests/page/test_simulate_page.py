@@ -74,7 +74,7 @@ def test_a_simulation_is_cancelled_and_a_reload_brings_the_last_one_back(page: P
 
 
 MAP = """async () => {
-  const { robustness } = await import("/static/robustness.js");
+  const { robustness } = await import("/static/check/robustness.js");
   const map = robustness();
   const figures = { walks: false, fell: false, max_tilt: 0.1, distance: 0.01, feet_error: 0.001 };
   const run = (name, more) => ({ ...figures, name, ended_early: "", ...more });
@@ -102,7 +102,7 @@ def test_the_map_tells_walking_tipping_and_falling_apart_without_colour(page: Pa
 
 def test_a_rule_without_a_value_has_no_room_of_zero(page: Page) -> None:
     shown = page.evaluate("""async () => {
-      const { readable } = await import("/static/format.js");
+      const { readable } = await import("/static/lib/format.js");
       const shown = [readable(null, "rad"), readable(null, "m"), readable(0, "rad")];
       return shown.map(({ value, unit }) => value + unit);
     }""")
@@ -110,7 +110,7 @@ def test_a_rule_without_a_value_has_no_room_of_zero(page: Page) -> None:
 
 
 OVERS = """async () => {
-  const { oversOf } = await import("/static/measured.js");
+  const { oversOf } = await import("/static/plots/measured.js");
   const feet = [[[0, 0, 0]], [[0, 0, 0.001]]];
   const motion = { times: [0, 1], strokes_mm: [[1], [2]], feet, margins_mm: [3, null] };
   const simulation = { key: "k", plan: "p", motion };

@@ -343,7 +343,7 @@ def change_elsewhere(studio: StudioProcess, margin: float) -> None:
 
 
 CHECKED = """async () => {
-  const { acceptView, checkGone, createStore } = await import("/static/store.js");
+  const { acceptView, checkGone, createStore } = await import("/static/state/store.js");
   const store = createStore({ selected: "walk" });
   const why = (view) => {
     acceptView(store, { id: "walk", ...view });

@@ -14,7 +14,7 @@ from tests.studio_process import running_studio, wait_for
 
 ZEROS = "0" * 24
 OUTCOME = """async ([id, state, amount]) => {
-  const { outcomeOf } = await import("/static/operations.js");
+  const { outcomeOf } = await import("/static/document/operations.js");
   return JSON.parse(JSON.stringify(outcomeOf(id, state, amount)));
 }"""
 

@@ -1,125 +1,68 @@
-/**
- * Quiet second robots: another version of the gait at the playhead's time, drawn with lines.
- *
- * A ghost comes once, as poses of its few parts with the lines of each in its own frame (app/scene/ghost.py). In the
- * scene it is one node of line pieces, whose corners are placed anew with each pose.
- */
+/** The ghosts of the 3D preview: the gait before the last edit, as it was saved, as a run measured it and as physics has it, as quiet second robots. */
 
-import { GhostMarks } from "./ghost_marks.js";
-import { PoseTable, VALUES_A_NODE } from "./poses.js";
-import { visibleMessage } from "./viser_client.js";
+import { api } from "../api/gaits.js";
+import { checkMenu, recalled, remember } from "../lib/check_menu.js";
+import { byId } from "../lib/dom.js";
+import { lane } from "../lib/latest_only.js";
+import { simulationOver } from "../plots/simulation.js";
 
-const COLOURS = {
-  before: { light: [112, 128, 156], dark: [132, 148, 176] }, saved: { light: [158, 108, 196], dark: [180, 140, 216] },
-  measured: { light: [14, 128, 120], dark: [64, 190, 178] }, jog: { light: [58, 92, 204], dark: [125, 152, 243] },
-  simulated: { light: [190, 62, 122], dark: [232, 124, 174] },
+const KINDS = {
+  before: { text: "Before the last edit", help: "The gait as it was before the last edit, at the same time; while you drag, as it is without the drag" },
+  saved: { text: "As saved", help: "The gait as it was saved, at the same time" },
+  measured: { text: "As measured", shown: true, help: "The robot of the run that is open, by its measured strokes, with the plan's standing feet on the ground" },
+  simulated: { text: "As simulated", shown: true, help: "The robot of the simulation, leaning and slipping as physics has it; green rings are feet that carry load, red lines where feet slid" },
 };
 
-/** Places a part's line pieces by its pose. */
-function place(lines, pose, at, into, start) {
-  const [w, x, y, z, px, py, pz] = pose.subarray(at, at + VALUES_A_NODE);
-  for (let i = 0; i < lines.length; i += 3) {
-    const [a, b, c] = [lines[i], lines[i + 1], lines[i + 2]];
-    // v + 2 q × (q × v + w v), for the quaternion's vector part q.
-    const [tx, ty, tz] = [y * c - z * b + w * a, z * a - x * c + w * b, x * b - y * a + w * c];
-    into[start + i] = a + 2 * (y * tz - z * ty) + px;
-    into[start + i + 1] = b + 2 * (z * tx - x * tz) + py;
-    into[start + i + 2] = c + 2 * (x * ty - y * tx) + pz;
-  }
+const keyOf = (view, of) => `${view.id} ${of} ${view.revision} ${view.saved_at}`;
+
+/** Which version is fetched for a ghost, and why there is none. */
+function versionOf(kind, state) {
+  const { view, live, run } = state;
+  if (!view) return { reason: "No gait is selected." };
+  if (kind === "simulated") return simulationOver(state) ? { of: `${view.simulation.key} ${view.simulation.made}` } : { reason: "This plan was not simulated." };
+  if (kind === "measured") return run?.gait === view.id ? { of: run.id } : { reason: "No run of this gait is open. Open one under Runs." };
+  if (kind === "saved") return view.edited || live ? { of: "saved" } : { reason: "The gait is as it was saved." };
+  if (live) return { of: "present" };
+  return view.changed ? { of: "before" } : { reason: "This gait was not changed yet." };
 }
 
-class Ghost {
-  #table;
-  #parts;
-  #pose;
-  #points;
-  #time = null;
-
-  constructor(buffer) {
-    this.#table = new PoseTable(buffer);
-    this.#parts = this.#table.overlay.lines.map((lines) => Float32Array.from(lines.flat(2)));
-    this.#pose = new Float32Array(this.#table.nodes.length * VALUES_A_NODE);
-    this.#points = new Float32Array(this.#parts.reduce((sum, lines) => sum + lines.length, 0));
-  }
-
-  /** The line pieces at a time, or null where they are where they were. */
-  at(time) {
-    const held = Math.min(Math.max(time, this.#table.start), this.#table.start + this.#table.duration);
-    if (held === this.#time) return null;
-    this.#time = held;
-    this.#table.sample(held, this.#pose);
-    let start = 0;
-    this.#parts.forEach((lines, part) => {
-      place(lines, this.#pose, part * VALUES_A_NODE, this.#points, start);
-      start += lines.length;
-    });
-    return this.#points;
-  }
-
-  forget() {
-    this.#time = null;
-  }
-
-  get table() { return this.#table; }
-
-  /** The parts' poses at the time that was asked for last. */
-  get pose() { return this.#pose; }
+/** Keeps one ghost current: fetched once a version, shown while it is wanted. */
+function follow(store, preview, kind, menu, isOn) {
+  let shown = null;
+  const offer = lane(async ({ id, of, key }) => {
+    let poses = null;
+    try {
+      poses = await (kind === "measured" ? api.runGhost(of) : kind === "simulated" ? api.simulatedGhost(of.split(" ")[0]) : api.ghost(id, of));
+    } catch {
+      // That version makes no motion: there is nothing to be drawn.
+    }
+    if (shown === key) preview.setGhost(kind, poses);
+  });
+  return () => {
+    const { of, reason } = versionOf(kind, store.state);
+    menu.allow(kind, reason ?? null);
+    const key = of && isOn() ? keyOf(store.state.view, of) : null;
+    if (key === shown) return;
+    shown = key;
+    if (key) offer({ id: store.state.view.id, of, key });
+    else preview.setGhost(kind, null);
+  };
 }
 
-export class Ghosts {
-  #client;
-  #ghosts = new Map();
-  #news = new Set(Object.keys(COLOURS));
-  #theme = "light";
-  #marks;
-  /** How often a ghost was placed. */
-  moves = 0;
-
-  /** @param {import("./viser_client.js").ViserClient} client */
-  constructor(client) {
-    this.#client = client;
-    this.#marks = new GhostMarks(client, place);
-  }
-
-  /**
-   * @param {"before"|"saved"|"measured"|"simulated"|"jog"} kind
-   * @param {ArrayBuffer|null} buffer null takes the ghost away
-   */
-  set(kind, buffer) {
-    if (buffer) this.#ghosts.set(kind, new Ghost(buffer));
-    else this.#ghosts.delete(kind);
-    this.#news.add(kind);
-    if (kind === "simulated") this.#marks.set(this.#ghosts.get(kind)?.table ?? null);
-  }
-
-  setDark(dark) {
-    this.#theme = dark ? "dark" : "light";
-    this.forget();
-  }
-
-  /** The client's scene is a new one: everything has to be said again. */
-  forget() {
-    for (const kind of Object.keys(COLOURS)) this.#news.add(kind);
-    this.#marks.forget();
-  }
-
-  /** Messages that bring the ghosts up to a time. */
-  messages(time) {
-    const messages = Object.keys(COLOURS).flatMap((kind) => this.#messagesOf(kind, time));
-    return [...messages, ...this.#marks.messages(time, this.#ghosts.get("simulated")?.pose)];
-  }
-
-  #messagesOf(kind, time) {
-    const [name, ghost] = [`/ghost/${kind}`, this.#ghosts.get(kind)];
-    if (!this.#client.node(name)) return [];
-    const isNew = this.#news.delete(kind);
-    if (isNew) ghost?.forget();
-    const points = ghost?.at(time);
-    const messages = isNew ? [visibleMessage(name, Boolean(ghost))] : [];
-    if (!points) return messages;
-    this.moves += 1;
-    if (isNew) messages.push(this.#client.updateMessage(name, { points, colors: Uint8Array.from(COLOURS[kind][this.#theme]) }));
-    else messages.push(...this.#client.moveSegments(name, points));
-    return messages;
-  }
+/** Builds the menu; what is chosen is remembered. */
+export function mountGhosts(store, preview) {
+  const choice = recalled("ghosts", Object.fromEntries(Object.entries(KINDS).map(([kind, { shown = false }]) => [kind, shown])));
+  const followers = {};
+  const menu = checkMenu({
+    id: "ghosts-menu", name: "Ghosts", help: "Other versions of this gait as quiet second robots",
+    entries: Object.entries(KINDS).map(([key, { text, help }]) => ({ key, text, help, checked: choice[key], swatch: true })),
+    onChange(kind, checked) {
+      choice[kind] = checked;
+      remember("ghosts", choice);
+      followers[kind]();
+    },
+  });
+  for (const kind of Object.keys(KINDS)) followers[kind] = follow(store, preview, kind, menu, () => choice[kind]);
+  byId("stage-tools").append(menu.element);
+  store.watch((state) => [state.view?.id, state.view?.revision, state.view?.saved_at, state.view?.edited, Boolean(state.live), state.run?.id, simulationOver(state)], () => Object.values(followers).forEach((update) => update()));
 }

@@ -39,7 +39,7 @@
  *   "poses" (of a plan are shown from now on), "route" (detail: the new route; "server" means the slower way, through the server).
  */
 
-import { Ghosts } from "./ghosts.js";
+import { Ghosts } from "./viser_ghosts.js";
 import { fineLooks } from "./looks.js";
 import { Marks } from "./marks.js";
 import { floorOf } from "./overlay.js";

@@ -1,0 +1,103 @@
+/** Pictures of a checkerboard: from files, from frames of a video, from a camera; which show it, and the lens that they tell. */
+
+import { h, setText } from "../lib/dom.js";
+import { fixed } from "../lib/format.js";
+import { attempt } from "../lib/toasts.js";
+import { cameraApi, setupApi, videoApi } from "../api/videos.js";
+
+export const LEAST_BOARDS = 3;
+
+/** One picture of the board: whether it was found, and how far the lens leaves it off. */
+export function boardRow(board, rms, { remove, show }) {
+  const words = board.found ? (rms === undefined || rms === null ? "found" : `${fixed(rms, 2)} px`) : "not found";
+  const picture = board.picture ? h("img", { src: board.picture, alt: "" }) : h("i");
+  return h("li", { data: { found: board.found } },
+    h("button", { type: "button", class: "plain", title: "Show this picture", "aria-label": `Show ${board.name}`, on: { click: () => show(board) } }, picture),
+    h("span", { class: "camera-board-name", text: board.name }), h("span", { class: board.found ? "number" : "number why", text: words }),
+    h("button", { type: "button", class: "link", text: "Remove", "aria-label": `Remove ${board.name}`, on: { click: () => remove(board) } }));
+}
+
+/** The pictures of the board that were taken or chosen, each once, and the lens that follows from them. */
+export function boardBook({ changed, found }) {
+  let [boards, figures] = [[], new Map()];
+  let number = 0;
+  const corners = { columns: 8, rows: 5 };
+
+  async function compute() {
+    const asked = ++number;
+    figures = new Map();
+    changed();
+    if (boards.filter((board) => board.found).length < LEAST_BOARDS) return;
+    const answer = await setupApi.lens({ ...corners, boards: boards.map(({ picture: _, ...board }) => board) });
+    if (asked !== number) return;
+    answer.boards.forEach(({ rms_px: rms }, index) => figures.set(boards[index], rms));
+    found(answer);
+    changed();
+  }
+
+  return {
+    get boards() { return boards; },
+    corners,
+    rmsOf: (board) => figures.get(board),
+    async add(next) {
+      const names = new Set(next.map(({ name }) => name));
+      boards = [...boards.filter(({ name }) => !names.has(name)), ...next];
+      await compute();
+    },
+    async remove(board) {
+      boards = boards.filter((one) => one !== board);
+      await compute();
+    },
+    clear() {
+      number += 1;
+      boards = [];
+      changed();
+    },
+  };
+}
+
+/** Ways to pictures of the board: files, frames of the shown video, what the camera sees. */
+export function boardSources(stage, book, status) {
+  const { source } = stage;
+  const files = h("input", { type: "file", multiple: true, accept: "image/*", "aria-label": "Pictures of the board" });
+  const spread = h("button", { type: "button", text: "Frames of this video", title: "24 pictures, evenly over the video" });
+  const one = h("button", { type: "button", text: source.kind === "video" ? "The shown frame" : "The picture now", title: "Looks for the board in what is shown" });
+  const stop = h("button", { type: "button", class: "link", text: "Cancel", hidden: true });
+  let ending = null;
+
+  const looking = (act) => attempt(async () => {
+    if (ending) return;
+    ending = new AbortController();
+    stop.hidden = false;
+    setText(status, "Looking for the board…");
+    try {
+      await act(ending.signal);
+    } finally {
+      ending = null;
+      stop.hidden = true;
+      setText(status, "");
+    }
+  });
+  const { columns, rows } = { columns: () => book.corners.columns, rows: () => book.corners.rows };
+  files.addEventListener("change", looking(async (signal) => {
+    const chosen = [...files.files];
+    for (const [index, file] of chosen.entries()) {
+      setText(status, `Looking for the board: picture ${index + 1} of ${chosen.length}…`);
+      const board = await setupApi.board(file, columns(), rows(), signal);
+      if (board === null || signal.aborted) break;
+      await book.add([board]);
+    }
+    files.value = "";
+  }));
+  spread.hidden = source.kind !== "video";
+  spread.addEventListener("click", looking(async (signal) => {
+    const { boards } = await videoApi.boards(source.id, { columns: columns(), rows: rows(), frames: null });
+    if (!signal.aborted) await book.add(boards);
+  }));
+  one.addEventListener("click", looking(async () => {
+    const boards = source.kind === "video" ? (await videoApi.boards(source.id, { columns: columns(), rows: rows(), frames: [stage.frame] })).boards : [await cameraApi.board(source.id, columns(), rows())];
+    await book.add(boards);
+  }));
+  stop.addEventListener("click", () => ending?.abort());
+  return h("div", { class: "camera-sources" }, h("label", {}, h("span", { text: "Pictures" }), files), h("div", { class: "camera-row" }, spread, one, stop));
+}

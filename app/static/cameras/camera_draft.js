@@ -1,0 +1,80 @@
+/** A camera setup that is being changed: kept by itself after each change, as its next revision. */
+
+import { watchable } from "../state/store.js";
+import { report, toast } from "../lib/toasts.js";
+import { setupApi } from "../api/videos.js";
+
+const CONFLICT = 409;
+
+/** Whether two setups say the same. */
+const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
+
+/** Shows a setup as somebody else has changed it meanwhile; other refusals are said as they are. */
+async function conflict(store, error) {
+  if (error.status !== CONFLICT) throw error;
+  const now = await setupApi.read(store.state.id);
+  store.set({ setup: now.setup, answer: now, revision: now.revision, kept: true });
+  toast(`The setup “${now.setup.name}” was changed elsewhere meanwhile; it is shown as it is now. Make your last change again.`, { tone: "bad", of: "studio" });
+}
+
+/**
+ * Begins with a setup as the server tells it.
+ * @param {object} first with `id`, `revision` and `setup`
+ * @returns {object} `state` and `watch` as of a store: `setup` as it is on the page, `answer` what the server says of it, `kept`
+ *   whether that is of this very setup, `trouble` why it could not be kept; `change(patch, last)`, where `last` is false while a finger drags and nothing is kept; `check()` asks what the server says
+ *   meanwhile; `settled()` resolves when all is kept
+ */
+export function setupDraft(first) {
+  const store = watchable({ id: first.id, revision: first.revision, setup: first.setup, answer: first, kept: true, trouble: null });
+  let [working, checking, settled] = [false, false, []];
+
+  function take(answer, asked) {
+    store.set({ answer, revision: answer.revision || store.state.revision, kept: Boolean(answer.id) && same(asked, store.state.setup) });
+  }
+
+  async function keep() {
+    if (working) return;
+    working = true;
+    let refused = null;
+    while (!store.state.kept && !same(refused, store.state.setup)) {
+      const { id, revision, setup } = store.state;
+      try {
+        take(await setupApi.change(id, revision, setup), setup);
+      } catch (error) {
+        refused = setup;
+        await conflict(store, error).catch((other) => { store.set({ trouble: other.message }); report(other); });
+      }
+    }
+    working = false;
+    settled.splice(0).forEach((act) => act());
+  }
+
+  /** What the server says of a setup that is not kept yet; only of the newest. */
+  async function check() {
+    if (checking) return;
+    checking = true;
+    let asked = null;
+    while (!working && !store.state.kept && asked !== store.state.setup) {
+      asked = store.state.setup;
+      try {
+        take(await setupApi.check(asked), asked);
+      } catch {
+        break;
+      }
+    }
+    checking = false;
+  }
+
+  return {
+    get state() { return store.state; },
+    watch: store.watch,
+    change(patch, last = true) {
+      const setup = { ...store.state.setup, ...patch };
+      if (same(setup, store.state.setup) && (store.state.kept || !last)) return;
+      store.set({ setup, kept: false, trouble: null });
+      if (last) keep();
+    },
+    check,
+    settled: () => (working ? new Promise((resolve) => { settled.push(resolve); }) : Promise.resolve()),
+  };
+}

@@ -1,0 +1,36 @@
+/** What is drawn over a picture of the platform: spots of a colour, and where the feet are taken to be. */
+
+import { h, svg } from "../lib/dom.js";
+
+const ARM_PX = 9;
+const LEAST_RADIUS = 3;
+
+/** Dark and light under the foot's colour, so that it is seen on a sole of that very colour. */
+const cross = ({ pixel: [x, y] }, foot) => ["dark", "light", "own"].map((line) => svg("path", { class: `camera-foot ${line}`, "data-foot": foot + 1, d: `M${x - ARM_PX} ${y}h${2 * ARM_PX}M${x} ${y - ARM_PX}v${2 * ARM_PX}` }));
+
+/** A cross in each foot's colour. */
+export function drawFeet(drawing, feet) {
+  drawing.replaceChildren(...feet.flatMap((one, index) => (one ? cross(one, index) : [])));
+}
+
+/** A ring around every spot of a foot's colour, and crosses on the feet. */
+export function drawSpots(drawing, { spots, chosen, feet }) {
+  drawFeet(drawing, feet);
+  drawing.prepend(...spots.map(({ pixel: [cx, cy], radius, fit }, index) => svg("circle", { class: `camera-spot ${index === chosen ? "chosen" : fit ? "fit" : "refused"}`, cx, cy, r: Math.max(radius, LEAST_RADIUS) })));
+}
+
+/** Numbers beside the spots, as they stand in the list; what it gives back shows those of other spots. */
+export function spotNumbers(picture) {
+  let labels = [];
+  const put = () => labels.forEach(({ element, place }) => {
+    const [x, y] = picture.toScreen(place);
+    element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+  });
+  picture.onView(put);
+  return (spots) => {
+    labels.forEach(({ element }) => element.remove());
+    labels = spots.map(({ pixel: [x, y], radius }, index) => ({ place: [x + radius * Math.SQRT1_2, y - radius * Math.SQRT1_2], element: h("span", { class: "camera-number", text: String(index + 1) }) }));
+    picture.layer.append(...labels.map(({ element }) => element));
+    put();
+  };
+}

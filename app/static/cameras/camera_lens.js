@@ -1,0 +1,124 @@
+/** The lens: pictures of a checkerboard, which of them show it, how well they agree, and the picture straightened. */
+
+import { LEAST_BOARDS, boardBook, boardRow, boardSources } from "./camera_boards.js";
+import { h, onPress, setAllowed, setText } from "../lib/dom.js";
+import { fixed } from "../lib/format.js";
+import { announce, attempt } from "../lib/toasts.js";
+import { pictureOf, setupApi } from "../api/videos.js";
+
+const FIELD = { min: "3", max: "30", step: "1", required: true };
+const SHARP_PX = 1;
+
+function cornersField(name, value, changed) {
+  const input = h("input", { type: "number", ...FIELD, value: String(value), "aria-label": name, title: "Where four squares meet, inside the board: one fewer than squares" });
+  input.addEventListener("change", changed);
+  return { input, label: h("label", {}, h("span", { text: name }), input) };
+}
+
+function lensWords({ lens }) {
+  if (!lens) return "No lens: straight lines must be straight in the picture.";
+  if (lens.rms_px === null) return "The lens was given without its figures.";
+  return `The pictures agree within ${fixed(lens.rms_px, 2)} px${lens.boards ? `, ${lens.boards} of them` : ""}.${lens.rms_px > SHARP_PX ? " That is much: take sharper pictures, the board flat." : ""}`;
+}
+
+/** A picture's address as one that can be sent back: the server straightens it. */
+async function dataOf(address) {
+  const response = await fetch(address);
+  if (!response.ok) throw new Error("The picture cannot be read.");
+  const blob = await response.blob();
+  return new Promise((resolve, reject) => {
+    const reader = new FileReader();
+    reader.addEventListener("load", () => resolve(reader.result));
+    reader.addEventListener("error", () => reject(new Error("The picture cannot be read.")));
+    reader.readAsDataURL(blob);
+  });
+}
+
+/** The switch that straightens what is shown. */
+function straightening(draft, stage) {
+  const button = h("button", { type: "button", text: "Straighten the picture", "aria-pressed": "false" });
+  const isOn = () => button.getAttribute("aria-pressed") === "true";
+  const turn = (on) => {
+    button.setAttribute("aria-pressed", String(on));
+    stage.refresh();
+  };
+  onPress(button, () => turn(!isOn()));
+  return {
+    button,
+    /** A picture as the lens would have it, where that is wanted. */
+    async of(plain) {
+      if (!isOn()) return plain;
+      return (await setupApi.straight(draft.state.setup.lens, plain.startsWith("data:") ? plain : await dataOf(plain))).picture;
+    },
+    show({ lens }) {
+      setAllowed(button, lens ? null : "There is no lens yet.", "Lines that are straight in the world become straight");
+      if (!lens && isOn()) turn(false);
+    },
+    end: () => button.setAttribute("aria-pressed", "false"),
+  };
+}
+
+/**
+ * Builds the part.
+ * @param {object} draft of `setupDraft`
+ * @param {object} stage of `openStage`
+ * @returns {{element: HTMLElement, enter: () => void, leave: () => void}}
+ */
+export function lensPart(draft, stage) {
+  let [isOn, shown] = [false, null];
+  const list = h("ul", { class: "camera-boards", "aria-label": "Pictures of the board found" });
+  const [status, words] = [h("p", { class: "quiet", role: "status" }), h("p", { class: "quiet", role: "status" })];
+  const straight = straightening(draft, stage);
+  const without = h("button", { type: "button", class: "link", text: "Without a lens", on: { click: () => draft.change({ lens: null }) } });
+
+  const book = boardBook({
+    changed: () => showBoards(),
+    found: ({ lens, size }) => {
+      draft.change({ lens, size });
+      announce(lensWords({ lens }));
+    },
+  });
+  const [columns, rows] = [["Inner corners, one side", "columns"], ["Inner corners, other side", "rows"]].map(([name, key]) => cornersField(name, book.corners[key], ({ target }) => {
+    if (!target.checkValidity()) return;
+    book.corners[key] = target.valueAsNumber;
+    book.clear();
+  }));
+
+  function showBoards() {
+    const acts = { remove: attempt((board) => book.remove(board)), show: (board) => { shown = { board, frame: stage.frame }; stage.refresh(); } };
+    list.replaceChildren(...book.boards.map((board) => boardRow(board, book.rmsOf(board), acts)));
+    const count = book.boards.filter(({ found }) => found).length;
+    if (book.boards.length && count < LEAST_BOARDS) setText(words, `The board is found in ${count} of ${book.boards.length} pictures; at least ${LEAST_BOARDS} are needed, flat, whole and sharp.`);
+    else show(draft.state);
+  }
+
+  function show({ setup }) {
+    setText(words, lensWords(setup));
+    straight.show(setup);
+    without.hidden = !setup.lens;
+  }
+
+  async function fetching(frame) {
+    if (shown?.frame !== frame) shown = null;
+    return straight.of(shown?.board.picture ?? pictureOf(stage.source, frame));
+  }
+
+  draft.watch(({ setup }) => [setup.lens], (state) => { if (isOn) { showBoards(); show(state); } });
+  return {
+    element: h("div", { class: "camera-part" },
+      h("p", { class: "quiet", text: "Wide lenses bend straight lines. Pictures of a checkerboard in different places and slopes tell by how much; without them, go on with Place." }),
+      columns.label, rows.label, boardSources(stage, book, status), status, list, words, h("div", { class: "camera-row" }, straight.button, without)),
+    enter() {
+      isOn = true;
+      showBoards();
+      show(draft.state);
+      stage.fetches(fetching);
+    },
+    leave() {
+      isOn = false;
+      shown = null;
+      straight.end();
+      stage.fetches(null);
+    },
+  };
+}

@@ -1,0 +1,161 @@
+/** The server's cameras: what each sees, which setup it has, whether it records with the run, and its live picture. */
+
+import { drawFeet } from "./camera_drawing.js";
+import { FOOT_NAMES, USES, cameraTone, cameraWord } from "./camera_words.js";
+import { toggleFloat } from "./camera_float.js";
+import { newSetup, openSetup } from "./camera_setup.js";
+import { h, setText } from "../lib/dom.js";
+import { fixed } from "../lib/format.js";
+import { attempt } from "../lib/toasts.js";
+import { cameraApi, cameraSource, look, setupApi } from "../api/videos.js";
+import { openStage } from "../videos/video_stage.js";
+import "../videos/video_style.js";
+
+const LOOK_WIDTH = 1280;
+const HELP = "Start the studio with --camera NAME=FILE to have a video file in a camera's place, or plug a camera in.";
+
+/** Puts a camera as the server tells it into the page's state. */
+function accept(store, camera) {
+  store.set({ cameras: (store.state.cameras ?? []).map((one) => (one.id === camera.id ? camera : one)) });
+}
+
+function recordSwitch(change) {
+  const input = h("input", { type: "checkbox", role: "switch" });
+  input.addEventListener("change", () => change({ records: input.checked }));
+  return { input, label: h("label", { class: "tick", title: "A recording begins and ends with each run; a camera under the platform makes a trial of it" }, input, "Record with the run") };
+}
+
+/** One camera's line; it is changed in place, so that what is focused stays so. */
+function cameraRow(store, id, { watch, setUp }) {
+  const now = () => store.state.cameras.find((camera) => camera.id === id);
+  const change = attempt(async (changes) => {
+    try {
+      accept(store, await cameraApi.change(id, changes));
+    } finally {
+      show(now(), store.state.setups ?? []);
+    }
+  });
+  const [dot, name, word, sentence] = [h("span", { class: "dot" }), h("b"), h("span", { class: "word" }), h("p", { class: "why" })];
+  const use = h("select", { title: "From under the platform the feet are tracked; from the side is for looking and for the record" }, ...USES.map(([value, text]) => h("option", { value, text })));
+  const setup = h("select", { title: "How this camera sees the platform" });
+  const records = recordSwitch(change);
+  use.addEventListener("change", () => change({ use: use.value }));
+  setup.addEventListener("change", () => change({ setup: setup.value }));
+  const button = (text, title, act) => h("button", { type: "button", class: "link", text, title, on: { click: act } });
+  const setupLine = h("label", {}, h("span", { text: "Setup" }), setup);
+  const adjust = button("Set up…", "Lens, place of the platform, colours of the feet, on the live picture", () => setUp(now()));
+  const looking = button("Look", "Its live picture, large, with the feet that are found", () => watch(now()));
+  const float = button("Beside the scene", "Its live picture in a corner of the 3D scene", () => toggleFloat(store, id));
+  const element = h("li", { class: "camera" }, h("div", { class: "run-line" }, dot, name, word), sentence,
+    h("label", {}, h("span", { text: "Seen" }), use), setupLine, records.label, h("div", { class: "camera-row" }, looking, float, adjust));
+
+  function show(camera, setups) {
+    dot.dataset.tone = cameraTone(camera);
+    setText(name, camera.name);
+    element.setAttribute("aria-label", camera.name);
+    setText(word, cameraWord(camera));
+    setText(sentence, camera.state === "unplugged" ? camera.sentence : "");
+    use.value = camera.use;
+    [[use, "seen"], [setup, "setup"], [records.input, "record with the run"]].forEach(([one, text]) => one.setAttribute("aria-label", `${camera.name}, ${text}`));
+    const options = [["", "none yet"], ...setups.map((one) => [one.id, one.setup.name])];
+    if (setup.dataset.options !== JSON.stringify(options)) {
+      setup.dataset.options = JSON.stringify(options);
+      setup.replaceChildren(...options.map(([value, text]) => h("option", { value, text })));
+    }
+    setup.value = camera.setup;
+    [setupLine.hidden, adjust.hidden] = [camera.use !== "under", camera.use !== "under"];
+    records.input.checked = camera.records;
+    for (const one of [looking, adjust, float]) one.hidden = camera.state === "unplugged" || (one === adjust && camera.use !== "under");
+  }
+  return { element, show };
+}
+
+/**
+ * Builds the list; it follows the server's events.
+ * @param {object} store
+ * @param {{watch: (camera: object) => void, setUp: (camera: object) => void}} acts
+ */
+export function cameraList(store, acts) {
+  const list = h("ul", { class: "camera-list", role: "list", "aria-label": "Cameras" });
+  const empty = h("p", { class: "teach", text: `The studio has no camera. ${HELP}`, hidden: true });
+  const rows = new Map();
+
+  store.watch(({ cameras, setups }) => [cameras, setups], ({ cameras, setups }) => {
+    if (!cameras) return;
+    empty.hidden = cameras.length > 0;
+    for (const [id, row] of rows) if (!cameras.some((camera) => camera.id === id)) { row.element.remove(); rows.delete(id); }
+    cameras.forEach((camera) => {
+      if (!rows.has(camera.id)) {
+        rows.set(camera.id, cameraRow(store, camera.id, acts));
+        list.append(rows.get(camera.id).element);
+      }
+      rows.get(camera.id).show(camera, setups ?? []);
+    });
+  });
+  return { element: h("div", { class: "cameras" }, list, empty), refresh: attempt(async () => {
+    const [cameras, { setups }] = await Promise.all([cameraApi.list(), setupApi.list()]);
+    store.set({ cameras, setups });
+  }) };
+}
+
+/** Opens a camera's setup on its live picture; a camera without one gets a new one. */
+export const setUpCamera = attempt(async (page, camera) => {
+  const isOld = page.begin();
+  const answer = camera.setup ? await setupApi.read(camera.setup) : await newSetup();
+  if (!camera.setup) accept(page.store, await cameraApi.change(camera.id, { setup: answer.id }));
+  if (isOld()) return;
+  openSetup(page, { answer, source: cameraSource(camera), back: { text: "Cameras", act: () => openCameras(page) } });
+});
+
+function feetList() {
+  const rows = FOOT_NAMES.map((name, index) => ({ words: h("span", { class: "number" }), name, index }));
+  return {
+    element: h("ul", { class: "camera-feet", "aria-label": "Feet in this picture" }, ...rows.map(({ words, name, index }) => h("li", { data: { foot: index + 1 } }, h("i", { class: "foot-dot", "aria-hidden": "true" }), h("span", { text: name }), words))),
+    show: (feet) => rows.forEach(({ words }, index) => setText(words, feet === null ? "" : !feet[index] ? "not seen" : feet[index].place_cm ? `${fixed(feet[index].place_cm[0], 1)}, ${fixed(feet[index].place_cm[1], 1)} cm` : "seen")),
+  };
+}
+
+/** Opens a camera's live picture; of one under the platform with the feet that are found. */
+export const watchCamera = attempt(async (page, camera) => {
+  const isOld = page.begin();
+  const kept = camera.use === "under" && camera.setup ? await setupApi.read(camera.setup) : null;
+  if (isOld()) return;
+  const [feet, words] = [feetList(), h("p")];
+  const stage = openStage(cameraSource(camera), 0, lost);
+  const standing = camera.use === "under" && !camera.setup ? "Without a setup no feet are looked for." : "Live, as the studio sees it.";
+
+  function lost(why) {
+    words.className = why === null ? "quiet" : "why";
+    words.dataset.toneText = why === null ? "" : "caution";
+    setText(words, why ?? standing);
+    if (why === null) return;
+    stage.picture.drawing.replaceChildren();
+    feet.show(null);
+  }
+  lost(null);
+  const end = page.store.watch(({ cameras }) => [cameras], ({ cameras }) => {
+    const now = cameras?.find(({ id }) => id === camera.id);
+    stage.away(now?.state === "unplugged" ? now.sentence : null);
+  });
+  if (kept) {
+    const { setup, view } = kept;
+    stage.fetches(async () => {
+      const answer = await look(stage.source, 0, { foot: null, colours: setup.colours, limits: setup.limits, shows: "plain", setup: view ? setup : null, most: LOOK_WIDTH });
+      await stage.picture.show(answer.picture, answer.size);
+      if (stage.isAway) return null;
+      drawFeet(stage.picture.drawing, answer.feet);
+      feet.show(answer.feet);
+      return null;
+    });
+  } else feet.element.hidden = true;
+  page.show(h("div", { class: "trial-form" }, h("button", { type: "button", class: "link", text: "Cameras", on: { click: () => openCameras(page) } }),
+    h("div", { class: "run-line run-title" }, h("b", { text: camera.name })), words, feet.element), () => { end(); stage.close(); });
+});
+
+/** Opens the cameras in the trials' panel. */
+export function openCameras(page) {
+  page.begin();
+  const list = cameraList(page.store, { watch: (camera) => watchCamera(page, camera), setUp: (camera) => setUpCamera(page, camera) });
+  page.show(h("div", { class: "trial-form" }, h("button", { type: "button", class: "link", text: "All trials", on: { click: page.all } }), h("h3", { text: "Cameras" }), list.element));
+  list.refresh();
+}

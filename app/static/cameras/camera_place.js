@@ -1,0 +1,174 @@
+/** Placing: points are clicked whose places on the platform are known; a grid over the picture shows how well that fits. */
+
+import { h, setText, svg } from "../lib/dom.js";
+import { fixed } from "../lib/format.js";
+import { guessPlace } from "./camera_guess.js";
+import { picturePoints } from "../videos/video_points.js";
+
+const MOST_POINTS = 200;
+const SQUARE = [[-5, -5], [5, -5], [5, 5], [-5, 5]];
+const ROUGH_MM = 1;
+
+const PRESETS = {
+  square: { text: "10 cm square, centred", help: "Four corners, each at 5 cm from the platform's centre along x and y", places: SQUARE },
+  corner: { text: "10 cm square, corner", help: "Four corners of a square whose first corner is the origin", places: SQUARE.map(([x, y]) => [x + 5, y + 5]) },
+  grid: { text: "etched 1 cm grid", help: "Any crossings; from the fifth on the nearest crossing is proposed", places: null },
+};
+
+const written = ([x, y]) => `x ${fixed(x, 1)}, y ${fixed(y, 1)} cm`;
+
+/** The place that the next clicked point is likely to have. */
+function proposal(preset, points, pixel) {
+  const { places } = PRESETS[preset];
+  if (places && points.length < places.length) return places[points.length];
+  const guess = pixel && guessPlace(points, pixel);
+  if (guess) return guess.map((value) => Math.round(value));
+  return SQUARE[points.length % SQUARE.length];
+}
+
+function asking(preset, points) {
+  const { places } = PRESETS[preset];
+  if (places && points.length < places.length) return `Click the corner at ${written(places[points.length])}.`;
+  if (points.length < 4) return `Click a crossing and write its place beside it; ${4 - points.length} more are needed.`;
+  return "More points make it more exact: click further crossings.";
+}
+
+function drawGrid(drawing, { setup, answer }) {
+  const polyline = (className, line) => svg("polyline", { class: className, points: line.map((place) => place.join(",")).join(" ") });
+  const view = answer.view;
+  const lines = view?.grid ? view.grid.map(({ at_cm: at, line }) => polyline(at === 0 ? "camera-axis" : "camera-grid", line))
+    : view ? [polyline("camera-axis", [...view.outline, view.outline[0]])] : [];
+  const off = (view?.seen ?? []).map((seen, index) => setup.points[index] && polyline("camera-off", [setup.points[index].pixel, seen])).filter(Boolean);
+  drawing.replaceChildren(...lines, ...off);
+}
+
+/** Names the ends of the axes, so that it is seen which way x and y go. */
+function axisNames(picture) {
+  const names = ["x", "y"].map((axis) => ({ axis, place: null, element: h("span", { class: "camera-axis-name", text: `+${axis}`, hidden: true }) }));
+  picture.layer.append(...names.map(({ element }) => element));
+  const put = () => names.forEach(({ element, place }) => {
+    element.hidden = !place;
+    if (!place) return;
+    const [x, y] = picture.toScreen(place);
+    element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+  });
+  picture.onView(put);
+  return (grid) => {
+    // The line y = 0 runs along x.
+    for (const name of names) name.place = grid?.find((one) => one.axis !== name.axis && one.at_cm === 0)?.line.at(-1) ?? null;
+    put();
+  };
+}
+
+function fitWords({ view }, count) {
+  if (!view) return count < 4 ? "" : "These points tell no plane.";
+  if (count === 4) return `Four points always fit: a fifth shows how well. A pixel is ${fixed(view.mm_per_pixel, 2)} mm.`;
+  return `Points lie within ${fixed(view.worst_mm, 2)} mm; a pixel is ${fixed(view.mm_per_pixel, 2)} mm.`;
+}
+
+/** The points as a table whose places can be written. */
+function pointTable({ change, remove, choose }) {
+  const body = h("tbody");
+  const element = h("table", { class: "run-table camera-points", hidden: true }, h("caption", { text: "Points" }),
+    h("thead", {}, h("tr", {}, ...["", "x, cm", "y, cm", "off, mm", ""].map((text) => h("th", { scope: "col", text })))), body);
+  let rows = [];
+
+  function row(index) {
+    const inputs = ["x", "y"].map((axis, at) => {
+      const input = h("input", { type: "number", step: "any", min: "-500", max: "500", required: true, "aria-label": `Point ${index + 1}, ${axis}, cm` });
+      input.addEventListener("change", () => { if (input.checkValidity()) change(index, at, input.valueAsNumber); });
+      input.addEventListener("focus", () => choose(index));
+      return input;
+    });
+    const off = h("td", { class: "number" });
+    const out = h("button", { type: "button", class: "link", text: "Remove", "aria-label": `Remove point ${index + 1}`, on: { click: () => remove(index) } });
+    const element = h("tr", {}, h("th", { scope: "row", text: String(index + 1) }), ...inputs.map((input) => h("td", {}, input)), off, h("td", {}, out));
+    return { element, inputs, off };
+  }
+
+  return {
+    element,
+    show(points, offs) {
+      element.hidden = points.length === 0;
+      while (rows.length > points.length) rows.pop().element.remove();
+      points.forEach(({ place_cm: place }, index) => {
+        if (!rows[index]) body.append((rows[index] = row(index)).element);
+        rows[index].inputs.forEach((input, at) => { if (input !== document.activeElement || input.validity.valid) input.value = String(place[at]); });
+        setText(rows[index].off, offs?.[index] === undefined ? "–" : fixed(offs[index], 2));
+        rows[index].off.toggleAttribute("data-rough", offs?.[index] > ROUGH_MM);
+      });
+    },
+    focus: (index) => rows[index]?.inputs[0].select(),
+    mark: (index) => rows.forEach(({ element: one }, at) => one.toggleAttribute("data-shown", at === index)),
+  };
+}
+
+const rounded = (pixel) => pixel.map((value) => Number(value.toFixed(2)));
+
+/**
+ * Builds the part.
+ * @param {object} draft of `setupDraft`
+ * @param {object} stage of `openStage`
+ * @returns {{element: HTMLElement, enter: () => void, leave: () => void}}
+ */
+export function placePart(draft, stage) {
+  const preset = h("select", { "aria-label": "Points are" }, ...Object.entries(PRESETS).map(([value, { text, help }]) => h("option", { value, text, title: help })));
+  const [ask, fit] = [h("p", { class: "camera-ask", role: "status" }), h("p", { class: "quiet", role: "status" })];
+  const clear = h("button", { type: "button", class: "link", text: "Take all points out", on: { click: () => draft.change({ points: [] }) } });
+  const showAxes = axisNames(stage.picture);
+  let isOn = false;
+
+  const points = () => draft.state.setup.points;
+  const size = () => [stage.picture.size.width, stage.picture.size.height];
+  function put(next, last = true) {
+    draft.change({ points: next, ...(next.length ? { size: size() } : {}) }, last);
+    if (!last) draft.check();
+  }
+  const replaced = (index, patch) => points().map((one, at) => (at === index ? { ...one, ...patch } : one));
+  const remove = (index) => put(points().filter((_, at) => at !== index));
+
+  const table = pointTable({
+    change: (index, axis, value) => put(replaced(index, { place_cm: points()[index].place_cm.map((one, at) => (at === axis ? value : one)) })),
+    remove, choose: (index) => table.mark(index),
+  });
+  const marks = picturePoints(stage.picture, {
+    add(pixel) {
+      if (points().length >= MOST_POINTS) return;
+      put([...points(), { pixel: rounded(pixel), place_cm: proposal(preset.value, points(), pixel) }]);
+      if (preset.value === "grid") queueMicrotask(() => table.focus(points().length - 1));
+    },
+    move: (index, pixel, last) => put(replaced(index, { pixel: rounded(pixel) }), last),
+    remove, chosen: (index) => table.mark(index),
+  });
+
+  function show({ setup, answer }) {
+    if (!isOn) return;
+    marks.show(setup.points.map(({ pixel }) => pixel));
+    table.show(setup.points, answer.view?.off_mm);
+    drawGrid(stage.picture.drawing, draft.state);
+    showAxes(answer.view?.grid);
+    setText(ask, asking(preset.value, setup.points));
+    setText(fit, fitWords(answer, setup.points.length));
+    clear.hidden = setup.points.length === 0;
+  }
+
+  preset.addEventListener("change", () => show(draft.state));
+  draft.watch(({ setup, answer }) => [setup, answer], show);
+  return {
+    element: h("div", { class: "camera-part" },
+      h("p", { class: "quiet", text: "Where the platform is in the picture: points whose places are known. The loupe helps to hit them; arrow keys move a point by a pixel." }),
+      h("label", {}, h("span", { text: "Points are" }), preset), ask, table.element, fit, clear),
+    enter() {
+      isOn = true;
+      marks.allow(true);
+      show(draft.state);
+    },
+    leave() {
+      isOn = false;
+      marks.allow(false);
+      marks.show([]);
+      showAxes(null);
+      stage.picture.drawing.replaceChildren();
+    },
+  };
+}

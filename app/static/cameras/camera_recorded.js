@@ -1,0 +1,41 @@
+/** What cameras recorded with a run: the trial that follows from it, and its videos. */
+
+import { h } from "../lib/dom.js";
+import { fixed } from "../lib/format.js";
+import { attempt, toast } from "../lib/toasts.js";
+import { trialApi } from "../api/trials.js";
+import { videoApi } from "../api/videos.js";
+import "../videos/video_style.js";
+
+/** Tells of a trial that a run's recording led to; trials of other origin are known to who made them. */
+export const tellTrial = attempt(async (id, open) => {
+  const trial = await trialApi.read(id);
+  if (!trial.run || !trial.source?.camera) return;
+  toast(`The run of ${trial.gait_name} was recorded: ${fixed(trial.figures.distance, 1)} of ${fixed(trial.expected_cm, 1)} cm.${trial.plan?.astray_sentence ? ` ${trial.plan.astray_sentence}` : ""}`, { action: { label: "Trial of this run", act: () => open({ trial: id }) } });
+});
+
+/** Tells once what is to be known of a recording, such as why there is no trial of it. */
+const told = new Set();
+export function tellRecording({ id, name, sentence }, open) {
+  if (told.has(id)) return;
+  told.add(id);
+  toast(`Recording of ${name}: ${sentence}`, { action: { label: "Open the recording", act: () => open({ video: id }) } });
+}
+
+/**
+ * A line with the trials and recordings of a run; empty where there are none.
+ * @param {string} run
+ * @param {(wanted: {trial: string}|{video: string}) => void} open
+ */
+export function recordedLine(run, open) {
+  const line = h("div", { class: "run-recorded", role: "group", "aria-label": "Recorded with this run" });
+  const link = (text, wanted, title) => h("button", { class: "link", text, title, on: { click: () => open(wanted) } });
+  attempt(async () => {
+    const [{ trials }, videos] = await Promise.all([trialApi.list(), videoApi.ofRun(run)]);
+    const own = trials.filter((trial) => trial.run === run);
+    line.append(...own.map(({ id, name }) => link(own.length > 1 ? `Trial of this run: ${name}` : "Trial of this run", { trial: id }, name)),
+      ...videos.filter(({ state }) => state !== "removed").map(({ id, camera }) => link(`Recording of ${camera}`, { video: id }, "The video that the camera took of this run")),
+      ...videos.filter(({ sentence }) => sentence).map(({ camera, sentence }) => h("p", { class: "why", text: `${camera}: ${sentence}` })));
+  })();
+  return line;
+}

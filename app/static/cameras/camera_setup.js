@@ -1,0 +1,118 @@
+/** A camera's setup in the panel, beside its picture: lens, place of the platform, colours of the feet; each change is kept. */
+
+import { feetPart } from "./camera_feet.js";
+import { lensPart } from "./camera_lens.js";
+import { placePart } from "./camera_place.js";
+import { setupDraft } from "./camera_draft.js";
+import { setupWords } from "./camera_words.js";
+import { h, setText } from "../lib/dom.js";
+import { attempt, toast } from "../lib/toasts.js";
+import { setupApi } from "../api/videos.js";
+import { openStage } from "../videos/video_stage.js";
+
+const PARTS = [["lens", "Lens", lensPart], ["place", "Place", placePart], ["feet", "Feet", feetPart]];
+
+/** The part that a setup lacks first. */
+const firstPart = ({ setup, view }) => (!setup.points.length && !setup.lens ? "lens" : view ? "feet" : "place");
+
+/** Makes a setup with a name that is not taken yet. */
+export async function newSetup() {
+  const { setups, defaults } = await setupApi.list();
+  const taken = new Set(setups.map(({ setup }) => setup.name));
+  let number = 1;
+  while (taken.has(`Camera setup ${number}`)) number += 1;
+  return setupApi.add({ ...defaults, name: `Camera setup ${number}` });
+}
+
+function nameField(draft) {
+  const input = h("input", { "aria-label": "Setup name", maxlength: "120", required: true, spellcheck: "false", autocomplete: "off" });
+  input.addEventListener("change", () => {
+    if (input.value.trim()) draft.change({ name: input.value.trim() });
+    else input.value = draft.state.setup.name;
+  });
+  draft.watch(({ setup }) => [setup.name], ({ setup }) => { if (input !== document.activeElement) input.value = setup.name; });
+  return input;
+}
+
+/** Tabs of the parts; each part is entered and left, since all draw over the same picture. */
+function partTabs(parts, first) {
+  const panel = h("div", { role: "tabpanel", id: "camera-part", "aria-labelledby": `camera-tab-${first}` });
+  let current = null;
+  const tabs = PARTS.map(([key, text], index) => {
+    const tab = h("button", { type: "button", role: "tab", id: `camera-tab-${key}`, "aria-controls": "camera-part", text, data: { arrows: "" } });
+    tab.addEventListener("click", () => open(key));
+    tab.addEventListener("keydown", (event) => {
+      const to = { ArrowLeft: index - 1, ArrowRight: index + 1 }[event.key];
+      if (to === undefined) return;
+      event.preventDefault();
+      const [next] = PARTS[(to + PARTS.length) % PARTS.length];
+      open(next);
+      tabs[(to + PARTS.length) % PARTS.length].focus();
+    });
+    return tab;
+  });
+
+  function open(key) {
+    if (key === current) return;
+    if (current) parts[current].leave();
+    current = key;
+    PARTS.forEach(([one], index) => {
+      tabs[index].setAttribute("aria-selected", String(one === key));
+      tabs[index].tabIndex = one === key ? 0 : -1;
+    });
+    panel.setAttribute("aria-labelledby", `camera-tab-${key}`);
+    panel.replaceChildren(parts[key].element);
+    parts[key].enter();
+  }
+  return { elements: [h("div", { class: "tabs camera-tabs", role: "tablist", "aria-label": "Setup" }, ...tabs), panel], open };
+}
+
+/** Says so where the shown picture has another size than the setup's own. */
+function sizeNote(draft, stage) {
+  const note = h("p", { class: "why", role: "status", data: { toneText: "caution" } });
+  const tell = () => {
+    const { size } = draft.state.setup;
+    const { width, height } = stage.picture.size;
+    const differs = stage.picture.image.src && size && (size[0] !== width || size[1] !== height);
+    setText(note, differs ? `This setup belongs to pictures of ${size.join(" × ")} px; this one has ${width} × ${height} px. Use the camera as it was, or make another setup.` : "");
+  };
+  stage.picture.onView(tell);
+  draft.watch(({ setup }) => [setup.size], tell);
+  return note;
+}
+
+/**
+ * Opens a setup in the panel.
+ * @param {{show: Function}} page of the trials' panel
+ * @param {{answer: object, source: object, frame?: number, back: {text: string, act: () => void}}} wanted `answer` is the setup as
+ *   the server tells it, `source` where the picture comes from
+ */
+export function openSetup(page, { answer, source, frame = 0, back }) {
+  const draft = setupDraft(answer);
+  const stage = openStage(source, frame);
+  const parts = Object.fromEntries(PARTS.map(([key, , build]) => [key, build(draft, stage)]));
+  const tabs = partTabs(parts, firstPart(answer));
+  const state = h("p", { class: "camera-state", role: "status", "aria-label": "Setup state" });
+  draft.watch(({ answer: now, kept, revision, trouble }) => [now, kept, revision, trouble], ({ answer: now, kept, revision, trouble }) => {
+    const keeping = kept ? `Kept, version ${revision}.` : trouble ? `The last change is not kept: ${trouble}` : "Being kept…";
+    state.replaceChildren(h("span", { class: "dot", data: { tone: trouble ? "bad" : now.ready ? "good" : "caution" } }), h("span", { text: `${setupWords(now)} ${keeping}` }));
+  });
+  const leave = attempt(async () => {
+    await draft.settled();
+    back.act();
+  });
+  const remove = attempt(async () => {
+    await draft.settled();
+    const { id, setup } = draft.state;
+    await setupApi.remove(id);
+    back.act();
+    toast(`The setup “${setup.name}” is deleted.`, { action: { label: "Undo", act: attempt(async () => { await setupApi.restore(id); back.act(); }) } });
+  });
+  const element = h("div", { class: "trial-form camera-setup" },
+    h("button", { type: "button", class: "link", text: back.text, on: { click: leave } }),
+    h("label", {}, h("span", { text: "Setup" }), nameField(draft)), state, sizeNote(draft, stage), ...tabs.elements,
+    h("div", { class: "run-files" }, h("a", { href: setupApi.exportPath(answer.id), download: "", text: "As a file", title: "For the command line: footfall trial VIDEO --setup FILE" }),
+      h("button", { type: "button", class: "link", text: "Delete", "aria-label": "Delete this setup", on: { click: remove } }), h("button", { type: "button", class: "primary", text: "Done", on: { click: leave } })));
+  page.show(element, () => stage.close());
+  tabs.open(firstPart(answer));
+}

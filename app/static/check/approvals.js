@@ -1,0 +1,80 @@
+/** The approvals that a gait ever had, which one stands, and what changed from one to another. */
+
+import { api } from "../api/gaits.js";
+import { h } from "../lib/dom.js";
+import { clockTime, fixed, shortHash } from "../lib/format.js";
+import { turns } from "../lib/latest_only.js";
+import { attempt } from "../lib/toasts.js";
+
+const NOW = "the gait as it is";
+
+function figuresText({ figures, warnings }) {
+  const said = [
+    figures.waypoints && `${figures.waypoints} waypoints, ${fixed(figures.seconds)} s`,
+    warnings.length && `${warnings.length} warning${warnings.length > 1 ? "s" : ""} seen`,
+    figures.simulated && "simulated",
+  ];
+  return said.filter(Boolean).join(" · ");
+}
+
+function item(record, compare) {
+  const { by, when, stands, waypoints_hash: waypoints, warnings } = record;
+  const state = h("span", { class: "approval-state", data: { stands: String(stands) }, text: stands ? "stands" : "gone" });
+  return h("li", { class: "approval" },
+    h("span", { class: "approval-head" }, h("b", { text: by }), h("span", { class: "quiet", text: clockTime(when), title: when }), state),
+    h("span", { class: "quiet", text: figuresText(record), title: warnings.join("\n") || null }),
+    h("span", { class: "where" }, h("span", { class: "mono", text: shortHash(waypoints), title: waypoints }),
+      h("button", { class: "link", text: "compare", "aria-label": `Compare the approval by ${by}, ${clockTime(when)}`, on: { click: () => compare(record) } })));
+}
+
+function sentences(groups) {
+  if (!groups.length) return [h("p", { class: "quiet", text: "Nothing is different." })];
+  return groups.flatMap(({ title, sentences: list }) => [h("h4", { text: title }), h("ul", {}, ...list.map((text) => h("li", { text })))]);
+}
+
+/** Builds the part; it is empty while the gait has never been approved. */
+export function approvalHistory(store) {
+  const list = h("ul", { class: "findings", role: "list", "aria-label": "Approvals" });
+  const against = h("select", { "aria-label": "Approval compared with" });
+  const difference = h("div", { class: "approval-difference", role: "region", "aria-label": "What changed", tabindex: "0", hidden: true });
+  const element = h("div", { class: "approvals", hidden: true }, h("h3", { text: "Approvals" }), list, difference);
+  let records = [];
+  let chosen = null;
+  const [beginShow, beginRefresh] = [turns(), turns()];
+
+  const show = attempt(async () => {
+    const isOld = beginShow();
+    const { selected } = store.state;
+    const { groups } = await api.approvalDifference(selected, chosen.number, against.value ? Number(against.value) : null);
+    if (isOld() || selected !== store.state.selected) return;
+    const title = h("label", { class: "quiet" }, `From ${chosen.by}, ${clockTime(chosen.when)}, to `, against);
+    difference.replaceChildren(title, ...sentences(groups));
+    difference.hidden = false;
+  });
+
+  function compare(record) {
+    chosen = record;
+    against.replaceChildren(h("option", { value: "", text: NOW }), ...records.filter(({ number }) => number !== record.number)
+      .map(({ number, by, when }) => h("option", { value: number, text: `${by}, ${clockTime(when)}` })));
+    show();
+  }
+
+  async function refresh() {
+    const { selected, view } = store.state;
+    const isOld = beginRefresh();
+    if (!view) return;
+    const { approvals } = await api.approvals(selected);
+    if (isOld() || selected !== store.state.selected) return;
+    records = approvals;
+    element.hidden = !records.length;
+    list.replaceChildren(...records.map((record) => item(record, compare)));
+    if (!records.some(({ number }) => number === chosen?.number)) {
+      chosen = null;
+      difference.hidden = true;
+    } else if (!difference.hidden) show();
+  }
+
+  against.addEventListener("change", show);
+  store.watch(({ view }) => [view?.id, view?.revision, view?.approval?.when, view?.verdict?.hash], attempt(refresh));
+  return element;
+}

@@ -1,0 +1,136 @@
+/** The Check section: every rule's outcome, where each finding sits, and the approval of exactly this plan. */
+
+import { api } from "../api/gaits.js";
+import { approvalHistory } from "./approvals.js";
+import { byId, h, onPress, setAllowed } from "../lib/dom.js";
+import { clockTime, fixed, readable, ruleName, shortHash } from "../lib/format.js";
+import { needOperator } from "../state/operator.js";
+import { costTable, sendingFields } from "./sending.js";
+import { checkGone } from "../state/store.js";
+import { attempt, toast } from "../lib/toasts.js";
+
+function findingItem(finding, goTo) {
+  const place = [finding.foot !== null && `foot ${finding.foot + 1}`, finding.actuator !== null && finding.actuator !== undefined && `motor ${finding.actuator + 1}`,
+    finding.sample !== null && `sample ${finding.sample + 1}`].filter(Boolean).join(", ");
+  return h("li", { class: "finding" }, h("span", { class: "dot", data: { tone: finding.severity === "error" ? "bad" : "caution" } }),
+    h("span", {}, h("b", { text: finding.severity === "error" ? "Error: " : "Warning: " }), finding.sentence),
+    h("span", { class: "where" }, place && h("span", { text: place }), finding.time !== null && h("span", { text: `${fixed(finding.time)} s${finding.rule.startsWith("simulated_") ? " of the robot" : ""}` }),
+      finding.sample !== null && h("button", { class: "link", text: "go to", "aria-label": `Go to ${place}`, on: { click: () => goTo(finding) } })));
+}
+
+function marginList(margins) {
+  const rows = margins.flatMap(({ rule, margin, unit }) => {
+    const shown = readable(margin, unit);
+    return [h("dt", { text: ruleName(rule), title: "How far the worst place stays from this rule's limit" }),
+      h("dd", { text: shown.value, data: margin < 0 ? { broken: "" } : {} }), h("dd", { class: "unit", text: shown.unit })];
+  });
+  return [h("h3", { text: "Room left to each limit" }), h("dl", { class: "margins" }, ...rows)];
+}
+
+const lowered = (sentence) => sentence.charAt(0).toLowerCase() + sentence.slice(1);
+
+const warningsOf = (verdict) => (verdict?.findings ?? []).filter(({ severity }) => severity === "warning");
+
+function summary(view, before) {
+  const { verdict } = view;
+  if (!verdict) {
+    const text = view.revoked ? `Not checked: ${lowered(view.revoked)} Check it again.` : before?.word === "approved" ? "Not checked: the gait changed, and its approval is gone. Check it again."
+      : before ? `Not checked: ${checkGone(view, before)}. Check it again.` : "Not checked yet. Check tries every rule on the waypoints that would be sent.";
+    return h("p", { class: "box-note", data: { tone: before || view.revoked ? "caution" : "plain" }, text });
+  }
+  const warnings = warningsOf(verdict).length;
+  const errors = verdict.findings.length - warnings;
+  const counts = [errors && `${errors} error${errors > 1 ? "s" : ""}`, warnings && `${warnings} warning${warnings > 1 ? "s" : ""}`].filter(Boolean).join(", ");
+  const text = verdict.passed ? `Passed${counts ? `, with ${counts}` : ": no findings"}.` : `Failed: ${counts}. Errors block approval.`;
+  return h("p", { class: "box-note", data: { tone: !verdict.passed ? "bad" : warnings ? "caution" : "good" } }, h("b", { text }));
+}
+
+function approvalBox({ approval }) {
+  if (!approval) return "";
+  return h("dl", { class: "box-note summary", data: { tone: "good" } },
+    h("dt", { text: "Approved by" }), h("dd", {}, h("b", { text: approval.by })), h("dt", { text: "when" }), h("dd", { text: clockTime(approval.when), title: approval.when }),
+    h("dt", { text: "waypoints" }), h("dd", { class: "mono", text: shortHash(approval.waypoints_hash), title: approval.waypoints_hash }),
+    h("dt", { text: "verdict" }), h("dd", { class: "mono", text: shortHash(approval.verdict_hash), title: approval.verdict_hash }),
+    ...(approval.warnings.length ? [h("dt", { text: "warnings seen" }), h("dd", { text: approval.warnings.length, title: approval.warnings.join("\n") })] : []));
+}
+
+function whyNotCheck({ view, pending }) {
+  if (!view) return "No gait is selected.";
+  if (pending.length) return "The last edit is not accepted yet.";
+  if (view.plan?.live?.status === "infeasible") return "There is no motion to check: the live tier finds none. Optimise says what is missing and offers ways out.";
+  if (!view.plan || view.plan.refusal) return view.plan?.refusal?.sentence ?? "There is no plan to check. Optimise first.";
+  return null;
+}
+
+function whyNotApprove({ view, pending, seenWarnings }) {
+  if (!view?.verdict || pending.length) return "Check this version first.";
+  if (!view.verdict.passed) return "The check failed. Errors block approval.";
+  if (view.approval) return `Already approved by ${view.approval.by}.`;
+  if (warningsOf(view.verdict).length && seenWarnings !== view.verdict.hash) return "Warnings stand. Look at each, then tick that you have seen them.";
+  return null;
+}
+
+/** The tick that goes with warnings; it is for one verdict only. */
+function warningTick(store) {
+  const box = h("input", { type: "checkbox" });
+  const count = h("span");
+  const element = h("label", { class: "tick", hidden: true }, box, count);
+  box.addEventListener("change", () => store.set({ seenWarnings: box.checked ? store.state.view?.verdict?.hash ?? null : null }));
+  const show = ({ view, seenWarnings }) => {
+    const warnings = warningsOf(view?.verdict);
+    element.hidden = !warnings.length || !view.verdict.passed || Boolean(view.approval);
+    box.checked = seenWarnings !== undefined && seenWarnings === view?.verdict?.hash;
+    count.textContent = warnings.length === 1 ? "I have seen this warning" : `I have seen these ${warnings.length} warnings`;
+  };
+  return { element, show };
+}
+
+async function approve(store) {
+  const { selected, view } = store.state;
+  const by = await needOperator(store, "The approval is kept with your name, the time and the hash of what you approve.");
+  if (!by) return;
+  if (store.state.selected !== selected || store.state.view?.plan?.hash !== view.plan.hash) {
+    toast("The gait changed meanwhile. Check it again.");
+    return;
+  }
+  const approval = await api.approve(selected, by, view.verdict.hash, store.state.seenWarnings === view.verdict.hash);
+  if (store.state.selected !== selected || store.state.view?.revision !== view.revision) return;
+  store.set({ view: { ...store.state.view, approval, revoked: null }, checked: { ...store.state.checked, [selected]: { word: "approved", revision: store.state.view.revision } } });
+}
+
+async function check(store) {
+  const { selected, view } = store.state;
+  const verdict = await api.check(selected);
+  if (store.state.selected !== selected || store.state.view?.revision !== view.revision) return;
+  const seen = store.state.checked[selected];
+  store.set({ view: { ...store.state.view, verdict }, checked: { ...store.state.checked, [selected]: { word: seen?.word === "approved" && store.state.view.approval ? seen.word : "checked", revision: view.revision } } });
+}
+
+/** Builds the section; `goTo` shows a finding's place. */
+export function mountCheck(store, edits, goTo) {
+  const checkButton = h("button", { class: "primary wide", text: "Check" });
+  const approveButton = h("button", { class: "wide", text: "Approve" });
+  const why = h("p", { class: "why" });
+  const [head, body, foot] = [h("div"), h("div", { class: "findings" }), h("div")];
+  onPress(checkButton, attempt(() => check(store)), (reason) => toast(reason));
+  onPress(approveButton, attempt(() => approve(store)), (reason) => toast(reason));
+  const tick = warningTick(store);
+  byId("check").append(sendingFields(store, edits), checkButton, head, tick.element, approveButton, why, foot, body, approvalHistory(store));
+
+  store.watch(({ view, pending, checked, seenWarnings }) => [view, pending.length, checked, seenWarnings], (state) => {
+    tick.show(state);
+    const { view, checked } = state;
+    setAllowed(checkButton, whyNotCheck(state), "Try every rule on the waypoints that would be sent");
+    const blocked = whyNotApprove(state);
+    setAllowed(approveButton, blocked, "Allow exactly these waypoints to be sent");
+    checkButton.classList.toggle("primary", !view?.verdict?.passed);
+    approveButton.classList.toggle("primary", !blocked);
+    why.textContent = view?.approval ? "" : (blocked ?? "Any later edit takes the approval away, and so does a newer simulation.");
+    if (!view) return;
+    head.replaceChildren(summary(view, checked[view.id]));
+    foot.replaceChildren(approvalBox(view));
+    const findings = (view.verdict?.findings ?? []).map((finding) => findingItem(finding, goTo));
+    body.replaceChildren(...(findings.length ? [h("h3", { text: "Findings" }), h("ul", { class: "findings", role: "list", "aria-label": "Findings" }, ...findings)] : []),
+      ...costTable(view.verdict), ...(view.verdict?.margins?.length ? marginList(view.verdict.margins) : []));
+  });
+}

@@ -1,0 +1,55 @@
+/** How the plan is sent: merging and stop bound, asked before Check because they decide what is checked; and what they cost. */
+
+import { h } from "../lib/dom.js";
+import { numberField } from "../state/fields.js";
+import { fixed, seconds } from "../lib/format.js";
+import { shownDocument } from "../state/store.js";
+
+const option = (name, factor = 1) => ({
+  read: ({ options }) => (options[name] === null ? null : options[name] * factor),
+  write: (document, value) => ({ ...document, options: { ...document.options, [name]: value === null ? null : value / factor } }),
+});
+
+const FIELDS = [
+  { label: "Merge", name: "Merge waypoints within", unit: "mm", min: 0, max: 5, step: 0.1, decimals: 2, ...option("merge", 1000),
+    help: "Leaves out waypoints that lie so near the motors' straight way. The robot stops at each waypoint, so fewer are quicker; it takes 1 mm for arrived anyway. 0 sends one waypoint a knot" },
+  { label: "Bound", name: "Stop bound", unit: "s", min: 0.8, max: 10, step: 0.1, decimals: 2, empty: "none", fallback: 1, ...option("stop_bound"),
+    help: "The robot hears Stop only between moves. Long moves are cut so that it is deaf for no longer than this; each cut costs time. Empty: moves stay whole" },
+];
+
+const bound = (value) => (value === null ? "none" : `${fixed(value)} s`);
+
+function costRow(cost) {
+  const { stop_bound: limit, merged_seconds: merged, every_seconds: every, is_chosen: chosen } = cost;
+  const title = `${cost.merged_waypoints} waypoints merged, ${cost.every_waypoints} with one a knot`;
+  return h("tr", { data: chosen ? { chosen: "" } : {}, "aria-current": chosen ? "true" : null, title },
+    h("th", { scope: "row", text: `${bound(limit)}${chosen ? " ✓" : ""}` }), h("td", { text: `${fixed(merged)} s` }), h("td", { text: `${fixed(every)} s` }), h("td", { text: `${seconds(cost.stop_seconds)} s` }));
+}
+
+/** What bound and merging cost in robot seconds, as the verdict says; nothing without a verdict. */
+export function costTable(verdict) {
+  if (!verdict?.costs?.length) return [];
+  const head = ["Bound", `Merged, ${fixed(verdict.costs[0].merge * 1000)} mm`, "One a knot", "Stop in"];
+  return [h("h3", { text: "Time on the robot" }),
+    h("table", { class: "costs", "aria-label": "Time on the robot" }, h("thead", {}, h("tr", {}, ...head.map((text) => h("th", { scope: "col", text })))), h("tbody", {}, ...verdict.costs.map(costRow))),
+    ...verdict.notes.map((text) => h("p", { class: "why", text }))];
+}
+
+function inShort(plan) {
+  if (!plan?.waypoint_count) return "";
+  const { waypoint_count: count, times, robot_seconds: takes, every_knot_seconds: every, stop_seconds: stop } = plan;
+  const instead = Math.abs(every - takes) >= 0.5 ? ` (one waypoint a knot: ${fixed(every, 0)} s)` : "";
+  return `${count} waypoints of ${times.length} knots, about ${fixed(takes, 0)} s on the robot${instead}. Stop acts within ${seconds(stop)} s.`;
+}
+
+/** Builds the two fields and the line of what they cost. */
+export function sendingFields(store, edits) {
+  const fields = FIELDS.map((field) => numberField(store, edits, field));
+  const line = h("p", { class: "why" });
+  store.watch(({ view, pending, gesture }) => [view, pending, gesture], (state) => {
+    const document = shownDocument(state);
+    if (document) fields.forEach((field) => field.show(document));
+  });
+  store.watch(({ view }) => [view?.plan], ({ view }) => { line.textContent = inShort(view?.plan); });
+  return h("div", { class: "sending", role: "group", "aria-label": "How it is sent" }, h("div", { class: "fields" }, ...fields.map(({ element }) => element)), line);
+}

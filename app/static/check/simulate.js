@@ -1,0 +1,108 @@
+/** The Simulate section: exactly the waypoints that would be sent, run by physics before a robot runs them. */
+
+import { api } from "../api/gaits.js";
+import { byId, h, onPress, setAllowed, setAttribute, setText } from "../lib/dom.js";
+import { fixed } from "../lib/format.js";
+import { robustness } from "./robustness.js";
+import { followSimulation, simulationJob, simulationOf, simulationOver } from "../plots/simulation.js";
+import { reportParts } from "./simulation_report.js";
+import { attempt, report, toast } from "../lib/toasts.js";
+
+const VARIATIONS = 64;
+const HELP = "Runs exactly the waypoints that would be sent, with the firmware's timing, in a model with masses, friction and bending legs";
+const AXIS = "The simulated robot goes by its own clock. Plots and 3D show it on the plan's: arrivals at their waypoints' times, straight between them.";
+
+function whyNot(state) {
+  const { view, pending } = state;
+  if (!view) return "No gait is selected.";
+  if (pending.length) return "The last edit is not accepted yet.";
+  if (simulationJob(state)) return "This gait is being simulated. Cancel that or wait for it.";
+  if (!view.plan?.waypoints_hash) return view.plan?.refusal?.sentence ?? "There is no plan to simulate. Optimise first.";
+  return null;
+}
+
+/** The choice of physics parameters, of those that fit the shown gait's robot. */
+function setChooser(store) {
+  const select = h("select", { "aria-label": "Physics parameters", title: "Masses, friction and motors of the simulated robot" });
+  store.watch(({ view, physicsSets }) => [view?.document.robot, physicsSets], async ({ view }) => {
+    if (!view) return;
+    const { robot } = view.document;
+    try {
+      const { sets } = await api.physicsSets(robot);
+      if (store.state.view?.document.robot !== robot) return;
+      const chosen = select.value;
+      select.replaceChildren(...sets.map(({ name, title }) => h("option", { value: name, text: title })));
+      if (sets.some(({ name }) => name === chosen)) select.value = chosen;
+    } catch (error) {
+      report(error);
+    }
+  });
+  return { select, element: h("label", { class: "set-choice" }, h("span", { class: "quiet", text: "Physics" }), select) };
+}
+
+/** A bar with the share that is done, and Cancel. */
+function progressPart() {
+  const [bar, text] = [h("i"), h("span", { class: "number quiet", role: "status", "aria-label": "Simulation" })];
+  const cancel = h("button", { text: "Cancel", "aria-label": "Cancel simulation" });
+  const element = h("div", { class: "simulating", hidden: true }, h("div", { class: "progress" }, bar), text, cancel);
+  let id = null;
+  cancel.addEventListener("click", attempt(async () => { if (id) await api.cancelJob(id); }));
+  return {
+    element,
+    show(job) {
+      element.hidden = !job;
+      id = job?.id ?? null;
+      if (!job) return;
+      bar.style.transform = `scaleX(${job.share ?? 0})`;
+      setText(text, job.state === "running" ? `${fixed((job.share ?? 0) * 100, 0)} %` : job.state);
+      setAllowed(cancel, job.state === "cancelling" ? "It ends in a moment." : null);
+    },
+  };
+}
+
+/** What came of the last simulation that did not come to its end. */
+function failure({ jobs, selected }) {
+  const last = jobs.find((job) => job.gait === selected && job.kind === "simulate");
+  return last?.state === "failed" || last?.state === "interrupted" ? last.sentence : null;
+}
+
+function standing(state) {
+  const { view, simulation } = state;
+  const failed = failure(state);
+  if (failed) return [failed, "bad"];
+  if (!view?.simulation) return ["Not simulated yet. Simulate says whether the robot walks, tips, slips or lacks force, before anything moves.", "plain"];
+  if (!view.simulation.fresh) return ["The gait changed since: these figures are of an older version. Simulate again.", "caution"];
+  if (!simulation) return ["The simulation is being fetched.", "plain"];
+  return view.plan?.source === "draft" ? ["This motion is only drawn: it cannot be sent, and physics says what would come of it.", "caution"] : null;
+}
+
+/** Builds the section; `goToTime` brings the playhead to a time of the plan. */
+export function mountSimulate(store, goToTime) {
+  const run = h("button", { class: "primary", text: "Simulate" });
+  const vary = h("button", { text: `${VARIATIONS} variations` });
+  const { select, element: sets } = setChooser(store);
+  const progress = progressPart();
+  const [note, figures, map] = [h("p", { class: "box-note" }), h("div", { class: "simulated" }), robustness()];
+  const press = (variations) => attempt(() => api.simulate(store.state.selected, select.value || null, variations));
+  onPress(run, press(0), (why) => toast(why));
+  onPress(vary, press(VARIATIONS), (why) => toast(why));
+  byId("simulate").append(sets, h("div", { class: "solve" }, run, vary), progress.element, note, figures, map.element, h("p", { class: "why", text: AXIS }));
+  followSimulation(store);
+
+  store.watch(({ jobs, view, pending, selected }) => [jobs, view, pending.length, selected], (state) => {
+    const why = whyNot(state);
+    setAllowed(run, why, HELP);
+    setAllowed(vary, why, `The same with ${VARIATIONS} seeded variations: friction, masses, motor speed, one weak motor, 1° of slope, softer legs`);
+    progress.show(simulationJob(state));
+  });
+  store.watch((state) => [simulationOf(state), simulationOver(state), state.view, state.jobs, state.selected], (state) => {
+    const [simulation, words] = [simulationOf(state), standing(state)];
+    note.hidden = !words;
+    setText(note, words?.[0] ?? "");
+    setAttribute(note, "data-tone", words?.[1]);
+    const stale = simulation !== null && simulationOver(state) === null;
+    figures.replaceChildren(...(simulation ? reportParts(simulation, goToTime) : []));
+    figures.toggleAttribute("data-stale", stale);
+    map.show(simulation?.variations ?? null, stale);
+  });
+}

@@ -1,0 +1,86 @@
+/** The figures of a simulation as people read them: one table of the whole, one of the feet, and what the rules found. */
+
+import { h } from "../lib/dom.js";
+import { fixed, mm } from "../lib/format.js";
+import { planTimeOf } from "../plots/simulation.js";
+
+const MOTORS = 3;
+const degrees = (radians, decimals = 1) => fixed((radians * 180) / Math.PI, decimals);
+
+/** A button to a moment of the simulated robot; `after` stands behind its time. */
+function goTo(simulation, moment, goToTime, what, after = "") {
+  const time = planTimeOf(simulation, moment);
+  return h("button", { class: "link", text: `${fixed(time)} s${after}`, "aria-label": `Go to ${what}, ${fixed(time)} s`, title: `On the plan's axis; ${fixed(moment)} s by the robot's own clock`, on: { click: () => goToTime(time) } });
+}
+
+/** Foot, motor and value of the greatest of a value a motor. */
+function greatestMotor(values) {
+  const all = values.flat();
+  const at = all.indexOf(Math.max(...all));
+  return { foot: Math.floor(at / MOTORS), motor: at % MOTORS, value: all[at] };
+}
+
+const motorWords = ({ foot, motor }) => `foot ${foot + 1}, motor ${motor + 1}`;
+
+function rows(simulation, goToTime) {
+  const { report } = simulation;
+  const at = (moment, what) => (moment === null ? null : goTo(simulation, moment, goToTime, what));
+  const [behind, force] = [greatestMotor(report.motor_error), greatestMotor(report.saturation)];
+  const feetMean = report.feet_error.reduce((sum, error) => sum + error, 0) / report.feet_error.length;
+  return [
+    ["Body, mean error", mm(report.body_error), "mm", null, "Mean over all waypoints of the body's distance from the plan, each where its move has ended"],
+    ["Feet, mean error", mm(feetMean), "mm", null, "The same of the feet"],
+    ["Distance", `${mm(report.distance)} of ${mm(report.planned_distance)}`, "mm", null, "How far the body goes from the first waypoint to the last, and by the plan"],
+    ["Heading", `${degrees(report.heading)} of ${degrees(report.planned_heading)}`, "°", null, "How far it turns, and by the plan"],
+    ["Largest tilt", degrees(report.max_tilt), "°", at(report.max_tilt_time, "largest tilt"), "Angle between the body's axis and the vertical"],
+    ["Smallest margin", mm(report.min_margin), "mm", at(report.min_margin_time, "smallest margin"), "Of the robot's centre of mass from the edge of the feet that carry load; below 0 the soles' width alone holds it"],
+    ["Motor behind", mm(behind.value, 2), "mm", at(report.motor_error_times[behind.foot][behind.motor], "motor behind"), `Largest distance of a motor from the firmware's ramp: ${motorWords(behind)}`],
+    ["Motor at limit", fixed(force.value * 100, 0), "%", force.value > 0 ? at(report.peak_force_times[force.foot][force.motor], "motor at its limit") : null, `Part of the time at which a motor's force is at its limit: ${motorWords(force)}`],
+  ];
+}
+
+function wholeTable(simulation, goToTime) {
+  return h("table", { class: "run-table simulated-table", "aria-label": "Simulation" },
+    h("tbody", {}, ...rows(simulation, goToTime).map(([name, value, unit, place, help]) => h("tr", { title: help },
+      h("th", { scope: "row", text: name }), h("td", { text: value }), h("td", { class: "unit", text: unit }), h("td", { class: "place" }, place)))));
+}
+
+function feetTable({ report }) {
+  return h("table", { class: "run-table", title: "Mean distance from the plan at waypoints, and how far each sole slid while it should have stood" },
+    h("caption", { text: "Feet, mm" }),
+    h("thead", {}, h("tr", {}, ...["", "error", "slip"].map((text) => h("th", { scope: "col", text })))),
+    h("tbody", {}, ...report.feet_error.map((error, foot) => h("tr", { data: { foot: foot + 1 } },
+      h("th", { scope: "row" }, h("i", { class: "foot-dot", "aria-hidden": "true" }), `foot ${foot + 1}`), h("td", { text: mm(error) }), h("td", { text: mm(report.slip[foot]) })))));
+}
+
+function findingItem(simulation, finding, goToTime) {
+  const [tone, word] = finding.severity === "error" ? ["bad", "Error: "] : ["caution", "Warning: "];
+  return h("li", { class: "finding" }, h("span", { class: "dot", data: { tone } }), h("span", {}, h("b", { text: word }), finding.sentence),
+    h("span", { class: "where" }, finding.time !== null && goTo(simulation, finding.time, goToTime, finding.rule.replaceAll("_", " "), " of the plan")));
+}
+
+/** Word and tone of a simulation. */
+export function simulatedWords({ report, findings }) {
+  if (report.fell) return ["Falls over", "bad"];
+  if (report.ended_early) return ["Ended early", "bad"];
+  if (findings.some(({ severity }) => severity === "error")) return ["Tips", "bad"];
+  return findings.length ? ["Walks, with warnings", "caution"] : ["Walks", "good"];
+}
+
+/**
+ * A simulation's figures.
+ * @param {object} simulation as the studio keeps it
+ * @param {(time: number) => void} goToTime
+ * @returns {HTMLElement[]}
+ */
+export function reportParts(simulation, goToTime) {
+  const { report, findings, physics } = simulation;
+  const [word, tone] = simulatedWords(simulation);
+  return [
+    h("div", { class: "simulated-line", role: "status", "aria-label": "Simulated" }, h("span", { class: "dot", data: { tone } }), h("b", { text: word }),
+      h("span", { class: "quiet number", text: physics.title, title: `Friction ${fixed(physics.friction, 2)}; ran ${fixed(report.realtime_factor, 0)} × as fast as the robot` })),
+    ...(report.ended_early ? [h("p", { class: "why", text: report.ended_early })] : []),
+    wholeTable(simulation, goToTime), feetTable(simulation),
+    ...(findings.length ? [h("ul", { class: "findings", role: "list", "aria-label": "Found in the simulation" }, ...findings.map((finding) => findingItem(simulation, finding, goToTime)))] : []),
+  ];
+}

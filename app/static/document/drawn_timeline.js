@@ -1,0 +1,39 @@
+/** The timeline that foot order, phases and closing stance would draw (thesis 3.3), to tell it from one drawn by hand. */
+
+import { heldBoth } from "./held_feet.js";
+
+/**
+ * Rows of 1 (stance) and 0 (swing), foot 1 first; the last sample is the goal, and stance for every foot. Feet that are held
+ * up at both ends are in the air throughout, and the others take turns.
+ */
+export function drawnRows(document) {
+  const { timeline, order, options, iterations, direction } = document;
+  const legs = timeline.feet.length;
+  const { phase_knots: phase, closing_knots: closing } = options;
+  const turn = (legs / 4) * (direction - 1);
+  const held = heldBoth(document).map((foot) => foot - 1);
+  const walking = order.map((foot) => Math.floor(foot - 1 + turn) % legs).filter((foot) => !held.includes(foot));
+  const count = iterations * walking.length * 2 * phase + closing;
+  const rows = Array.from({ length: legs }, () => new Array(count).fill("1"));
+  for (let step = 0; step < walking.length * iterations; step += 1) {
+    rows[walking[step % walking.length]].fill("0", (2 * step + 1) * phase, (2 * step + 2) * phase);
+  }
+  return rows.map((row, foot) => (held.includes(foot) ? "0".repeat(count) : `${row.slice(0, -1).join("")}1`));
+}
+
+/** Whether foot order, phases and closing stance still say what the timeline shows. */
+export const isDrawn = (document) => document.timeline.feet.join() === drawnRows(document).join();
+
+/**
+ * A timeline drawn by hand, run through another number of times, its closing stance once at the end.
+ * @returns {string[]|null} null where its iterations are not equally long
+ */
+export function repeatedRows({ timeline, options, iterations }, wanted) {
+  const { feet } = timeline;
+  // Feet that are held up throughout say nothing of its end.
+  const moving = Math.max(-1, ...feet.filter((row) => row.includes("1")).map((row) => row.lastIndexOf("0")));
+  const resting = Math.min(feet[0].length - 1 - moving, options.closing_knots);
+  const length = (feet[0].length - resting) / iterations;
+  if (!Number.isInteger(length)) return null;
+  return feet.map((row) => row.slice(0, length).repeat(wanted) + row.slice(length * iterations));
+}

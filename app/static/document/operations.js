@@ -1,0 +1,182 @@
+/**
+ * The operations that the timeline offers: what each would make of the document, its name in the history, or why not.
+ *
+ * `outcomeOf` answers with `{apply, document, label, note, clipped, selection}` or with `{reason}`. `apply` goes from
+ * document to document, so that it can be put on top of what another tab did meanwhile; `document` is what is shown as
+ * preview, `clipped` says what does not fit.
+ */
+
+import { drawnRows, isDrawn, repeatedRows } from "./drawn_timeline.js";
+import { heldMirrored, heldReversed, heldTurned } from "./held_feet.js";
+import { inserted, removed, repeated, stretched } from "./lengths.js";
+import { blockOf, heldBack, mirrored, mirroredFeet, reversed, shifted, stretchedInPlace, toStance, turnedRows, withBlock, withLocks } from "./timeline_operators.js";
+import { allFeet, isWhole, lengthOf, wordsOf, wholeOf } from "./region.js";
+import { FOLLOWS, isSequence } from "./sequence_edits.js";
+
+const MOST_ITERATIONS = 20;
+const MOST_SAMPLES = 2000;
+
+const sampleCount = ({ timeline }) => timeline.feet[0].length;
+const swingCount = (row) => row.split("1").filter(Boolean).length;
+const counted = (count, one) => `${count} ${one}${count === 1 ? "" : "s"}`;
+const seconds = (document, samples) => `${(Math.max(0, samples - 1) * document.timeline.sample_time).toFixed(1)} s`;
+
+/** What of a region does not fit behind a sample, in words; null where all of it does. */
+const clippedWords = (over) => (over > 0 ? `The last ${counted(over, "sample")} would lie behind the end and are left out.` : null);
+
+const lengthNote = (before, after) =>
+  `The timeline goes from ${sampleCount(before)} to ${counted(sampleCount(after), "sample")} (${seconds(after, sampleCount(after))}).`;
+
+/** Where a mirrored order draws the mirrored timeline, the order goes along. */
+function mirroredWhole(document, region, mirror) {
+  if (!isWhole(document, region)) return mirrored(document, region, mirror);
+  const after = heldMirrored(mirrored(document, region, mirror), mirror);
+  if (!isDrawn(document)) return after;
+  const legs = mirror.length;
+  const turn = Math.floor((legs * (document.direction - 1)) / 4);
+  const order = document.order.map((foot) => ((mirror[(foot - 1 + turn) % legs] - turn + legs) % legs) + 1);
+  return isDrawn({ ...after, order }) ? { ...after, order } : after;
+}
+
+function mirrorNote(region, mirror) {
+  const pairs = mirroredFeet(region, mirror).filter((foot) => foot < mirror[foot]).map((foot) => `${foot + 1} and ${mirror[foot] + 1}`);
+  return `Feet ${pairs.join(", ")} change places.`;
+}
+
+function mirror({ document, region, mirror: map, words }) {
+  if (!map) return { reason: "The feet have no mirror image about this heading: it lies neither on a leg nor halfway between two." };
+  return { apply: (now) => mirroredWhole(now, region, map), label: `Mirror ${words}`, note: mirrorNote(region, map) };
+}
+
+function vanishing(before, after) {
+  const foot = before.timeline.feet.findIndex((row, index) => swingCount(after.timeline.feet[index]) < swingCount(row));
+  return foot < 0 ? null : `A swing of foot ${foot + 1} would vanish or run into another: take more samples.`;
+}
+
+function stretch({ document, region, words, amount }) {
+  const grows = allFeet(document, region);
+  const apply = (now) => (grows ? stretched : stretchedInPlace)(now, region, amount);
+  const after = apply(document);
+  const [first] = region.samples;
+  const clipped = grows ? null : clippedWords(first + amount - sampleCount(document));
+  const note = grows ? lengthNote(document, after) : (clipped ?? `Samples ${first + 1}–${first + amount}.`);
+  return {
+    apply, note, clipped, label: `Stretch ${words} to ${counted(amount, "sample")}`, reason: grows && amount < lengthOf(region) ? vanishing(document, after) : null,
+    selection: { ...region, samples: [first, Math.min(first + amount, sampleCount(after)) - 1] },
+  };
+}
+
+function repeatWhole({ document, amount }) {
+  const iterations = document.iterations * amount;
+  if (iterations > MOST_ITERATIONS) return { reason: `${iterations} iterations are more than ${MOST_ITERATIONS}: repeat less often.` };
+  const feet = document.segment_table ? null : isDrawn(document) ? drawnRows({ ...document, iterations }) : repeatedRows(document, iterations);
+  const shown = feet && { ...document, iterations, timeline: { ...document.timeline, feet, locked: feet.map((row) => "0".repeat(row.length)) } };
+  if (!feet && !document.segment_table) return { reason: `The ${document.iterations} iterations are not equally long: select the samples that are to be repeated.` };
+  return {
+    apply: (now) => ({ ...now, iterations }), document: shown, label: `Iterations to ${iterations}`, drawing: false, selection: null,
+    note: shown ? `${counted(iterations, "iteration")}. ${lengthNote(document, shown)}` : `${counted(iterations, "iteration")} of the segment table.`,
+  };
+}
+
+function repeat(context) {
+  const { document, region, amount } = context;
+  if (isWhole(document, region)) return repeatWhole(context);
+  const after = repeated(document, region, amount);
+  return {
+    apply: (now) => repeated(now, region, amount), note: lengthNote(document, after), label: `Repeat samples ${region.samples[0] + 1}–${region.samples[1] + 1} ${amount}×`,
+    selection: { ...region, samples: [region.samples[0], region.samples[0] + lengthOf(region) * amount - 1] },
+  };
+}
+
+function rotate({ document }) {
+  const direction = (document.direction % 4) + 1;
+  const feet = turnedRows(document.timeline.feet, direction - document.direction);
+  const by = Math.floor(((direction - document.direction) * feet.length) / 4);
+  const shown = heldTurned({ ...document, direction, timeline: { ...document.timeline, feet } }, by);
+  return {
+    apply: (now) => ({ ...now, direction }), document: shown, label: `Direction to ${direction}`, drawing: false,
+    note: `Direction ${direction} instead of ${document.direction}: each foot's steps go to the next foot.`,
+  };
+}
+
+function duplicate({ document, region, words }) {
+  const [, last] = region.samples;
+  const rest = sampleCount(document) - 1 - last;
+  if (rest <= 0) return { reason: "There is no room behind it: the selection ends with the timeline. Repeat makes the timeline longer." };
+  const apply = (now) => withBlock(now, [region.feet[0], last + 1], blockOf(now, region));
+  const clipped = clippedWords(lengthOf(region) - rest);
+  return {
+    apply, clipped, label: `Duplicate ${words}`, selection: { ...region, samples: [last + 1, Math.min(last + lengthOf(region), sampleCount(document) - 1)] },
+    note: clipped ?? `A copy from sample ${last + 2} on.`,
+  };
+}
+
+function insert({ document, region, amount }) {
+  const after = inserted(document, region, amount);
+  return {
+    apply: (now) => inserted(now, region, amount), label: `Insert ${counted(amount, "sample")} before sample ${region.samples[0] + 1}`,
+    note: `Every foot goes on as before them. ${lengthNote(document, after)}`, selection: { ...region, samples: [region.samples[0], region.samples[0] + amount - 1] },
+  };
+}
+
+function remove({ document, region }) {
+  if (sampleCount(document) - lengthOf(region) < 2) return { reason: "Two samples at least must stay: select fewer." };
+  const after = removed(document, region);
+  const range = lengthOf(region) === 1 ? `sample ${region.samples[0] + 1}` : `samples ${region.samples[0] + 1}–${region.samples[1] + 1}`;
+  return { apply: (now) => removed(now, region), label: `Remove ${range}`, note: lengthNote(document, after), selection: null };
+}
+
+const locking = (locks) => ({ region, words }) => ({ apply: (now) => withLocks(now, region, locks), label: `${locks ? "Lock" : "Unlock"} ${words}` });
+
+/**
+ * `amount` is the number that an operation asks for; `start` gives what stands there at first. `columns` are operations
+ * on samples of all feet, which never mean the whole timeline by themselves.
+ */
+export const OPERATIONS = {
+  mirror: { name: "Mirror", help: "Mirror left–right: each foot changes places with the one on the other side of the heading", outcome: mirror },
+  stretch: {
+    name: "Stretch", help: "Stretch or shrink over another number of samples", outcome: stretch,
+    amount: { name: "New length", unit: "samples", least: 1, most: MOST_SAMPLES, factor: true, start: ({ document, region }) => lengthOf(region) + (isWhole(document, region) ? lengthOf(region) : 1) },
+  },
+  reverse: { name: "Reverse in time", help: "The last sample becomes the first", outcome: ({ region, words }) => ({ apply: (now) => (isWhole(now, region) ? heldReversed(reversed(now, region)) : reversed(now, region)), label: `Reverse ${words}` }) },
+  shift: {
+    name: "Shift phase", help: "Move later in time; what leaves at the end enters at the beginning", amount: { name: "Later by", unit: "samples", least: -MOST_SAMPLES, most: MOST_SAMPLES, start: () => 1 },
+    outcome: ({ region, words, amount }) => ({ apply: (now) => shifted(now, region, amount), label: `Shift ${words} by ${amount > 0 ? "+" : "−"}${Math.abs(amount)}` }),
+  },
+  repeat: {
+    name: "Repeat", help: "The whole: more iterations. A selection: its samples of all feet again, and what is behind moves along", outcome: repeat,
+    amount: { name: "Times", unit: "", least: 2, most: MOST_ITERATIONS, start: () => 2 },
+  },
+  rotate: { name: "Rotate by 90°", help: "Turn the direction of the whole gait by 90°", outcome: rotate },
+  duplicate: { name: "Duplicate", help: "A copy right behind the selection, written over what is there", outcome: duplicate },
+  stance: { name: "To stance", help: "Every foot stands", outcome: ({ region, words }) => ({ apply: (now) => toStance(now, region), label: `${words} to stance` }) },
+  lock: { name: "Lock", help: "Locked cells keep their value", outcome: locking(true) },
+  unlock: { name: "Unlock", help: "The cells can be changed again", outcome: locking(false) },
+  insert: {
+    name: "Insert samples", help: "Samples of all feet before the selection, or before the focused cell; what is behind moves along", outcome: insert, columns: true,
+    amount: { name: "How many", unit: "samples", least: 1, most: 500, start: () => 1 },
+  },
+  remove: { name: "Remove samples", help: "Take the selection's samples, or the focused one, away from all feet; what is behind moves up", outcome: remove, columns: true },
+};
+
+const refusalOf = (before, after) =>
+  (sampleCount(after) > MOST_SAMPLES ? `${sampleCount(after)} samples are more than ${MOST_SAMPLES}, the most that a timeline has.` : heldBack(before, after));
+
+const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
+/**
+ * What an operation would make of a document.
+ * @param {string} id of OPERATIONS
+ * @param {{document: object, region: object|null, mirror: number[]|null}} state without a region the whole timeline is meant
+ * @param {number} [amount]
+ */
+export function outcomeOf(id, { document, region, mirror: map }, amount) {
+  if (isSequence(document)) return { reason: FOLLOWS };
+  const chosen = region ?? wholeOf(document);
+  const context = { document, region: chosen, mirror: map, amount, words: wordsOf(document, chosen) };
+  const found = OPERATIONS[id].outcome(context);
+  if (found.reason) return { reason: found.reason };
+  const after = found.document === undefined ? found.apply(document) : found.document;
+  const reason = after && refusalOf(document, after);
+  return reason ? { reason } : { drawing: true, ...found, document: after, label: capital(found.label) };
+}

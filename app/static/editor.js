@@ -1,0 +1,94 @@
+/** The page around the list of gaits: one store, one playhead, and the parts that watch them. */
+
+import { nameAuthor } from "./api/author.js";
+import { createActions } from "./timeline/actions.js";
+import { menuIsOpen } from "./lib/check_menu.js";
+import { mountClipboard } from "./timeline/clipboard.js";
+import { mountDecimalComma } from "./lib/decimal_comma.js";
+import { createEdits } from "./state/edits.js";
+import { mountGaitTools } from "./shell/gait_menu.js";
+import { selectGait } from "./shell/gait_list.js";
+import { mountJobs } from "./shell/job_list.js";
+import { mountKeys } from "./shell/keys.js";
+import { mountLive, painted } from "./state/live_plan.js";
+import { mountLowerSize } from "./shell/splitter.js";
+import { recallOperator } from "./state/operator.js";
+import { mountOptimise } from "./optimise/optimise.js";
+import { mountPatternEntry } from "./patterns/pattern_entry.js";
+import { mountPlots } from "./plots/plots.js";
+import { Playback } from "./preview/playback.js";
+import { robotTime } from "./state/plan_samples.js";
+import { planIsOn, shownPlan } from "./state/store.js";
+import { mountTabs, openTab } from "./lib/tabs.js";
+import { mountTimeline } from "./timeline/timeline.js";
+import { mountTools } from "./timeline/timeline_tools.js";
+import { clearRefusals, report } from "./lib/toasts.js";
+import { mountTopbar } from "./shell/topbar.js";
+import { mountTransport } from "./timeline/transport.js";
+import { createZoom, mountZoom, zoomAtPlayhead } from "./timeline/zoom.js";
+
+/** A tab in the background is not painted. */
+const LONGEST_PAINT_MS = 400;
+
+function goToFinding(store, playback, timeline) {
+  return ({ sample, foot }) => {
+    const { view } = store.state;
+    playback.pause();
+    playback.setTime(shownPlan(store.state)?.times?.[sample] ?? sample * view.document.timeline.sample_time);
+    if (foot !== null) timeline.focusCell(foot, Math.min(sample, view.document.timeline.feet[0].length - 1));
+  };
+}
+
+function mountEditor(store, edits, playback) {
+  const zoom = createZoom(store);
+  zoom.closer = (closer) => zoomAtPlayhead(store, playback, zoom, closer);
+  const timeline = mountTimeline(store, edits, playback, zoom.reveal);
+  const actions = createActions({ store, edits, playback, focused: timeline.focused });
+  const tools = mountTools(store, actions, zoom, timeline.selectAll);
+  mountClipboard({ copy: actions.take, cut: actions.cut, paste: actions.paste });
+  mountZoom(store, playback, zoom, timeline.cancelGesture);
+  return { timeline, actions, zoom, tools };
+}
+
+/** Builds the other panels once what is seen first has been painted; what they do on Escape comes into what this gives back. */
+function panelsAfterPaint(page) {
+  const escapes = {};
+  const paintedOrHidden = Promise.race([painted(), new Promise((resume) => { setTimeout(resume, LONGEST_PAINT_MS); })]);
+  Promise.all([import("./panels.js"), paintedOrHidden]).then(([{ mountPanels }]) => Object.assign(escapes, mountPanels(page)))
+    .catch((error) => report(new Error(`Panels of this page could not be built: ${error.message}. Reload it.`)));
+  return escapes;
+}
+
+/** Builds the parts that are seen first over a store that may have been filled already. */
+export function start(store) {
+  const playback = new Playback();
+  const edits = createEdits(store);
+  window.addEventListener("beforeunload", (event) => { if (edits.areUnsent()) event.preventDefault(); });
+  recallOperator(store);
+  mountDecimalComma();
+  store.watch(({ operator }) => [operator], ({ operator }) => nameAuthor(operator));
+  mountTabs();
+  mountTopbar(store, edits);
+  const gaitTools = mountGaitTools(store, edits, (id) => selectGait(store, id));
+  mountJobs(store);
+  const { timeline, actions, zoom, tools } = mountEditor(store, edits, playback);
+  mountTransport(store, playback, mountPlots(store), actions.loop);
+  mountLowerSize();
+  const goTo = goToFinding(store, playback, timeline);
+  const optimise = mountOptimise(store, edits, goTo);
+  mountLive(store);
+  const panels = panelsAfterPaint({ store, edits, playback, goTo, gaitTools });
+  const patterns = mountPatternEntry(store, { edits, playback, show: (id) => selectGait(store, id) });
+  mountKeys({ store, edits, playback, timeline, actions, zoom, escapes: [patterns.cancel, () => panels.segments?.(), timeline.cancelGesture, () => panels.sequence?.(), tools.close, optimise.cancel, () => panels.countdown?.(), menuIsOpen, () => panels.runs?.(), timeline.clearSelection] });
+
+  // During a run the preview stands where the robot is, to the end, unless somebody plays the plan.
+  let followed = null;
+  store.watch(({ robot, view }) => [robot?.run?.plan_time, robot?.run?.phase, view?.plan], ({ robot, view }) => {
+    const run = robot?.run;
+    const time = run && (run.phase === "streaming" || run.id === followed) ? robotTime(robot, view) : null;
+    followed = run?.phase === "streaming" ? run.id : null;
+    if (time !== null && !playback.playing) playback.setTime(time);
+  });
+  store.watch(({ selected, view }) => [selected, view?.revision], () => clearRefusals());
+  store.watch(({ robot }) => [planIsOn(robot)], ({ robot }) => { if (planIsOn(robot)) openTab("robot"); });
+}

@@ -1,0 +1,116 @@
+/** Trials of the real robot in a panel: the list with gaits compared, adding tracks, and one trial beside its plan. */
+
+import { h, icon } from "../lib/dom.js";
+import { selectGait } from "../shell/gait_list.js";
+import { turns } from "../lib/latest_only.js";
+import { runIsOn } from "../state/store.js";
+import { openTab } from "../lib/tabs.js";
+import { attempt, toast } from "../lib/toasts.js";
+import { trialBand } from "../trials/trial_band.js";
+import { trialDetail } from "../trials/trial_detail.js";
+import { trialForm } from "../trials/trial_form.js";
+import { trialList } from "../trials/trial_list.js";
+import { trialApi } from "../api/trials.js";
+import { tracksParts } from "../trials/trial_tracks.js";
+
+function addStyles() {
+  const sheet = (name) => h("link", { rel: "stylesheet", href: new URL(name, import.meta.url).pathname });
+  document.head.append(sheet("../trials/trials.css"), sheet("../trials/trial_beside.css"));
+}
+
+/** The panel with what stands in it; `begin()` tells later whether something else was asked for. */
+function buildPanel() {
+  const body = h("div", { class: "runs-body" });
+  const close = h("button", { class: "plain icon-only", "aria-label": "Close trials", title: "Close (Esc)" }, icon("close"));
+  const panel = h("section", { class: "runs-panel", "aria-label": "Trials", hidden: true }, h("header", {}, h("h2", { text: "Trials" }), close), body);
+  document.querySelector("aside.right").append(panel);
+  const begin = turns();
+  let left = () => {};
+
+  function leaveContent() {
+    const act = left;
+    left = () => {};
+    act();
+  }
+
+  /** `whenLeft` is called when other content comes, or the panel closes. */
+  function show(content, whenLeft = () => {}) {
+    leaveContent();
+    left = whenLeft;
+    panel.hidden = false;
+    document.body.toggleAttribute("data-runs", true);
+    body.replaceChildren(content);
+    body.scrollTop = 0;
+  }
+
+  function leave() {
+    begin();
+    if (panel.hidden) return false;
+    leaveContent();
+    panel.hidden = true;
+    document.body.toggleAttribute("data-runs", false);
+    return true;
+  }
+
+  close.addEventListener("click", leave);
+  document.querySelector('[role="tablist"][aria-label="Inspector"]').addEventListener("click", leave);
+  return { begin, show, leave };
+}
+
+/**
+ * Builds the panel, closed.
+ * @param {object} store
+ * @returns {{open: () => void, go: (wanted: object) => void, leave: () => boolean}} `leave` closes it; true where it was open
+ */
+export function mountTrials(store) {
+  addStyles();
+  const { begin, show, leave } = buildPanel();
+  const tracks = tracksParts(store, attempt((gait) => selectGait(store, gait)));
+  const page = { store, show, begin, all: () => all(), one: (id) => one(id) };
+
+  /** Shows what `make` gives, unless something else was asked for meanwhile. */
+  const shown = (make) => attempt(async (wanted) => {
+    const isOld = begin();
+    const { element, leave: gone } = await make(wanted);
+    if (isOld()) gone?.();
+    else show(element, gone);
+  });
+
+  /** Does what a module offers that comes when it is first asked for. */
+  const later = (load, name) => attempt(async (...values) => {
+    const isOld = begin();
+    const { [name]: act } = await load();
+    if (!isOld()) act(page, ...values);
+  });
+  const ofVideos = () => import("../videos/video.js");
+  const ofCameras = () => import("../cameras/camera_list.js");
+  const [videos, oneVideo] = [later(ofVideos, "openVideos"), later(ofVideos, "openVideoOf")];
+  const [cameras, look, setUp] = [later(ofCameras, "openCameras"), later(ofCameras, "watchCamera"), later(ofCameras, "setUpCamera")];
+  const learn = later(() => import("../learning/learning.js"), "openLearning");
+  const all = shown(() => trialList({ store, open: one, add, band, videos: () => videos(), cameras: () => cameras(), learn: () => learn() }));
+  const one = shown((id) => trialDetail(store, id, { all, remove, tracks, video: oneVideo }));
+  const band = shown((group) => trialBand(group, { all, open: one, tracks }));
+
+  function add() {
+    begin();
+    show(trialForm({ store, all, done: (added) => (added.length === 1 ? one(added[0].id) : all()) }));
+  }
+
+  const remove = attempt(async ({ id, name }) => {
+    await trialApi.remove(id);
+    await all();
+    toast(`The trial “${name}” is deleted.`, { action: { label: "Undo", act: attempt(async () => { await trialApi.restore(id); one(id); }) } });
+  });
+
+  store.watch(({ robot }) => [runIsOn(robot)], ({ robot }) => { if (runIsOn(robot)) leave(); });
+
+  /** Opens what another part of the page asks for: a trial, a video, a camera's picture or its setup. */
+  function go({ trial, video, camera, setup }) {
+    openTab("robot");
+    if (trial) one(trial);
+    else if (video) oneVideo(video);
+    else if (camera) look(camera);
+    else if (setup) setUp(setup);
+  }
+  return { open: () => { openTab("robot"); all(); }, go, leave };
+}

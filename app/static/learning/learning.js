@@ -1,0 +1,150 @@
+/** Learning physics from trials: what is learned from, the course that is on, what came of it, and the kept sets. */
+
+import { h, setText } from "../lib/dom.js";
+import { clockTime, fixed } from "../lib/format.js";
+import { learningApi } from "../api/learning.js";
+import { tableChoice, trialChoice } from "./learning_choice.js";
+import { learnedResult } from "./learning_result.js";
+import { announce, attempt, report, toast } from "../lib/toasts.js";
+import { trialApi } from "../api/trials.js";
+
+const POLL_MS = 1000;
+/** Longest wait between two questions to a studio that does not answer. */
+const MOST_POLL_MS = 30000;
+const PURPOSE = "Fits what no data sheet gives (soft links, friction, cable, backlash, centre of mass) to how far and which way the robot really went. Nothing changes until you choose the result in Simulate.";
+const OPEN = new Set(["running", "cancelling"]);
+
+function addStyles() {
+  const href = new URL("./learning.css", import.meta.url).pathname;
+  if (!document.querySelector(`link[href="${href}"]`)) document.head.append(h("link", { rel: "stylesheet", href }));
+}
+
+/** A time that is only known roughly. */
+const aboutTime = (seconds) => (seconds < 90 ? `${fixed(seconds, 0)} s` : seconds < 5400 ? `${fixed(seconds / 60, 0)} min` : `${fixed(seconds / 3600, 1)} h`);
+
+function progressWords({ state, done, total, left_seconds: left = null }) {
+  if (state !== "running") return "cancelling";
+  return `${done} of ${total} simulations${left === null ? "" : `, about ${aboutTime(left)} left`}`;
+}
+
+/** The course that is on: from what is learned, a bar, how many simulations are done, and Cancel. */
+function progressPart(cancel) {
+  const [bar, source, text] = [h("i"), h("p"), h("p", { class: "quiet", role: "status", "aria-label": "Learning" })];
+  const element = h("div", {}, source, h("div", { class: "simulating" }, h("div", { class: "progress" }, bar), h("button", { text: "Cancel", "aria-label": "Cancel learning", on: { click: cancel } })), text);
+  return {
+    element,
+    show(course) {
+      const { done, total } = course;
+      bar.style.transform = `scaleX(${done / Math.max(total, 1)})`;
+      setText(source, course.source && `Learning from ${course.source}`);
+      setText(text, progressWords(course));
+    },
+    say(sentence) { setText(text, sentence); },
+  };
+}
+
+function courseRow(course, open) {
+  const words = [h("span", { class: "run-line" }, h("b", { text: course.source }), h("span", { text: course.state })),
+    h("span", { class: "run-line quiet" }, h("span", { text: [course.by, clockTime(course.made)].filter(Boolean).join(" · ") }))];
+  if (course.state !== "done") return h("li", { title: course.sentence }, h("div", { class: "run-row" }, ...words, h("span", { class: "quiet", text: course.sentence })));
+  return h("li", {}, h("button", { class: "run-row", title: course.sentence, on: { click: () => open(course.id) } }, ...words));
+}
+
+function setRow(set, remove) {
+  return h("li", { class: "learned-set" }, h("span", { title: set.title }, h("b", { text: set.key }), h("span", { class: "quiet", text: ` ${[set.note, set.by, clockTime(set.made)].filter(Boolean).join(" · ")}` })),
+    h("button", { class: "link", text: "Delete", "aria-label": `Delete ${set.key}`, title: "It can be brought back; what was simulated with it counts as stale meanwhile", on: { click: () => remove(set) } }));
+}
+
+/**
+ * Opens learning in the panel of trials.
+ * @param {{store: object, show: (element: Element, whenLeft?: () => void) => void, begin: () => () => boolean, all: () => void}} page
+ *   `begin` begins something that is shown; what it gives says whether something else was asked for since
+ */
+export async function openLearning(page) {
+  addStyles();
+  const { store, show, begin, all } = page;
+  let timer = null;
+  const leave = () => { clearTimeout(timer); timer = null; };
+  const setsChanged = () => store.set({ physicsSets: (store.state.physicsSets ?? 0) + 1 });
+
+  const list = attempt(async () => {
+    const isOld = begin();
+    const [{ trials }, courses, sets] = await Promise.all([trialApi.list(), learningApi.courses(), learningApi.sets()]);
+    if (isOld()) return;
+    const on = courses.find(({ state }) => OPEN.has(state));
+    const ended = courses.filter(({ state }) => !OPEN.has(state));
+    const rows = (label, head, items) => (items.length ? [h("h2", { text: head }), h("ul", { class: "run-list", role: "list", "aria-label": label }, ...items)] : []);
+    const followed = on && following(on);
+    show(h("div", { class: "run-all learning" }, h("button", { class: "link", text: "All trials", on: { click: all } }),
+      h("div", { class: "run-line run-title" }, h("b", { text: "Learn from trials" })), h("p", { class: "quiet", text: PURPOSE }),
+      ...(followed ? [followed.element] : [trialChoice(trials, start), tableChoice(start)]),
+      ...rows("Courses of learning", "Learned", ended.map((course) => courseRow(course, open))),
+      ...rows("Sets of physics parameters", "Sets", sets.map((set) => setRow(set, remove)))), leave);
+    followed?.begin();
+  });
+
+  function following(course) {
+    const progress = progressPart(attempt(async () => progress.show(await learningApi.cancel(course.id))));
+    progress.show(course);
+    let wait = POLL_MS;
+    const again = () => { timer = setTimeout(look, wait); };
+    async function look() {
+      try {
+        const now = await learningApi.course(course.id);
+        if (timer === null) return;
+        if (OPEN.has(now.state)) {
+          progress.show(now);
+          wait = POLL_MS;
+          again();
+          return;
+        }
+        announce(now.sentence);
+        if (now.state === "done") show(learnedResult(now, { back: list, keep }), leave);
+        else await list();
+      } catch (error) {
+        if (timer === null) return;
+        progress.say(error.message);
+        if (error.status === 0) {
+          wait = Math.min(2 * wait, MOST_POLL_MS);
+          again();
+        } else {
+          report(error);
+        }
+      }
+    }
+    // Not before it is shown: what was shown until then ends its own following.
+    return { element: progress.element, begin: again };
+  }
+
+  /** Does something, and shows the list again unless something else was asked for meanwhile. */
+  const changed = async (act) => {
+    const isOld = begin();
+    const made = await act();
+    if (!isOld()) await list();
+    return made;
+  };
+  const start = attempt((wanted) => changed(() => learningApi.start(wanted)));
+  const open = attempt(async (id) => {
+    const isOld = begin();
+    const course = await learningApi.course(id);
+    if (!isOld()) show(learnedResult(course, { back: list, keep }), leave);
+  });
+
+  const keep = attempt(async ({ id }, name) => {
+    const { key } = await changed(() => learningApi.keep(id, name));
+    setsChanged();
+    toast(`“${key}” is kept. Choose it in Simulate under Physics.`);
+  });
+
+  const remove = attempt(async (set) => {
+    await changed(() => learningApi.removeSet(set));
+    setsChanged();
+    const undo = attempt(async () => {
+      await changed(() => learningApi.restoreSet(set));
+      setsChanged();
+    });
+    toast(`“${set.key}” is deleted.`, { action: { label: "Undo", act: undo } });
+  });
+
+  await list();
+}

@@ -1,0 +1,63 @@
+/** What came of learning: parameters, how well gaits are foretold, and keeping it as a named set. */
+
+import { h } from "../lib/dom.js";
+import { clockTime, compact, fixed } from "../lib/format.js";
+import { foretoldPlot } from "./learning_plot.js";
+
+const UNKNOWN = "not identifiable";
+const figure = (value) => (value === 0 ? "0" : compact(value));
+const withUnit = (value, unit) => `${figure(value)} ${unit}`.trim();
+
+function table(caption, help, head, rows) {
+  return h("table", { class: "run-table learned-table", title: help }, h("caption", { text: caption }),
+    h("thead", {}, h("tr", {}, ...head.map((text) => h("th", { scope: "col", text })))), h("tbody", {}, ...rows));
+}
+
+function parameterRow({ title, unit, default: usual, fitted, low, high, is_identifiable: told, effect, left }) {
+  const help = `Through its range it changes a gait by up to ${fixed(effect)} spreads of a trial; ${fixed(left * 100, 0)} % of what was unknown of it is left`;
+  return h("tr", { title: help }, h("th", { scope: "row", text: title }), h("td", { text: withUnit(usual, unit) }),
+    told ? h("td", {}, h("b", { text: figure(fitted) }), h("span", { class: "quiet range", text: `${figure(low)} to ${figure(high)}` })) : h("td", { class: "quiet", text: UNKNOWN }));
+}
+
+const parameterTable = ({ parameters }) => table("Parameters", "Fitted values with one standard deviation below and above; what the trials cannot tell stays as it was", ["", "usual", "fitted"], parameters.map(parameterRow));
+
+const wayTable = ({ foretold }) => table("How far foretold travel is off", "Mean over gaits, without sign. A gait that is left out is foretold by what was fitted to the others", ["", "cm", "°"],
+  foretold.map(({ title, error_cm: distance, error_deg: angle, angles, falls }) => h("tr", falls ? { title: `Of a gait that falls the whole way counts, and no angle: the angle is a mean of ${angles}` } : {},
+    h("th", { scope: "row", text: falls ? `${title} (${falls} fall, angle of ${angles})` : title }), h("td", { text: fixed(distance, 2) }), h("td", { text: fixed(angle) }))));
+
+function gaitTable({ gaits, foretold }) {
+  const way = (name) => foretold.find((one) => one.name === name).distances_cm;
+  const columns = [gaits.map((gait) => gait.distance_cm), way("as planned"), way("default"), way("left out")];
+  return table("Gaits, cm", "Distance by the published definition", ["", "real", "plan", "usual", "left out"],
+    gaits.map(({ name }, place) => h("tr", {}, h("th", { scope: "row", text: name }), ...columns.map((values) => h("td", { text: fixed(values[place]) })))));
+}
+
+/** Says that strokes were cut to the motors' range, as those of published trajectories are. */
+function cutNote({ gaits }) {
+  const cut = gaits.filter((gait) => gait.cut_mm > 0).sort((a, b) => b.cut_mm - a.cut_mm);
+  if (!cut.length) return null;
+  return h("p", { class: "quiet learned-cut", title: cut.map(({ name, cut_mm: most }) => `${name}: ${fixed(most)} mm`).join("\n"), text: `The strokes of ${cut.length} of ${gaits.length} gaits were cut to the motors’ range, at most by ${fixed(cut[0].cut_mm)} mm (${cut[0].name}).` });
+}
+
+function keeping(course, keep) {
+  if (!course.result.parameters.some((one) => one.is_identifiable)) return h("p", { class: "box-note", text: "These trials tell none of the parameters, so there is nothing to keep. More gaits, or more trials of each, may tell more." });
+  const name = h("input", { "aria-label": "Name of the set", placeholder: "Name, such as the floor", maxlength: "80", required: true });
+  return h("form", { class: "learned-keep", on: { submit: (event) => { event.preventDefault(); keep(course, name.value); } } }, name,
+    h("button", { class: "primary", text: "Keep as a set", title: "Offered in Simulate under Physics, by name and version; nothing uses it before it is chosen there" }));
+}
+
+/**
+ * Builds the page of a course that has a result.
+ * @param {object} course
+ * @param {{back: () => void, keep: (course: object, name: string) => void}} acts
+ */
+export function learnedResult(course, { back, keep }) {
+  const { result } = course;
+  return h("div", { class: "run-detail" },
+    h("button", { class: "link", text: "Learn from trials", on: { click: back } }),
+    h("div", { class: "run-line run-title" }, h("b", { text: `Learned from ${course.source}` })),
+    h("p", { class: "quiet", text: [course.by, clockTime(course.made), `${result.simulations} simulations`].filter(Boolean).join(" · ") }),
+    h("p", { text: course.sentence }), parameterTable(result), wayTable(result), foretoldPlot(result),
+    h("details", { class: "run-states" }, h("summary", { text: "Every gait" }), gaitTable(result)), cutNote(result),
+    keeping(course, keep));
+}

@@ -1,0 +1,54 @@
+/** Looking at the exact tier's way: the motion at each of its iterations, marked as not the plan. */
+
+import { api } from "../api/gaits.js";
+import { h, setText } from "../lib/dom.js";
+import { jobIsOn, jobOf } from "../shell/job_list.js";
+import { lane } from "../lib/latest_only.js";
+import { report } from "../lib/toasts.js";
+
+/** Appends the slider to a section and keeps it current. */
+export function mountCourse(store, section) {
+  const slider = h("input", { type: "range", id: "iteration", min: 0, step: 1, "aria-label": "Iteration" });
+  const number = h("span", { class: "number" });
+  const back = h("button", { text: "Back to the plan", hidden: true });
+  const row = h("div", { class: "course" }, h("label", { class: "quiet", for: "iteration", text: "Iteration", title: "Shows the motion at an iteration in 3D and plots; 0 is the start" }), slider, number, back);
+  const gone = h("p", { class: "why" });
+  section.append(row, gone);
+
+  const leave = () => { if (store.state.iterate) store.set({ iterate: null }); };
+  const offer = lane(async ({ job, at }) => {
+    const isWanted = () => jobOf(store.state)?.id === job && Number(slider.value) === at;
+    try {
+      const plan = await api.iterate(job, at);
+      if (isWanted()) store.set({ iterate: { job, number: at, plan } });
+    } catch (error) {
+      if (!isWanted()) return;
+      leave();
+      report(error);
+    }
+  });
+
+  slider.addEventListener("input", () => offer({ job: jobOf(store.state).id, at: Number(slider.value) }));
+  back.addEventListener("click", () => {
+    leave();
+    slider.focus();
+  });
+
+  store.watch(({ jobs, shownJob, selected, iterate }) => [jobs, shownJob, selected, iterate], (state) => {
+    const job = jobOf(state);
+    const count = job && !jobIsOn(job) ? (job.course ?? 0) : 0;
+    row.hidden = count === 0;
+    slider.max = String(Math.max(count - 1, 0));
+    if (!state.iterate) slider.value = slider.max;
+    const appears = back.hidden && state.iterate;
+    back.hidden = !state.iterate;
+    if (appears) back.scrollIntoView({ block: "nearest" });
+    setText(number, `${slider.value} of ${slider.max}`);
+    row.toggleAttribute("data-on", Boolean(state.iterate));
+    const lost = job && !jobIsOn(job) && count === 0 && job.progress?.length > 1;
+    gone.hidden = !lost;
+    setText(gone, lost ? "The motions of its iterations are no longer kept. Optimise again to look at them." : "");
+  });
+  store.watch(({ selected, view, gesture, pending, shownJob }) => [selected, view?.revision, gesture, pending.length, shownJob], leave);
+  return { leave: () => { const on = Boolean(store.state.iterate); leave(); return on; } };
+}

@@ -1,0 +1,149 @@
+/** What the optimiser says of the shown gait: the live tier's state in a line, what is missing, and ways out. */
+
+import { byId, h, setAttribute, setText } from "../lib/dom.js";
+import { fixed, mm } from "../lib/format.js";
+import { jobOf } from "../shell/job_list.js";
+import { shownPlan } from "../state/store.js";
+
+const WORDS = {
+  live: ["Feasible", "good"], optimised: ["Optimised", "good"], manual: ["By hand", "good"], sequence: ["Sequence", "good"], iterate: ["An iteration, not the plan", "caution"],
+  recorded: ["Recorded", "good"],
+};
+const FAMILIES = {
+  body_torque: "Balance", margin: "Margin", workspace: "Reach", foot_speed: "Speed", body_speed: "Body speed", clearance: "Clearance",
+  body_height: "Body height", boundary: "Start and goal", motor_speed: "Motor speed", motor_acceleration: "Acceleration", friction: "Friction",
+};
+const SHOWN_LACKS = 3;
+const ROUNDING_M = 1e-6;
+const FOR_EVERY_MOTION = /^This is proven/;
+
+/** Word and tone of a plan's state. */
+export function planState(plan) {
+  if (!plan) return ["No plan", "quiet"];
+  if (plan.live?.status === "infeasible") return ["Infeasible", "bad"];
+  if (!plan.times.length) return ["No motion", "bad"];
+  if (plan.source === "draft" && plan.parts?.length && !plan.parts.some((part) => part.broke_off)) return ["Infeasible", "bad"];
+  if (plan.source === "draft") return ["No answer", "caution"];
+  if (plan.source === "recorded" && plan.refusal) return ["Recorded, out of reach", "bad"];
+  if (plan.source === "manual" && plan.refusal) return ["By hand, out of reach", "bad"];
+  if (plan.source === "manual" && plan.balance < -ROUNDING_M) return ["By hand, off balance", "caution"];
+  return WORDS[plan.source] ?? [plan.source, "quiet"];
+}
+
+const TIER = { live: "live", optimised: "exact" };
+
+/** The live line: dot, word, margin and time. */
+export function statusLine() {
+  const [dot, word, margin, time] = [h("span", { class: "dot" }), h("b"), h("span", { class: "number" }), h("span", { class: "number quiet", "aria-hidden": "true" })];
+  const element = h("div", { class: "live-line", role: "status", "aria-label": "Live answer" }, dot, word, margin, time);
+  return {
+    element,
+    show(plan) {
+      const [text, tone] = planState(plan);
+      dot.dataset.tone = tone;
+      setText(word, tone === "good" && TIER[plan?.source] ? `${text}, checked` : text);
+      setText(margin, plan && plan.balance !== null && plan.times.length && text !== "Infeasible" ? `${mm(plan.balance)} mm` : "");
+      margin.title = "Least distance of the balance point from the edge of the support polygon";
+      margin.dataset.toneText = plan?.balance < 0 ? "bad" : "";
+      const tier = TIER[plan?.source] ?? (plan?.live ? "live" : "");
+      // The exact tier's time stands in the line of origin, where there is room for it.
+      setText(time, tier === "live" && plan.seconds !== null ? `${tier} ${fixed(plan.seconds * 1000, 0)} ms` : tier);
+    },
+  };
+}
+
+/** Whose the lack is: feet counted from 1. */
+const feetOf = ({ feet }) => (feet.length === 0 ? "" : feet.length === 1 ? `foot ${feet[0] + 1}` : `edge ${feet.map((foot) => foot + 1).join("–")}`);
+
+function lackItem(lack, plan, goTo) {
+  const from = plan.times[lack.first];
+  const place = [FAMILIES[lack.family] ?? lack.family, feetOf(lack)].filter(Boolean).join(", ");
+  return h("li", { title: lack.sentence },
+    h("button", { class: "link", "aria-label": `Go to ${place}, ${fixed(from)} s`, on: { click: () => goTo(lack) } },
+      `${place}, ${fixed(from)} s`),
+    h("b", { class: "number", text: `${fixed(lack.amount, lack.amount < 1 ? 2 : 1)} ${lack.unit}` }));
+}
+
+/** The worst lacks, and the others under a fold. */
+function lackList(lacks, plan, goTo) {
+  const items = lacks.map((lack) => lackItem(lack, plan, goTo));
+  const list = h("ul", { class: "lacks", role: "list", "aria-label": "What is missing" }, ...items.slice(0, SHOWN_LACKS));
+  const rest = items.slice(SHOWN_LACKS);
+  if (!rest.length) return [list];
+  return [list, h("details", { class: "lacks-more" }, h("summary", { text: `${rest.length} more` }), h("ul", { class: "lacks", role: "list" }, ...rest))];
+}
+
+function remedyParts(edits, remedies) {
+  if (!remedies) return [h("p", { class: "why", text: "Looking for ways out…" })];
+  const buttons = remedies.list.map(({ label, sentence, document }) =>
+    h("button", { text: label, title: sentence, on: { click: () => edits.edit(({ name, notes }) => ({ ...document, name, notes }), label) } }));
+  const none = remedies.sentence ?? "No single change was found that makes it feasible.";
+  const note = !remedies.complete ? "The search was cut short; it goes on when nothing else is asked." : buttons.length ? null : none;
+  return [
+    buttons.length > 0 && h("div", { class: "buttons", role: "group", "aria-label": "Ways out" }, ...buttons),
+    note && h("p", { class: "why", text: note }),
+  ].filter(Boolean);
+}
+
+function liveParts(state, plan, edits, goTo) {
+  const { evidence, explanation, lacks } = plan.live;
+  // The last sentence says what the answer holds for: for every motion, or for the live tier's model.
+  const [first = "", ...rest] = explanation;
+  const closing = rest.at(-1) ?? first;
+  const text = evidence === "proven" && !FOR_EVERY_MOTION.test(closing) ? "proven for the live model" : evidence ?? "";
+  const head = [
+    h("p", { class: "first", title: explanation.join(" ") }, first, text && h("span", { class: "quiet", text: ` (${text})`, title: closing })),
+    ...remedyParts(edits, state.remedies),
+  ];
+  return { head, details: lacks.length ? lackList(lacks, plan, goTo) : [] };
+}
+
+/**
+ * Keeps the reason and the ways out in sight at the lower edge of the panel, where the fields leave them no room above it.
+ * What is missing in detail may lie below the edge; a field that is gone to comes to stand above the answer.
+ */
+function keepInSight(element, details) {
+  const panel = byId("sections");
+  const measure = () => {
+    const hang = element.hidden ? 0 : element.getBoundingClientRect().bottom - details.getBoundingClientRect().top;
+    element.style.setProperty("--hang", `${hang}px`);
+    panel.style.scrollPaddingBottom = element.hidden ? "" : `${element.offsetHeight - hang + 8}px`;
+  };
+  const resized = new ResizeObserver(measure);
+  [element, details].forEach((one) => resized.observe(one));
+}
+
+/** The box that says why there is no motion, and what would make one. */
+export function liveAnswer(edits, goTo) {
+  const [head, details] = [h("div", {}), h("div", { class: "why-details" })];
+  const element = h("div", { class: "box-note why-not", role: "region", "aria-label": "Why it is infeasible", data: { tone: "bad" }, hidden: true }, head, details);
+  keepInSight(element, details);
+  return {
+    element,
+    show(state) {
+      const plan = shownPlan(state);
+      element.hidden = plan?.live?.status !== "infeasible";
+      if (element.hidden) return;
+      const parts = liveParts(state, plan, edits, goTo);
+      head.replaceChildren(...parts.head);
+      details.replaceChildren(...parts.details);
+    },
+  };
+}
+
+/** The box with the exact tier's refusal. */
+export function jobAnswer() {
+  const element = h("div", { class: "box-note", hidden: true });
+  return {
+    element,
+    show(state) {
+      const job = jobOf(state);
+      const bad = Boolean(job?.fresh) && ["infeasible", "failed", "interrupted"].includes(job.state);
+      element.hidden = !bad;
+      if (!bad) return;
+      const sentences = (job.result?.explanation ?? []).filter((sentence) => sentence !== job.sentence);
+      setAttribute(element, "data-tone", job.state === "failed" ? "bad" : "caution");
+      element.replaceChildren(h("h4", { text: `Exact tier: ${job.state}` }), h("p", { text: job.sentence }), ...sentences.map((text) => h("p", { text })));
+    },
+  };
+}

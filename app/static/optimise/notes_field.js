@@ -1,0 +1,96 @@
+/** The notes of the gait: kept, as an edit, when the field is left; what is refused stays, with the sentence under it. */
+
+import { h } from "../lib/dom.js";
+import { historyAct } from "../state/fields.js";
+import { refusalOf } from "../lib/field_error.js";
+
+const MOST = 20_000;
+const MEANWHILE = "The notes were changed elsewhere meanwhile. Leave the field to keep yours instead, or press Escape for those.";
+
+function refusedNotes(text) {
+  const { length } = [...text];
+  return length > MOST ? `Notes have ${length} characters; at most ${MOST} are kept. Shorten them, or press Escape.` : null;
+}
+
+/** The text of the field beside that of the document: `write` shows one, `isTyped` says whether a person has another. */
+function shownText(area, refusal) {
+  // A text area says its lines in its own way, so what was written is compared as it reads it back.
+  let written = "";
+  return {
+    isTyped: () => area.value !== written,
+    take() { written = area.value; },
+    write(text) {
+      if (area.value !== text) area.value = text;
+      written = area.value;
+      refusal.say(null);
+    },
+  };
+}
+
+/** The keys of the field: the page's undo while nothing is typed, Escape, and Save with what stands here. */
+function mountNoteKeys(area, edits, { text, keep, giveUp }) {
+  area.addEventListener("keydown", (event) => {
+    const act = text.isTyped() ? null : historyAct(event, edits);
+    if (act) {
+      event.preventDefault();
+      act();
+    } else if (event.key === "Escape" && text.isTyped()) giveUp();
+    else if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "s") keep();
+  });
+}
+
+/**
+ * Builds the field.
+ * @param {object} store
+ * @param {object} edits
+ * @returns {{element: HTMLElement, show: (document: object) => void}}
+ */
+export function notesField(store, edits) {
+  const area = h("textarea", { "aria-label": "Notes", rows: "2", placeholder: "What it is for, what was seen" });
+  const refusal = refusalOf(area);
+  const element = h("label", { class: "field notes-field", title: "Words of your own; no motion depends on them" }, h("span", { class: "name", text: "Notes" }), area, refusal.element);
+  const text = shownText(area, refusal);
+  let known = "";
+
+  function show({ notes }) {
+    if (notes === known) return;
+    known = notes;
+    if (text.isTyped()) refusal.say(MEANWHILE);
+    else text.write(notes);
+  }
+
+  function giveUp() {
+    known = edits.shown()?.notes ?? "";
+    text.write(known);
+  }
+
+  /** What the studio did not take stands here again, with its reason. */
+  function bringBack(shown, notes, reason) {
+    show(shown);
+    if (!text.isTyped()) area.value = notes;
+    refusal.say(reason);
+    store.set({ formError: null });
+  }
+
+  async function keep() {
+    if (!text.isTyped()) return text.write(known);
+    const { selected } = store.state;
+    const notes = area.value;
+    refusal.say(refusedNotes(notes));
+    if (refusal.isSaid() || !edits.shown()) return undefined;
+    known = notes;
+    text.take();
+    await edits.edit((document) => ({ ...document, notes }), "Notes");
+    const { formError, selected: now } = store.state;
+    const shown = edits.shown();
+    if (formError && now === selected && shown && shown.notes !== notes) bringBack(shown, notes, formError);
+    return undefined;
+  }
+
+  for (const type of ["change", "blur"]) area.addEventListener(type, keep);
+  // Before the page asks whether it may be left, so that what stands here counts as an edit.
+  window.addEventListener("beforeunload", keep, { capture: true });
+  mountNoteKeys(area, edits, { text, keep, giveUp });
+  store.watch(({ selected }) => [selected], giveUp);
+  return { element, show };
+}

@@ -1,0 +1,86 @@
+/** The Optimise section: how the live tier judges the shown gait, what is asked for, and the exact tier's button. */
+
+import { jobAnswer, liveAnswer, statusLine } from "./live_answer.js";
+import { api } from "../api/gaits.js";
+import { mountConvergence } from "./convergence.js";
+import { mountCourse } from "./iterates.js";
+import { byId, h, onPress, setAllowed } from "../lib/dom.js";
+import { makeGait } from "../shell/gait_menu.js";
+import { selectGait } from "../shell/gait_list.js";
+import { jobIsOn } from "../shell/job_list.js";
+import { presetFor } from "../shell/new_gait.js";
+import { originLine } from "./origin.js";
+import { questions } from "./optimiser_options.js";
+import { shownDocument, shownPlan } from "../state/store.js";
+import { timingAnswer, timingButton, timingNote } from "./timing.js";
+import { attempt, toast } from "../lib/toasts.js";
+
+const TIERS = "Every edit is answered live. Optimise runs the exact tier, which also chooses footholds and heights.";
+
+function exactButton(store) {
+  const button = h("button", { class: "primary wide", text: "Optimise" });
+  onPress(button, attempt(async () => {
+    const { id } = await api.optimise(store.state.selected);
+    store.set({ shownJob: id });
+  }), (why) => toast(why));
+  store.watch(({ jobs, view, pending, selected }) => [jobs, view, pending.length, selected], (state) => {
+    const busy = state.jobs.some((job) => job.gait === state.selected && job.kind === "optimise" && jobIsOn(job));
+    const why = !state.view ? "No gait is selected." : busy ? "This gait is being optimised. Cancel the job or wait for it." : null;
+    setAllowed(button, why ?? (state.pending.length ? "The last edit is not accepted yet." : null), TIERS);
+  });
+  return button;
+}
+
+/**
+ * Builds the section.
+ * @param {object} store
+ * @param {object} edits
+ * @param {(finding: {sample: number, foot: number|null}) => void} goTo shows a place on timeline and in 3D
+ */
+export function mountOptimise(store, edits, goTo) {
+  const show = (id) => selectGait(store, id);
+  const { robot, order, main, more } = questions(store, edits, attempt((other, document) => makeGait(store, show, presetFor(other, document))));
+  const fields = [robot, order, ...main, ...more];
+  const status = statusLine();
+  const goToLack = ({ first, last, feet }) => goTo({ sample: Math.floor((first + last) / 2), foot: feet.length === 1 ? feet[0] : null });
+  const answers = [liveAnswer(edits, goToLack), jobAnswer()];
+  const timing = timingAnswer(store, edits);
+  const error = h("p", { class: "box-note", role: "alert", data: { tone: "bad" }, hidden: true });
+  const section = byId("optimise");
+  const changed = h("span", { class: "quiet" });
+  section.append(
+    status.element, originLine(store), h("div", { class: "fields" }, robot.element, order.element, ...main.map(({ element }) => element)), error, ...answers.map(({ element }) => element),
+    h("details", { class: "more" }, h("summary", {}, "More", changed), h("div", { class: "fields" }, ...more.map(({ element }) => element))),
+    h("div", { class: "solve" }, exactButton(store), timingButton(store)), timingNote(store), timing.element, h("p", { class: "why", text: TIERS }));
+  mountConvergence(store, section);
+  const course = mountCourse(store, section);
+
+  store.watch(({ view, pending, gesture, formError }) => [view, pending, gesture, formError], (state) => {
+    const document = shownDocument(state);
+    if (!document) return;
+    fields.forEach((field) => field.show(document));
+    changed.textContent = moreInShort(document);
+    error.hidden = !state.formError;
+    error.textContent = state.formError ?? "";
+  });
+  store.watch((state) => [shownPlan(state)], (state) => status.show(withoutShortMargin(shownPlan(state))));
+  // A refusal is of the document that was edited; another one, or a later version, is not concerned.
+  store.watch(({ selected, view }) => [selected, view?.revision], () => store.set({ formError: null }));
+  store.watch((state) => [shownPlan(state), state.remedies, state.jobs, state.shownJob], (state) => answers.forEach((answer) => answer.show(state)));
+  store.watch(({ jobs, selected, view }) => [jobs, selected, view?.document], (state) => timing.show(state));
+  return { cancel: () => fields.some((field) => field.cancel?.()) || course.leave() };
+}
+
+/** Of an infeasible plan no margin: a bare number beside the word would read as what is lacking. */
+const withoutShortMargin = (plan) => (plan?.live?.status === "infeasible" ? { ...plan, balance: null } : plan);
+
+/** What differs from the usual under the fold, so that it is not forgotten. */
+function moreInShort({ iterations, direction, options, held }) {
+  const parts = [
+    options.workspace !== "stroke" && "cylinder", options.cost !== "goal" && "effort",
+    iterations > 1 && `${iterations} iterations`, direction > 1 && `direction ${direction}`, options.boundary === "periodic" && "cycle",
+    options.friction !== null && "friction", options.motor_speed !== null && "motor speed", options.motor_acceleration !== null && "motor acceleration",
+    options.turning === "return" && "turns at the end", held && "feet held up",
+  ].filter(Boolean);
+  return parts.length ? `: ${parts.join(", ")}` : "";
+}

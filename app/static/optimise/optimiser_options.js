@@ -1,0 +1,136 @@
+/** What the Optimise section asks: every number and choice of the optimiser, with its unit, range and help. */
+
+import { isDrawn } from "../document/drawn_timeline.js";
+import { choiceField, numberField, textField } from "../state/fields.js";
+import { heldFields } from "./held_fields.js";
+import { notesField } from "./notes_field.js";
+import { robotField } from "../shell/robots.js";
+import { stepLength, stepTurn, withStepLength, withTurn, withWorldStep, worldStep } from "../document/step.js";
+
+const option = (name, factor = 1) => ({
+  read: ({ options }) => (options[name] === null ? null : options[name] * factor),
+  write: (document, value) => ({ ...document, options: { ...document.options, [name]: value === null ? null : value / factor } }),
+});
+
+const word = (name) => ({
+  read: ({ options }) => options[name],
+  write: (document, value) => ({ ...document, options: { ...document.options, [name]: value } }),
+});
+
+const property = (name) => ({ read: (document) => document[name], write: (document, value) => ({ ...document, [name]: Number(value) }) });
+
+const axis = (index) => ({
+  unit: "mm", min: -60, max: 60, step: 0.5, decimals: 2,
+  read: (document) => worldStep(document)[index] * 1000,
+  write: (document, value) => withWorldStep(document, worldStep(document).map((old, at) => (at === index ? value / 1000 : old))),
+});
+
+const STEP = [
+  { label: "Step", name: "Step", unit: "mm", min: 0, max: 60, step: 0.5, decimals: 2, help: "Travel of the body an iteration",
+    read: (document) => stepLength(document) * 1000, write: (document, value) => withStepLength(document, value / 1000) },
+  { label: "Turn", name: "Turn", unit: "°", min: -90, max: 90, step: 1, decimals: 2, help: "Turn of the body an iteration, counter-clockwise",
+    read: stepTurn, write: withTurn },
+];
+
+/** The step once more, by its shares along the axes. */
+const SHARES = [
+  { label: "Step x", name: "Step x", help: "Its share along the scene's x axis", ...axis(0) },
+  { label: "Step y", name: "Step y", help: "Its share along the scene's y axis", ...axis(1) },
+];
+
+const SAMPLE_TIME = {
+  label: "Sample", name: "Sample time", unit: "s", min: 0.05, max: 5, step: 0.05, decimals: 3, help: "Time between two samples of the timeline: the same drawing, faster or slower",
+  read: ({ timeline }) => timeline.sample_time, write: (document, value) => ({ ...document, timeline: { ...document.timeline, sample_time: value } }),
+};
+
+const LIMITS = [
+  { label: "Height", name: "Body height", unit: "mm", min: 53, max: 60.5, step: 0.5, decimals: 2,
+    help: "Height of the motors' plane over the standing feet at the start", ...option("plane_height", 1000) },
+  { label: "At end", name: "End height", unit: "mm", min: 53, max: 60.5, step: 0.5, decimals: 2, empty: "same", fallback: 53.5,
+    help: "The same at the goal; empty as at the start", ...option("end_plane_height", 1000) },
+  { label: "Clearance", name: "Clearance", unit: "mm", min: 0, max: 15, step: 0.5, decimals: 2,
+    help: "How high the highest point of each swing is at least", ...option("clearance", 1000) },
+  { label: "Margin", name: "Stability margin", unit: "mm", min: 0, max: 30, step: 0.5, decimals: 2,
+    help: "Least distance of the centre of pressure from the support polygon's edge", ...option("margin", 1000) },
+];
+
+const CHOICES = [
+  { label: "Reach", name: "Workspace", options: [["stroke", "stroke"], ["cylinder", "cylinder"]],
+    help: "Workspace. stroke: what the motors truly reach; cylinder: the paper's simpler, smaller space", ...word("workspace") },
+  { label: "Cost", name: "Cost", options: [["goal", "goal"], ["goal+effort", "effort"]],
+    help: "What is minimised by the exact tier. goal: distance to the goal; effort: the legs' forces as well", ...word("cost") },
+];
+
+const MORE_NUMBERS = [
+  { label: "Iterations", name: "Iterations", unit: "", min: 1, max: 20, step: 1, decimals: 0, whole: true, help: "How often every foot steps", ...property("iterations") },
+  SAMPLE_TIME,
+  { label: "Body", name: "Body speed", unit: "mm/s", min: 1, max: 60, step: 1, decimals: 1, help: "Largest speed of the body", ...option("body_speed", 1000) },
+  { label: "Motors", name: "Motor speed", unit: "mm/s", min: 1, max: 60, step: 1, decimals: 1, empty: "free", fallback: 20,
+    help: "Largest speed of a motor; empty for no limit", ...option("motor_speed", 1000) },
+  { label: "Accel.", name: "Motor acceleration", unit: "mm/s²", min: 1, max: 1000, step: 5, decimals: 1, empty: "free", fallback: 100,
+    help: "Largest acceleration of a motor; empty for no limit", ...option("motor_acceleration", 1000) },
+  { label: "Friction", name: "Friction", unit: "", min: 0.05, max: 2, step: 0.05, decimals: 2, empty: "free", fallback: 0.5,
+    help: "Coefficient of each foot's friction cone; empty for no limit", ...option("friction") },
+];
+
+const MORE_CHOICES = [
+  { label: "Orientation", name: "Orientation", options: [["FB", "FB"], ["FBS", "FBS"]],
+    help: "Which way the feet are seen. FB: front and back pairs, along the diagonal between x and y; FBS: front, sides and back, along x. Roles and Mirror follow; the step stays",
+    read: ({ orientation }) => orientation, write: (document, value) => ({ ...document, orientation: value }) },
+  { label: "Direction", name: "Direction", options: [1, 2, 3, 4].map((value) => [value, String(value)]),
+    help: "The gait turned by quarter turns: 1 as drawn", ...property("direction") },
+  { label: "Ends", name: "Boundary", options: [["rest", "at rest"], ["periodic", "cycle"]],
+    help: "Boundary. at rest: begins and ends standing still; cycle: ends as it begins, so that it can be repeated", ...word("boundary") },
+  { label: "Turning", name: "Turning", options: [["steady", "steady"], ["return", "at the end"]],
+    help: "When the body turns: all the while, or while every foot stands", ...word("turning") },
+];
+
+function orderField(store, edits) {
+  return textField(store, {
+    label: "Foot order", name: "Foot order", help: "Which foot steps when. Another order draws the timeline anew",
+    read: (document) => document.order.join(" "),
+    commit(text) {
+      const { order, options } = edits.shown();
+      const digits = text.split(/[^0-9]+/).filter(Boolean);
+      const wanted = (digits.length === 1 && digits[0].length === order.length ? [...digits[0]] : digits).map(Number);
+      if ([...wanted].sort((a, b) => a - b).join() !== [...order].sort((a, b) => a - b).join()) {
+        return `The foot order "${text}" does not name each of the ${order.length} feet once. Write for example ${order.join(" ")}.`;
+      }
+      if (wanted.join() !== order.join()) edits.redraw({ order: wanted, phase_knots: options.phase_knots, closing_knots: options.closing_knots });
+      return null;
+    },
+  });
+}
+
+function phaseFields(store, edits) {
+  const redraw = (change) => {
+    const { order, options } = edits.shown();
+    edits.redraw({ order, phase_knots: options.phase_knots, closing_knots: options.closing_knots, ...change });
+  };
+  const knots = { unit: "knots", step: 1, decimals: 0, whole: true, fallback: 5, unsaid: "as drawn by hand" };
+  const asDrawn = (name) => ({ read: (document) => (isDrawn(document) ? document.options[name] : null) });
+  return [
+    { label: "Phases", name: "Phase knots", min: 2, max: 50, help: "Length of each stance phase and of each swing. Another length draws the timeline anew",
+      ...knots, ...asDrawn("phase_knots"), act: (value) => redraw({ phase_knots: value }) },
+    { label: "Closing", name: "Closing knots", min: 0, max: 100, help: "Stance after the last swing. Another length draws the timeline anew",
+      ...knots, ...asDrawn("closing_knots"), act: (value) => redraw({ closing_knots: value }) },
+  ].map((field) => numberField(store, edits, field));
+}
+
+/**
+ * Builds all fields.
+ * @param {object} store
+ * @param {object} edits
+ * @param {(robot: object, document: object) => void} makeNew asks for a new gait for a robot with other legs
+ * @returns {{robot: object, order: object, main: object[], more: object[]}} fields with `element` and `show(document)`
+ */
+export function questions(store, edits, makeNew) {
+  const number = (field) => numberField(store, edits, field);
+  const choice = (field) => choiceField(edits, field);
+  return {
+    robot: robotField(edits, makeNew),
+    order: orderField(store, edits),
+    main: [...STEP.map(number), ...phaseFields(store, edits), ...LIMITS.map(number)],
+    more: [...SHARES.map(number), ...CHOICES.map(choice), ...MORE_NUMBERS.map(number), ...MORE_CHOICES.map(choice), ...heldFields(store, edits), notesField(store, edits)],
+  };
+}

@@ -1,0 +1,95 @@
+/** The fastest timing beside the timing as drawn: a search in the background, and a gait in whole samples to use. */
+
+import { api } from "../api/gaits.js";
+import { h, onPress, setAllowed, setText } from "../lib/dom.js";
+import { fixed } from "../lib/format.js";
+import { jobIsOn } from "../shell/job_list.js";
+import { stepTurn } from "../document/step.js";
+import { attempt, toast } from "../lib/toasts.js";
+
+const HELP = "Find the shortest phases that the motors, the margin and the clearance allow, for this foot order and step";
+
+/** The newest search of the selected gait, unless the gait has changed since. */
+function timingOf({ jobs, selected }) {
+  const job = jobs.find((one) => one.gait === selected && one.kind === "timing") ?? null;
+  return job && (jobIsOn(job) || job.fresh) ? job : null;
+}
+
+const TURNS = "The fastest timing is for gaits that do not turn. Set Turn to 0.";
+
+function whyNot(state) {
+  const { view, pending } = state;
+  if (!view) return "No gait is selected.";
+  if (pending.length) return "The last edit is not accepted yet.";
+  if (view.document.segment_table) return "This gait is made by hand from its segment table. Draw on the timeline first.";
+  if (stepTurn(view.document) !== 0) return TURNS;
+  const job = timingOf(state);
+  return job && jobIsOn(job) ? "The search is on. Cancel the job or wait for it." : null;
+}
+
+/** The button that begins the search. */
+export function timingButton(store) {
+  const button = h("button", { class: "wide", text: "Fastest timing" });
+  onPress(button, attempt(() => api.timing(store.state.selected)), (why) => toast(why));
+  store.watch(({ jobs, view, pending, selected }) => [jobs, view, pending.length, selected], (state) => setAllowed(button, whyNot(state), HELP));
+  return button;
+}
+
+/** Why the button is greyed, where that lies in the gait itself. */
+export function timingNote(store) {
+  const element = h("p", { class: "why" });
+  store.watch(({ view, pending }) => [view, pending], (state) => setText(element, whyNot({ ...state, pending: [] }) === TURNS ? TURNS : ""));
+  return element;
+}
+
+/** One bar of phases, as long as they take, in the colour of the foot that is in the air. */
+function bar(name, durations, phases, longest, document) {
+  const pieces = durations.map((seconds, index) => {
+    const air = document.timeline.feet.findIndex((row) => row[phases[index].first] === "0");
+    const piece = h("i", { data: air < 0 ? {} : { foot: air + 1 }, title: `${air < 0 ? "every foot down" : `foot ${air + 1} in the air`}: ${fixed(seconds, 2)} s` });
+    piece.style.flexGrow = seconds;
+    return piece;
+  });
+  const total = durations.reduce((sum, seconds) => sum + seconds, 0);
+  const strip = h("div", { class: "phases" }, ...pieces);
+  strip.style.width = `${(100 * total) / longest}%`;
+  return [h("span", { class: "quiet", text: name }), h("div", {}, strip), h("b", { class: "number", text: `${fixed(total)} s` })];
+}
+
+/** Makes the gait of whole samples the shown one, and lets the exact tier solve it: the live tier may not get that far. */
+async function use(usable, store, edits) {
+  const { selected } = store.state;
+  await edits.edit(({ name, notes }) => ({ ...usable.document, name, notes }), `Timing of ${fixed(usable.seconds)} s`);
+  if (store.state.selected === selected && !store.state.pending.length) await api.optimise(selected);
+}
+
+function found({ result }, document, store, edits) {
+  const drawn = result.phases.map(({ first, last }) => (last - first + 1) * document.timeline.sample_time);
+  const scale = result.drawn_seconds / drawn.reduce((sum, seconds) => sum + seconds, 0);
+  const longest = Math.max(result.drawn_seconds, result.total_seconds);
+  const bars = h("div", { class: "timings", role: "img", "aria-label": `As drawn ${fixed(result.drawn_seconds)} s, fastest ${fixed(result.total_seconds)} s` },
+    ...bar("As drawn", drawn.map((seconds) => seconds * scale), result.phases, longest, document),
+    ...bar("Fastest", result.phases.map(({ seconds }) => seconds), result.phases, longest, document));
+  const { usable } = result;
+  if (!usable) return [bars, h("p", { class: "why", text: "In whole samples no timing this short was found that keeps every limit." })];
+  const label = `Use ${fixed(usable.seconds)} s`;
+  const button = h("button", { text: label, title: "Takes over the phases in whole samples and the motors' limits, and runs Optimise",
+    on: { click: attempt(() => use(usable, store, edits)) } });
+  return [bars, h("div", { class: "buttons" }, button, h("span", { class: "why", text: `in whole samples, ${fixed(usable.sample_time, 2)} s apart` }))];
+}
+
+/** The box with what the search found. */
+export function timingAnswer(store, edits) {
+  const element = h("div", { class: "box-note", role: "region", "aria-label": "Fastest timing", hidden: true });
+  return {
+    element,
+    show(state) {
+      const job = timingOf(state);
+      element.hidden = !job || !state.view || job.state === "cancelled";
+      if (element.hidden) return;
+      const done = job.state === "done" && job.result;
+      element.dataset.tone = done ? "good" : jobIsOn(job) ? "plain" : "caution";
+      element.replaceChildren(h("h4", { text: "Fastest timing" }), ...(done ? found(job, state.view.document, store, edits) : [h("p", { text: jobIsOn(job) ? "Searching; this takes some seconds." : job.sentence })]));
+    },
+  };
+}

@@ -1,0 +1,111 @@
+/** What becomes of a pattern: it is looked at walking in 3D, made a gait of its own, or drawn into the open one. */
+
+import { api } from "../api/gaits.js";
+import { h, onPress, setAllowed, setText } from "../lib/dom.js";
+import { turns } from "../lib/latest_only.js";
+import { bodyOf, limbsOf, ruleOf, RULES } from "./pattern_question.js";
+import { shownDocument } from "../state/store.js";
+import { announce, attempt, toast } from "../lib/toasts.js";
+
+const LABEL = "Complete the drawing";
+const BALANCE = RULES.find(({ rule }) => rule === "balance");
+/** What to do where a pattern makes no motion: only what is on the panel and not yet done. */
+function fallsWords(state) {
+  const ways = [
+    state.mode === "transition" && !state.walkable && "ask for swings that the feet can do",
+    !ruleOf(state, BALANCE).on && "switch the balance margin on among the rules",
+    "take another of the best patterns",
+    "shorten the step",
+  ].filter(Boolean);
+  const words = `${ways.slice(0, -1).join(", ")} or ${ways.at(-1)}`;
+  return `The live optimiser finds no motion for it. ${words[0].toUpperCase()}${words.slice(1)}.`;
+}
+
+const adviceFor = (plan, state) => (plan.live?.status === "infeasible" ? ` ${fallsWords(state)}` : " Play shows it walking.");
+
+/** The pattern that stands in the grid, or why there is none to be used. */
+function usable({ answer, running, chosen, asking }) {
+  if (running || asking) return [null, "The search is not finished."];
+  const pattern = answer?.patterns[chosen] ?? null;
+  return [pattern, pattern ? null : "There is no pattern yet."];
+}
+
+/** Why a pattern is not drawn into the open gait; null where it would change it. */
+const nothingToDraw = (pattern, document) => (pattern?.feet.join() === document?.timeline.feet.join() ? "Nothing to complete: this pattern is what is drawn already. Take another of the best patterns, or free cells." : null);
+
+/**
+ * Builds the buttons.
+ * @param {object} store
+ * @param {object} question
+ * @param {{edits: object, playback: Playback, show: (id: string) => Promise<void>}} page
+ */
+export function patternActs(store, question, { edits, playback, show }) {
+  const make = h("button", { class: "primary", text: "Make gait" });
+  const walk = h("button", { text: "Walk it" });
+  const element = h("div", { class: "pattern-acts" }, walk, make);
+
+  function body() {
+    const document = shownDocument(store.state);
+    const limbs = limbsOf(question.state, { robot: document.robot, legs: document.timeline.feet.length });
+    const [pattern] = usable(question.state);
+    return { question: bodyOf(question.state, { gait: store.state.selected, limbs, document: store.state.pending.length ? document : null, drawing: null, isFree: () => false }), feet: pattern.feet };
+  }
+
+  const begin = turns();
+  /** Ends the walk, also one that is only asked for. */
+  const leave = () => {
+    begin();
+    if (store.state.iterate?.pattern) store.set({ iterate: null });
+  };
+
+  const made = attempt(async () => {
+    leave();
+    const { selected: gait } = store.state;
+    if (question.state.mode === "drawing") {
+      const { document } = await api.patternDocument(body());
+      await edits.edit((now) => ({ ...now, timeline: { ...now.timeline, feet: document.timeline.feet }, ...(document.held ? { held: document.held } : {}) }), LABEL, { drawing: true, gait });
+      announce("The drawing is completed. Undo takes it back.");
+      return;
+    }
+    const view = await api.patternGait(body());
+    await show(view.id);
+    document.querySelector('#gaits [aria-current="true"]')?.scrollIntoView({ block: "nearest" });
+    toast(`${view.name} is made and open.${adviceFor(view.plan, question.state)}`, { of: "studio" });
+  });
+
+  const walked = attempt(async () => {
+    if (store.state.iterate?.pattern) {
+      playback.pause();
+      leave();
+      return;
+    }
+    const isOld = begin();
+    const { selected } = store.state;
+    const plan = await api.patternPlan(body());
+    if (isOld() || store.state.selected !== selected) return;
+    if (!plan.times.length) throw new Error(plan.refusal?.sentence ?? "This pattern makes no motion.");
+    store.set({ iterate: { job: null, number: null, pattern: true, plan: { ...plan, note: `The pattern, not the open gait. ${plan.note}` } } });
+    if (plan.live?.status === "infeasible") toast(`What is shown does not keep every limit. ${fallsWords(question.state)}`);
+    playback.toStart();
+    playback.play();
+  });
+
+  onPress(make, made, (why) => toast(why));
+  onPress(walk, walked, (why) => toast(why));
+  // What walks is the pattern that stood there when it was begun.
+  question.watch(({ answer, chosen, running, mode }) => [answer, chosen, running, mode], leave);
+
+  return {
+    element, leave,
+    show() {
+      const [pattern, why] = usable(question.state);
+      const isDrawing = question.state.mode === "drawing";
+      const whyNot = why ?? (isDrawing ? nothingToDraw(pattern, shownDocument(store.state)) : null);
+      setText(make, isDrawing ? LABEL : "Make gait");
+      setAllowed(make, whyNot, isDrawing ? "Draws the pattern into the open gait, as one edit that Undo takes back" : "A new gait in the list, which is opened; Delete takes it away again");
+      const walking = Boolean(store.state.iterate?.pattern);
+      setText(walk, walking ? "Stop walking" : "Walk it");
+      setAllowed(walk, walking ? null : why, walking ? "Back to the open gait's plan" : "The live optimiser moves the robot through it in 3D; nothing is saved");
+    },
+  };
+}

@@ -1,0 +1,135 @@
+/** How the search stands: its progress with bound and gap, the best patterns, or why there is none and what would help. */
+
+import { h, onPress, setAllowed, setAttribute, setText, svg } from "../lib/dom.js";
+import { fixed, seconds } from "../lib/format.js";
+import { picture } from "./pattern_gait.js";
+import { relaxed, ruleOf, RULES } from "./pattern_question.js";
+import { announce, toast } from "../lib/toasts.js";
+
+const WORDS = {
+  optimal: ["Optimal", "good", "nothing better keeps the rules"],
+  feasible: ["Feasible", "caution", "it keeps the rules; a better one may exist"],
+  infeasible: ["Infeasible", "caution", "no pattern keeps all rules"],
+  cancelled: ["Cancelled", "quiet", "broken off before a pattern was found"],
+};
+
+const times = (count, word) => `${count} ${word}${count === 1 ? "" : "s"}`;
+
+/** "4 changes · 8 of single limbs": a pattern's score in words. */
+export function scoreWords({ sample_changes: changes, limb_changes: single, redrawn }, kept) {
+  return [times(changes, "change"), `${single} of single limbs`, kept && `${times(redrawn, "cell")} redrawn`].filter(Boolean).join(" · ");
+}
+
+/** How far the best pattern may be from the best there is, as a percentage. */
+const gapOf = ({ objective, bound }) => (objective > 0 ? fixed((100 * (objective - Math.max(bound, 0))) / objective, 0) : "0");
+
+function progressBox(search) {
+  const [text, bar] = [h("p"), h("i")];
+  const useNow = h("button", { text: "Use this now" });
+  onPress(useNow, search.useNow, (why) => toast(why));
+  const cancel = h("button", { text: "Cancel", "aria-label": "Cancel the search", on: { click: search.cancel } });
+  const element = h("div", { class: "box-note pattern-progress", role: "status", "aria-label": "Search", hidden: true }, text, h("div", { class: "progress" }, bar), h("div", { class: "buttons" }, useNow, cancel));
+  return {
+    element,
+    show(running) {
+      element.hidden = !running;
+      if (!running) return;
+      const { objective, bound, seconds: past } = running;
+      const known = objective !== null && objective !== undefined;
+      setText(text, `Searching for ${seconds(past ?? 0)} s · ${known ? `best ${scoreWords(running.pattern, false)} · score ${fixed(objective, 0)}, at least ${fixed(bound, 0)} · gap ${gapOf(running)} %` : "no pattern yet"}`);
+      bar.style.transform = `scaleX(${known && objective > 0 ? Math.min(Math.max(bound, 0) / objective, 1) : 0})`;
+      setAllowed(useNow, known ? null : "No pattern is found yet.", "Take the best pattern yet and search no further");
+    },
+  };
+}
+
+/** Why the reasons may name longer swings than the rules: the feet need them. */
+function longerSwings(state, explanation) {
+  const said = Math.max(...explanation.map((text) => Number(/swings? .*?at least (\d+) samples/.exec(text)?.[1] ?? 0)));
+  const asked = ruleOf(state, RULES.find(({ rule }) => rule === "least_swing")).value;
+  return state.mode === "transition" && state.walkable && said > asked
+    ? [h("p", { class: "quiet", text: `The rules ask for ${asked}; “Swings that the feet can do” makes it ${said} for these gaits' steps.` })] : [];
+}
+
+function clashBox(question) {
+  const element = h("div", { class: "box-note", role: "alert", data: { tone: "caution" }, hidden: true });
+  let shown = null;
+  const apply = (relaxation) => {
+    question.set(relaxed(question.state, relaxation));
+    announce(`${relaxation.words}.`);
+  };
+  return {
+    element,
+    show(answer) {
+      element.hidden = answer?.status !== "infeasible";
+      if (element.hidden || shown === answer) return;
+      shown = answer;
+      element.replaceChildren(h("h4", { text: "No pattern keeps all of this" }), ...answer.explanation.map((text) => h("p", { text })), ...longerSwings(question.state, answer.explanation),
+        h("div", { class: "buttons", role: "group", "aria-label": "What would make it possible" }, ...answer.relaxations.map((one) => h("button", { text: one.words, title: "Changes this and searches again", on: { click: () => apply(one) } }))));
+    },
+  };
+}
+
+/** A pattern as small as its line: what tells patterns apart that cost the same. */
+const thumbnail = (feet) => svg("svg", { class: "pattern-thumbnail", viewBox: `0 0 ${feet[0].length} ${feet.length}`, preserveAspectRatio: "none", "aria-hidden": "true" }, ...picture({ timeline: { feet } }, null));
+
+/** The best patterns: pointing at one, or going through them by keys, shows it; a click chooses it. */
+function alternatives(question, look) {
+  const list = h("ul", { class: "pattern-choices", role: "listbox", tabindex: "0", "aria-label": "Best patterns", data: { arrows: "" } });
+  const title = h("h3", {}, "Best patterns", h("span", { text: "point to look, click to choose" }));
+  const element = h("div", { hidden: true }, title, list);
+  let shown = null;
+  const choose = (chosen) => { look(null); question.set({ chosen }); };
+  list.addEventListener("keydown", (event) => {
+    const last = (question.state.answer?.patterns.length ?? 1) - 1;
+    const { chosen } = question.state;
+    const goals = { ArrowDown: Math.min(chosen + 1, last), ArrowUp: Math.max(chosen - 1, 0), Home: 0, End: last };
+    if (goals[event.key] === undefined) return;
+    event.preventDefault();
+    event.stopPropagation();
+    choose(goals[event.key]);
+  });
+  list.addEventListener("pointerleave", () => look(null));
+  const item = (pattern, index, kept) => h("li", { role: "option", id: `pattern-${index}`, on: { click: () => choose(index), pointerenter: () => look(index) } },
+    h("span", { class: "number", text: String(index + 1) }), thumbnail(pattern.feet), h("span", { text: scoreWords(pattern, kept) }), h("span", { class: "number quiet", text: fixed(pattern.score, 0), title: "The weighted sum; smaller is better" }));
+  return {
+    element,
+    show({ answer, chosen, keep, mode }) {
+      element.hidden = !answer?.patterns.length;
+      if (element.hidden) return;
+      if (shown !== answer) list.replaceChildren(...answer.patterns.map((pattern, index) => item(pattern, index, keep || mode === "drawing")));
+      shown = answer;
+      [...list.children].forEach((one, index) => setAttribute(one, "aria-selected", String(index === chosen)));
+      setAttribute(list, "aria-activedescendant", `pattern-${chosen}`);
+    },
+  };
+}
+
+/**
+ * Builds the answer's part of the panel.
+ * @param {object} question
+ * @param {{useNow: Function, cancel: Function}} search
+ * @param {(index: number|null) => void} look shows one of the best patterns for a moment, or the chosen one again
+ */
+export function patternAnswer(question, search, look) {
+  const [dot, word, sentence, time] = [h("span", { class: "dot" }), h("b"), h("span", { class: "quiet" }), h("span", { class: "number quiet" })];
+  const line = h("div", { class: "pattern-line", role: "status", "aria-label": "Pattern found" }, dot, word, sentence, time);
+  const error = h("p", { class: "box-note", role: "alert", data: { tone: "bad" }, hidden: true });
+  const [progress, clash, best] = [progressBox(search), clashBox(question), alternatives(question, look)];
+  question.watch(({ answer, running, error: refusal, chosen, asking, keep, mode }) => [answer, running, refusal, chosen, asking, keep, mode], (state) => {
+    const { answer, running } = state;
+    const [text, tone, meaning] = running ? ["Searching", "accent", ""] : answer ? WORDS[answer.status] : [state.asking ? "Searching" : "No pattern", "quiet", ""];
+    const pattern = answer?.patterns[state.chosen];
+    dot.dataset.tone = tone;
+    setText(word, text);
+    setText(sentence, running || !answer ? "" : pattern ? times(pattern.sample_changes, "change") : "");
+    line.title = meaning;
+    setText(time, running || !answer ? "" : `${seconds(answer.seconds)} s`);
+    error.hidden = !state.error;
+    setText(error, state.error?.sentence ?? "");
+    progress.show(running);
+    clash.show(running ? null : answer);
+    best.show(state);
+  });
+  return [line, error, progress.element, clash.element, best.element];
+}

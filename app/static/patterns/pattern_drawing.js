@@ -1,0 +1,124 @@
+/** Drawing what one wants into a pattern: a click, a drag or a key fixes cells; the search finds the others anew. */
+
+import { cellOf } from "../timeline/cells.js";
+import { drawnCells, withCells } from "./pattern_question.js";
+import { announce, toast } from "../lib/toasts.js";
+
+const REFUSALS = {
+  end: "This column is the state of a gait at its cursor. Move the cursor to another sample.",
+  limb: "This limb is locked. Click its name to unlock it.",
+  given: "This cell is fixed by the drawing. Unlock it on the timeline.",
+};
+
+const held = (value, count) => Math.min(Math.max(Math.floor(value), 0), count - 1);
+
+/** Turns places on the screen into cells; measured once a drag. */
+function finder(lines) {
+  const [first, last] = [lines[0], lines.at(-1)].map(({ strip }) => strip.parentElement.getBoundingClientRect());
+  return (x, y) => [held(((y - first.top) / (last.bottom - first.top)) * lines.length, lines.length), held(((x - first.left) / first.width) * lines[0].cells.length, lines[0].cells.length)];
+}
+
+/**
+ * Wires pointer and keyboard.
+ * @param {{question: object, grid: HTMLElement, lines: () => object[], roving: object, shown: () => object}} parts
+ * @returns {{cancel: () => boolean}} `cancel` ends a drag and takes back what it drew
+ */
+export function mountPatternDrawing({ question, grid, lines, roving, shown }) {
+  let drag = null;
+  const valueOf = ([foot, sample]) => (lines()[foot].cells[sample].dataset.state === "swing" ? 0 : 1);
+  const isKnown = ([foot, sample]) => lines()[foot].cells[sample].dataset.state !== "free";
+  const isDrawn = (cell) => cell.join(",") in drawnCells(question.state);
+  const refusal = ([foot, sample]) => REFUSALS[shown().fixed(foot, sample)] ?? null;
+
+  /** What a gesture that begins at a cell does to each cell: gives it a value, or frees it (null). */
+  function actFor(cell, keeps) {
+    if (isDrawn(cell)) return () => null;
+    if (keeps) return (one) => (isKnown(one) ? valueOf(one) : undefined);
+    const value = isKnown(cell) ? 1 - valueOf(cell) : 0;
+    return () => value;
+  }
+
+  function draw(cells, act) {
+    const drawn = { ...drawnCells(question.state) };
+    for (const cell of cells) {
+      if (refusal(cell)) continue;
+      const value = act(cell);
+      if (value === null) delete drawn[cell.join(",")];
+      else if (value !== undefined) drawn[cell.join(",")] = value;
+    }
+    question.set(withCells(question.state, drawn));
+  }
+
+  function touch(cell, keeps) {
+    const why = refusal(cell);
+    if (why) return toast(why);
+    const act = actFor(cell, keeps);
+    draw([cell], act);
+    return announce(isDrawn(cell) ? "Fixed." : "Free.");
+  }
+
+  function between([, from], [foot, to]) {
+    const [first, last] = from < to ? [from, to] : [to, from];
+    return Array.from({ length: last - first + 1 }, (_, index) => [foot, first + index]);
+  }
+
+  function begin(event) {
+    const cell = cellOf(event.target);
+    if (event.button !== 0 || drag || !cell) return;
+    roving.move(cell).focus({ preventScroll: true });
+    const why = refusal(cell);
+    if (why) {
+      toast(why);
+      return;
+    }
+    drag = { pointer: event.pointerId, before: drawnCells(question.state), act: actFor(cell, event.shiftKey), last: cell, cellAt: finder(lines()) };
+    grid.setPointerCapture(event.pointerId);
+    event.preventDefault();
+    draw([cell], drag.act);
+  }
+
+  function move(event) {
+    if (!drag || event.pointerId !== drag.pointer) return;
+    const cell = drag.cellAt(event.clientX, event.clientY);
+    if (cell[0] === drag.last[0] && cell[1] === drag.last[1]) return;
+    draw(cell[0] === drag.last[0] ? between(drag.last, cell) : [cell], drag.act);
+    drag.last = cell;
+  }
+
+  function cancel() {
+    if (!drag) return false;
+    question.set(withCells(question.state, drag.before));
+    drag = null;
+    return true;
+  }
+
+  function press(event) {
+    const here = cellOf(event.target);
+    if (!here || event.ctrlKey || event.metaKey || event.altKey) return;
+    const [foot, sample] = here;
+    const goals = { ArrowLeft: [foot, sample - 1], ArrowRight: [foot, sample + 1], ArrowUp: [foot - 1, sample], ArrowDown: [foot + 1, sample],
+      Home: [foot, 0], End: [foot, Infinity], PageUp: [0, sample], PageDown: [Infinity, sample] };
+    if (goals[event.key]) roving.focus(goals[event.key]);
+    else if (event.key === " " || event.key === "Enter") touch(here, event.shiftKey);
+    else if (event.key.toLowerCase() === "k") touch(here, true);
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  function explain(event) {
+    const cell = cellOf(event.target);
+    if (!cell || drag) return;
+    lines()[cell[0]].cells[cell[1]].title = refusal(cell) ?? (isDrawn(cell) ? "Drawn: click to free it." : "Click to draw the other value; with Shift it is fixed as it is. Drag over more cells.");
+  }
+
+  const end = (event) => { if (drag?.pointer === event.pointerId) drag = null; };
+  grid.addEventListener("pointerdown", begin);
+  grid.addEventListener("pointermove", move);
+  grid.addEventListener("pointerup", end);
+  grid.addEventListener("pointercancel", cancel);
+  grid.addEventListener("pointerover", explain);
+  grid.addEventListener("keydown", press);
+  grid.addEventListener("focusin", (event) => { if (cellOf(event.target)) roving.move(cellOf(event.target)); });
+  return { cancel };
+}

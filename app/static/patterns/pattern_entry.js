@@ -1,0 +1,66 @@
+/** The ways to the pattern search, which is loaded when it is first opened: its tab, and the menu of the open gait. */
+
+import { actMenu } from "../lib/action_menu.js";
+import { byId } from "../lib/dom.js";
+import { runIsOn } from "../state/store.js";
+import { onTab, openTab } from "../lib/tabs.js";
+import { report } from "../lib/toasts.js";
+
+const KEY = "footfall.patterns.open";
+
+const ENTRIES = [
+  { mode: "transition", text: "Transition to…", help: "The footfall pattern that leads from this gait to another one" },
+  { mode: "limbs", text: "Gait for some limbs…", help: "A gait of the limbs that are free, while others are held up, broken or stand" },
+  { mode: "drawing", text: "Complete the drawing…", help: "Keeps what is locked in this gait's timeline and finds the rest" },
+];
+
+function remembersOpen(open) {
+  try {
+    if (open === undefined) return sessionStorage.getItem(KEY) === "1";
+    sessionStorage.setItem(KEY, open ? "1" : "0");
+  } catch {
+    return false;
+  }
+  return open;
+}
+
+/**
+ * Builds the entries.
+ * @param {object} store
+ * @param {{edits: object, playback: Playback, show: (id: string) => Promise<void>}} page
+ * @returns {{cancel: () => boolean}} `cancel` ends a drag in the pattern
+ */
+export function mountPatternEntry(store, page) {
+  let [loading, panel, isOpen, wanted] = [null, null, false, null];
+
+  async function open() {
+    try {
+      loading ??= import("./pattern_view.js").then(({ mountPatterns }) => mountPatterns(store, page));
+      panel = await loading;
+      if (isOpen) panel.open(wanted);
+      wanted = null;
+    } catch (error) {
+      loading = null;
+      report(error);
+    }
+  }
+
+  onTab((name) => {
+    isOpen = name === "patterns";
+    remembersOpen(isOpen);
+    if (isOpen) open();
+    else panel?.close();
+  });
+
+  const go = (mode) => { wanted = mode; openTab("patterns"); };
+  const menu = actMenu({ name: "Pattern", help: "Footfall patterns found by a solver, beginning with this gait", entries: ENTRIES.map(({ mode, ...entry }) => ({ ...entry, act: () => go(mode) })) });
+  byId("gait-tools").append(menu.element);
+
+  let first = true;
+  store.watch(({ view }) => [Boolean(view)], ({ view, robot }) => {
+    if (!view || !first) return;
+    first = false;
+    if (remembersOpen() && !runIsOn(robot)) openTab("patterns");
+  });
+  return { cancel: () => isOpen && Boolean(panel?.cancel()) };
+}

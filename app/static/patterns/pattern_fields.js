@@ -1,0 +1,77 @@
+/** What is asked, in the panel: which kind of pattern, its length, its limbs, and whether a drawing is kept. */
+
+import { h, setAttribute, setText } from "../lib/dom.js";
+import { limbChoices, limbLocks } from "./pattern_limbs.js";
+import { shownDocument } from "../state/store.js";
+
+const MODES = {
+  transition: ["Transition", "From a state of one gait to a state of another"],
+  limbs: ["Some limbs", "A gait of the limbs that are free to walk"],
+  drawing: ["Complete", "The open gait's drawing: what is locked stays, the rest is found"],
+};
+const TEACH = {
+  transition: "Choose gaits and cursors below. Click cells to draw what you want; the others follow.",
+  limbs: "Choose what each limb does. The others walk, and the pattern repeats.",
+  drawing: "Locked cells of the open gait stay, with both ends. The rest is found.",
+};
+const [LEAST, MOST] = [2, 240];
+
+function modes(question) {
+  const buttons = Object.entries(MODES).map(([mode, [text, title]]) => h("button", { text, title, "aria-pressed": "false", data: { mode }, on: { click: () => question.set({ mode }) } }));
+  return { element: h("div", { class: "segmented pattern-modes", role: "group", "aria-label": "Kind of pattern" }, ...buttons), show: ({ mode }) => buttons.forEach((button) => setAttribute(button, "aria-pressed", String(button.dataset.mode === mode))) };
+}
+
+function lengthField(name, help, take) {
+  const input = h("input", { type: "number", min: LEAST, max: MOST, step: 1, "aria-label": name, title: `${help}. ${LEAST} to ${MOST}` });
+  input.addEventListener("input", () => { if (input.validity.valid && input.value) take(input.valueAsNumber); });
+  input.addEventListener("blur", () => { input.value = input.dataset.shown; });
+  const element = h("label", { class: "field" }, h("span", { class: "name", text: name }), h("span", { class: "box", data: { unit: "samples" } }, input));
+  return { element, input, show(value) { input.dataset.shown = String(value); if (document.activeElement !== input) input.value = value; } };
+}
+
+function check(text, title, take) {
+  const box = h("input", { type: "checkbox", on: { change: () => take(box.checked) } });
+  return { element: h("label", { class: "pattern-check", title }, box, h("span", { text })), box };
+}
+
+/**
+ * Builds the fields.
+ * @param {object} store
+ * @param {object} question
+ * @param {(foot: number) => void} lock locks a limb of the transition, or unlocks it
+ */
+export function patternFields(store, question, lock) {
+  let shown = null;
+  const about = () => {
+    const document = store.state.view && shownDocument(store.state);
+    return document ? { robot: document.robot, legs: document.timeline.feet.length, roles: store.state.view.roles ?? [] } : null;
+  };
+  const choice = modes(question);
+  const samples = lengthField("Length", "Of the transition, with its two boundary samples", (value) => question.set({ samples: value }));
+  const cycle = lengthField("Length of a cycle", "After so many samples the pattern repeats", (value) => question.set({ cycle: value }));
+  const shortest = check("Shortest that works", "The search chooses the length: as few samples as the rules allow", (on) => question.set({ shortest: on, ...(on || !shown ? {} : { samples: shown.samples }) }));
+  const walkable = check("Swings that the feet can do", "Beyond the thesis: every swing, also one that a cursor cuts, is long enough for the feet to take the gaits' steps", (on) => question.set({ walkable: on }));
+  const keep = check("Keep what I drew where you can", "What is shown now, or the gait's own drawing, is a hint: of patterns that are equally good the one most like it is taken", (on) => question.set({ keep: on }));
+  const painted = check("Swings stay as they are painted", "Every painted swing is fixed, beside the locked cells", (on) => question.set({ painted: on }));
+  const [limbs, locks] = [limbChoices(question, about), limbLocks(question, { lock, refusal: (foot) => shown?.lockRefusal?.(foot) ?? null })];
+  const locking = h("div", { class: "pattern-locking" }, h("span", { class: "quiet", text: "Locked limbs" }), locks.element);
+  const teach = h("p", { class: "teach" });
+  const element = h("div", { class: "pattern-fields" }, choice.element, teach, samples.element, shortest.element, walkable.element, locking, cycle.element, limbs.element, painted.element, keep.element);
+  return {
+    element,
+    show(now) {
+      shown = now;
+      const { mode } = question.state;
+      choice.show(question.state);
+      setText(teach, TEACH[mode]);
+      for (const [part, its] of [[samples.element, "transition"], [shortest.element, "transition"], [walkable.element, "transition"], [locking, "transition"], [cycle.element, "limbs"], [limbs.element, "limbs"], [painted.element, "drawing"]]) part.hidden = mode !== its;
+      keep.element.hidden = mode === "drawing";
+      samples.show(now?.samples && question.state.shortest ? now.samples : question.state.samples);
+      samples.input.disabled = question.state.shortest;
+      cycle.show(question.state.cycle);
+      [shortest.box.checked, walkable.box.checked, keep.box.checked, painted.box.checked] = [question.state.shortest, question.state.walkable, question.state.keep, question.state.painted];
+      if (mode === "limbs") limbs.show();
+      if (mode === "transition" && now) locks.show({ legs: now.legs, given: now.given });
+    },
+  };
+}

@@ -1,0 +1,85 @@
+/** The grid of the pattern that is sought: a row a foot, a cell a sample, purple and hatched where it is fixed. */
+
+import { rovingFocus } from "../timeline/cells.js";
+import { h, setAttribute, setText } from "../lib/dom.js";
+import { mountPatternDrawing } from "./pattern_drawing.js";
+import { buildRow, fitRow } from "../timeline/timeline_rows.js";
+
+/** With more columns the cells stand without gaps. */
+const DENSE = 140;
+
+const FIXED_WORDS = { end: "given by a gait", limb: "locked limb", drawn: "drawn", given: "locked" };
+
+function drawCell(cell, { foot, sample, value, fixed, changed }) {
+  const word = value === null ? "not known" : value ? "stance" : "swing";
+  cell.dataset.state = value === null ? "free" : word;
+  cell.toggleAttribute("data-locked", fixed !== null);
+  setAttribute(cell, "data-fixed", fixed);
+  cell.toggleAttribute("data-preview", changed);
+  cell.setAttribute("aria-label", `foot ${foot + 1}, sample ${sample + 1}: ${word}${fixed ? `, ${FIXED_WORDS[fixed]}` : ""}${changed ? ", not as drawn" : ""}`);
+}
+
+function drawRow(line, foot, shown, role) {
+  setText(line.role, role);
+  const { rows, fixed, before } = shown;
+  for (let sample = 0; sample < line.cells.length; sample += 1) {
+    const value = shown.fixedValue(foot, sample) ?? (rows === null ? null : Number(rows[foot][sample]));
+    const why = fixed(foot, sample);
+    const changed = Boolean(before) && value !== null && String(value) !== before[foot][sample];
+    const key = `${value}${why}${changed}`;
+    if (line.drawn[sample] === key) continue;
+    line.drawn[sample] = key;
+    drawCell(line.cells[sample], { foot, sample, value, fixed: why, changed });
+  }
+}
+
+/**
+ * Builds the grid.
+ * @param {object} question of `createQuestion`
+ * @param {{lockLimb: (foot: number) => void}} acts what a click on a row's name does
+ * @returns {{element: HTMLElement, show: (shown: object) => void, cancel: () => boolean}} `show` takes `legs`, `samples`,
+ *   `rows` (of 1 and 0, or null while nothing is known), `fixed(foot, sample)` (why, or null), `fixedValue(foot, sample)`,
+ *   `before` (rows of the drawing, to mark what differs, or null), `isLocked(foot)`, `limbHelp`, `roles`, `stale`
+ */
+export function patternGrid(question, acts) {
+  const element = h("div", { class: "timeline pattern-grid", role: "grid", "aria-label": "Pattern",
+    "aria-description": "Space draws the other value and fixes it, on a drawn cell it frees it; K fixes the cell as it is" });
+  let lines = [];
+  let now = { samples: 0 };
+  const roving = rovingFocus(() => lines, () => {});
+  const drawing = mountPatternDrawing({ question, grid: element, lines: () => lines, roving, shown: () => now });
+
+  function fit(legs, samples) {
+    if (lines.length !== legs) {
+      lines = Array.from({ length: legs }, (_, foot) => {
+        const line = buildRow(foot);
+        line.label = line.row.querySelector(".row-label");
+        line.label.addEventListener("click", () => acts.lockLimb(foot));
+        return line;
+      });
+      element.replaceChildren(...lines.map(({ row }) => row));
+      element.dataset.feet = legs;
+      element.setAttribute("aria-rowcount", legs);
+    }
+    lines.forEach((line) => fitRow(line, samples));
+    element.setAttribute("aria-colcount", samples);
+    element.toggleAttribute("data-dense", samples > DENSE);
+    if (legs) roving.move(roving.place());
+  }
+
+  return {
+    element,
+    cancel: drawing.cancel,
+    show(shown) {
+      now = shown;
+      element.hidden = shown.legs === 0;
+      if (lines.length !== shown.legs || (lines[0]?.cells.length ?? 0) !== shown.samples) fit(shown.legs, shown.samples);
+      lines.forEach((line, foot) => {
+        drawRow(line, foot, shown, shown.roles[foot] ?? "");
+        line.row.toggleAttribute("data-limb-locked", shown.isLocked(foot));
+        setAttribute(line.label, "title", shown.limbHelp);
+      });
+      element.toggleAttribute("data-stale", shown.stale);
+    },
+  };
+}

@@ -1,0 +1,147 @@
+/** What is asked of the pattern search: gaits, cursors, limbs, rules and drawn cells. Kept in this browser. */
+
+import { watchable } from "../state/store.js";
+
+const KEY = "footfall.patterns";
+
+/** The rules in plain words, with the thesis's own number; `scale` from what a person types to SI. */
+export const RULES = [
+  { rule: "shortest_swing", name: "Shortest swing", unit: "samples", usual: 2, help: "g2 of the footfall thesis. A transition's swings that its first or last sample cuts are exempt" },
+  { rule: "shortest_stance", name: "Shortest stance", unit: "samples", usual: 3, help: "g9 and g10 of the footfall thesis, for stances between two swings" },
+  { rule: "feet_down", name: "Feet down, at least", unit: "feet", usual: 3, help: "g3 of the footfall thesis: at every sample" },
+  { rule: "feet_down_each_side", name: "Feet down each side", unit: "feet", usual: 1, help: "g4 and g5 of the footfall thesis: left and right as the robot goes; a foot on the centre line counts for both" },
+  { rule: "workload", name: "Workloads differ by", unit: "samples", usual: 2, help: "g6 and g7 of the footfall thesis: stance of any two limbs that walk" },
+  { rule: "limb_changes", name: "Changes a limb, at most", unit: "times", usual: 2, help: "g8 of the footfall thesis: from stance to swing or back" },
+  { rule: "least_swing", name: "Swing of a limb, at least", unit: "samples", usual: 2, help: "g11 of the footfall thesis, for limbs that walk" },
+  { rule: "balance", name: "Balance margin", unit: "mm", usual: null, first: 0, scale: 0.001, help: "Not in the thesis: at every sample the body can be so far inside the support polygon, and move from place to place at its speed" },
+];
+
+/** What a change costs; the pattern of the smallest sum is best. */
+export const WEIGHTS = [
+  { weight: "sample_changes", name: "A moment at which any limb changes", usual: 1000, help: "The thesis's objective" },
+  { weight: "limb_changes", name: "A change of one limb", usual: 1, help: "By default it only breaks ties" },
+  { weight: "drawing", name: "A cell unlike what I drew", usual: 10, help: "Where “Keep what I drew” is on" },
+];
+
+export const ROLES = { walks: "walks", held: "held up", broken: "broken", stands: "stands" };
+
+const INITIAL = Object.freeze({
+  mode: "transition",
+  from: { gait: null, sample: 0 },
+  to: { gait: null, sample: 0 },
+  samples: 20,
+  shortest: false,
+  walkable: true,
+  cycle: 20,
+  limbs: {},
+  locked: [],
+  rules: {},
+  weights: {},
+  keep: false,
+  painted: false,
+  count: 5,
+  cells: { transition: {}, limbs: {}, drawing: {} },
+});
+
+/** What else the panel knows and does not keep. */
+const FLEETING = Object.freeze({ freed: {}, answer: null, running: null, error: null, chosen: 0, looked: null, asking: false, documents: Object.freeze({}) });
+
+function recalled() {
+  try {
+    const kept = JSON.parse(localStorage.getItem(KEY) ?? "{}");
+    return Object.fromEntries(Object.entries(INITIAL).map(([name, value]) => [name, typeof kept[name] === typeof value ? kept[name] : value]));
+  } catch {
+    return { ...INITIAL };
+  }
+}
+
+function keep(state) {
+  try {
+    localStorage.setItem(KEY, JSON.stringify(Object.fromEntries(Object.keys(INITIAL).map((name) => [name, state[name]]))));
+  } catch {
+    return;
+  }
+}
+
+/** The parts of the state that make another question; a change of one of them is asked again. */
+export const asked = (state) => Object.keys(INITIAL).map((name) => state[name]).concat([state.freed]);
+
+/** Creates the state of the panel, which is watched like the page's store. */
+export function createQuestion() {
+  const question = watchable({ ...recalled(), ...FLEETING });
+  question.watch(asked, keep);
+  return question;
+}
+
+/** A rule's number as a person sees it, and whether it holds. */
+export function ruleOf({ rules }, { rule, usual, first = usual }) {
+  const own = rules[rule];
+  return { value: own?.value ?? first, on: own?.on ?? usual !== null, usual: own === undefined };
+}
+
+/** The rules as they are sent: SI, null for off. */
+export function rulesOf(state) {
+  return Object.fromEntries(RULES.map((one) => {
+    const { value, on } = ruleOf(state, one);
+    return [one.rule, on ? (one.scale ? Number((value * one.scale).toPrecision(9)) : value) : null];
+  }));
+}
+
+/** What each limb does in the mode for some limbs; a robot that is new to the panel walks on all of them. */
+export function limbsOf(question, { robot, legs }) {
+  const own = question.limbs[robot];
+  return own?.length === legs ? own : Array.from({ length: legs }, () => "walks");
+}
+
+/** The drawn cells of the shown mode. */
+export const drawnCells = ({ cells, mode }) => cells[mode];
+
+/** The state's change that gives the shown mode other drawn cells. */
+export const withCells = (state, changed) => ({ cells: { ...state.cells, [state.mode]: changed } });
+
+const tuples = (cells) => Object.entries(cells).map(([key, value]) => [...key.split(",").map(Number), value]);
+
+/** How long the pattern is that is asked for, or null where the search chooses. */
+export const lengthOf = ({ mode, samples, shortest, cycle }) => (mode === "limbs" ? cycle : mode === "transition" && !shortest ? samples : null);
+
+/**
+ * The question as it is sent.
+ * @param {object} state of `createQuestion`
+ * @param {{gait: string, limbs: string[], document: object|null, drawing: string[]|null, isFree: Function}} page the open
+ *   gait, what its limbs do, its document where an edit is under way, the rows to keep where that can be, and which cells
+ *   are not given: what was drawn elsewhere waits until the pattern is longer again
+ */
+export function bodyOf(state, { gait, limbs, document, drawing, isFree }) {
+  const { mode, from, to, count, locked, painted } = state;
+  const samples = lengthOf(state);
+  const cells = tuples(drawnCells(state)).filter(([limb, sample]) => isFree(limb, sample));
+  const common = {
+    kind: mode, count, cells, rules: rulesOf(state), weights: Object.fromEntries(WEIGHTS.map(({ weight, usual }) => [weight, state.weights[weight] ?? usual])),
+    freed: tuples(state.freed).map(([limb, sample]) => [limb, sample]), drawing: state.keep ? drawing : null,
+  };
+  if (mode === "transition") return { ...common, gait: from.gait, sample: from.sample, to: to.gait, to_sample: to.sample, samples, locked, walkable: state.walkable };
+  if (mode === "limbs") return { ...common, gait, samples, limbs };
+  return { ...common, gait, painted, ...(document ? { document } : {}) };
+}
+
+/** The state's change that a relaxation asks for, with those that go with it. */
+export const relaxed = (state, relaxation) => relaxation.also.reduce((change, further) => ({ ...change, ...loosened({ ...state, ...change }, further) }), loosened(state, relaxation));
+
+function loosened(state, { rule, value, cells, samples }) {
+  if (samples) return state.mode === "limbs" ? { cycle: samples } : { samples, shortest: false };
+  if (rule !== "fixed") {
+    const { scale, usual, first = usual } = RULES.find((one) => one.rule === rule);
+    // Swings shorter than the feet need are what such a loosening asks for.
+    const walkable = state.walkable && !["shortest_swing", "least_swing"].includes(rule);
+    return { walkable, rules: { ...state.rules, [rule]: value === null ? { on: false, value: ruleOf(state, { rule, usual, first }).value } : { on: true, value: scale ? Number((value / scale).toPrecision(9)) : value } } };
+  }
+  const drawn = { ...drawnCells(state) };
+  const freed = { ...state.freed };
+  const limbs = new Set(cells.map(([limb]) => limb));
+  for (const [limb, sample] of cells) {
+    if (state.locked.includes(limb)) continue;
+    if (`${limb},${sample}` in drawn) delete drawn[`${limb},${sample}`];
+    else freed[`${limb},${sample}`] = 1;
+  }
+  return { ...withCells(state, drawn), freed, locked: state.locked.filter((limb) => !limbs.has(limb)) };
+}

@@ -1,0 +1,72 @@
+/** What the grid shows: the pattern that is looked at, and which of its cells are fixed for which reason. */
+
+import { timelineOf } from "./pattern_gaits.js";
+import { drawnCells, limbsOf } from "./pattern_question.js";
+import { shownDocument } from "../state/store.js";
+
+/** Limbs that do one thing all along in both gaits: a transition leaves them so. */
+function given(first, second, foot) {
+  const rows = [first, second].map(({ timeline }) => timeline.feet[foot]);
+  return rows.every((row) => row && row === row[0].repeat(row.length)) && rows[0][0] === rows[1][0];
+}
+
+function ofTransition(store, question) {
+  const { from, to, locked, answer, shortest, samples } = question.state;
+  const [first, second] = [from, to].map(({ gait }) => timelineOf(store, question, gait));
+  if (!first || !second || first.timeline.feet.length !== second.timeline.feet.length) return null;
+  const count = shortest ? (answer?.samples ?? samples) : samples;
+  const at = ({ timeline }, { sample }) => Math.min(sample, timeline.feet[0].length - 1);
+  const ends = (foot) => [first.timeline.feet[foot][at(first, from)], second.timeline.feet[foot][at(second, to)]];
+  const isLocked = (foot) => given(first, second, foot) || (locked.includes(foot) && ends(foot)[0] === ends(foot)[1]);
+  return {
+    legs: first.timeline.feet.length, samples: count, isLocked, limbHelp: "Click: lock this limb to the value that it has at both ends, or unlock it",
+    given: (foot) => given(first, second, foot),
+    lockRefusal: (foot) => (ends(foot)[0] === ends(foot)[1] ? null : "It stands at one end and swings at the other. Move a cursor first."),
+    base: (foot, sample) => (sample === 0 ? ["end", ends(foot)[0]] : sample === count - 1 ? ["end", ends(foot)[1]] : isLocked(foot) ? ["limb", ends(foot)[0]] : null),
+  };
+}
+
+function ofLimbs(store, question) {
+  const document = shownDocument(store.state);
+  const limbs = limbsOf(question.state, { robot: document.robot, legs: document.timeline.feet.length });
+  const isLocked = (foot) => limbs[foot] !== "walks";
+  return { legs: limbs.length, samples: question.state.cycle, isLocked, limbHelp: "Click: hold this limb up, or let it walk", base: (foot) => (isLocked(foot) ? ["limb", limbs[foot] === "stands" ? "1" : "0"] : null) };
+}
+
+function ofDrawing(store, question) {
+  const { feet, locked } = shownDocument(store.state).timeline;
+  const [count, painted] = [feet[0].length, question.state.painted];
+  const stays = (foot, sample) => locked?.[foot]?.[sample] === "1" || (painted && feet[foot][sample] === "0");
+  return {
+    legs: feet.length, samples: count, isLocked: () => false, limbHelp: null, before: feet,
+    base: (foot, sample) => (sample === 0 || sample === count - 1 ? ["end", feet[foot][sample]] : stays(foot, sample) ? ["given", feet[foot][sample]] : null),
+  };
+}
+
+const SOURCES = { transition: ofTransition, limbs: ofLimbs, drawing: ofDrawing };
+
+/** Rows of the best pattern yet, else of the last answer, where they have this size. */
+function rowsOf({ answer, running, chosen, looked }, { legs, samples }) {
+  const rows = running?.pattern?.feet ?? answer?.patterns[looked ?? chosen]?.feet ?? null;
+  return rows?.length === legs && rows[0].length === samples ? rows : null;
+}
+
+/**
+ * What `patternGrid` shows, or null while the gaits are not known yet.
+ * @param {object} store
+ * @param {object} question
+ */
+export function patternShown(store, question) {
+  if (!store.state.view) return null;
+  const source = SOURCES[question.state.mode](store, question);
+  if (!source) return null;
+  const [drawn, { freed, asking, running }] = [drawnCells(question.state), question.state];
+  const given = (foot, sample) => (`${foot},${sample}` in freed ? null : source.base(foot, sample));
+  const own = (foot, sample) => given(foot, sample) ?? (`${foot},${sample}` in drawn ? ["drawn", String(drawn[`${foot},${sample}`])] : null);
+  return {
+    ...source, roles: store.state.view.roles ?? [], rows: rowsOf(question.state, source), stale: asking && !running?.pattern,
+    isFree: (foot, sample) => foot < source.legs && (question.state.shortest || sample < source.samples) && given(foot, sample) === null,
+    fixed: (foot, sample) => own(foot, sample)?.[0] ?? null,
+    fixedValue: (foot, sample) => { const found = own(foot, sample); return found ? Number(found[1]) : null; },
+  };
+}

@@ -1,0 +1,160 @@
+/** The pattern search: its controls in the right column, and in the lower part the gaits with the pattern between them. */
+
+import { byId, h, setAttribute, setText, svg } from "../lib/dom.js";
+import { patternActs } from "./pattern_acts.js";
+import { patternAnswer } from "./pattern_answer.js";
+import { patternFields } from "./pattern_fields.js";
+import { patternGait } from "./pattern_gait.js";
+import { mountPatternGaits, timelineOf, transitionGaits } from "./pattern_gaits.js";
+import { patternGrid } from "./pattern_grid.js";
+import { patternPlayhead } from "./pattern_playhead.js";
+import { createQuestion, drawnCells, limbsOf, withCells } from "./pattern_question.js";
+import { patternRules } from "./pattern_rules.js";
+import { mountSearch } from "./pattern_search.js";
+import { patternShown } from "./pattern_shown.js";
+import { shownDocument } from "../state/store.js";
+import { toast } from "../lib/toasts.js";
+
+const TITLES = { transition: "Transition", limbs: "One cycle", drawing: "Completed" };
+
+/** The style sheet comes with the panel. */
+function withStyles() {
+  const address = new URL("./patterns.css", import.meta.url).pathname;
+  return new Promise((resolve) => {
+    document.head.append(h("link", { rel: "stylesheet", href: address, on: { load: resolve, error: resolve } }));
+  });
+}
+
+/** Lines from the cursors to the transition's ends. */
+function bridge(name) {
+  const path = svg("path", { d: "" });
+  const element = h("div", { class: "pattern-bridge", "aria-hidden": "true", data: { name } }, svg("svg", { viewBox: "0 0 100 10", preserveAspectRatio: "none" }, path));
+  return { element, show: (cursor, end) => path.setAttribute("d", name === "from" ? `M${cursor * 100} 0 C${cursor * 100} 6 ${end} 4 ${end} 10` : `M${end} 0 C${end} 6 ${cursor * 100} 4 ${cursor * 100} 10`) };
+}
+
+const hatch = () => svg("svg", { class: "sprite", "aria-hidden": "true" }, svg("defs", {}, svg("pattern", { id: "pattern-hatch", width: 0.4, height: 0.4, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
+  svg("line", { x1: 0, y1: 0, x2: 0, y2: 0.4, "stroke-width": 0.22, class: "pattern-hatch-line" }))));
+
+function gaitParts(store, question) {
+  const part = (side, name) => patternGait({ side, name, help: `The gait that the transition leads ${side}`,
+    choose: (gait) => question.set({ [side]: { gait, sample: 0 } }), move: (sample) => question.set({ [side]: { ...question.state[side], sample } }) });
+  const parts = { from: part("from", "Gait A"), to: part("to", "Gait B") };
+  return {
+    ...parts,
+    show() {
+      const gaits = transitionGaits(store.state);
+      for (const side of ["from", "to"]) parts[side].show({ gaits, ...question.state[side], document: timelineOf(store, question, question.state[side].gait) });
+    },
+  };
+}
+
+/** What a click on a limb's name does: in a transition it is locked to the value that it has at both ends, in a cycle held up. */
+function limbLocking(store, question, shown) {
+  const hold = (foot) => {
+    const { robot, timeline } = shownDocument(store.state);
+    const limbs = [...limbsOf(question.state, { robot, legs: timeline.feet.length })];
+    limbs[foot] = limbs[foot] === "walks" ? "held" : "walks";
+    question.set({ limbs: { ...question.state.limbs, [robot]: limbs } });
+  };
+  const lock = (foot) => {
+    const now = shown();
+    const { locked } = question.state;
+    const refusal = now?.given(foot) ? "Both gaits leave this limb as it is." : now?.lockRefusal(foot);
+    if (locked.includes(foot)) question.set({ locked: locked.filter((one) => one !== foot) });
+    else if (refusal) toast(refusal);
+    else question.set({ locked: [...locked, foot] });
+  };
+  return (foot) => ({ transition: lock, limbs: hold }[question.state.mode]?.(foot));
+}
+
+function lowerPart(store, question, lock) {
+  const [parts, grid] = [gaitParts(store, question), patternGrid(question, { lockLimb: lock })];
+  const [title, note] = [h("b"), h("span", { class: "quiet pattern-state" })];
+  const clear = h("button", { class: "link", text: "Free drawn cells", title: "All cells that were drawn here are free again", on: { click: () => question.set({ ...withCells(question.state, {}), freed: {} }) } });
+  const [above, below] = [bridge("from"), bridge("to")];
+  const empty = h("p", { class: "teach", hidden: true });
+  const sought = h("div", { class: "pattern-lane pattern-sought" }, h("div", { class: "pattern-head" }, title, note, clear), grid.element, empty);
+  const element = h("div", { class: "pattern-view", role: "group", "aria-label": "Pattern search" }, hatch(), parts.from.element, above.element,
+    sought, below.element, parts.to.element);
+  return {
+    element, cancel: grid.cancel, lanes: { from: parts.from.element, sought, to: parts.to.element },
+    show(shown) {
+      const isTransition = question.state.mode === "transition";
+      for (const one of [parts.from, above, below, parts.to]) one.element.hidden = !isTransition;
+      setText(title, TITLES[question.state.mode]);
+      clear.hidden = !Object.keys({ ...drawnCells(question.state), ...question.state.freed }).length;
+      element.toggleAttribute("data-alone", !isTransition);
+      if (isTransition) parts.show();
+      empty.hidden = Boolean(shown);
+      setText(empty, shown ? "" : "The gaits are being read.");
+      grid.element.hidden = !shown;
+      if (!shown) return;
+      grid.show(shown);
+      element.dataset.feet = shown.legs;
+      setText(note, `${shown.samples} samples · ${fixedWords(question.state)}`);
+      above.show(parts.from.cursorAt(), 50 / shown.samples);
+      below.show(parts.to.cursorAt(), 100 - 50 / shown.samples);
+    },
+  };
+}
+
+function fixedWords(state) {
+  const count = Object.keys(drawnCells(state)).length;
+  return count ? `${count} cell${count > 1 ? "s" : ""} drawn` : "click a cell to draw what you want";
+}
+
+/**
+ * Builds the panel; it is asked for when it is first opened.
+ * @param {object} store
+ * @param {{edits: object, playback: Playback, show: (id: string) => Promise<void>}} page
+ * @returns {Promise<{open: (mode: string|null) => void, close: () => void, cancel: () => boolean}>}
+ */
+export async function mountPatterns(store, page) {
+  const question = createQuestion();
+  let open = false;
+  const isOpen = () => open;
+  const gaits = mountPatternGaits(store, question, isOpen);
+  const search = mountSearch(store, question, isOpen);
+  const shown = () => patternShown(store, question);
+  const lock = limbLocking(store, question, shown);
+  const lower = lowerPart(store, question, lock);
+  patternPlayhead(store, question, page.playback, lower.lanes);
+  const fields = patternFields(store, question, lock);
+  const acts = patternActs(store, question, page);
+  const panel = h("div", { class: "pattern-panel", role: "tabpanel", id: "patterns", "aria-labelledby": "tab-patterns" },
+    h("div", { class: "pattern-scroll" }, fields.element, ...patternAnswer(question, search, (looked) => question.set({ looked })), ...patternRules(question)), acts.element);
+  await withStyles();
+  byId("chart").after(lower.element);
+  document.querySelector("aside.right").append(panel);
+
+  const render = () => {
+    if (!open) return;
+    const now = shown();
+    lower.show(now);
+    fields.show(now);
+    acts.show();
+  };
+  question.watch((state) => Object.values(state), render);
+  store.watch((state) => [state.view, state.pending, state.gaits, state.iterate], render);
+
+  const setOpen = (on) => {
+    open = on;
+    document.body.toggleAttribute("data-patterns", on);
+    setAttribute(panel, "hidden", !on);
+    setAttribute(lower.element, "hidden", !on);
+  };
+  return {
+    open(mode) {
+      setOpen(true);
+      if (mode) question.set({ mode, ...(mode === "transition" && store.state.selected ? { from: { gait: store.state.selected, sample: question.state.from.gait === store.state.selected ? question.state.from.sample : 0 } } : {}) });
+      gaits.choose();
+      search.ask();
+      render();
+    },
+    close() {
+      acts.leave();
+      setOpen(false);
+    },
+    cancel: () => lower.cancel(),
+  };
+}

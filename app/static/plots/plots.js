@@ -1,0 +1,203 @@
+/** Strip plots under the timeline, on its time axis: which are shown, their curves, and the figures under the pointer. */
+
+import { axisKey, axisOf, timeAt } from "../state/time_axis.js";
+import { checkMenu, recalled, remember } from "../lib/check_menu.js";
+import { HEIGHT, WIDTH, acrossOf, indexAt, pathOf, rangeOf, scaleOf } from "./curves.js";
+import { byId, h, setText, svg } from "../lib/dom.js";
+import { fixed } from "../lib/format.js";
+import { measuredCurves, measuredRange, oversOf, runOver } from "./measured.js";
+import { simulationOver } from "./simulation.js";
+import { shownDocument, shownPlan } from "../state/store.js";
+import { stripCanvas } from "./strip_canvas.js";
+import { STRIPS, ownerOf } from "./strips.js";
+
+/** Rounding of the figures that come from the server: a limit passed by less is kept. */
+const ROUNDING = 0.006;
+const NEAR_PX = 8;
+
+const line = (y, name) => svg("line", { x1: 0, x2: WIDTH, y1: y, y2: y, class: name });
+
+function tick(value, scale) {
+  const element = h("span", { class: "tick", text: fixed(value, Number.isInteger(value) ? 0 : 1) });
+  element.style.top = `${scale(value)}%`;
+  return element;
+}
+
+/** Where values pass a limit: curves are drawn there once more in the bad colour. */
+function beyond({ low = null, high = null }, scale, [least, most]) {
+  const over = high !== null && most > high + ROUNDING;
+  const under = low !== null && least < low - ROUNDING;
+  return [over && { y: 0, height: Math.max(scale(high), 0) }, under && { y: scale(low), height: HEIGHT }].filter(Boolean);
+}
+
+/** Where a value is missing in the midst of a motion, such as a stroke whose rod is too short. */
+function missing({ series }, across) {
+  const bands = [];
+  const half = across.x.length > 1 ? (across.x[1] - across.x[0]) / 2 : 0;
+  let from = null;
+  for (let index = across.first; index <= across.last + 1; index += 1) {
+    const lacks = index <= across.last && series.some(({ valueAt }) => (valueAt(index) ?? null) === null);
+    if (lacks) from ??= across.x[index] - half;
+    else if (from !== null) {
+      bands.push({ x: from, width: across.x[index - 1] + half - from });
+      from = null;
+    }
+  }
+  return bands;
+}
+
+/** A curve a foot; the motors of a foot are one path. What was planned is dotted where something lies over it. */
+function curvesOf({ series }, across, scale, dashed) {
+  const paths = new Map();
+  for (const { foot, valueAt } of series) paths.set(foot, (paths.get(foot) ?? "") + pathOf(across, valueAt, scale));
+  const thin = series.length > paths.size;
+  return [...paths].map(([foot, d]) => ({ d, tone: foot === null ? "fine" : foot + 1, width: thin ? 1 : 1.5, alpha: thin ? 0.85 : 1, dash: dashed ? [2, 3] : [] }));
+}
+
+/** The number of each foot that rises, at its highest sample in view. */
+function footTags({ series }, across, scale) {
+  return series.flatMap(({ foot, valueAt }) => {
+    let top = across.first;
+    for (let index = across.first; index <= across.last; index += 1) if (valueAt(index) > valueAt(top)) top = index;
+    if (!(valueAt(top) > 0.5)) return [];
+    const element = h("span", { class: "foot-tag", text: String(foot + 1), data: { foot: foot + 1 } });
+    element.style.left = `${(100 * across.x[top]) / WIDTH}%`;
+    element.style.top = `${Math.min(Math.max(scale(valueAt(top)) + 15, 14), 86)}%`;
+    return [element];
+  });
+}
+
+/** Draws a strip, with what was measured or simulated over it; returns what the pointer asks it for. */
+function draw(row, content, across, count, axis, overs) {
+  const { low = null, high = null, wanted = null, floor = null, most = 0 } = content;
+  const ranges = [rangeOf(content.series, count), ...overs.map(measuredRange)];
+  const range = [Math.min(...ranges.map(([least]) => least)), Math.max(...ranges.map(([, greatest]) => greatest))];
+  const given = [low, high, wanted, floor, most].filter((value) => value !== null);
+  const scale = scaleOf(Math.min(range[0], ...given), Math.max(range[1], ...given));
+  const limits = [low, high].filter((value) => value !== null);
+  const lines = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: "none", "aria-hidden": "true" },
+    ...limits.map((value) => line(scale(value), "limit")), ...(floor === null ? [] : [line(scale(floor), "floor")]),
+    ...(wanted === null ? [] : [line(scale(wanted), "wanted")]));
+  row.canvas.show({ bands: missing(content, across), curves: [...curvesOf(content, across, scale, overs.length > 0), ...overs.flatMap((over) => measuredCurves(over, axis, scale))], clips: beyond(content, scale, range) });
+  row.strip.replaceChildren(lines, row.canvas.element, ...limits.map((value) => tick(value, scale)), ...(content.tags ? footTags(content, across, scale) : []), ...(overs.length ? [h("span", { class: "measured-key", text: [...overs.map(({ word }) => word), "planned dotted"].join(", ") })] : []));
+  row.strip.setAttribute("aria-label", summary(row.kind, range, limits));
+  return { content, scale };
+}
+
+function summary({ name, unit, help }, [least, most], limits) {
+  const span = least <= most ? `${fixed(least)} to ${fixed(most)} ${unit}` : "not known";
+  const held = limits.length ? `, ${limits.length > 1 ? "limits" : "limit"} ${limits.map((value) => fixed(value)).join(" and ")}` : "";
+  return `${name}: ${span}${held}. ${help}.`;
+}
+
+function buildRow(kind) {
+  const value = h("span", { class: "value" });
+  const strip = h("div", { class: "strip", role: "img", "aria-label": kind.help, data: { strip: kind.key } });
+  return { kind, value, strip, canvas: stripCanvas(strip), label: h("div", { class: "plot-label", title: kind.help }, h("span", { class: "name", text: kind.name }), value), drawn: null };
+}
+
+function say(row, sentence) {
+  row.drawn = null;
+  row.strip.replaceChildren(h("div", { class: "empty", text: sentence }));
+  row.strip.setAttribute("aria-label", `${row.kind.name}: ${sentence || "nothing to show."}`);
+}
+
+function render(rows, state) {
+  const plan = shownPlan(state);
+  byId("plots").toggleAttribute("data-iterate", Boolean(state.iterate));
+  if (!(plan?.times?.length > 0)) {
+    const sentence = !state.view ? "" : plan?.refusal ? "No motion: the reason stands at the timeline." : "No plan yet.";
+    rows.forEach((row) => say(row, sentence));
+    return;
+  }
+  const axis = axisOf(state);
+  const across = acrossOf(axis, plan.times);
+  const { options } = shownDocument(state);
+  for (const row of rows) {
+    if (row.strip.hidden) continue;
+    const content = row.kind.of(plan, options);
+    if (content) row.drawn = draw(row, content, across, plan.times.length, axis, oversOf(state, row.kind.key));
+    else say(row, row.kind.lack);
+  }
+}
+
+/** The series that passes nearest to a height of the strip, 0 to 1, at a sample. */
+function nearest({ content, scale }, index, height) {
+  const near = content.series.map((series) => ({ series, value: series.valueAt(index) })).filter(({ value }) => value !== null && Number.isFinite(value));
+  const away = ({ value }) => Math.abs(scale(value) / HEIGHT - height);
+  return near.reduce((best, one) => (best === null || away(one) < away(best) ? one : best), null);
+}
+
+function hoverWords({ kind }, { content: { low, high } }, { series, value }, time) {
+  const limit = high !== null && value > high + ROUNDING ? `, limit ${fixed(high)}` : low !== null && value < low - ROUNDING ? `, limit ${fixed(low)}` : "";
+  return [ownerOf(series), `${fixed(value)} ${kind.unit}${limit}`, `${fixed(time)} s`].filter(Boolean).join(" · ");
+}
+
+/** Shows the value under the pointer with its foot and time. */
+function mountHover(store, rows) {
+  const [dot, words] = [h("i", { class: "hover-dot" }), h("span", { class: "hover-words" })];
+  const hover = h("div", { class: "plot-hover", "aria-hidden": "true", hidden: true }, dot, words);
+  byId("plots").append(hover);
+  const hide = () => { hover.hidden = true; };
+
+  function show(row, event) {
+    const plan = shownPlan(store.state);
+    if (!row.drawn || !plan?.times?.length) return hide();
+    const box = row.strip.getBoundingClientRect();
+    const axis = axisOf(store.state);
+    const index = indexAt(plan.times, timeAt(axis, (event.clientX - box.left) / box.width));
+    const found = nearest(row.drawn, index, (event.clientY - box.top) / box.height);
+    if (!found) return hide();
+    const around = byId("plots").getBoundingClientRect();
+    const across = (acrossOf(axis, [plan.times[index]]).x[0] / WIDTH) * box.width;
+    hover.hidden = false;
+    setText(words, hoverWords(row, row.drawn, found, plan.times[index]));
+    hover.dataset.foot = found.series.foot === null ? "" : String(found.series.foot + 1);
+    hover.toggleAttribute("data-left", across > box.width - 190);
+    hover.toggleAttribute("data-below", box.top - around.top < NEAR_PX * 2 + 10);
+    hover.style.transform = `translate(${box.left - around.left + across}px, ${box.top - around.top + (row.drawn.scale(found.value) / HEIGHT) * box.height}px)`;
+    return undefined;
+  }
+
+  for (const row of rows) {
+    row.strip.addEventListener("pointermove", (event) => show(row, event));
+    row.strip.addEventListener("pointerleave", hide);
+  }
+  store.watch((state) => [shownPlan(state)], hide);
+}
+
+/** The menu in the corner of the chart that chooses the strips; the choice is remembered. */
+function mountChoice(rows, redraw) {
+  const choice = recalled("plots", Object.fromEntries(STRIPS.map(({ key, shown }) => [key, shown])));
+  const apply = () => rows.forEach(({ kind, strip, label }) => { strip.hidden = label.hidden = !choice[kind.key]; });
+  const menu = checkMenu({
+    id: "plots-menu", name: "Plots", help: "Which plots stand under the timeline",
+    entries: STRIPS.map(({ key, name, help }) => ({ key, text: name, help, checked: choice[key] })),
+    onChange(key, checked) {
+      choice[key] = checked;
+      remember("plots", choice);
+      apply();
+      redraw();
+    },
+  });
+  apply();
+  byId("chart-corner").append(menu.element);
+}
+
+/** Builds the plots; returns what shows the figures at the playhead. */
+export function mountPlots(store) {
+  const rows = STRIPS.map(buildRow);
+  byId("plots").append(...rows.flatMap(({ label, strip }) => [label, strip]));
+  mountChoice(rows, () => render(rows, store.state));
+  mountHover(store, rows);
+  store.watch((state) => [shownPlan(state), shownDocument(state)?.options, axisKey(state), runOver(state), simulationOver(state)], (state) => render(rows, state));
+
+  return (time) => {
+    const plan = shownPlan(store.state);
+    const index = plan?.times?.length ? indexAt(plan.times, time) : 0;
+    for (const { kind, value } of rows) {
+      setText(value, plan?.times?.length ? kind.now(plan, index) : "–");
+      if (kind.isBad) value.dataset.toneText = plan?.times?.length && kind.isBad(plan, index) ? "bad" : "";
+    }
+  };
+}

@@ -1,0 +1,83 @@
+/**
+ * The canvas that a strip's curves are painted on: without a GPU a browser needs hundreds of milliseconds for dozens of SVG
+ * paths, and a few for these.
+ */
+
+import { HEIGHT, WIDTH } from "./curves.js";
+import { h } from "../lib/dom.js";
+
+const FEET = 12;
+const NAMES = { fine: "--good", broken: "--bad" };
+const dark = matchMedia("(prefers-color-scheme: dark)");
+let palette = null;
+dark.addEventListener("change", () => { palette = null; });
+
+function coloursNow() {
+  if (palette) return palette;
+  const style = getComputedStyle(document.documentElement);
+  const colour = (name) => style.getPropertyValue(name).trim();
+  palette = Object.fromEntries(Object.entries(NAMES).map(([tone, name]) => [tone, colour(name)]));
+  for (let foot = 1; foot <= FEET; foot += 1) palette[foot] = colour(`--foot-${foot}`);
+  return palette;
+}
+
+/** Path data of WIDTH × HEIGHT, stretched over `width` × `height` pixels; lines keep their thickness. */
+function stretched(d, { width, height }) {
+  const path = new Path2D();
+  path.addPath(new Path2D(d), new DOMMatrix([width / WIDTH, 0, 0, height / HEIGHT, 0, 0]));
+  return path;
+}
+
+function paint(element, size, { bands = [], curves = [], clips = [] }) {
+  const ratio = window.devicePixelRatio || 1;
+  const [across, down] = [Math.round(size.width * ratio), Math.round(size.height * ratio)];
+  if (element.width !== across || element.height !== down) [element.width, element.height] = [across, down];
+  // Painted by the processor: as smooth with a graphics card, and far smoother without one.
+  const pen = element.getContext("2d", { willReadFrequently: true });
+  pen.reset();
+  pen.scale(ratio, ratio);
+  pen.lineJoin = "round";
+  const colours = coloursNow();
+  const [sx, sy] = [size.width / WIDTH, size.height / HEIGHT];
+  pen.fillStyle = colours.broken;
+  pen.globalAlpha = 0.16;
+  for (const { x, width } of bands) pen.fillRect(x * sx, 0, width * sx, size.height);
+  const paths = curves.map(({ d, tone, width, alpha, dash = [] }) => {
+    const path = stretched(d, size);
+    [pen.strokeStyle, pen.lineWidth, pen.globalAlpha] = [colours[tone], width, alpha];
+    pen.setLineDash(dash);
+    pen.stroke(path);
+    return path;
+  });
+  if (!clips.length) return;
+  const where = new Path2D();
+  for (const { y, height } of clips) where.rect(0, y * sy, size.width, height * sy);
+  pen.clip(where);
+  pen.setLineDash([]);
+  [pen.strokeStyle, pen.lineWidth, pen.globalAlpha] = [colours.broken, 2, 1];
+  paths.forEach((path) => pen.stroke(path));
+}
+
+/**
+ * Makes a strip's canvas, which follows the strip's size and the theme.
+ * @returns {{element: HTMLCanvasElement, show: (drawing: object) => void}} a drawing has `bands` of missing values {x, width},
+ *   `curves` {d, tone (a foot's number, "fine"), width, alpha, dash} and `clips` {y, height}, where curves are drawn in the bad colour
+ */
+export function stripCanvas(strip) {
+  const element = h("canvas", { "aria-hidden": "true" });
+  let size = null;
+  let drawing = {};
+  const again = () => { if (size?.width > 0 && size.height > 0) paint(element, size, drawing); };
+  new ResizeObserver(([{ contentRect }]) => {
+    size = { width: contentRect.width, height: contentRect.height };
+    again();
+  }).observe(strip);
+  dark.addEventListener("change", again);
+  return {
+    element,
+    show(next) {
+      drawing = next;
+      again();
+    },
+  };
+}

@@ -1,0 +1,76 @@
+/** What each strip plot shows: its series, its limits, and the figure at the playhead. */
+
+import { fixed } from "../lib/format.js";
+
+const MOTORS = 3;
+
+const known = (values) => values.filter((value) => value !== null && Number.isFinite(value));
+const columns = (rows, count, seriesOf) => (rows ? Array.from({ length: count(rows[0]) }, (_, at) => seriesOf(rows, at)) : null);
+const aMotor = (rows) => columns(rows, (row) => row.length, (all, motor) =>
+  ({ foot: Math.floor(motor / MOTORS), motor: motor % MOTORS, valueAt: (index) => all[index][motor] }));
+const aFoot = (rows, valueOf) => columns(rows, (row) => row.length, (all, foot) => ({ foot, motor: null, valueAt: (index) => valueOf(all[index][foot]) }));
+
+/** Greatest of some values with its index, null where none is known. */
+function greatest(values) {
+  const all = known(values);
+  if (!all.length) return null;
+  const value = Math.max(...all);
+  return { at: values.indexOf(value), value };
+}
+
+const footAndValue = (top, foot, unit) => (top ? `foot ${foot(top.at) + 1}: ${fixed(top.value)} ${unit}` : "–");
+/** Of a robot whose motors share actuators the real ones, over the plane of the standing feet; null where there is none. */
+const heightsAt = ({ real_heights_mm: real, feet }, index) => real?.[index] ?? (feet?.[index] ?? []).map((foot) => foot[2] * 1000);
+const mmAsked = (value) => (value ? value * 1000 : null);
+
+/**
+ * The strips in their order. `of(plan, options)` gives what is drawn, or null with `lack` as the reason: `series` of {foot,
+ * motor, valueAt(index)}, `low` and `high` (limits, null for none), `wanted` (asked by the gait), `floor`, `most` (the scale
+ * reaches at least there). `now(plan, index)` is the figure at a sample.
+ */
+export const STRIPS = [
+  {
+    key: "margin", name: "Stability margin", unit: "mm", shown: true, lack: "No margin.",
+    help: "Distance of the centre of mass from the edge of the support polygon, in mm; below 0 it tips",
+    of: (plan, options) => (plan.margin ? {
+      series: [{ foot: null, motor: null, valueAt: (index) => (plan.margin[index] === null ? null : plan.margin[index] * 1000) }],
+      low: 0, high: null, wanted: mmAsked(options?.margin), most: 1,
+    } : null),
+    now: ({ margin }, index) => ((margin?.[index] ?? null) === null ? "–" : `${fixed(margin[index] * 1000)} mm`),
+    isBad: ({ margin }, index) => (margin?.[index] ?? 0) < 0,
+  },
+  {
+    key: "strokes", name: "Strokes", unit: "mm", shown: true, lack: "No strokes: the plan is out of the legs' reach.",
+    help: "Extension of every motor in mm, a colour a foot, with their limits",
+    of: ({ strokes_mm: strokes, stroke_limits_mm: limits }) => (strokes ? { series: aMotor(strokes), low: limits[0], high: limits[1] } : null),
+    now({ strokes_mm: strokes }, index) {
+      const values = known(strokes?.[index] ?? []);
+      return values.length ? `${fixed(Math.min(...values))} … ${fixed(Math.max(...values))} mm` : "–";
+    },
+  },
+  {
+    key: "heights", name: "Foot heights", unit: "mm", shown: true, lack: "No feet.",
+    help: "Height of each foot over where it stands, in mm",
+    of: (plan) => {
+      const rows = (plan.feet ?? []).map((_, index) => heightsAt(plan, index));
+      return rows.length ? { series: aFoot(rows, (value) => value), low: null, high: null, floor: 0, most: 2, tags: true } : null;
+    },
+    now: (plan, index) => footAndValue(greatest(heightsAt(plan, index)), (at) => at, "mm"),
+  },
+  {
+    key: "foot_speeds", name: "Foot speeds", unit: "mm/s", shown: false, lack: "No feet.",
+    help: "Speed of each foot in mm/s, with the limit that the optimiser keeps",
+    of: ({ foot_speeds_mm_s: speeds, speed_limits_mm_s: limits }) => (speeds ? { series: aFoot(speeds, (value) => value), low: null, high: limits.foot, floor: 0 } : null),
+    now: ({ foot_speeds_mm_s: speeds }, index) => footAndValue(greatest(speeds?.[index] ?? []), (at) => at, "mm/s"),
+  },
+  {
+    key: "motor_speeds", name: "Motor speeds", unit: "mm/s", shown: false, lack: "No strokes: the plan is out of the legs' reach.",
+    help: "Speed of every motor in mm/s, a colour a foot, with what a motor can do",
+    of: ({ motor_speeds_mm_s: speeds, speed_limits_mm_s: limits }, options) =>
+      (speeds ? { series: aMotor(speeds), low: null, high: limits.motor, wanted: mmAsked(options?.motor_speed), floor: 0 } : null),
+    now: ({ motor_speeds_mm_s: speeds }, index) => footAndValue(greatest(speeds?.[index] ?? []), (at) => Math.floor(at / MOTORS), "mm/s"),
+  },
+];
+
+/** Whose a series is: "foot 3, motor 2". */
+export const ownerOf = ({ foot, motor }) => [foot === null ? null : `foot ${foot + 1}`, motor === null ? null : `motor ${motor + 1}`].filter(Boolean).join(", ");

@@ -1,0 +1,151 @@
+/** The 3D preview's frame: loads a plan's poses once, follows the playhead, says what the plan is worth. */
+
+import { planState } from "../optimise/live_answer.js";
+import { api } from "../api/gaits.js";
+import { byId, h, setText } from "../lib/dom.js";
+import { fixed, mm } from "../lib/format.js";
+import { mountGhosts } from "./ghosts.js";
+import { mountGoal } from "./goal.js";
+import { troubleOf } from "../document/missing_motion.js";
+import { mountJogGhost } from "./jog_ghost.js";
+import { lane } from "../lib/latest_only.js";
+import { measured, painted } from "../state/live_plan.js";
+import { Preview } from "./preview.js";
+import { extremes } from "../state/plan_samples.js";
+import { mountTools } from "./stage_tools.js";
+import { checkGone, shownPlan } from "../state/store.js";
+
+function message(text) {
+  byId("stage-message").hidden = !text;
+  setText(byId("stage-message"), text ?? "");
+}
+
+async function openPreview(dark) {
+  const preview = new Preview(byId("viser"));
+  dark.addEventListener("change", () => preview.setDark(dark.matches));
+  await preview.ready();
+  preview.setDark(dark.matches);
+  message(null);
+  return preview;
+}
+
+function verdictWords(view, before) {
+  if (view.approval) return ["approved", "good"];
+  if (view.verdict) return view.verdict.passed ? ["checked", "good"] : ["check failed", "bad"];
+  if (view.revoked && !view.revoked.startsWith("The gait changed")) return ["approval gone", "caution"];
+  if (view.revoked || before?.word === "approved") return ["approval gone: the gait changed", "caution"];
+  return [before ? `check gone: ${checkGone(view, before)}` : "not checked", before ? "caution" : "quiet"];
+}
+
+/** What the check says of the plan, unless what is shown is not the plan. */
+function checkWords(state, plan) {
+  if (state.iterate) return null;
+  if (plan !== state.view.plan) return ["edit under way", "quiet"];
+  return verdictWords(state.view, state.checked[state.view.id]);
+}
+
+const MARGIN_HELP = "Least distance from the edge of the support polygon: of the centre of pressure where the motion is solved, else of the centre of mass";
+
+function planNote(state) {
+  const plan = shownPlan(state);
+  const { view } = state;
+  if (!plan) return view ? [h("div", { class: "sentence", text: "No plan: optimise this gait to see it move." })] : [];
+  if (!plan.times.length) {
+    return [h("div", {}, h("b", { text: "No motion", data: { toneText: "bad" } }), " · the reason stands at the timeline")];
+  }
+  const { strokes } = extremes(plan);
+  const failed = plan === view.plan && view.verdict && !view.verdict.passed;
+  const [word, tone] = failed ? ["Check failed", "bad"] : planState(plan);
+  const infeasible = planState(plan)[0] === "Infeasible";
+  const checked = failed || infeasible ? null : checkWords(state, plan);
+  // Of the nearest motion to one that there is not, no figure may look like the plan's.
+  const margin = !infeasible && plan.balance !== null;
+  const figures = h("div", { class: "figures" }, h("b", { text: word, data: { toneText: tone } }),
+    margin && " · ", margin && h("span", { text: `margin ${mm(plan.balance)} mm`, title: MARGIN_HELP, data: { toneText: plan.balance < 0 ? "bad" : "" } }),
+    strokes && !infeasible && ` · strokes ${fixed(strokes[0])}…${fixed(strokes[1])} mm`,
+    checked && " · ", checked && h("span", { text: checked[0], data: { toneText: checked[1] } }));
+  return [figures, h("div", { class: "sentence", text: plan.note.replace(/^\w+: /, ""), title: plan.note })];
+}
+
+function mountLegend(store) {
+  store.watch(({ view }) => [view?.roles], ({ view }) => {
+    const feet = (view?.roles ?? []).map((role, foot) =>
+      h("span", { data: { foot: foot + 1 }, title: `Foot ${foot + 1}: ${role}` }, h("i", { class: "foot-dot" }), String(foot + 1)));
+    byId("legend").hidden = feet.length === 0;
+    byId("legend").toggleAttribute("data-many", feet.length > 4);
+    byId("legend").replaceChildren("foot", ...feet);
+  });
+}
+
+function followPlan(store, playback, preview) {
+  let drawn = Promise.resolve();
+  let missed = null;
+  const offer = lane(async ({ id, plan, since }) => {
+    missed = null;
+    try {
+      // Drawing without a GPU must not hold up the plots: they are painted first, and so is the pose before.
+      const [poses] = await Promise.all([api.poses(id, plan.hash), painted(), drawn]);
+      await preview.loadPoses(poses, troubleOf(plan));
+      preview.setTime(playback.time);
+      message(null);
+      drawn = preview.drawn();
+      if (since !== null) drawn.then(() => measured("edit to 3D", since));
+    } catch (error) {
+      // A plan that has been replaced meanwhile is no longer wanted.
+      if (shownPlan(store.state) !== plan) return;
+      message(`The plan cannot be shown: ${error.message}`);
+      missed = { id, plan, since: null };
+    }
+  });
+  store.watch(({ connected }) => [connected], ({ connected }) => { if (connected && missed) offer(missed); });
+  followHand(store, preview);
+  store.watch((state) => [state.view?.id, shownPlan(state)?.hash, shownPlan(state)?.live?.lacks], (state) => {
+    const plan = shownPlan(state);
+    if (plan?.times.length) offer({ id: state.view.id, plan, since: state.live?.plan === plan ? state.live.since : null });
+  });
+}
+
+/** Tells the preview that an edit is on, or may begin: the pointer or the keyboard is where edits are made. */
+function followHand(store, preview) {
+  const near = new Set();
+  const tell = () => preview.setBusy(near.size > 0 || store.state.gesture !== null);
+  for (const id of ["timeline", "optimise", "goal"]) {
+    const note = (kind, on) => () => {
+      if (on) near.add(`${id} ${kind}`);
+      else near.delete(`${id} ${kind}`);
+      tell();
+    };
+    for (const [kind, comes, goes] of [["pointer", "pointerover", "pointerleave"], ["keyboard", "focusin", "focusout"]]) {
+      byId(id).addEventListener(comes, note(kind, true));
+      byId(id).addEventListener(goes, note(kind, false));
+    }
+  }
+  store.watch(({ gesture }) => [gesture !== null], tell);
+}
+
+/** Opens the preview; the page works without it, and says so. */
+export async function mountStage(store, edits, playback) {
+  mountLegend(store);
+  store.watch((state) => [state.view, state.checked, shownPlan(state)], (state) => byId("plan-note").replaceChildren(...planNote(state)));
+  store.watch(({ connected, greeted }) => [connected, greeted], ({ connected, greeted }) => {
+    byId("banner").hidden = connected || !greeted;
+    setText(byId("banner"), connected ? "" : "Connection to the studio lost: what stands here may be old. Trying again; Stop is tried all the same.");
+  });
+  let preview;
+  try {
+    preview = await openPreview(matchMedia("(prefers-color-scheme: dark)"));
+  } catch (error) {
+    message(`The 3D scene could not be loaded: ${error.message}`);
+    return null;
+  }
+  preview.addEventListener("opening", () => message("The 3D scene of this robot is being loaded."));
+  preview.addEventListener("ready", () => message(null));
+  mountTools(store, preview);
+  mountGhosts(store, preview);
+  mountJogGhost(store, preview, playback);
+  store.watch(({ tracks, view }) => [tracks, view?.document.robot], ({ tracks, view }) => preview.setTracks(tracks.filter(({ robot }) => robot === view?.document.robot)));
+  playback.addEventListener("time", ({ detail }) => preview.setTime(detail.time, detail.cause === "clock"));
+  followPlan(store, playback, preview);
+  mountGoal(store, edits, preview);
+  return preview;
+}

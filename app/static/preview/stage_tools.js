@@ -1,0 +1,72 @@
+/** The tools over the 3D preview: camera, fit, and the menu of what is shown. */
+
+import { api } from "../api/gaits.js";
+import { checkMenu, recalled, remember } from "../lib/check_menu.js";
+import { byId } from "../lib/dom.js";
+import { lane } from "../lib/latest_only.js";
+import { shownDocument, shownPlan } from "../state/store.js";
+
+/** What the menu shows and hides: its parts of the preview, and how it begins. */
+const ENTRIES = [
+  { key: "robot", text: "Robot", shown: true, parts: ["robot"], help: "Without it everything on the floor is seen; it is back when the page is loaded again" },
+  { key: "polygon", text: "Support polygon", shown: true, parts: ["polygon", "trouble"], help: "Green inside, amber near the edge, red outside" },
+  { key: "com", text: "Centre of mass", shown: true, parts: ["com"], help: "A disc on the floor, and its way" },
+  { key: "cop", text: "Centre of pressure", shown: true, parts: ["cop"], help: "A diamond on the floor, and its way: where the ground pushes" },
+  { key: "traces", text: "Swings and footholds", shown: true, parts: ["traces", "footholds"], help: "Ways of the feet, and a ring where each comes to stand" },
+  { key: "reach", text: "Reach of the feet", shown: false, parts: ["reach"], help: "Where each foot can be at the body's present height: outlines on the floor and up to 12 mm over it" },
+  { key: "goal", text: "Goal", shown: true, parts: [], help: "The goal to be dragged: it changes the step and the turn. It hides where the floor is seen from its edge" },
+];
+
+const NO_PRESSURE = "Not known: this motion has no accelerations. Optimised and live plans have.";
+
+/** Fetches the reach of the shown plan once it is wanted. */
+function followReach(store, preview, isOn) {
+  const offer = lane(async ({ id, hash, workspace }) => {
+    try {
+      const reach = await api.reach(id, hash, workspace);
+      if (shownPlan(store.state)?.hash === hash) preview.setReach(reach);
+    } catch {
+      // A plan that has been replaced meanwhile is no longer wanted; the next one asks again.
+    }
+  });
+  let asked = null;
+  const ask = () => {
+    const plan = shownPlan(store.state);
+    if (!isOn() || !plan?.times.length) return;
+    const wanted = { id: store.state.view.id, hash: plan.hash, workspace: shownDocument(store.state).options.workspace };
+    const key = JSON.stringify(wanted);
+    if (key === asked) return;
+    asked = key;
+    offer(wanted);
+  };
+  // New poses take the reach of the old ones away.
+  preview.addEventListener("poses", () => { asked = null; ask(); });
+  store.watch((state) => [shownDocument(state)?.options?.workspace], ask);
+  return ask;
+}
+
+/** Builds the tools; what is shown is remembered. */
+export function mountTools(store, preview) {
+  byId("camera").addEventListener("change", () => preview.setView(byId("camera").value));
+  byId("fit-view").addEventListener("click", () => preview.setView(byId("camera").value));
+
+  const choice = recalled("scene", Object.fromEntries(ENTRIES.map(({ key, shown }) => [key, shown])));
+  const askReach = followReach(store, preview, () => choice.reach);
+  const apply = ({ key, parts }) => {
+    parts.forEach((part) => preview.show(part, choice[key]));
+    if (key === "goal") byId("goal").hidden = !choice.goal;
+    if (key === "reach") askReach();
+  };
+  const menu = checkMenu({
+    id: "show-menu", name: "Show", help: "What is drawn in the 3D preview",
+    entries: ENTRIES.map(({ key, text, help }) => ({ key, text, help, checked: choice[key] })),
+    onChange(key, checked) {
+      choice[key] = checked;
+      remember("scene", { ...choice, robot: true });
+      apply(ENTRIES.find((entry) => entry.key === key));
+    },
+  });
+  byId("stage-tools").append(menu.element);
+  ENTRIES.forEach(apply);
+  preview.addEventListener("poses", () => menu.allow("cop", preview.knowsPressure ? null : NO_PRESSURE));
+}

@@ -1,0 +1,149 @@
+/**
+ * The jog: one motor, one foot or the body moved by small steps. The buttons − and + move only the target, which is shown as a
+ * ghost in 3D and in numbers; the robot moves when Move is pressed.
+ */
+
+import { api } from "../api/gaits.js";
+import { h, onPress, setAllowed, setText } from "../lib/dom.js";
+import { fixed, seconds } from "../lib/format.js";
+import { jogRows } from "./jog_rows.js";
+import { takePose } from "./jog_pose.js";
+import { PARTS, handlesOf, withStep } from "./jog_steps.js";
+import { lane } from "../lib/latest_only.js";
+import { whyNotHeld } from "../state/lease.js";
+import { needOperator } from "../state/operator.js";
+import { acceptRobot, watchable } from "../state/store.js";
+import { attempt, report, toast } from "../lib/toasts.js";
+
+const STEP_MM = { least: 0.1, most: 10, first: 2 };
+const BEGINS = {
+  measured: "From where the motors stand.",
+  standing: "No strokes are known: the steps begin with every motor at 8 mm.",
+};
+
+const robotOf = ({ view }) => view?.document.robot ?? "deltawalker";
+
+/** What the studio answered to the present choice; an older answer counts no more. */
+const answerOf = ({ answer, asked }, key) => (asked === key ? answer : null);
+
+function build(change) {
+  const parts = PARTS.map(([value, text]) => h("button", { text, "aria-pressed": "false", on: { click: () => change({ part: value }) } }));
+  const foot = h("select", { "aria-label": "Foot to jog", on: { change: () => change({ foot: Number(foot.value) }) } });
+  const size = h("input", { type: "number", min: STEP_MM.least, max: STEP_MM.most, step: "0.1", value: STEP_MM.first, "aria-label": "Jog step" });
+  return {
+    parts, foot, size,
+    findings: h("ul", { class: "jog-findings" }),
+    target: h("p", { class: "why" }), why: h("p", { class: "why" }),
+    move: h("button", { class: "primary", text: "Move", "data-robot": true }), back: h("button", { text: "Back to where it stands" }),
+  };
+}
+
+function choiceRow({ parts, foot, size }) {
+  return h("div", { class: "jog-choice" }, h("div", { class: "jog-parts", role: "group", "aria-label": "What to jog" }, ...parts), foot,
+    h("label", { title: `Length of one step, ${STEP_MM.least} to ${STEP_MM.most} mm` }, h("span", { text: "Step" }), h("span", { class: "box", data: { unit: "mm" } }, size)));
+}
+
+function showChoice({ parts, foot }, { part, foot: chosen }, feet) {
+  parts.forEach((button, index) => button.setAttribute("aria-pressed", String(PARTS[index][0] === part)));
+  if (foot.options.length !== feet) foot.replaceChildren(...Array.from({ length: feet }, (_, index) => h("option", { value: String(index + 1), text: `Foot ${index + 1}` })));
+  foot.value = String(chosen);
+  foot.hidden = part === "body";
+}
+
+function targetWords({ wired, moves, seconds: takes, stop_seconds: stop, margin_mm: margin, from, residual_mm: residual }, steps) {
+  if (!steps.length) return BEGINS[from] ?? "";
+  const off = Math.max(0, ...(residual ?? []).map(Math.abs));
+  if (!wired) return `Shown in the preview only; least squares leave strokes up to ${fixed(off)} mm off.`;
+  if (!moves) return "";
+  const balance = margin === null ? "" : ` Balance ${fixed(margin)} mm.`;
+  return `${moves} move${moves > 1 ? "s" : ""}, about ${seconds(takes)} s; Stop acts within ${seconds(stop)} s.${balance}`;
+}
+
+const findingRow = ({ severity, sentence }) => h("li", { data: { toneText: severity === "error" ? "bad" : "caution" }, text: sentence });
+
+/** Why nothing can be moved now; null where Move may be pressed. */
+function whyNotMove({ robot }, answer) {
+  if (!answer) return "The studio has not answered yet.";
+  return (answer.wired && robot && whyNotHeld(robot)) || answer.reason;
+}
+
+/** Asks the studio where the steps lead, the newest question only. */
+function asking(own) {
+  return lane(async ({ key, body }) => {
+    try {
+      const answer = await api.robot("jog", { ...body, preview: true });
+      own.set({ asked: key, answer });
+    } catch (error) {
+      own.set({ asked: key, answer: null });
+      report(error);
+    }
+  });
+}
+
+function moving(store, own, body) {
+  return attempt(async () => {
+    const by = await needOperator(store, "What the robot does is kept with the name of who did it.");
+    const { answer } = own.state;
+    if (!by || !answer) return;
+    acceptRobot(store, await api.robot("jog", { ...body(), seen_mm: answer.target_mm, by }));
+    own.set({ steps: [] });
+  });
+}
+
+/**
+ * Builds the group of the Robot panel.
+ * @returns {HTMLElement}
+ */
+export function jogPart(store, edits) {
+  const own = watchable({ isOpen: false, part: "foot", foot: 1, steps: [], size: STEP_MM.first, asked: null, answer: null });
+  const { size, ...parts } = build((patch) => own.set(patch));
+  const rows = jogRows((index, sign) => {
+    const { state } = own;
+    own.set({ steps: withStep(state.steps, handlesOf(state)[index], sign * state.size) });
+  });
+  const body = () => ({ robot: robotOf(store.state), steps: own.state.steps });
+  const ask = asking(own);
+  let sent = null;
+  const element = h("details", { class: "more jog", role: "group", "aria-label": "Jog" }, h("summary", { text: "Jog: move a motor, a foot or the body by hand" }),
+    h("div", {}, choiceRow({ ...parts, size }), rows.element, h("div", { role: "status", "aria-label": "Jog findings" }, parts.findings), parts.target,
+      h("div", { class: "buttons" }, parts.move, parts.back), parts.why, takePose(store, edits)));
+
+  element.addEventListener("toggle", () => own.set({ isOpen: element.open }));
+  size.addEventListener("change", () => {
+    const asked = Number(size.value);
+    if (asked >= STEP_MM.least && asked <= STEP_MM.most) own.set({ size: asked });
+    else toast(`The step is ${size.value || "nothing"}; it must lie between ${STEP_MM.least} and ${STEP_MM.most} mm. It keeps its value.`);
+    size.value = String(own.state.size);
+  });
+  onPress(parts.move, moving(store, own, body), (why) => toast(why));
+  onPress(parts.back, () => own.set({ steps: [] }), (why) => toast(why));
+
+  /** Everything that an answer depends on; strokes to a tenth of a millimetre, which no motor shakes by. */
+  const keyOf = ({ robot, view }, { part, foot, steps }) => JSON.stringify([robotOf({ view }), part, foot, steps, robot?.robot, robot?.link, robot?.strokes_mm?.map((one) => one.toFixed(1))]);
+
+  function show() {
+    const [state, now] = [store.state, own.state];
+    const feet = state.view?.roles?.length ?? 4;
+    if (now.foot > feet) return own.set({ foot: 1 });
+    if (!now.isOpen) return state.jog && store.set({ jog: null });
+    const key = keyOf(state, now);
+    if (now.asked !== key && key !== sent) ask({ key, body: { ...body(), look: { part: now.part, foot: now.foot } } });
+    sent = key;
+    const answer = answerOf(now, key);
+    showChoice(parts, now, feet);
+    rows.show(handlesOf(now), (answer ?? now.answer)?.handles ?? null, now.size);
+    parts.findings.replaceChildren(...(answer?.findings ?? []).map(findingRow));
+    setText(parts.target, answer ? targetWords(answer, now.steps) : "");
+    const why = whyNotMove(state, answer);
+    setAllowed(parts.move, why, "Moves the robot to the target, slowly and in small moves");
+    setText(parts.why, why && !answer?.findings.some(({ sentence }) => sentence === why) ? why : "");
+    setAllowed(parts.back, now.steps.length ? null : "The target is where it stands.");
+    const { target_mm: pose = null, wired = false } = answer ?? now.answer ?? {};
+    store.set({ jog: { ...body(), pose_mm: pose, target_mm: now.steps.length ? pose : null, wired } });
+    return undefined;
+  }
+
+  own.watch((state) => Object.values(state), show);
+  store.watch(({ robot, view }) => [robot, view?.document.robot, view?.roles], show);
+  return element;
+}

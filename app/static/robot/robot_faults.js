@@ -1,0 +1,43 @@
+/** Faults of the emulated robot, on request: a list that opens, and is not there with a real robot. */
+
+import { api } from "../api/gaits.js";
+import { h, onPress, setAllowed } from "../lib/dom.js";
+import { acceptRobot } from "../state/store.js";
+import { attempt, toast } from "../lib/toasts.js";
+
+const FAULTS = {
+  stall: "stall: the program dies, the motors go on",
+  unplug: "unplug: the cable comes out",
+  reset: "reset: the board restarts",
+  drop: "drop: bytes get lost",
+  garble: "garble: bits flip",
+  split: "split: bytes come in pieces",
+  delay: "delay: bytes come late",
+  "weak-motor": "weak-motor: motor 8 is slow",
+  "stuck-motor": "stuck-motor: motor 5 does not move",
+  "dead-pot": "dead-pot: motor 2 reads a constant",
+  noise: "noise: readings are noisy",
+};
+
+/** Builds the list; a fault that lasts goes on until it is mended or the robot is connected anew. */
+export function robotFaults(store) {
+  const choice = h("select", { "aria-label": "Fault" }, ...Object.entries(FAULTS).map(([value, text]) => h("option", { value, text })));
+  const strike = h("button", { text: "Make it happen" });
+  const mend = h("button", { text: "Mend all" });
+  const element = h("details", { class: "more robot-faults" }, h("summary", { text: "Faults of the emulated robot" }),
+    h("div", {}, choice, h("div", { class: "buttons" }, strike, mend),
+      h("p", { class: "why", text: "Stall, unplug and reset strike once; the others last until they are mended." })));
+  const ask = (name, done) => attempt(async () => {
+    acceptRobot(store, await api.robot("fault", { name: name() }));
+    toast(done(), { of: "studio" });
+  });
+  const explain = (why) => toast(why, { of: "studio" });
+  onPress(strike, ask(() => choice.value, () => `The emulated robot has the fault “${choice.value}”.`), explain);
+  onPress(mend, ask(() => "none", () => "The emulated robot and its cable are whole again."), explain);
+  store.watch(({ robot }) => [robot?.emulated, robot?.link], ({ robot }) => {
+    element.hidden = !robot?.emulated;
+    const why = ["ready", "connecting"].includes(robot?.link) ? null : "Connect the emulated robot first.";
+    for (const button of [strike, mend]) setAllowed(button, why);
+  });
+  return element;
+}

@@ -1,0 +1,96 @@
+/**
+ * "Send to robot": held for a second, or clicked (or Enter) and then a countdown that can be cancelled.
+ * Either way a person has a second or more to think again.
+ */
+
+import { h, onPress, setAllowed, setText } from "../lib/dom.js";
+import { announce, toast } from "../lib/toasts.js";
+
+const HOLD_MS = 1000;
+const COUNTDOWN_S = 3;
+
+/**
+ * @param {object} options
+ * @param {() => Promise<boolean>} options.prepare asked before the countdown: the operator's name is known
+ * @param {() => Promise<void>} options.send carries it out
+ * @returns {{element: HTMLElement, allow: (reason: string|null) => void, cancel: () => boolean}}
+ */
+export function sendControl({ prepare, send }) {
+  const button = h("button", { class: "primary wide hold", "data-robot": true }, h("span", { class: "fill" }), h("span", { text: "Send to robot" }));
+  const number = h("b", { text: String(COUNTDOWN_S) });
+  const cancelButton = h("button", { text: "Cancel" });
+  const countdown = h("div", { class: "countdown", role: "group", "aria-label": "Countdown", hidden: true }, number, h("span", { text: "The robot starts to move at 0." }), cancelButton);
+  let timer = null;
+  let holdTimer = null;
+  let held = false;
+  let reason = null;
+
+  const start = async () => { if (!reason) await send(); };
+
+  function cancel() {
+    if (timer === null) return false;
+    clearInterval(timer);
+    timer = null;
+    [countdown.hidden, button.hidden] = [true, false];
+    announce("Sending is cancelled.");
+    return true;
+  }
+
+  function finish() {
+    clearInterval(timer);
+    timer = null;
+    [countdown.hidden, button.hidden] = [true, false];
+    start();
+  }
+
+  async function count() {
+    if (timer !== null || !(await prepare())) return;
+    const begun = performance.now();
+    [countdown.hidden, button.hidden] = [false, true];
+    setText(number, String(COUNTDOWN_S));
+    cancelButton.focus({ preventScroll: true });
+    countdown.scrollIntoView({ block: "nearest" });
+    announce(`Sending in ${COUNTDOWN_S} seconds.`);
+    timer = setInterval(() => {
+      const left = COUNTDOWN_S - (performance.now() - begun) / 1000;
+      if (left <= 0) finish();
+      else setText(number, String(Math.ceil(left)));
+    }, 100);
+  }
+
+  function letGo() {
+    clearTimeout(holdTimer);
+    holdTimer = null;
+    delete button.dataset.holding;
+  }
+
+  button.addEventListener("pointerdown", (event) => {
+    held = false;
+    if (reason || event.button !== 0) return;
+    button.dataset.holding = "";
+    holdTimer = setTimeout(async () => {
+      held = true;
+      letGo();
+      if (await prepare()) start();
+    }, HOLD_MS);
+  });
+  for (const type of ["pointerup", "pointerleave", "pointercancel"]) button.addEventListener(type, letGo);
+  button.addEventListener("contextmenu", (event) => event.preventDefault());
+  onPress(button, () => {
+    if (!held) count();
+    held = false;
+  }, (why) => toast(why));
+  cancelButton.addEventListener("click", cancel);
+
+  return {
+    element: h("div", {}, button, countdown),
+    cancel,
+    allow(why) {
+      reason = why;
+      setAllowed(button, why, "Hold for a second, or click for a countdown that can be cancelled");
+      if (!why) return;
+      cancel();
+      letGo();
+    },
+  };
+}

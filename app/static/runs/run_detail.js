@@ -1,0 +1,95 @@
+/** One run: what it was, how far it was from its plan, a note, its files, and another run beside it. */
+
+import { api } from "../api/gaits.js";
+import { h, onPress, setText } from "../lib/dom.js";
+import { clockTime, fixed, seconds, shortHash } from "../lib/format.js";
+import { runTone } from "./run_list.js";
+import { comparison, durationWords, errorTables } from "./run_tables.js";
+import { announce, attempt, report, toast } from "../lib/toasts.js";
+
+const OTHERS = 100;
+
+function facts(run) {
+  const rows = [
+    ["By", run.by], ["Started", clockTime(run.started)], ["Duration", durationWords(run)],
+    ["Reached", run.count === null ? "–" : `${run.reached} of ${run.count}`],
+    ["Motors, largest", run.errors ? `${fixed(run.errors.largest_mm, 2)} mm` : "–"],
+    ["Body, largest", run.errors ? `${fixed(run.errors.body_largest_mm, 2)} mm` : "–"],
+    ["Stop bound", run.stop_bound === null ? "none" : `${seconds(run.stop_bound)} s`],
+    ["Approved by", run.approval?.by ?? "–"], ["Hash", shortHash(run.waypoints_hash), run.waypoints_hash],
+  ];
+  return h("dl", { class: "summary" }, ...rows.flatMap(([name, value, help]) => [h("dt", { text: name }), h("dd", { text: value, title: help ?? null })]));
+}
+
+function stateLog({ states }) {
+  return h("details", { class: "run-states" }, h("summary", { text: `States (${states.length})` }),
+    h("ol", { role: "list" }, ...states.map(({ time, link, robot, cause }) => h("li", {}, h("span", { class: "number quiet", text: `${fixed(time, 1)} s` }), h("b", { text: link === "ready" ? robot : `link ${link}` }), h("span", { text: cause })))));
+}
+
+function noteField(run) {
+  const field = h("textarea", { "aria-label": "Note", rows: "2", maxlength: "4000", placeholder: "Note: floor, load, what was seen" });
+  field.value = run.note;
+  field.addEventListener("change", attempt(async () => {
+    await api.noteRun(run.id, field.value);
+    announce("Note kept.");
+  }));
+  return field;
+}
+
+function deleteButton(run, gone, back) {
+  const button = h("button", { class: "link", text: "Delete", title: "Takes this run out of the list; it can be brought back" });
+  onPress(button, attempt(async () => {
+    await api.deleteRun(run.id);
+    gone();
+    toast(`The run of ${run.gait_name} is deleted.`, { action: { label: "Undo", act: attempt(async () => { await api.restoreRun(run.id); back(run.id); }) } });
+  }));
+  return button;
+}
+
+const ON = ["moving", "pausing", "paused"];
+
+/** How the run ended: the cause of the first state that ended it. */
+const endOf = (run) => (run.state === "running" ? null : run.states.find(({ link, robot }) => link !== "ready" || !ON.includes(robot))?.cause) ?? run.sentence;
+
+/** The choice of another run, and the two beside each other. */
+function comparing(run, others, tables) {
+  const select = h("select", { "aria-label": "Compare with", title: "Another run, its times and errors beside these" }, h("option", { value: "", text: "no other run" }),
+    ...others.filter(({ id }) => id !== run.id).map((other) => h("option", { value: other.id, text: `${other.gait_name}, ${clockTime(other.started)}, ${other.by}, ${other.state}` })));
+  select.addEventListener("change", () => {
+    const other = others.find(({ id }) => id === select.value);
+    tables.replaceChildren(...(other ? comparison(run, other) : errorTables(run.errors)));
+  });
+  return h("label", { class: "run-against quiet" }, "Compare with ", select);
+}
+
+const file = (run, form, text, help) => h("a", { href: `/api/runs/${encodeURIComponent(run.id)}/run.${form}`, download: "", text, title: help });
+
+/** What cameras recorded with the run: a line that comes later than the page. */
+function recordedPart(id, open) {
+  const place = h("div");
+  import("../cameras/camera_recorded.js").then(({ recordedLine }) => place.replaceWith(recordedLine(id, open))).catch(report);
+  return place;
+}
+
+/**
+ * Builds a run's page in the panel.
+ * @param {string} id
+ * @param {{leave: () => void, open: (id: string) => void, standing: (run: object) => string, recorded: (wanted: object) => void}} acts `standing`
+ *   says how the shown gait stands to it, `recorded` opens a trial or a video of it
+ * @returns {Promise<{element: HTMLElement, follow: () => void}>} `follow` says again how the shown gait stands to it
+ */
+export async function runDetail(id, { leave, open, standing, recorded }) {
+  const [run, { runs: others }] = await Promise.all([api.keptRun(id), api.runs({ most: OTHERS })]);
+  const tables = h("div", { class: "run-tables" }, ...(run.errors ? errorTables(run.errors) : [h("p", { class: "why", text: "This run was kept without its plan: its errors are not known." })]));
+  const word = h("span", { class: "word", text: run.state });
+  const over = h("p", { class: "why", role: "status" });
+  const element = h("div", { class: "run-detail" },
+    h("button", { class: "link", text: "All runs", on: { click: leave } }),
+    h("div", { class: "run-line run-title" }, h("span", { class: "dot", data: { tone: runTone(run) } }), h("b", { text: run.gait_name }), word),
+    h("p", { class: "quiet", text: endOf(run) }),
+    run.left_out ? h("p", { class: "why", data: { toneText: "caution" }, text: `The record has a hole: ${run.left_out} bytes were not kept, as the disk was full.` }) : null,
+    facts(run), recordedPart(id, recorded), noteField(run), over,
+    run.errors ? comparing(run, others, tables) : null, tables, stateLog(run),
+    h("div", { class: "run-files" }, file(run, "csv", "CSV", "Time, state, commanded and measured strokes in mm"), file(run, "mcap", "MCAP", "For Foxglove and other viewers: strokes, commands, states and every byte"), deleteButton(run, leave, open)));
+  return { element, follow: () => setText(over, standing(run)) };
+}

@@ -1,0 +1,85 @@
+/** The list of runs that were kept, with its filter. */
+
+import { api } from "../api/gaits.js";
+import { h, setAttribute, setText } from "../lib/dom.js";
+import { clockTime, fixed, seconds } from "../lib/format.js";
+import { turns } from "../lib/latest_only.js";
+import { attempt } from "../lib/toasts.js";
+
+const TONES = { done: "good", running: "accent", stopped: "caution", stopping: "caution", interrupted: "caution", fault: "bad", lost: "bad", refused: "quiet" };
+const PAGE = 30;
+
+export const runTone = ({ state }) => TONES[state] ?? "quiet";
+
+const durationOf = (run) => run.errors?.seconds ?? run.seconds ?? null;
+const figures = (run) => [
+  durationOf(run) === null ? null : `${seconds(durationOf(run))} s`,
+  Number.isFinite(run.errors?.largest_mm) ? `error ${fixed(run.errors.largest_mm, 2)} mm` : null,
+].filter(Boolean).join(" · ");
+
+/** A run in a list: gait, result, who, when, duration and largest error. */
+export function runRow(run, open) {
+  const when = clockTime(run.started);
+  const button = h("button", { class: "run-row", title: `${run.sentence || "Show this run over the plan"} ${Number.isFinite(run.errors?.largest_mm) ? `Largest error of a motor: ${fixed(run.errors.largest_mm, 2)} mm.` : ""}`.trim(), data: { run: run.id }, on: { click: () => open(run.id) } },
+    h("span", { class: "run-line" }, h("span", { class: "dot", data: { tone: runTone(run) } }), h("b", { text: run.gait_name }), h("span", { class: "word", text: run.state })),
+    h("span", { class: "run-line quiet" }, h("span", { text: `${run.by} · ${when}` })),
+    h("span", { class: "run-line quiet", text: figures(run) || run.sentence }),
+    run.note ? h("span", { class: "run-line run-note", text: run.note }) : null);
+  return h("li", {}, button);
+}
+
+function choice(name, help) {
+  return h("select", { "aria-label": name, title: help });
+}
+
+/** A day with its word beside it. */
+function dayField(text, name, help) {
+  const input = h("input", { type: "date", "aria-label": name, title: help });
+  return { input, element: h("label", { class: "run-day quiet", title: help }, h("span", { text }), input) };
+}
+
+function fill(select, all, options) {
+  const kept = select.value;
+  select.replaceChildren(h("option", { value: "", text: all }), ...options.map(({ value, text }) => h("option", { value, text })));
+  select.value = options.some(({ value }) => value === kept) ? kept : "";
+}
+
+const plain = (values) => values.map((value) => ({ value, text: value }));
+
+/**
+ * Builds the list.
+ * @param {(id: string) => void} open
+ * @returns {{element: HTMLElement, refresh: () => Promise<void>}}
+ */
+export function runList(open) {
+  const [gait, state, operator] = [choice("Gait of the runs", "Only runs of this gait"), choice("Result of the runs", "Only runs that ended so"), choice("Operator of the runs", "Only runs that this person sent")];
+  const [since, until] = [dayField("Since", "Runs since", "Started on this day or later"), dayField("Until", "Runs until", "Started on this day or earlier")];
+  const [count, list] = [h("p", { class: "quiet", role: "status" }), h("ul", { class: "run-list", role: "list", "aria-label": "Runs" })];
+  const more = h("button", { class: "link", text: "Older runs", hidden: true });
+  let shown = [];
+  const begin = turns();
+
+  const wanted = (offset) => ({ gait: gait.value, state: state.value, operator: operator.value, since: since.input.value, until: until.input.value, offset, most: PAGE });
+
+  const load = attempt(async (offset) => {
+    const isOld = begin();
+    const answer = await api.runs(wanted(offset));
+    if (isOld()) return;
+    shown = offset ? [...shown, ...answer.runs] : answer.runs;
+    fill(gait, "Every gait", answer.gaits.map(({ id, name }) => ({ value: id, text: name })));
+    fill(state, "Every result", plain(answer.states));
+    fill(operator, "Everybody", plain(answer.operators));
+    list.replaceChildren(...shown.map((run) => runRow(run, open)));
+    setText(count, answer.total ? `${answer.total} run${answer.total === 1 ? "" : "s"}` : noRuns(answer));
+    setAttribute(more, "hidden", shown.length >= answer.total);
+  });
+
+  for (const field of [gait, state, operator, since.input, until.input]) field.addEventListener("change", () => load(0));
+  more.addEventListener("click", () => load(shown.length));
+  return {
+    element: h("div", { class: "run-all" }, h("div", { class: "run-filter", role: "group", "aria-label": "Filter" }, gait, state, operator, since.element, until.element), count, list, more),
+    refresh: () => load(0),
+  };
+}
+
+const noRuns = ({ states }) => (states.length ? "No run is like that." : "No run yet. Send an approved gait to the robot: every run is kept here, with what was measured.");

@@ -1,0 +1,202 @@
+/** The vocabulary of a segment table: named positions and segments, which a person can add, change, rename and delete. */
+
+import { h, onPress, setAllowed } from "../lib/dom.js";
+
+const NAME = /^[^\t\r\n,;"]{1,40}$/;
+
+/** Why a name cannot be taken; null where it can. */
+function nameReason(name, taken, what, withoutDash) {
+  if (!NAME.test(name)) return `The ${what} needs a name of 1 to 40 characters without tabs, commas, semicolons and quotes.`;
+  if (withoutDash && name.includes("-")) return `The ${what} “${name}” has a hyphen, which parts the two names of a position. Leave it out.`;
+  if (taken.some((one) => one.toLowerCase() === name.toLowerCase())) return `There is a ${what} “${name}” already; choose another name.`;
+  return null;
+}
+
+const renamedKey = (map, from, to) => Object.fromEntries(Object.entries(map).map(([name, value]) => [name === from ? to : name, value]));
+const withWords = (words) => (sheet) => ({ ...sheet, words: { ...sheet.words, ...words(sheet.words) } });
+
+function renamedPosition(segments, axis, from, to) {
+  const moved = (position) => {
+    const [xy, ...z] = position.split("-");
+    return axis === "xy" ? (xy === from ? [to, ...z].join("-") : position) : z.join("-") === from ? `${xy}-${to}` : position;
+  };
+  return Object.fromEntries(Object.entries(segments).map(([name, s]) => [name, { ...s, start: moved(s.start), end: moved(s.end) }]));
+}
+
+const renameSegment = (from, to) => (sheet) => ({
+  ...sheet, rows: sheet.rows.map((row) => row.map((name) => (name === from ? to : name))), words: { ...sheet.words, segments: renamedKey(sheet.words.segments, from, to) },
+});
+
+const without = (map, name) => Object.fromEntries(Object.entries(map).filter(([one]) => one !== name));
+
+/** A text field that is read when it is finished; what was wrong is told and the value put back. */
+function field({ label, value, width, unit, read, refuse }) {
+  const input = h("input", { value, "aria-label": label, title: label, autocomplete: "off", spellcheck: "false", class: unit === undefined ? "" : "number" });
+  const finish = () => {
+    if (input.value === value) return;
+    const reason = read(input.value.trim());
+    if (!reason) {
+      input.defaultValue = input.value;
+      return;
+    }
+    refuse(reason);
+    input.value = value;
+  };
+  input.addEventListener("change", finish);
+  input.addEventListener("focus", () => input.select());
+  input.addEventListener("mousedown", (event) => {
+    if (input === document.activeElement) return;
+    event.preventDefault();
+    input.focus();
+  });
+  input.addEventListener("keydown", (event) => {
+    if (event.key !== "Escape") return;
+    input.value = value;
+    event.stopPropagation();
+  });
+  return unit ? h("span", { class: "box", data: { unit } }, input) : input;
+}
+
+function choice({ label, value, options, read }) {
+  const select = h("select", { "aria-label": label, title: label }, ...options.map((one) => h("option", { value: one, text: one })));
+  select.value = value;
+  select.addEventListener("change", () => read(select.value));
+  return select;
+}
+
+function deletion(label, reason, act, refuse) {
+  const button = h("button", { class: "plain icon-only", "aria-label": label, text: "×" });
+  setAllowed(button, reason, label);
+  onPress(button, act, refuse);
+  return button;
+}
+
+/** Reads a number with point or comma; NaN where there is none. */
+const numberOf = (text) => (text === "" ? NaN : Number(text.replace(",", ".").replace("\u2212", "-")));
+
+const AXES = {
+  xy: {
+    title: "Places", unit: "×", help: "Multiple of the step", shown: String, stored: (value) => value, least: -10, most: 10, fresh: 0.5,
+    uses: (position) => position.split("-")[0],
+  },
+  z: {
+    title: "Heights", unit: "mm", help: "Motor stroke of a centred foot", shown: (value) => String(Number((value * 1000).toFixed(4))), stored: (value) => value / 1000,
+    least: 0.5, most: 19.5, fresh: 0.006, uses: (position) => position.split("-").slice(1).join("-"),
+  },
+};
+
+const freshName = (taken, stem) => {
+  let number = 1;
+  while (taken.some((name) => name.toLowerCase() === `${stem} ${number}`.toLowerCase())) number += 1;
+  return `${stem} ${number}`;
+};
+
+/** Why a number cannot be a place or a height, which the motors of the robot have to reach; null where it can. */
+function numberReason(name, number, unit, [least, most]) {
+  if (number >= least && number <= most) return null;
+  if (unit !== "mm" || Number.isNaN(number)) return `${name} needs a number between ${least} and ${most}${unit === "mm" ? " mm" : ""}. It keeps its value.`;
+  return `${name} cannot be ${number} mm: the robot's motors reach ${least} to ${most} mm. Type a height between them.`;
+}
+
+/** One axis of the named positions: its names and values. */
+function axisPart(sheet, axis, { run, refuse, strokes }) {
+  const { title, unit, help, shown, stored, least, most, fresh, uses } = AXES[axis];
+  const range = (axis === "z" && strokes()) || [least, most];
+  const map = sheet.words[axis];
+  const segments = Object.entries(sheet.words.segments);
+  const what = axis === "xy" ? "place" : "height";
+  const rows = Object.entries(map).map(([name, value]) => {
+    const user = segments.find(([, { start, end }]) => uses(start) === name || uses(end) === name)?.[0];
+    const last = Object.keys(map).length === 1;
+    return h("div", { class: "word" },
+      field({
+        label: `Name of the ${what} ${name}`, value: name, refuse,
+        read: (text) => nameReason(text, Object.keys(without(map, name)), what, axis === "xy")
+          ?? run({ change: withWords((words) => ({ [axis]: renamedKey(words[axis], name, text), segments: renamedPosition(words.segments, axis, name, text) })), label: `Rename ${what} ${name} to ${text}` }),
+      }),
+      field({
+        label: `${help} at ${name}, ${unit === "×" ? "a factor" : unit}`, value: shown(value), unit, refuse,
+        read: (text) => {
+          const number = numberOf(text);
+          return numberReason(name, number, unit, range) ?? run({ change: withWords((words) => ({ [axis]: { ...words[axis], [name]: stored(number) } })), label: `${name} to ${number}${unit === "mm" ? " mm" : " × the step"}` });
+        },
+      }),
+      deletion(`Delete the ${what} ${name}`, user ? `“${user}” uses ${name}; change or delete it first.` : last ? "The last one stays." : null,
+        () => run({ change: withWords((words) => ({ [axis]: without(words[axis], name) })), label: `Delete ${what} ${name}` }), refuse));
+  });
+  const add = h("button", { class: "link", text: `Add a ${what}`, on: {
+    click: () => {
+      const name = freshName(Object.keys(map), axis === "xy" ? "Place" : "Height");
+      run({ change: withWords((words) => ({ [axis]: { ...words[axis], [name]: fresh } })), label: `Add ${what} ${name}` });
+    },
+  } });
+  return h("div", { class: "axis", role: "group", "aria-label": title }, h("h4", { text: title, title: help }), ...rows, add);
+}
+
+function segmentRow(sheet, name, { run, refuse }) {
+  const segment = sheet.words.segments[name];
+  const positions = Object.keys(sheet.words.xy).flatMap((xy) => Object.keys(sheet.words.z).map((z) => `${xy}-${z}`));
+  const uses = sheet.rows.flat().filter((one) => one === name).length;
+  const set = (part, label) => run({ change: withWords((words) => ({ segments: { ...words.segments, [name]: { ...words.segments[name], ...part } } })), label });
+  const air = h("input", { type: "checkbox", "aria-label": `${name} is in the air`, title: "In the air" });
+  air.checked = segment.swing;
+  air.addEventListener("change", () => set({ swing: air.checked }, `${name} ${air.checked ? "in the air" : "on the ground"}`));
+  return h("div", { class: "word segment" },
+    field({
+      label: `Name of the segment ${name}`, value: name, refuse,
+      read: (text) => nameReason(text, Object.keys(without(sheet.words.segments, name)), "segment", false) ?? run({ change: renameSegment(name, text), label: `Rename ${name} to ${text}` }),
+    }),
+    choice({ label: `Start of ${name}`, value: segment.start, options: positions, read: (start) => set({ start }, `${name} starts at ${start}`) }),
+    choice({ label: `End of ${name}`, value: segment.end, options: positions, read: (end) => set({ end }, `${name} ends at ${end}`) }),
+    air,
+    deletion(`Delete the segment ${name}`, uses ? `${name} stands in ${uses} cell${uses > 1 ? "s" : ""} of the table; change them first.` : Object.keys(sheet.words.segments).length === 1 ? "The last one stays." : null,
+      () => run({ change: withWords((words) => ({ segments: without(words.segments, name) })), label: `Delete segment ${name}` }), refuse));
+}
+
+function segmentPart(sheet, acts) {
+  const names = Object.keys(sheet.words.segments);
+  const add = h("button", { class: "link", text: "Add a segment", on: {
+    click: () => {
+      const name = freshName(names, "Segment");
+      const { end: place } = sheet.words.segments[names.at(-1)];
+      acts.run({ change: withWords((words) => ({ segments: { ...words.segments, [name]: { start: place, end: place, swing: false } } })), label: `Add segment ${name}` });
+    },
+  } });
+  return h("div", { class: "axis", role: "group", "aria-label": "Segments" },
+    h("h4", { text: "Segments" }), h("div", { class: "word segment head" }, h("span", { text: "from" }), h("span", { text: "to" }), h("span", { text: "air", title: "In the air" }), h("span")),
+    ...names.map((name) => segmentRow(sheet, name, acts)), add);
+}
+
+/** Whether a name or number is being typed. */
+export const isTyped = (control) => control?.matches("input:not([type=checkbox])") && control.value !== control.defaultValue;
+
+/**
+ * Fills the panel with a sheet's vocabulary where that changed; the control that had the focus keeps it, and a name or number
+ * that is being typed waits for its end. It is filled anew after the key or click at hand, which may take the focus on.
+ */
+export function createWords(panel, acts) {
+  let shown = "";
+  let latest = null;
+  let awaited = false;
+  const controls = () => [...panel.querySelectorAll("input, select, button")];
+  function draw() {
+    const sheet = latest;
+    awaited = false;
+    const text = JSON.stringify([sheet.words, sheet.rows]);
+    const focused = panel.contains(document.activeElement) ? document.activeElement : null;
+    if (shown === text || isTyped(focused)) return;
+    const place = controls().indexOf(focused);
+    shown = text;
+    panel.replaceChildren(axisPart(sheet, "xy", acts), axisPart(sheet, "z", acts), segmentPart(sheet, acts));
+    if (place >= 0) controls()[place]?.focus();
+  }
+  function soon() {
+    if (!awaited) setTimeout(draw);
+    awaited = true;
+  }
+  panel.addEventListener("focusout", () => { if (latest) soon(); });
+  return (sheet) => {
+    latest = sheet;
+    soon();
+  };
+}

@@ -1,0 +1,111 @@
+/** The Segments section: the segment table of a gait as a spreadsheet, its numbers and its vocabulary. */
+
+import { byId, h, setAttribute, setText } from "../lib/dom.js";
+import { numberField } from "../state/fields.js";
+import { fixed } from "../lib/format.js";
+import { setNumber } from "./sheet_edits.js";
+import { commit, draftOf, shownSheet } from "../state/segment_draft.js";
+import { mountKept } from "./sheet_kept.js";
+import { createGrid } from "./sheet_grid.js";
+import { mountSheetInput } from "./sheet_input.js";
+import { mountMaking } from "./sheet_making.js";
+import { mountNote } from "./sheet_note.js";
+import { createWords, isTyped } from "./segment_definitions.js";
+import { errorsOf } from "../document/segment_sheet.js";
+import { shownDocument } from "../state/store.js";
+import { toast } from "../lib/toasts.js";
+
+/** The table's three numbers, each an edit of its own. */
+function numberFields(store, edits, run) {
+  const field = (label, name, key, most, help) => numberField(store, edits, {
+    label, name, unit: "", min: key === "samples" ? 2 : 1, max: most, step: 1, decimals: 0, whole: true, help,
+    read: () => shownSheet(store.state)?.[key] ?? null, act: (value) => run(setNumber(shownSheet(store.state), key, value)),
+  });
+  return [
+    field("Samples", "Samples a segment", "samples", 200, "Samples of each segment, both its ends included"),
+    field("Repeat", "Repeat from segment", "from", 999, "First segment of the part that every iteration repeats"),
+    field("to", "Repeat to segment", "to", 999, "Last segment of the part that every iteration repeats"),
+  ];
+}
+
+function tools(input, toggleWords) {
+  const button = (text, title, act) => h("button", { text, title, on: { click: act } });
+  const words = h("button", { text: "Vocabulary", title: "Named positions and segments", "aria-expanded": "false", "aria-controls": "segment-words", on: { click: () => toggleWords(words) } });
+  return h("div", { class: "sheet-tools", role: "toolbar", "aria-label": "Segment table" },
+    button("Insert", "A new segment after the selected ones, in which every foot waits (Insert; with Alt before them)", () => input.insert()),
+    button("Remove", "Take the selected segments away from every foot (Ctrl+Delete)", () => input.remove()),
+    button("Fill down", "The first selected segment into the ones below it (Ctrl+D)", () => input.fill()), words);
+}
+
+/** Builds the section; `escape` closes what is open in it, and tells whether there was anything. */
+export function mountSegments(store, edits) {
+  const title = h("h3", {}, "Segment table", h("span"));
+  const grid = h("div", { class: "sheet", role: "grid", "aria-label": "Segment table", "aria-multiselectable": "true" });
+  const note = h("div", { class: "box-note", role: "status", "aria-label": "Segment table note" });
+  const notice = h("p", { class: "box-note", data: { tone: "caution" } });
+  const panel = h("div", { id: "segment-words", class: "words", role: "region", "aria-label": "Vocabulary", hidden: true });
+  const run = (outcome) => {
+    if (outcome.reason) toast(outcome.reason);
+    else commit(store, edits, outcome);
+  };
+  const strokes = () => store.state.view?.plan.stroke_limits_mm.map((limit) => Number(limit.toFixed(3)));
+  const drawWords = createWords(panel, { run, refuse: toast, strokes });
+  const cells = createGrid(grid, () => input.addLink());
+  const input = mountSheetInput(store, edits, grid, cells);
+  const numbers = numberFields(store, edits, run);
+  const bar = tools(input, (button) => {
+    panel.hidden = !panel.hidden;
+    setAttribute(button, "aria-expanded", String(!panel.hidden));
+    show(store.state);
+    if (!panel.hidden) setTimeout(() => panel.scrollIntoView({ block: "nearest" })); // once it has been filled
+  });
+  panel.addEventListener("keydown", (event) => {
+    const key = event.key.toLowerCase();
+    if (!(event.ctrlKey || event.metaKey) || !"zy".includes(key) || isTyped(event.target)) return;
+    event.preventDefault();
+    if (key === "y" || event.shiftKey) edits.redo();
+    else edits.undo();
+  });
+  const numberRow = h("div", { class: "sheet-numbers" }, ...numbers.map(({ element }) => element));
+  const making = mountMaking(store, edits);
+  byId("segments").replaceChildren(title, notice, making, bar, grid, note, numberRow, panel);
+
+  function show(state) {
+    const sheet = shownSheet(state);
+    const { view } = state;
+    making.hidden = Boolean(sheet) || !view;
+    for (const part of [bar, numberRow]) part.hidden = !sheet;
+    notice.hidden = !view?.notice;
+    setText(notice, view?.notice ?? "");
+    panel.toggleAttribute("data-none", !sheet);
+    if (!view) return;
+    if (!sheet) {
+      setText(title.lastChild, "");
+      cells.forget();
+      input.escape();
+      grid.hidden = true;
+      return;
+    }
+    grid.hidden = false;
+    const document = shownDocument(state);
+    setText(title.lastChild, `${sheet.count} × ${fixed(sheet.samples * document.timeline.sample_time, 1)} s`);
+    const hadFocus = input.hasFocus();
+    const isNew = cells.draw(sheet, view.roles ?? [], errorsOf(sheet));
+    input.show();
+    if (isNew && (input.escape() || hadFocus)) input.focus();
+    numbers.forEach((one) => one.show(document));
+    if (!panel.hidden) drawWords(sheet);
+  }
+
+  new ResizeObserver(() => grid.style.setProperty("--view", `${byId("sections").clientHeight}px`)).observe(byId("sections"));
+  new ResizeObserver(() => {
+    grid.style.setProperty("--note", `${note.offsetHeight}px`);
+    if (input.hasFocus()) document.activeElement.scrollIntoView({ block: "nearest" });
+  }).observe(note);
+  mountNote(store, edits, note, input.focus);
+  mountKept(store);
+  const parts = (document) => [document?.segment_table, document?.direction, document?.iterations, document?.timeline.sample_time];
+  store.watch((state) => [state.view, state.tableDrafts, ...parts(shownDocument(state))], show);
+  store.watch((state) => [draftOf(state).steps.length > 0], (state) => grid.toggleAttribute("data-draft", draftOf(state).steps.length > 0));
+  return { escape: input.escape };
+}

@@ -1,0 +1,97 @@
+/** The list from which a cell's segment is chosen: typed by its first letters, with arrows, or with the pointer. */
+
+import { h, setAttribute } from "../lib/dom.js";
+import { choicesOf, placeBefore } from "../document/segment_sheet.js";
+
+const matches = (name, text) => name.toLowerCase().startsWith(text) || name.toLowerCase().includes(` ${text}`);
+
+function option(choice, index) {
+  const { name, segment, why } = choice;
+  const way = segment.start === segment.end ? `waits at ${segment.start}` : `${segment.start} → ${segment.end}`;
+  return h("li", { role: "option", id: `segment-option-${index}`, "aria-selected": "false", data: { ...(segment.swing ? { swing: "" } : {}), ...(why ? { why: "" } : {}) }, title: why ? `${name} ${why}. It can be chosen; the neighbours then have to change.` : null },
+    h("b", { text: name }), h("span", { text: why ?? way }));
+}
+
+/**
+ * Opens the list over a cell.
+ * @param {HTMLElement} cell
+ * @param {object} sheet
+ * @param {[number, number]} place row and foot of the cell
+ * @param {{text: string, choose: (name: string, way: string|null) => void, close: (isLeft: boolean) => void}} acts `text` is what was typed;
+ *   `way` is "right" after Tab, "down" after Enter; `close` follows on every end, and is told whether the focus went elsewhere
+ */
+export function openChooser(cell, sheet, [row, foot], { text, choose, close }) {
+  const list = h("ul", { role: "listbox", id: "segment-options", "aria-label": "Segments" });
+  const input = h("input", {
+    role: "combobox", "aria-expanded": "true", "aria-controls": "segment-options", "aria-autocomplete": "list", autocomplete: "off", spellcheck: "false",
+    "aria-label": `Segment of foot ${foot + 1}`, placeholder: sheet.rows[row][foot],
+  });
+  const before = placeBefore(sheet, row, foot);
+  const place = h("p", { text: before ? `Foot ${foot + 1} is at ${before}.` : `Foot ${foot + 1} begins here.` });
+  const element = h("div", { class: "chooser", data: { foot: foot + 1 } }, input, place, list);
+  const all = choicesOf(sheet, row, foot);
+  let shown = [];
+  let active = 0;
+  let ended = false;
+
+  function end(isLeft = false) {
+    if (ended) return false;
+    ended = true;
+    element.remove();
+    close(isLeft);
+    return true;
+  }
+
+  function mark(index) {
+    active = Math.min(Math.max(index, 0), shown.length - 1);
+    [...list.children].forEach((one, at) => one.setAttribute("aria-selected", String(at === active)));
+    setAttribute(input, "aria-activedescendant", shown.length ? `segment-option-${active}` : null);
+    list.children[active]?.scrollIntoView({ block: "nearest" });
+  }
+
+  function filter() {
+    const typed = input.value.trim().toLowerCase();
+    shown = all.filter(({ name }) => matches(name, typed));
+    list.replaceChildren(...shown.map(option));
+    if (!shown.length) list.append(h("li", { class: "none", text: `No segment begins with “${input.value.trim()}”.` }));
+    const present = typed ? -1 : shown.findIndex(({ name }) => name === sheet.rows[row][foot]);
+    mark(Math.max(present, 0));
+  }
+
+  function take(way) {
+    const choice = shown[active];
+    if (!choice) return;
+    end();
+    choose(choice.name, way);
+  }
+
+  input.addEventListener("input", filter);
+  input.addEventListener("keydown", (event) => {
+    const moves = { ArrowDown: 1, ArrowUp: -1, PageDown: 8, PageUp: -8 };
+    if (moves[event.key]) mark(active + moves[event.key]);
+    else if (event.key === "Enter") take("down");
+    else if (event.key === "Tab") take(event.shiftKey ? "left" : "right");
+    else return;
+    event.preventDefault();
+  });
+  input.addEventListener("blur", ({ relatedTarget }) => end(relatedTarget !== null));
+  list.addEventListener("pointerdown", (event) => event.preventDefault());
+  list.addEventListener("click", (event) => {
+    const index = [...list.children].indexOf(event.target.closest("[role=option]"));
+    if (index < 0) return;
+    mark(index);
+    take(null);
+  });
+
+  const box = cell.getBoundingClientRect();
+  document.body.append(element);
+  input.value = text;
+  filter();
+  const { offsetWidth: width, offsetHeight: height } = element;
+  element.style.left = `${Math.max(8, Math.min(box.left, window.innerWidth - width - 8))}px`;
+  element.style.top = `${Math.max(8, Math.min(box.top, window.innerHeight - height - 8))}px`;
+  element.style.setProperty("--cell-width", `${box.width}px`);
+  input.focus();
+  if (!text) input.select();
+  return { close: () => end() };
+}

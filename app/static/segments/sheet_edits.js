@@ -1,0 +1,140 @@
+/** Changes of the segment table: each gives `{change, label, kept, moved}` (see `commit`), `change` from sheet to sheet, or `{reason}`. */
+
+import { errorSentence, errorsOf, placeAfter, placeBefore, rowName, waitAt, walked } from "../document/segment_sheet.js";
+
+const MOST_SAMPLES = 2000;
+
+const plural = (count, word) => `${count} ${word}${count > 1 ? "s" : ""}`;
+const span = ([first, last]) => (first === last ? `${first + 1}` : `${first + 1}–${last + 1}`);
+
+/** "foot 2, segments 3–5" */
+export function rangeName(sheet, { rows, feet }) {
+  const foot = feet[0] === feet[1] ? `foot ${feet[0] + 1}` : `feet ${span(feet)}`;
+  if (rows[1] < sheet.count) return `${foot}, segment${rows[0] === rows[1] ? "" : "s"} ${span(rows)}`;
+  return `${foot}, ${rowName(sheet, rows[0])}${rows[0] === rows[1] ? "" : ` to ${rowName(sheet, rows[1])}`}`;
+}
+
+const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
+/** Names into cells, `[row, foot, name]`. */
+const withCells = (cells) => (sheet) => {
+  const rows = sheet.rows.map((row) => [...row]);
+  for (const [row, foot, name] of cells) if (rows[row]?.[foot] !== undefined) rows[row][foot] = name;
+  return { ...sheet, rows };
+};
+
+const put = (sheet, cells, label) => {
+  const changed = cells.filter(([row, foot, name]) => sheet.rows[row][foot] !== name);
+  return changed.length ? { change: withCells(changed), label, kept: changed.map(([row, foot]) => [row, foot]) } : { reason: "The same stands here already." };
+};
+
+const cellsOf = ({ rows, feet }) => {
+  const cells = [];
+  for (let row = rows[0]; row <= rows[1]; row += 1) for (let foot = feet[0]; foot <= feet[1]; foot += 1) cells.push([row, foot]);
+  return cells;
+};
+
+/** One segment into every cell of a range. */
+export const setName = (sheet, range, name) =>
+  put(sheet, cellsOf(range).map(([row, foot]) => [row, foot, name]), `${capital(rangeName(sheet, range))} to ${name}`);
+
+/** Waits at the position where each foot is, as Delete does. */
+export function setWaits(sheet, range) {
+  const cells = [];
+  for (let foot = range.feet[0]; foot <= range.feet[1]; foot += 1) {
+    const first = range.rows[0];
+    const place = placeBefore(sheet, first, foot) ?? sheet.words.segments[sheet.rows[first][foot]]?.start;
+    const name = waitAt(sheet, place);
+    if (!name) return { reason: `Foot ${foot + 1} is at ${place} before ${rowName(sheet, first)}, and no segment waits there. Add one under Vocabulary.` };
+    for (let row = first; row <= range.rows[1]; row += 1) cells.push([row, foot, name]);
+  }
+  return put(sheet, cells, `${capital(rangeName(sheet, range))} to waiting`);
+}
+
+/** The range's first row into its other rows; a single row takes over the one above it. */
+export function fillDown(sheet, range) {
+  const from = range.rows[0] === range.rows[1] ? range.rows[0] - 1 : range.rows[0];
+  if (from < 0) return { reason: "There is no row above to fill from." };
+  return put(sheet, cellsOf(range).map(([row, foot]) => [row, foot, sheet.rows[from][foot]]), `Fill down ${rangeName(sheet, range)}`);
+}
+
+/**
+ * Names from a clipboard, written from the range's first cell on; a single name fills the range.
+ * @param {string[][]} names rows of names as they were typed
+ */
+export function paste(sheet, range, names) {
+  const known = new Map(Object.keys(sheet.words.segments).map((name) => [name.toLowerCase(), name]));
+  const [top, left] = [range.rows[0], range.feet[0]];
+  const alone = names.length === 1 && names[0].length === 1;
+  const block = alone ? cellsOf(range).map(([row, foot]) => [row, foot, names[0][0]]) : names.flatMap((row, down) => row.map((name, right) => [top + down, left + right, name]));
+  const fitting = block.filter(([row, foot]) => row < sheet.rows.length && foot < sheet.legs);
+  const wrong = fitting.find(([, , name]) => !known.has(name.toLowerCase()));
+  if (wrong) return { reason: `Not pasted. Foot ${wrong[1] + 1}, ${rowName(sheet, wrong[0])}: there is no segment “${wrong[2]}”; known are ${[...known.values()].join(", ")}.` };
+  const cells = fitting.map(([row, foot, name]) => [row, foot, known.get(name.toLowerCase())]);
+  const [below, beside] = [top + names.length - sheet.rows.length, left + Math.max(...names.map((row) => row.length)) - sheet.legs];
+  const missing = alone ? [] : [below > 0 && `${plural(below, "row")} below the last segment`, beside > 0 && `${plural(beside, "column")} behind the last foot`].filter(Boolean);
+  const last = [Math.min(top + names.length, sheet.rows.length) - 1, Math.min(left + Math.max(...names.map((row) => row.length)), sheet.legs) - 1];
+  const filled = alone ? range : { rows: [top, last[0]], feet: [left, last[1]] };
+  const outcome = put(sheet, cells, `Paste into ${rangeName(sheet, filled)}`);
+  const broken = outcome.change && errorsOf(outcome.change(sheet)).find(({ stops }) => stops);
+  if (broken) return { reason: `Not pasted. ${errorSentence(sheet, broken)} The table stays as it was.` };
+  return { ...outcome, range: filled, note: missing.length ? `${missing.join(" and ")} did not fit and were left out.` : null };
+}
+
+/** A new row after a row (−1: before the first), in which every foot waits where it is; `inLink` says whether it is the link's. */
+export function insertRow(sheet, after, inLink = false) {
+  const names = [];
+  const before = inLink && after < sheet.count ? sheet.to - 1 : after;
+  for (let foot = 0; foot < sheet.legs; foot += 1) {
+    const place = before < 0 ? sheet.words.segments[sheet.rows[0][foot]]?.start : placeAfter(sheet, before, foot);
+    const name = waitAt(sheet, place);
+    if (!name) return { reason: `Nothing can be inserted there: foot ${foot + 1} is in mid-air at ${place} after ${rowName(sheet, Math.max(before, 0))}, and no segment waits there. Insert before or after its step.` };
+    names.push(name);
+  }
+  const change = (now) => {
+    const rows = [...now.rows.slice(0, after + 1), names, ...now.rows.slice(after + 1)];
+    if (inLink) return { ...now, rows };
+    return { ...now, rows, count: now.count + 1, from: now.from + Number(after + 2 <= now.from), to: now.to + Number(after + 1 <= now.to) };
+  };
+  const moved = ([row, foot]) => [row + Number(row > after), foot];
+  return { change, moved, label: after < 0 ? "Insert a segment at the beginning" : `Insert ${inLink && after < sheet.count ? `before ${rowName(sheet, after + 1)}` : `after ${rowName(sheet, after)}`}`, kept: [] };
+}
+
+const within = (value, least, most) => Math.min(Math.max(value, least), most);
+
+/** The sheet without some rows; the repeating part shrinks with them. */
+export function removeRows(sheet, [first, last]) {
+  const lastRow = Math.min(last, sheet.count - 1);
+  const inTable = Math.max(lastRow - first + 1, 0);
+  if (inTable === sheet.count) return { reason: "A table keeps at least one segment." };
+  const change = (now) => {
+    const rows = now.rows.filter((_, row) => row < first || row > last);
+    const count = now.count - inTable;
+    const gone = (bound) => Math.max(0, Math.min(bound, lastRow + 1) - first);
+    const from = within(now.from - gone(now.from - 1), 1, count);
+    return { ...now, rows, count, from, to: within(now.to - gone(now.to), from, count) };
+  };
+  const moved = ([row, foot]) => (row < first ? [row, foot] : row > last ? [row - (last - first + 1), foot] : null);
+  return { change, moved, label: first === last ? `Remove ${rowName(sheet, first)}` : `Remove ${rowName(sheet, first)} to ${rowName(sheet, last)}`, kept: [] };
+}
+
+/** A first row of the link, in which every foot goes or waits so that the table goes on. */
+export function addLinkRow(sheet) {
+  const names = Array.from({ length: sheet.legs }, (_, foot) => {
+    const last = (sheet.rows.length > sheet.count ? sheet.rows.length : sheet.to) - 1;
+    return waitAt(sheet, placeAfter(sheet, last, foot)) ?? sheet.rows[last][foot];
+  });
+  return { change: (now) => ({ ...now, rows: [...now.rows, names] }), label: "Add a segment to the link", kept: [] };
+}
+
+/** One of the table's numbers: `samples`, `from` or `to`. */
+export function setNumber(sheet, field, value) {
+  const words = { samples: "Samples a segment", from: "Repeat from segment", to: "Repeat to segment" };
+  const [least, most, why] = {
+    samples: [2, Math.floor(MOST_SAMPLES / walked(sheet).length), `a timeline has ${MOST_SAMPLES} samples at most`],
+    from: [1, sheet.to, `the repeating part ends with segment ${sheet.to}`], to: [sheet.from, sheet.count, `the part begins with segment ${sheet.from}, and the table has ${sheet.count}`],
+  }[field];
+  if (sheet[field] === value) return { reason: "The same stands here already." };
+  if (value < least || value > most) return { reason: `${words[field]} is ${value}; it must lie between ${least} and ${most}: ${why}.` };
+  return { change: (now) => ({ ...now, [field]: value, toEnd: field === "to" ? false : now.toEnd }), label: `${words[field]} ${field === "samples" ? "to " : ""}${value}`, kept: [] };
+}

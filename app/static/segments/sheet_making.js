@@ -1,0 +1,72 @@
+/** Makes a segment table of a drawn gait, as it is drawn or with phases that have room for a step's two segments. */
+
+import { api } from "../api/gaits.js";
+import { h, onPress, setAllowed, setText } from "../lib/dom.js";
+import { drawnRows, isDrawn } from "../document/drawn_timeline.js";
+import { lane } from "../lib/latest_only.js";
+import { shownDocument } from "../state/store.js";
+import { toast } from "../lib/toasts.js";
+
+const EMPTY = "This gait's footfalls are drawn on the timeline. A segment table says them in words instead: in each segment every foot does one named "
+  + "thing, such as Lift A, Step A or Wait A.";
+
+/** The document drawn from its foot order with the next phases that two segments fit into; null where a person drew it. */
+function withRoom(document) {
+  const { timeline, options } = document;
+  if (!isDrawn(document)) return null;
+  const phase = Math.max(4, options.phase_knots + (options.phase_knots % 2));
+  const closing = Math.max(1, Math.ceil(options.closing_knots / (phase / 2))) * (phase / 2);
+  const roomy = { ...document, options: { ...options, phase_knots: phase, closing_knots: closing } };
+  return { ...roomy, timeline: { ...timeline, feet: drawnRows(roomy), locked: null } };
+}
+
+async function made(document) {
+  try {
+    return await api.madeTable(document);
+  } catch (error) {
+    return { table: null, sentence: error.message };
+  }
+}
+
+/** The buttons of a gait without a table, and the sentence why its timeline makes none. */
+export function mountMaking(store, edits) {
+  const make = h("button", { class: "primary wide", text: "Make a segment table" });
+  const why = h("p", { class: "why" });
+  const roomy = h("button", { class: "wide", hidden: true });
+  const element = h("div", { class: "making" }, h("p", { class: "teach", text: EMPTY }), make, why, roomy);
+  let found = null;
+  let offer = null;
+
+  const ask = lane(async ({ id, revision, document }) => {
+    const answer = await made(document);
+    const other = answer.table ? null : withRoom(document);
+    const { table } = other ? await made(other) : { table: null };
+    if (store.state.view?.id !== id || store.state.view.revision !== revision) return;
+    found = answer;
+    offer = table && { ...other, segment_table: table };
+    setAllowed(make, found.table ? null : found.sentence, "The same footfalls as named segments; Undo takes it back");
+    setText(why, found.sentence ?? "");
+    roomy.hidden = !offer;
+    if (!offer) return;
+    const { phase_knots: phase, closing_knots: closing } = offer.options;
+    setText(roomy, `Make one with phases of ${phase}`);
+    roomy.title = `Redraws the foot order with phases of ${phase} and a closing stance of ${closing} samples; Undo takes both back`;
+  });
+
+  onPress(make, () => {
+    if (found?.table) edits.edit((document) => ({ ...document, segment_table: found.table }), "Make a segment table", { drawing: true });
+  }, toast);
+  roomy.addEventListener("click", () => {
+    const { options, timeline, segment_table: table } = offer;
+    edits.edit((document) => ({ ...document, timeline, options: { ...document.options, phase_knots: options.phase_knots, closing_knots: options.closing_knots }, segment_table: table }),
+      `Make a segment table with phases of ${options.phase_knots}`, { drawing: true });
+  });
+  store.watch(({ view }) => [view?.id, view?.revision], (state) => {
+    const { view } = state;
+    if (!view || view.document.segment_table || view.document.sequence?.length) return;
+    setAllowed(make, "Being looked at.");
+    roomy.hidden = true;
+    ask({ id: view.id, revision: view.revision, document: shownDocument(state) });
+  });
+  return element;
+}

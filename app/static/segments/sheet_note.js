@@ -1,0 +1,77 @@
+/** What does not fit in the segment table, and the buttons that mend it. */
+
+import { api } from "../api/gaits.js";
+import { h } from "../lib/dom.js";
+import { commit, draftOf, dropDraft, keptCells, shownSheet } from "../state/segment_draft.js";
+import { errorSentence, errorsOf, ownRow, sheetOf, tableOf } from "../document/segment_sheet.js";
+import { lane } from "../lib/latest_only.js";
+import { shownDocument } from "../state/store.js";
+import { report } from "../lib/toasts.js";
+
+const range = (first, count) => (count === 1 ? `segment ${first + 1}` : `segments ${first + 1}–${first + count}`);
+
+/** A repair of the server as `{label, help, change}`. */
+function offerOf({ foot, first, names, inserted, table }, sheet, document) {
+  const own = Array.from({ length: sheet.legs }, (_, one) => one).find((one) => ownRow(sheet, one) === foot);
+  const words = names.join(", ");
+  const label = !names.length ? "Make the link fit" : inserted ? `Insert ${words}` : `${range(first, names.length).replace(/^s/, "S")} to ${words}`;
+  const help = inserted ? `New ${range(first, names.length)}; the other feet wait meanwhile` : `Of foot ${own + 1}; nothing else changes but the link where it must`;
+  const mended = sheetOf({ ...document, segment_table: table });
+  const moved = inserted && names.length ? ([row, column]) => [row + (row >= first ? names.length : 0), column] : undefined;
+  return { label, help, step: { moved, change: (now) => ({ ...mended, iterations: now.iterations }), label: `Foot ${own + 1}: ${label.charAt(0).toLowerCase()}${label.slice(1)}`, kept: [] } };
+}
+
+/**
+ * @param {object} store
+ * @param {object} edits
+ * @param {HTMLElement} note
+ * @param {() => void} focus gives the focus back to the grid
+ */
+export function mountNote(store, edits, note, focus) {
+  let offers = [];
+  let asked = "";
+
+  const ask = lane(async ({ text, sheet, document, body }) => {
+    try {
+      const { repairs } = await api.tableRepairs(body);
+      if (text !== asked) return;
+      offers = repairs.map((repair) => offerOf(repair, sheet, document));
+      draw();
+    } catch (error) {
+      report(error);
+    }
+  });
+
+  function request(sheet) {
+    const kept = keptCells(draftOf(store.state).steps).map(([row, foot]) => [ownRow(sheet, foot), row]);
+    const body = { table: tableOf(sheet), kept };
+    const text = JSON.stringify(body);
+    if (text === asked) return;
+    [asked, offers] = [text, []];
+    ask({ text, sheet, document: shownDocument(store.state), body });
+  }
+
+  const act = (does) => () => { does(); focus(); };
+
+  function draw() {
+    const sheet = shownSheet(store.state);
+    const errors = sheet ? errorsOf(sheet) : [];
+    const stops = draftOf(store.state).steps.length > 0;
+    note.hidden = errors.length === 0;
+    if (note.hidden) {
+      note.replaceChildren();
+      [asked, offers] = ["", []];
+      return;
+    }
+    note.dataset.tone = stops ? "bad" : "caution";
+    const more = errors.length > 1 ? ` ${errors.length - 1} more ${errors.length > 2 ? "cells do" : "cell does"} not fit.` : "";
+    const after = stops ? "The gait keeps its last table until all fits." : "One iteration can be run, several cannot.";
+    note.replaceChildren(h("p", { text: `${errorSentence(sheet, errors[0])}${more}`, title: after }),
+      h("div", { class: "buttons" },
+        ...offers.map(({ label, help, step }) => h("button", { text: label, title: help, on: { click: act(() => commit(store, edits, step)) } })),
+        stops && h("button", { text: "Take it back", title: "Back to the gait's table (Ctrl+Z takes one change back)", on: { click: act(() => dropDraft(store)) } })));
+    request(sheet);
+  }
+
+  store.watch((state) => [state.view, state.pending, state.tableDrafts], draw);
+}

@@ -1,0 +1,128 @@
+/** The Sequence section: gaits that follow each other, in the place of the segment table where the gait is a sequence. */
+
+import { api } from "../api/gaits.js";
+import { byId, h, onPress, setAllowed } from "../lib/dom.js";
+import { fixed, mm } from "../lib/format.js";
+import { freeName } from "../document/gait_names.js";
+import { selectGait } from "../shell/gait_list.js";
+import { jobIsOn } from "../shell/job_list.js";
+import { betweenParts } from "./sequence_between.js";
+import { added, isSequence } from "../document/sequence_edits.js";
+import { partRows } from "./sequence_rows.js";
+import { acceptView, runIsOn, shownDocument, shownPlan } from "../state/store.js";
+import { openTab } from "../lib/tabs.js";
+import { attempt, toast } from "../lib/toasts.js";
+
+const TEACH = "Each part begins where the one before has ended: feet stay, body and heading go on. One check and one approval are for all of it.";
+const OPTIMISE = "A sequence is made of its parts' motions, which follow every edit live. The exact tier solves each part for itself, with all its repetitions.";
+const ALL_EXACT = "Each part has its exact motion, or is made by hand or recorded.";
+
+function totals() {
+  const element = h("dl", { class: "summary", "aria-label": "The whole sequence" });
+  return {
+    element,
+    show(plan) {
+      const rows = plan?.times?.length && plan.body.length ? wholeOf(plan) : [];
+      element.replaceChildren(...rows.flatMap(([name, value]) => [h("dt", { text: name }), h("dd", { text: value })]));
+    },
+  };
+}
+
+function wholeOf({ body, heading, duration }) {
+  const way = [0, 1].map((axis) => body.at(-1)[axis] - body[0][axis]);
+  return [["Travel", `${mm(Math.hypot(...way))} mm`], ["along x, y", `${mm(way[0])}, ${mm(way[1])} mm`],
+    ["Turn", `${fixed(((heading.at(-1) - heading[0]) * 180) / Math.PI, 0)}°`], ["Duration", `${fixed(duration)} s`]];
+}
+
+/** A list of all gaits by group, and the button that adds the chosen one; over the parts, so that it stays in place. */
+function adder(store, edits) {
+  const select = h("select", { "aria-label": "Gait to add", title: "A gait of the list; a sequence adds its parts" });
+  const act = attempt(async () => {
+    const [source, { selected: gait }] = [select.value, store.state];
+    const { apply, label } = added(await api.document(source), source);
+    await edits.edit(apply, label, { gait });
+  });
+  const button = h("button", { text: "Add", title: "Add the chosen gait at the end", on: { click: act } });
+  store.watch(({ gaits, selected, view }) => [gaits, selected, isSequence(view?.document)], ({ gaits, selected, view }) => {
+    if (!isSequence(view?.document)) return;
+    const chosen = select.value;
+    const groups = Map.groupBy ? Map.groupBy(gaits, ({ group }) => group) : new Map([["Gaits", gaits]]);
+    select.replaceChildren(...[...groups].map(([label, members]) => h("optgroup", { label },
+      ...members.filter(({ id }) => id !== selected).map(({ id, name }) => h("option", { value: id, text: name })))));
+    if (gaits.some(({ id }) => id === chosen && id !== selected)) select.value = chosen;
+  });
+  return h("div", { class: "part-add" }, select, button);
+}
+
+/** The box that says which gaits changed since they became parts. */
+function staleness(takeOver) {
+  const text = h("span");
+  const element = h("div", { class: "box-note", data: { tone: "caution" }, hidden: true }, text,
+    h("div", { class: "buttons" }, h("button", { text: "Take all over", title: "Take every changed gait over as it is now", on: { click: () => takeOver() } })));
+  return {
+    element,
+    show(sources) {
+      const changed = sources.filter((state) => state === "changed").length;
+      element.hidden = changed === 0;
+      text.textContent = changed === 1 ? "One part comes from a gait that has changed since." : `${changed} parts come from gaits that have changed since.`;
+    },
+  };
+}
+
+async function createSequence(store) {
+  const { gaits, selected } = store.state;
+  const view = await api.sequence({ name: freeName(store.state, "Sequence"), parts: [{ gait: selected ?? gaits[0].id }] });
+  await selectGait(store, view.id);
+  openTab("segments");
+}
+
+/** What the Optimise section offers for a sequence: the exact tier for its parts. */
+function exactParts(store) {
+  const button = h("button", { class: "primary wide", text: "Optimise parts" });
+  onPress(button, attempt(() => api.optimiseParts(store.state.selected)), (why) => toast(why));
+  store.watch((state) => [state.jobs, state.view, state.pending.length], ({ jobs, view, pending }) => {
+    if (!isSequence(view?.document)) return;
+    const busy = jobs.some((job) => job.gait === view.id && jobIsOn(job)) && "Its parts are being optimised. Cancel the jobs or wait for them.";
+    const open = view.plan.parts.some(({ source }) => ["live", "draft"].includes(source));
+    setAllowed(button, busy || (pending.length ? "The last edit is not accepted yet." : open ? null : ALL_EXACT), "Run the exact tier for each part that has no exact motion yet");
+  });
+  return h("div", { class: "sequence-only" }, button, h("p", { class: "why", text: OPTIMISE }));
+}
+
+/**
+ * Builds the section, and the entry of the menu New that makes a sequence; `cancel` ends a drag.
+ * @param {object} store
+ * @param {object} edits
+ * @param {Playback} playback
+ * @param {{addNew: (entry: object) => void}} gaitTools
+ */
+export function mountSequence(store, edits, playback, gaitTools) {
+  gaitTools.addNew({ text: "New sequence", help: "Begins with the shown gait; others are added in its panel", act: attempt(() => createSequence(store)) });
+  const takeOver = attempt(async (part = null) => acceptView(store, await api.refreshSequence(store.state.selected, part)));
+  const [rows, whole, stale] = [partRows(store, edits, playback, takeOver), totals(), staleness(takeOver)];
+  const between = betweenParts(store, edits);
+  const count = h("span");
+  const trouble = h("p", { class: "box-note", role: "alert", data: { tone: "bad" }, hidden: true });
+  byId("sequence").append(h("h3", {}, "Sequence", count), adder(store, edits), rows.grid, trouble, stale.element, whole.element, between.element, h("p", { class: "teach", text: TEACH }));
+  byId("optimise").append(exactParts(store));
+  store.watch((state) => [state.view, state.pending, state.gesture, state.formError, shownPlan(state)], (state) => {
+    const document_ = shownDocument(state);
+    const on = isSequence(document_);
+    document.body.toggleAttribute("data-sequence", on);
+    byId("sequence").hidden = !on;
+    byId("tab-segments").textContent = on ? "Sequence" : "Segments";
+    if (!on) return;
+    const plan = shownPlan(state);
+    rows.show(state);
+    between.show(document_);
+    whole.show(plan);
+    stale.show(state.view.sources ?? []);
+    count.textContent = `${document_.sequence.length} part${document_.sequence.length > 1 ? "s" : ""}`;
+    const sentence = state.formError ?? plan?.refusal?.sentence ?? null;
+    trouble.hidden = !sentence;
+    trouble.textContent = sentence ?? "";
+  });
+  // A sequence is edited by its parts, so that they come first where a person turns to one.
+  store.watch(({ view }) => [view?.id], ({ view, robot }) => { if (isSequence(view?.document) && !runIsOn(robot)) openTab("segments"); });
+  return { cancel: () => rows.cancel() || between.cancel() };
+}

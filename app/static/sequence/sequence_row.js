@@ -1,0 +1,95 @@
+/** A part of the sequence as a row: its name, how often it runs, how far it goes, and how it stands. */
+
+import { h, icon, setAllowed, setAttribute, setText } from "../lib/dom.js";
+import { fixed, mm } from "../lib/format.js";
+import { refusalOf, wholeNumber } from "../lib/field_error.js";
+import { MOST_TIMES } from "../document/sequence_edits.js";
+
+const STATES = {
+  live: ["live", "good"], optimised: ["exact", "good"], manual: ["by hand", "good"], recorded: ["recorded", "good"], draft: ["no motion", "bad"],
+};
+const HELP = "Drag to move it; Alt with Up or Down moves it, Delete takes it out, Enter shows where it begins";
+const DEGREES = 180 / Math.PI;
+
+/** Way, turn and time of a stretch of the plan, without what there is none of: "30.0 mm · 45° · 49.6 s". */
+export function figuresOf({ travel, turn, duration }) {
+  if (!travel) return "";
+  const way = Math.hypot(...travel);
+  return [way > 5e-5 && `${mm(way)} mm`, Math.abs(turn) > 1e-4 && `${fixed(turn * DEGREES, 0)}°`, `${fixed(duration)} s`].filter(Boolean).join(" · ");
+}
+
+/** What the body does between two parts. */
+function moveWords(move, plan) {
+  const rise = plan.body[move.last][2] - plan.body[move.first][2];
+  const words = [Math.abs(rise) > 5e-6 && `${rise > 0 ? "up" : "down"} ${mm(Math.abs(rise))} mm`, figuresOf(move)].filter(Boolean);
+  const feet = move.feet.map((foot) => foot + 1);
+  return feet.length ? `${feet.length > 1 ? "Feet" : "Foot"} ${feet.join(", ")} ${feet.length > 1 ? "step" : "steps"} over · ${fixed(move.duration)} s` : `Body moves ${words.join(" · ")}`;
+}
+
+function button(name, symbol, act) {
+  return h("button", { class: "plain icon-only small", "aria-label": name, on: { click: (event) => { if (event.currentTarget.getAttribute("aria-disabled") !== "true") act(); } } }, icon(symbol));
+}
+
+/**
+ * Builds a row.
+ * @param {{times: Function, move: Function, remove: Function, takeOver: Function}} acts on this row's part
+ */
+export function partRow(acts) {
+  const lead = h("p", { class: "part-lead", role: "gridcell" });
+  const [number, text] = [h("span", { class: "part-number" }), h("span", { class: "part-text" })];
+  const name = h("div", { class: "part-name", role: "gridcell", tabindex: "-1" }, number, text);
+  const input = h("input", { type: "number", min: 1, max: MOST_TIMES, step: 1, title: `How often it runs, 1 to ${MOST_TIMES}` });
+  const [up, down] = [button("Move up", "up", () => acts.move(-1)), button("Move down", "down", () => acts.move(1))];
+  const out = button("Take out", "close", acts.remove);
+  const figures = h("span", { class: "number" });
+  const [dot, word] = [h("span", { class: "dot" }), h("span", {})];
+  const over = h("button", { class: "link", text: "take over", title: "Take the gait over as it is now", on: { click: acts.takeOver } });
+  const refusal = refusalOf(input);
+  const giveUp = () => {
+    refusal.say(null);
+    input.value = input.dataset.shown;
+  };
+  input.addEventListener("change", () => {
+    const { value, sentence = null } = wholeNumber(input, "Times", { min: 1, max: MOST_TIMES });
+    refusal.say(sentence);
+    if (!sentence) acts.times(value);
+  });
+  input.addEventListener("keydown", (event) => {
+    if (event.key === "Enter") input.blur();
+    if (event.key === "Escape") giveUp();
+  });
+  const element = h("div", { class: "part", role: "row" }, lead, name,
+    h("div", { class: "part-times", role: "gridcell" }, input, h("span", { class: "quiet", "aria-hidden": "true", text: "×" })),
+    h("div", { class: "part-buttons", role: "gridcell" }, up, down, out), h("div", { class: "part-refusal", role: "gridcell" }, refusal.element),
+    h("div", { class: "part-state", role: "gridcell" }, figures, h("span", { class: "part-word" }, dot, word, over)));
+  return { element, lead, name, number, text, input, refusal, giveUp, up, down, out, figures, dot, word, over };
+}
+
+/**
+ * Shows a part in its row.
+ * @param {object} row of `partRow`
+ * @param {{index: number, count: number, part: object, planned: object|null, move: object|null, source: string|null, plan: object}} what
+ */
+export function showRow(row, { index, count, part, planned, move, source, plan }) {
+  const title = part.gait.name;
+  row.lead.hidden = !move;
+  setText(row.lead, move ? moveWords(move, plan) : "");
+  setText(row.number, String(index + 1));
+  setText(row.text, title);
+  setAttribute(row.name, "aria-label", `Part ${index + 1} of ${count}: ${title}`);
+  setAttribute(row.name, "title", `${title}. ${HELP}`);
+  setAttribute(row.input, "aria-label", `Times of part ${index + 1}`);
+  const isAnother = row.input.dataset.part !== undefined && row.input.dataset.part !== title;
+  Object.assign(row.input.dataset, { shown: String(part.times), part: title });
+  if (row.refusal.isSaid() && isAnother) row.giveUp();
+  if (document.activeElement !== row.input && !row.refusal.isSaid()) row.input.value = part.times;
+  setAllowed(row.up, index === 0 ? "It is the first part." : null, `Move ${title} up (Alt+Up)`);
+  setAllowed(row.down, index === count - 1 ? "It is the last part." : null, `Move ${title} down (Alt+Down)`);
+  setAllowed(row.out, count === 1 ? "A sequence has at least one part; delete the sequence instead." : null, `Take ${title} out (Delete)`);
+  setText(row.figures, planned ? figuresOf(planned) : "");
+  const [word, tone] = source === "changed" ? ["source changed", "caution"] : planned ? (STATES[planned.source] ?? [planned.source, "quiet"]) : ["…", "quiet"];
+  row.dot.dataset.tone = tone;
+  setText(row.word, word);
+  setAttribute(row.word, "title", source === "changed" ? "The gait that it was copied from moves differently by now" : planned?.note);
+  row.over.hidden = source !== "changed";
+}

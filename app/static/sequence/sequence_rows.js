@@ -1,0 +1,106 @@
+/** The rows of the Sequence section: an ARIA grid whose parts are moved, repeated and taken out, each by one edit. */
+
+import { h } from "../lib/dom.js";
+import { mountReordering } from "./sequence_drag.js";
+import { moved, removed, repeated } from "../document/sequence_edits.js";
+import { partRow, showRow } from "./sequence_row.js";
+import { shownDocument, shownPlan } from "../state/store.js";
+
+/** What of the plan belongs to a part; nothing while the plan is still of another order. */
+function stretchOf(plan, index, name, isTransition) {
+  return plan?.parts?.find((one) => one.part === index && one.is_transition === isTransition && one.name === name) ?? null;
+}
+
+function sourceOf({ view }, part) {
+  const at = view.document.sequence?.indexOf(part) ?? -1;
+  return view.sources?.[at] ?? null;
+}
+
+/** One of all names is reached by Tab; the arrows move on from there. */
+function rovingNames(rows) {
+  const mark = (index) => rows.forEach(({ name }, other) => { name.tabIndex = other === index ? 0 : -1; });
+  return {
+    mark,
+    focus(index) {
+      const at = Math.min(Math.max(index, 0), rows.length - 1);
+      mark(at);
+      rows[at].name.focus();
+    },
+  };
+}
+
+/** What a part's row does, by its place. */
+function partActs(store, edits, playback, focus) {
+  const document = () => shownDocument(store.state);
+  const count = () => document().sequence.length;
+  const change = ({ apply, label }) => edits.edit(apply, label);
+  return {
+    count,
+    times: (index, times) => change(repeated(document(), index, times)),
+    move(from, to) {
+      if (to < 0 || to >= count() || to === from) return;
+      change(moved(document(), from, to));
+      focus(to);
+    },
+    remove(index) {
+      if (count() === 1) return;
+      change(removed(document(), index));
+      focus(Math.min(index, count() - 1));
+    },
+    goTo(index) {
+      const plan = shownPlan(store.state);
+      const stretch = plan?.parts?.find((one) => one.part === index && !one.is_transition);
+      if (plan?.times.length && stretch && stretch.first !== null) playback.setTime(plan.times[stretch.first]);
+    },
+  };
+}
+
+function press(event, index, acts, focus) {
+  const keys = event.altKey
+    ? { ArrowUp: () => acts.move(index, index - 1), ArrowDown: () => acts.move(index, index + 1) }
+    : { ArrowUp: () => focus(index - 1), ArrowDown: () => focus(index + 1), Home: () => focus(0), End: () => focus(Infinity),
+      Delete: () => acts.remove(index), Backspace: () => acts.remove(index), Enter: () => acts.goTo(index) };
+  if (!keys[event.key]) return;
+  event.preventDefault();
+  event.stopPropagation();
+  keys[event.key]();
+}
+
+/**
+ * Builds the grid; `show` gives it the state, `cancel` ends a drag.
+ * @param {object} store
+ * @param {object} edits
+ * @param {Playback} playback
+ * @param {(index: number) => void} takeOver takes a part's gait over as it is now
+ */
+export function partRows(store, edits, playback, takeOver) {
+  const grid = h("div", { class: "parts-list", role: "grid", "aria-label": "Parts of the sequence" });
+  const rows = [];
+  const { mark, focus } = rovingNames(rows);
+  const acts = partActs(store, edits, playback, focus);
+
+  function grow(index) {
+    const row = partRow({
+      times: (times) => acts.times(index, times), move: (way) => acts.move(index, index + way),
+      remove: () => acts.remove(index), takeOver: () => takeOver(index),
+    });
+    row.name.addEventListener("keydown", (event) => press(event, index, acts, focus));
+    row.name.addEventListener("focus", () => mark(index));
+    rows.push(row);
+    grid.append(row.element);
+  }
+
+  function show(state) {
+    const { sequence } = shownDocument(state);
+    const plan = shownPlan(state);
+    while (rows.length < sequence.length) grow(rows.length);
+    while (rows.length > sequence.length) rows.pop().element.remove();
+    if (!rows.some(({ name }) => name.tabIndex === 0)) mark(0);
+    sequence.forEach((part, index) => showRow(rows[index], {
+      index, count: sequence.length, part, plan, source: sourceOf(state, part),
+      planned: stretchOf(plan, index, part.gait.name, false), move: stretchOf(plan, index, part.gait.name, true),
+    }));
+  }
+
+  return { grid, show, cancel: mountReordering(grid, () => rows, acts.move, acts.goTo).cancel };
+}

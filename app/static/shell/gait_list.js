@@ -1,0 +1,161 @@
+/** The list of gaits, in groups that fold, and the choice of one. */
+
+import { api } from "../api/gaits.js";
+import { byId, h, setAttribute, setText } from "../lib/dom.js";
+import { found, gaitSearch } from "./gait_search.js";
+import { acceptView } from "../state/store.js";
+import { clearOfGait, report } from "../lib/toasts.js";
+
+const KEY = "footfall.gait";
+
+function remember(id) {
+  try {
+    localStorage.setItem(KEY, id);
+  } catch {
+    return;
+  }
+}
+
+function lastUsed() {
+  try {
+    return localStorage.getItem(KEY);
+  } catch {
+    return null;
+  }
+}
+
+/** Shows a gait: fetches its view and remembers it for the next visit. */
+export async function selectGait(store, id) {
+  if (store.state.selected !== id) {
+    clearOfGait();
+    const { pending, left } = store.state;
+    store.set({ selected: id, view: null, pending: [], left: [...left, ...pending.filter((edit) => !edit.refused)], gesture: null, live: null, remedies: null, iterate: null, refused: null, formError: null, shownJob: null, runSummary: null });
+  }
+  try {
+    acceptView(store, await api.view(id));
+    if (store.state.selected === id) remember(id);
+  } catch (error) {
+    if (store.state.selected === id) report(error);
+  }
+}
+
+/** Shows a gait with its name under the keyboard; letters are the field's from the double click on. */
+async function rename(store, id) {
+  const field = byId("gait-name");
+  field.focus();
+  if (store.state.view?.id !== id) await selectGait(store, id);
+  if (store.state.view?.id !== id) return;
+  field.value = store.state.view.name;
+  field.select();
+}
+
+/** After a greeting: the gait that runs, else the one shown, else the one used last, else the first. */
+export function selectAfterHello(store) {
+  const { gaits, selected, robot, view } = store.state;
+  // What was just made may be shown before the greeting knows of it.
+  const known = (id) => gaits.some((gait) => gait.id === id) || id === view?.id;
+  const running = robot?.run && robot.run.phase !== "ended" ? robot.run.gait : null;
+  const choice = [selected, running, lastUsed(), gaits[0]?.id].find((id) => id && known(id));
+  if (choice) selectGait(store, choice);
+}
+
+const ROW = h("li", {}, h("button", { class: "gait" }, h("span", { class: "name" }), h("span", { class: "tag" }, h("span", { class: "dot", title: "Unsaved changes" }), h("span"))));
+
+/** A row, as a copy: hundreds are made before anything else is seen. */
+function item(gait) {
+  const element = ROW.cloneNode(true);
+  const button = element.firstChild;
+  const [name, { firstChild: dot, lastChild: tag }] = button.children;
+  button.dataset.gait = gait.id;
+  return { element, button, name, tag, dot };
+}
+
+function show(part, gait, selected) {
+  setText(part.name, gait.name);
+  const walks = gait.walks !== false;
+  setText(part.tag, walks ? (gait.source === "sequence" ? "seq." : gait.orientation) : "infeasible");
+  setAttribute(part.button, "data-stuck", !walks);
+  part.dot.hidden = !gait.edited;
+  setAttribute(part.button, "aria-current", gait.id === selected ? "true" : null);
+  setAttribute(part.button, "title", `${gait.name}: ${gait.robot}, ${gait.source}, ${gait.kind}${gait.source === "sequence" ? "" : `, foot order ${gait.order.join(" ")}`}${gait.edited ? ", unsaved changes" : ""}${walks ? "" : ". No motion of it keeps every limit"}. Double click: its name`);
+}
+
+const FIRST = "Saved";
+const FOLDED_AT_FIRST = ["By hand", "Orders of Appendix A", "Textbook"];
+
+/** A group's heading, which folds it; the group that is shown stays open. */
+function heading(group, folded, redraw) {
+  const text = h("span", {});
+  const button = h("button", { class: "group", on: { click: () => {
+    if (!folded.delete(group)) folded.add(group);
+    redraw();
+  } } }, text);
+  return { element: h("li", { class: "group-row" }, button), button, text };
+}
+
+function grouped(gaits) {
+  const groups = new Map();
+  for (const gait of gaits) {
+    if (!groups.has(gait.group)) groups.set(gait.group, []);
+    groups.get(gait.group).push(gait);
+  }
+  return [...groups].sort(([a], [b]) => (b === FIRST) - (a === FIRST));
+}
+
+/** Builds the list and keeps it current; moves on where the shown gait has gone. */
+export function mountGaits(store) {
+  const list = byId("gaits");
+  let listed = null;
+  const [parts, headings, folded] = [new Map(), new Map(), new Set(FOLDED_AT_FIRST)];
+
+  const search = gaitSearch(() => draw(store.state));
+  list.before(search.element);
+  list.addEventListener("click", ({ target }) => {
+    const id = target.closest("[data-gait]")?.dataset.gait;
+    if (id) selectGait(store, id);
+  });
+  list.addEventListener("dblclick", ({ target }) => {
+    const id = target.closest("[data-gait]")?.dataset.gait;
+    if (id) rename(store, id);
+  });
+
+  function draw({ gaits, selected }) {
+    const wanted = new Set();
+    const searched = search.search();
+    const matching = searched ? gaits.filter((gait) => found(gait, searched)) : gaits;
+    let listed = 0;
+    for (const [group, members] of grouped(matching)) {
+      const open = Boolean(searched) || !folded.has(group) || members.some(({ id }) => id === selected);
+      if (!headings.has(group)) headings.set(group, heading(group, folded, () => draw(store.state)));
+      const head = headings.get(group);
+      if (open) listed += members.length;
+      setText(head.text, open ? group : `${group} (${members.length})`);
+      setAttribute(head.button, "aria-expanded", String(open));
+      wanted.add(head.element);
+      for (const gait of members) {
+        if (!parts.has(gait.id)) parts.set(gait.id, item(gait));
+        show(parts.get(gait.id), gait, selected);
+        if (open) wanted.add(parts.get(gait.id).element);
+      }
+    }
+    search.show(listed, gaits.length);
+    for (const child of [...list.children]) if (!wanted.has(child)) child.remove();
+    let next = list.firstElementChild;
+    for (const element of wanted) {
+      if (element === next) next = next.nextElementSibling;
+      else list.insertBefore(element, next);
+    }
+  }
+
+  store.watch(({ gaits, selected }) => [gaits, selected], (state) => {
+    const { gaits, selected, greeted } = state;
+    const kept = new Set(gaits.map(({ id }) => id));
+    for (const id of parts.keys()) if (!kept.has(id)) parts.delete(id);
+    draw(state);
+    // A gait that was just made may be shown before the list tells of it: only one that was listed can be gone.
+    if (kept.has(selected)) {
+      if (listed !== selected) parts.get(selected)?.element.scrollIntoView({ block: "nearest" });
+      listed = selected;
+    } else if (greeted && selected && selected === listed && gaits.length) selectGait(store, gaits[0].id);
+  });
+}

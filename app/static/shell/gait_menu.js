@@ -1,0 +1,100 @@
+/** What can be done to the list of gaits and to the gait that is shown: new, import; copy, export, delete with a way back. */
+
+import { actMenu } from "../lib/action_menu.js";
+import { api } from "../api/gaits.js";
+import { bringBack, noneDeleted } from "./deleted_gaits.js";
+import { byId, h } from "../lib/dom.js";
+import { freeName } from "../document/gait_names.js";
+import { importFiles } from "./import_files.js";
+import { askNewGait } from "./new_gait.js";
+import { attempt, toast } from "../lib/toasts.js";
+
+const FORMS = [
+  ["json", "Gait (JSON)"], ["csv", "Trajectory (CSV)"], ["companion", "Its companion (JSON)"], ["waypoints", "Waypoints (CSV)"],
+  ["npz", "Arrays (NPZ)"], ["phases", "Phase list (JSON)"], ["svg", "Gait diagram (SVG)"], ["png", "Gait diagram (PNG)"],
+  ["html", "3D playback (HTML)"],
+];
+
+async function exportFile(store, edits, form) {
+  const { selected } = store.state;
+  await edits.settled();
+  const { name, blob } = await api.exportFile(selected, form);
+  const address = URL.createObjectURL(blob);
+  h("a", { href: address, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(address), 1000);
+}
+
+/** What the shown view or the list says of the selected gait: the view is the newer one. */
+const lineOf = ({ selected, gaits, view }) => (view?.id === selected ? view : gaits.find(({ id }) => id === selected) ?? null);
+
+function sayDeleted(sentence, id, show) {
+  const restore = attempt(async () => {
+    await api.restore(id);
+    await show(id);
+  });
+  toast(sentence, { action: { label: "Bring it back", act: restore } });
+}
+
+async function remove(store, show, deletedHere) {
+  const { selected } = store.state;
+  const { name } = lineOf(store.state);
+  deletedHere.add(selected);
+  try {
+    await api.remove(selected);
+  } catch (error) {
+    deletedHere.delete(selected);
+    throw error;
+  }
+  sayDeleted(`${name} is deleted.`, selected, show);
+  if (store.state.selected !== selected) return;
+  const next = store.state.gaits.find(({ id }) => id !== selected) ?? null;
+  await show(store.state.gaits.some(({ id }) => id === selected) ? selected : next?.id);
+}
+
+/** Says so where somebody else has deleted the gait that this page showed; the list goes on to another one. */
+function watchDeleted(store, show, deletedHere) {
+  let last = null;
+  store.watch(({ gaits, selected }) => [gaits, selected], ({ gaits, selected }) => {
+    const gone = last && !gaits.some(({ id }) => id === last.id) ? last : null;
+    last = gaits.find(({ id }) => id === selected) ?? null;
+    if (gone && !deletedHere.delete(gone.id)) sayDeleted(`${gone.name} was deleted in another tab.`, gone.id, show);
+  });
+}
+
+async function duplicate(store, show, edits) {
+  const { selected } = store.state;
+  await edits.settled();
+  const { name } = lineOf(store.state);
+  const view = await api.copy(selected, freeName(store.state, `${name} copy`));
+  await show(view.id);
+}
+
+/** Asks for a new gait and shows it. */
+export async function makeGait(store, show, preset = {}) {
+  const id = await askNewGait({ ...preset, name: freeName(store.state, preset.name ?? "New gait") });
+  if (id) await show(id);
+}
+
+/**
+ * Builds the buttons.
+ * @param {object} store
+ * @param {object} edits what was done before is part of a copy and of a file
+ * @param {(id: string) => Promise<void>} show shows a gait
+ * @returns {{addNew: (entry: {text: string, help: string, act: () => void}) => void}} another entry of the menu New
+ */
+export function mountGaitTools(store, edits, show) {
+  const link = (text, title, act) => h("button", { class: "link", text, title, on: { click: attempt(() => act(store, show, edits)) } });
+  const deletedHere = new Set();
+  const deletion = link("Delete", "Delete this saved gait; it can be brought back", () => remove(store, show, deletedHere));
+  watchDeleted(store, show, deletedHere);
+  const news = actMenu({ name: "New", help: "A new gait, or one from a file", entries: [
+    { text: "New gait…", help: "Robot, foot order, step and phase lengths", act: attempt(() => makeGait(store, show)) },
+    { text: "Import…", help: "Read gaits, trajectories with their companions, waypoints or phase lists", act: () => importFiles(show) },
+    { text: "Deleted gaits…", help: "Bring back a gait that was deleted", act: attempt(() => bringBack(show)), refusal: noneDeleted },
+  ] });
+  const exports = actMenu({ name: "Export", help: "Write this gait as a file", entries: FORMS.map(([form, text]) => ({ text, help: `Write this gait as ${text}`, act: attempt(() => exportFile(store, edits, form)) })) });
+  byId("gait-new").append(news.element);
+  byId("gait-tools").append(link("Duplicate", "A copy of this gait under another name", duplicate), exports.element, deletion);
+  store.watch((state) => [lineOf(state)?.kind], (state) => { deletion.hidden = lineOf(state)?.kind !== "saved"; });
+  return { addNew: (entry) => news.add(entry, 1) };
+}

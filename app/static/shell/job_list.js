@@ -1,0 +1,120 @@
+/** The list of jobs: state, iteration, violation, cancel; a job that ends is told without taking the focus. */
+
+import { api } from "../api/gaits.js";
+import { byId, h, setText } from "../lib/dom.js";
+import { clockTime, compact, fixed, seconds } from "../lib/format.js";
+import { announce, attempt, toast } from "../lib/toasts.js";
+
+const TONES = {
+  queued: "quiet", running: "accent", cancelling: "caution", done: "good", infeasible: "caution",
+  failed: "bad", cancelled: "quiet", interrupted: "caution",
+};
+const SHOWN = 12;
+
+export const jobIsOn = (job) => ["queued", "running", "cancelling"].includes(job.state);
+export const jobTone = (job) => TONES[job.state] ?? "quiet";
+
+/** Whether a finished job's answer belongs to an older version of its gait. */
+export const isOlder = (job) => Boolean(job) && ["done", "infeasible", "failed"].includes(job.state) && job.fresh === false;
+
+/** The optimisation whose curve and explanation are shown: the one picked, else the newest of this gait. */
+export function jobOf({ jobs, shownJob, selected }) {
+  const own = jobs.filter((job) => job.gait === selected && job.kind === "optimise");
+  return own.find((job) => job.id === shownJob) ?? own[0] ?? null;
+}
+
+const isTiming = (job) => job.kind === "timing";
+const isSimulation = (job) => job.kind === "simulate";
+const isTracking = (job) => job.kind === "track";
+const NAMES = { timing: "Fastest timing of", simulate: "Simulate" };
+
+/** What a job is called in the list: a tracking by its video, all others by their gait. */
+const titleOf = (job) => (isTracking(job) ? `Tracking ${job.video_name ?? job.gait_name}` : job.gait_name);
+const spoken = (job) => (isTracking(job) ? titleOf(job) : `${NAMES[job.kind] ?? "Optimise"} ${job.gait_name}`);
+const titleHelp = (job) => (!isTracking(job) ? "Show its curve and result" : job.result?.trial ? "Open its trial" : "Open its video");
+
+function figures(job) {
+  const last = job.progress?.at(-1);
+  if (isTracking(job)) return job.state === "running" ? `tracked ${fixed((job.share ?? 0) * 100, 0)} %` : job.sentence;
+  if (isSimulation(job)) return job.state === "running" ? `simulated ${fixed((job.share ?? 0) * 100, 0)} %` : job.sentence;
+  if (jobIsOn(job)) return last ? `iteration ${last.iteration} · violation ${compact(last.primal)}` : job.sentence;
+  if (job.state === "done" && job.result && isTiming(job)) return `fastest ${seconds(job.result.total_seconds)} s, drawn ${seconds(job.result.drawn_seconds)} s`;
+  if (job.state === "done" && job.result) return `${job.result.iterations} iterations · ${seconds(job.result.solve_seconds)} s`;
+  return job.sentence;
+}
+
+function item(store, id) {
+  const title = h("button", { class: "link" });
+  const dot = h("span", { class: "dot" });
+  const word = h("span", { class: "word" });
+  const text = h("p");
+  const when = h("span");
+  const cancel = h("button", { text: "Cancel", "aria-label": "Cancel job", on: { click: attempt(() => api.cancelJob(id)) } });
+  title.addEventListener("click", () => pick(store, id));
+  const element = h("li", { class: "job" }, h("div", { class: "head" }, dot, title, word), text,
+    h("div", { class: "foot-line" }, when, cancel));
+  return { element, title, dot, word, text, when, cancel };
+}
+
+async function pick(store, id) {
+  const job = store.state.jobs.find((one) => one.id === id);
+  if (isTracking(job)) return store.set({ trialWanted: job.result?.trial ? { trial: job.result.trial } : { video: job.video } });
+  const { selectGait } = await import("./gait_list.js");
+  if (store.state.gaits.some((gait) => gait.id === job.gait)) await selectGait(store, job.gait);
+  if (!isSimulation(job)) store.set({ shownJob: id });
+  byId(isSimulation(job) ? "tab-simulate" : "tab-optimise").click();
+  return undefined;
+}
+
+function show(part, job, shown) {
+  setText(part.title, titleOf(job));
+  part.title.title = titleHelp(job);
+  part.dot.dataset.tone = jobTone(job);
+  setText(part.word, job.state);
+  part.word.dataset.toneText = jobTone(job);
+  setText(part.text, figures(job));
+  part.text.title = job.sentence;
+  const stale = isOlder(job);
+  part.when.className = stale ? "stale" : "";
+  setText(part.when, stale ? "older version of the gait" : clockTime(job.created));
+  part.cancel.hidden = !jobIsOn(job);
+  part.cancel.toggleAttribute("disabled", job.state === "cancelling");
+  part.element.toggleAttribute("data-shown", shown);
+}
+
+/** Offers the trial of a tracking that nobody follows beside its video: the page was reloaded, or shows something else. */
+function offerTrial(store, job) {
+  if (document.querySelector(`[data-tracks="${job.video}"]`)) return;
+  toast(`${titleOf(job)} is done: there is a trial of it.`, { action: { label: "Open the trial", act: () => store.set({ trialWanted: { trial: job.result.trial } }) } });
+}
+
+function tellEnded(store, before, jobs) {
+  for (const job of jobs) {
+    const known = before.get(job.id);
+    if (!known || !jobIsOn(known) || jobIsOn(job)) continue;
+    announce(`${spoken(job)}: ${job.state}. ${job.sentence}`);
+    if (isTracking(job) && job.result?.trial) offerTrial(store, job);
+  }
+  return new Map(jobs.map((job) => [job.id, job]));
+}
+
+/** Builds the list and keeps it current. */
+export function mountJobs(store) {
+  const list = byId("jobs");
+  const parts = new Map();
+  let before = new Map();
+  store.watch(({ jobs, shownJob, selected }) => [jobs, shownJob, selected], (state) => {
+    before = tellEnded(store, before, state.jobs);
+    const shown = jobOf(state);
+    const visible = state.jobs.slice(0, SHOWN);
+    const kept = new Set(visible.map(({ id }) => id));
+    for (const [id, part] of parts) if (!kept.has(id)) { part.element.remove(); parts.delete(id); }
+    visible.forEach((job, index) => {
+      if (!parts.has(job.id)) parts.set(job.id, item(store, job.id));
+      const part = parts.get(job.id);
+      show(part, job, job === shown);
+      if (list.children[index] !== part.element) list.insertBefore(part.element, list.children[index] ?? null);
+    });
+    byId("jobs-empty").hidden = visible.length > 0;
+  });
+}

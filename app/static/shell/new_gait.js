@@ -1,0 +1,170 @@
+/** The dialog for a new gait: what the timeline is drawn from, with suggestions that work for the chosen robot. */
+
+import { ApiError, api } from "../api/gaits.js";
+import { dialogFrame, openDialog } from "../lib/dialogs.js";
+import { h } from "../lib/dom.js";
+import { refusalOf } from "../lib/field_error.js";
+import { robotOptions, robots } from "./robots.js";
+import { stepLength } from "../document/step.js";
+
+const OWN = "own";
+const KNOT_SECONDS = 0.4;
+const ORIENTATIONS = [["FB", "Along the diagonal (FB)"], ["FBS", "Along x (FBS)"]];
+const NUMBERS = [
+  { key: "step", label: "Step", unit: "mm", min: 0, max: 60, step: "any", help: "Travel of the body an iteration, in the direction of the gait" },
+  { key: "phase_knots", label: "Phases", unit: "knots", min: 2, max: 50, step: 1, help: "Length of each stance phase and of each swing" },
+  { key: "closing_knots", label: "Closing stance", unit: "knots", min: 0, max: 100, step: 1, help: "All feet down after the last swing" },
+];
+
+/** A label, its control and the place for what is wrong with it. */
+function row(key, label, control, help) {
+  const { element: error, say } = refusalOf(control);
+  const unit = control.dataset.unit;
+  const box = unit ? h("span", { class: "box", data: { unit } }, control) : control;
+  return { key, control, say, element: h("label", { class: "new-row", title: help }, h("span", { class: "name", text: label }), box, error) };
+}
+
+const select = (name, options) => h("select", { "aria-label": name }, ...options);
+const choices = (pairs) => pairs.map(([value, text]) => h("option", { value, text }));
+const digits = (text) => text.split(/[^0-9]+/).filter(Boolean).map(Number);
+
+function controls(list) {
+  return [
+    row("name", "Name", h("input", { "aria-label": "Name of the new gait", maxlength: "60", required: true, autocomplete: "off" }), "What the gait is called"),
+    row("robot", "Robot", select("Robot of the new gait", robotOptions(list)), "Which robot it is for"),
+    row("orientation", "Heading", select("Heading", choices(ORIENTATIONS)), "FB: front and back pairs, along the diagonal between x and y. FBS: front, sides and back, along x"),
+    row("pattern", "Pattern", select("Pattern", []), "Foot orders that work for this robot"),
+    row("order", "Foot order", h("input", { "aria-label": "Order of the feet", autocomplete: "off", required: true }), "Which foot steps when: each foot once"),
+    ...NUMBERS.map(({ key, label, unit, min, max, step, help }) => row(key, label,
+      h("input", { type: "number", "aria-label": label, min, max, step, required: true, data: { unit } }), `${help} (${min} to ${max} ${unit})`)),
+  ];
+}
+
+/** What the form says, for the server; lengths in m. */
+function body(value) {
+  return {
+    name: value("name").trim(), robot: value("robot"), orientation: value("orientation"), order: digits(value("order")),
+    step: Number(value("step")) / 1000, phase_knots: Number(value("phase_knots")), closing_knots: Number(value("closing_knots")),
+  };
+}
+
+/** What is wrong that can be said without asking: by field. */
+function problems(value, robot) {
+  const found = {};
+  if (!value("name").trim()) found.name = "Give the gait a name.";
+  const order = digits(value("order"));
+  if ([...order].sort((a, b) => a - b).join() !== Array.from({ length: robot.legs }, (_, foot) => foot + 1).join()) {
+    found.order = `Name each of the feet 1 to ${robot.legs} once, for example ${robot.orders.FB[0].feet.join(" ")}.`;
+  }
+  for (const { key, label, unit, min, max, step } of NUMBERS) {
+    const number = value(key) === "" ? NaN : Number(value(key));
+    if (!(number >= min && number <= max)) found[key] = `${label} needs a number between ${min} and ${max} ${unit}.`;
+    else if (step === 1 && !Number.isInteger(number)) found[key] = `${label} needs a whole number of ${unit}.`;
+  }
+  return found;
+}
+
+function form(list, preset) {
+  const rows = controls(list);
+  const of = Object.fromEntries(rows.map((one) => [one.key, one]));
+  const value = (key) => of[key].control.value;
+  const set = (key, text) => { of[key].control.value = text; };
+  const robot = () => list.find(({ name }) => name === value("robot"));
+  const orders = () => robot().orders[value("orientation")];
+  const note = h("p", { class: "quiet", role: "status" });
+
+  function showPattern() {
+    const now = digits(value("order")).join();
+    set("pattern", orders().find(({ feet }) => feet.join() === now)?.name ?? OWN);
+  }
+
+  function suggestOrder() {
+    of.pattern.control.replaceChildren(...choices([...orders().map(({ name }) => [name, name]), [OWN, "own order"]]));
+    set("order", orders()[0].feet.join(" "));
+    of.order.say(null);
+    showPattern();
+  }
+
+  function sum() {
+    const samples = robot().legs * 2 * Number(value("phase_knots")) + Number(value("closing_knots"));
+    const coupled = robot().coupled ? ` ${robot().motors} motors drive ${robot().strokes} strokes: Check says what the feet really do.` : "";
+    note.textContent = `${samples} samples, ${((samples - 1) * KNOT_SECONDS).toFixed(1)} s an iteration.${coupled}`;
+  }
+
+  of.robot.control.addEventListener("change", () => { suggestOrder(); set("phase_knots", robot().phase_knots); sum(); });
+  of.orientation.control.addEventListener("change", suggestOrder);
+  of.pattern.control.addEventListener("change", () => {
+    const chosen = orders().find(({ name }) => name === value("pattern"));
+    if (chosen) set("order", chosen.feet.join(" "));
+    else of.order.control.focus();
+  });
+  of.order.control.addEventListener("input", showPattern);
+  // What is typed is judged as it stands; the other fields keep what was said of them until they are typed in.
+  for (const one of rows) one.control.addEventListener("input", () => { one.say(problems(value, robot())[one.key] ?? null); sum(); });
+
+  set("robot", preset.robot ?? list[0].name);
+  set("orientation", preset.orientation ?? "FB");
+  suggestOrder();
+  set("name", preset.name);
+  of.name.control.addEventListener("focus", ({ target }) => target.select());
+  set("step", preset.step ?? robot().step * 1000);
+  set("phase_knots", robot().phase_knots);
+  set("closing_knots", preset.closing_knots ?? 5);
+  sum();
+  return { rows, of, value, robot, note };
+}
+
+/** Shows what the server refuses at its field, or under all of them; and goes there. */
+function refuse({ of }, general, error) {
+  if (!(error instanceof ApiError)) throw error;
+  const field = of[(error.where ?? "").replace(/^body\./, "")];
+  (field ?? { say: (sentence) => { general.hidden = false; general.textContent = sentence; } }).say(error.message);
+  field?.control.focus();
+}
+
+/**
+ * Asks for a new gait.
+ * @param {object} preset `name`; where they are known `robot`, `orientation`, `step` (mm), `closing_knots`, and a `sentence`
+ *   why it is asked
+ * @returns {Promise<string|null>} the new gait's id, or null where the user thought better of it
+ */
+export async function askNewGait(preset) {
+  const list = await robots();
+  return openDialog((close) => {
+    const parts = form(list, preset);
+    const general = h("p", { class: "field-error", role: "alert", hidden: true });
+    const create = h("button", { type: "submit", class: "primary", text: "Create" });
+    const accept = async () => {
+      const found = problems(parts.value, parts.robot());
+      for (const one of parts.rows) one.say(found[one.key] ?? null);
+      general.hidden = true;
+      const first = parts.rows.find(({ key }) => found[key]);
+      if (first) return first.control.focus();
+      if (create.disabled) return undefined;
+      create.disabled = true;
+      try {
+        return close((await api.draw(body(parts.value))).id);
+      } catch (error) {
+        return refuse(parts, general, error);
+      } finally {
+        create.disabled = false;
+      }
+    };
+    const dialog = dialogFrame("New gait", close, accept, h("p", { class: "quiet", text: preset.sentence ?? "Its feet step one after the other; the timeline can be drawn on afterwards." }),
+      ...parts.rows.map(({ element }) => element), parts.note, general,
+      h("div", { class: "buttons" }, h("button", { type: "button", text: "Not now", on: { click: () => close(null) } }), create));
+    dialog.classList.add("new-gait");
+    dialog.querySelector("form").noValidate = true;
+    return dialog;
+  });
+}
+
+/** What the dialog begins with where a gait's robot is changed for one with other legs. */
+export function presetFor(robot, document) {
+  const feet = document.timeline.feet.length;
+  return {
+    robot: robot.name, name: `${document.name}, ${robot.title.split(",")[0]}`.slice(0, 60), orientation: document.orientation,
+    step: Number((stepLength(document) * 1000).toFixed(2)), closing_knots: document.options.closing_knots,
+    sentence: `${robot.title} has ${robot.legs} legs, “${document.name}” has ${feet}. So it gets a gait of its own, and this one stays as it is.`,
+  };
+}

@@ -1,0 +1,56 @@
+/** The robots that a gait may be for, and the choice of one in the gait's own fields. */
+
+import { api } from "../api/gaits.js";
+import { h } from "../lib/dom.js";
+import { attempt } from "../lib/toasts.js";
+
+let asked = null;
+
+/** Every robot with its title, legs, motors and foot orders; asked for once. */
+export function robots() {
+  asked ??= api.robots().then((answer) => answer.robots, (error) => {
+    asked = null;
+    throw error;
+  });
+  return asked;
+}
+
+/** An option a robot; of those with other legs it says that the choice leads on. */
+export function robotOptions(list, legs = null) {
+  return list.map(({ name, title, legs: own }) => h("option", { value: name, text: legs === null || own === legs ? title : `${title}…` }));
+}
+
+/**
+ * The choice of the gait's robot: one with as many legs is an edit, any other one leads to a new gait.
+ * @param {object} edits
+ * @param {(robot: object, document: object) => void} makeNew asks for a new gait
+ */
+export function robotField(edits, makeNew) {
+  const select = h("select", { "aria-label": "Robot" });
+  const element = h("label", { class: "field robot-field", title: "Which robot the gait is for. One with another number of legs gets a gait of its own" },
+    h("span", { class: "name", text: "Robot" }), select);
+  let [known, shown, legs] = [[], null, null];
+
+  function fill() {
+    if (!shown) return;
+    const own = shown.timeline.feet.length;
+    if (known.length && own !== legs) {
+      legs = own;
+      select.replaceChildren(...robotOptions(known, legs));
+    }
+    select.value = shown.robot;
+  }
+
+  select.addEventListener("change", () => {
+    const chosen = known.find(({ name }) => name === select.value);
+    const document = edits.shown();
+    fill();
+    if (chosen.legs !== document.timeline.feet.length) makeNew(chosen, document);
+    else edits.edit((before) => ({ ...before, robot: chosen.name }), `Robot to ${chosen.title}`);
+  });
+  attempt(async () => {
+    known = await robots();
+    fill();
+  })();
+  return { element, show: (document) => { shown = document; fill(); } };
+}

@@ -1,0 +1,159 @@
+/** The top bar: name, saved state, undo and redo, link, robot, operator, and Stop. */
+
+import { sendStop } from "../api/gaits.js";
+import { ownSteps } from "../api/author.js";
+import { byId, h, onPress, setAllowed, setAttribute, setText, stateParts } from "../lib/dom.js";
+import { NOT_TAKEN, takeStopOver } from "./early_stop.js";
+import { sayToStudio } from "../state/server_events.js";
+import { clockTime, seconds } from "../lib/format.js";
+import { freeName } from "../document/gait_names.js";
+import { showKeys } from "./key_list.js";
+import { holderSentence } from "../state/lease.js";
+import { changeOperator } from "../state/operator.js";
+import { refusalOf } from "../lib/field_error.js";
+import { draftOf } from "../state/segment_draft.js";
+import { acceptRobot, runIsOn, stopLimit } from "../state/store.js";
+import { toast } from "../lib/toasts.js";
+
+const LINK_TONES = { ready: "good", connecting: "caution", lost: "bad" };
+const ROBOT_TONES = {
+  armed: "accent", moving: "accent", done: "good", pausing: "caution", paused: "caution", stopping: "caution",
+  stopped: "bad", fault: "bad", disarmed: "quiet",
+};
+
+export const robotTone = (robot) => ROBOT_TONES[robot?.robot] ?? "quiet";
+export const linkTone = (robot) => LINK_TONES[robot?.link] ?? "quiet";
+
+/** True where the socket tells that a stop was taken, though nobody answered it. */
+const isStopped = ({ connected, robot }) => connected && ["stopping", "stopped"].includes(robot?.robot);
+
+/**
+ * Sends Stop on two ways, each of which is enough: a request is tried again, and needs no known state; what goes over
+ * the socket waits for no other request of this page, of which a browser lets six at most be on.
+ */
+export async function stopRobot(store) {
+  const button = byId("stop");
+  button.dataset.busy = "";
+  try {
+    sayToStudio(`stop ${store.state.operator}`);
+    acceptRobot(store, await sendStop(store.state.operator));
+  } catch {
+    if (!isStopped(store.state)) toast(NOT_TAKEN, { tone: "bad", of: "studio" });
+  } finally {
+    delete button.dataset.busy;
+  }
+}
+
+/** What is wrong with a name; null where nothing is. */
+function refusedName(name, { gaits, selected }) {
+  if (!name) return "A gait needs a name. Write one, or press Escape.";
+  const taken = gaits.some((gait) => gait.id !== selected && gait.name === name);
+  return taken ? `Another gait is called “${name}”. Write another name, such as “${freeName({ gaits }, name)}”, or press Escape.` : null;
+}
+
+/** The field with the name; a name that was refused stays, with the sentence under it, until it is repaired or given up. */
+function nameField(store, edits) {
+  const input = byId("gait-name");
+  const refusal = refusalOf(input);
+  input.parentElement.append(refusal.element);
+  const show = () => {
+    if (refusal.isSaid()) return;
+    input.value = edits.shown()?.name ?? "";
+  };
+  const giveUp = () => {
+    refusal.say(null);
+    show();
+  };
+  input.addEventListener("change", () => {
+    const name = input.value.trim();
+    const current = edits.shown()?.name;
+    if (current === undefined) return;
+    refusal.say(name === current ? null : refusedName(name, store.state));
+    if (!refusal.isSaid() && name !== current) edits.edit((document) => ({ ...document, name }), `Name to ${name}`);
+    show();
+  });
+  input.addEventListener("keydown", (event) => {
+    if (event.key === "Enter") input.blur();
+    if (event.key === "Escape") { giveUp(); input.blur(); }
+  });
+  store.watch(({ selected }) => [selected], giveUp);
+  return { input, show: () => { if (document.activeElement !== input) show(); } };
+}
+
+function mountName(store, edits) {
+  const { input, show } = nameField(store, edits);
+  store.watch((state) => [state.view, state.pending, state.refused, state.tableDrafts], (now) => {
+    const { view, pending, refused } = now;
+    const unfit = draftOf(now).steps.length > 0;
+    show();
+    input.size = Math.max(4, input.value.length);
+    setAttribute(input, "title", view ? `Name of the gait. Its file stays gaits/${view.id}.json under another name too` : null);
+    const state = !view ? "" : refused ? "· drawing not accepted" : unfit ? "· table does not fit" : pending.length ? "· saving the edit" : view.edited ? "· edited, kept" : "· saved";
+    setText(byId("saved-state"), state);
+    setAttribute(byId("saved-state"), "title", view ? `${unfit ? `${UNFIT} ` : ""}${savedHelp(view)}` : null);
+  });
+}
+
+const UNFIT = "The last change of the segment table does not fit together yet: this tab keeps it, the gait has its last good table.";
+
+/** Every edit is in the studio's database before it is shown as done; Save writes the file that others can read. */
+function savedHelp(view) {
+  const file = view.saved_at ? `The file in the data folder is of ${clockTime(view.saved_at)}.` : "There is no file of it in the data folder yet.";
+  return view.edited ? `Every edit is kept and survives a restart. ${file} Save writes it anew.` : file;
+}
+
+function mountHistory(store, edits) {
+  const [undo, redo, save] = ["undo", "redo", "save"].map(byId);
+  onPress(undo, edits.undo);
+  onPress(redo, edits.redo);
+  onPress(save, edits.save);
+  store.watch(({ view, refused, tableDrafts }) => [view, refused, tableDrafts], (state) => {
+    const { view, refused } = state;
+    const own = ownSteps(view);
+    const draft = draftOf(state).steps.at(-1)?.label;
+    const label = draft ?? (refused ? "the drawing that was not accepted" : own.undo);
+    setText(byId("undo-label"), label ? label.charAt(0).toLowerCase() + label.slice(1) : "");
+    setAllowed(undo, label ? null : "Nothing to undo.", `Undo: ${label} (Ctrl+Z)`);
+    setAllowed(redo, own.redo ? null : "Nothing to redo.", `Redo: ${own.redo} (Ctrl+Shift+Z)`);
+    if (label) setAttribute(undo, "aria-description", label);
+    if (own.redo) setAttribute(redo, "aria-description", own.redo);
+    setAllowed(save, !view ? "No gait is selected." : view.edited ? null : draft ? UNFIT : "Everything is saved.", "Save to the data folder (Ctrl+S)");
+  });
+}
+
+function mountStates(store) {
+  const sentence = h("span", { class: "hidden-text" });
+  const [link, robot, operator] = ["link", "robot-status", "operator"].map(byId);
+  store.watch(({ robot: now, connected, selected }) => [now?.link, now?.robot, now?.emulated, now?.device, now?.run?.gait_name, connected, selected], ({ robot: now, connected, selected }) => {
+    link.replaceChildren(...stateParts(connected ? linkTone(now) : "bad", "Link", connected ? (now?.link ?? "unknown") : "no studio"));
+    setAttribute(link, "title", now ? `${now.emulated ? "Emulated robot" : "Robot"} at ${now.device}` : null);
+    document.querySelector(".states").toggleAttribute("data-stale", !connected);
+    robot.replaceChildren(...stateParts(robotTone(now), "Robot", `${now?.robot ?? "unknown"}${runIsOn(now) && now.run?.gait_name && now.run.gait !== selected ? `: ${now.run.gait_name}` : ""}`), sentence);
+  });
+  store.watch(({ robot: now }) => [now?.sentence, now?.stop_text, now?.lease?.page, now?.lease?.is_gone], ({ robot: now }) => {
+    const words = [now?.sentence, now?.stop_text, holderSentence(now)].filter(Boolean).join(" ");
+    setText(sentence, words);
+    setAttribute(robot, "title", words || null);
+  });
+  store.watch((state) => [state.operator], (state) => {
+    operator.replaceChildren(h("span", { class: "name quiet", text: "Operator" }), h("b", { text: state.operator || "not named" }));
+    operator.toggleAttribute("data-named", Boolean(state.operator));
+    operator.title = "Your name, kept with approvals and runs. Click to change it.";
+  });
+}
+
+/** Wires the top bar. */
+export function mountTopbar(store, edits) {
+  mountName(store, edits);
+  mountHistory(store, edits);
+  mountStates(store);
+  byId("operator").addEventListener("click", () => changeOperator(store));
+  byId("help").addEventListener("click", showKeys);
+  takeStopOver();
+  byId("stop").addEventListener("click", () => stopRobot(store));
+  store.watch((state) => [stopLimit(state)], (state) => {
+    const limit = stopLimit(state);
+    const within = limit ? `Takes effect within ${seconds(limit)} s, after the move that is running.` : "Takes effect after the move that is running.";
+    byId("stop").title = `Stop the robot (Esc while a run is on). ${within}`;
+  });
+}

@@ -1,0 +1,142 @@
+/** The versions of a gait: when, why and by whom, what is different now, and the way back. */
+
+import { api } from "../api/gaits.js";
+import { dialogFrame, openDialog } from "../lib/dialogs.js";
+import { byId, h, onPress, setAllowed, setAttribute } from "../lib/dom.js";
+import { clockTime } from "../lib/format.js";
+import { turns } from "../lib/latest_only.js";
+import { announce, attempt, toast } from "../lib/toasts.js";
+
+const WORDS = {
+  saved: "Saved", named: "Named", approved: "Approved", automatic: "While editing", "before restore": "Before going back", "before delete": "Before deleting",
+};
+const titleOf = (version) => version.name || WORDS[version.kind];
+
+/** One version in the list. */
+function option(version, choose) {
+  const detail = [version.name ? WORDS[version.kind].toLowerCase() : null, version.by ? `by ${version.by}` : null, version.present ? "as now" : null].filter(Boolean).join(", ");
+  return h("li", { role: "option", id: `version-${version.number}`, "aria-selected": "false", "aria-label": `Version ${version.number}, ${titleOf(version)}, ${clockTime(version.made)}${detail ? `, ${detail}` : ""}`,
+    on: { click: () => choose(version.number) } },
+    h("span", { class: "version-title" }, h("span", { class: "number quiet", text: String(version.number) }), h("b", { text: titleOf(version) })),
+    h("span", { class: "version-when quiet", text: [clockTime(version.made), detail].filter(Boolean).join(" · ") }));
+}
+
+/** What is different, in groups of sentences. */
+function sentences(groups) {
+  if (!groups.length) return [h("p", { class: "quiet", text: "Nothing is different." })];
+  return groups.flatMap(({ title, sentences: list }) => [h("h4", { text: title }), h("ul", {}, ...list.map((text) => h("li", { text })))]);
+}
+
+function parts(id) {
+  const list = h("ul", { class: "version-list", role: "listbox", tabindex: "0", "aria-label": "Versions", data: { arrows: "" } });
+  const difference = h("div", { class: "version-difference", role: "region", "aria-label": "Difference", tabindex: "0" });
+  const against = h("select", { "aria-label": "Compared with", title: "What the version is compared with" });
+  const restore = h("button", { type: "button", class: "primary", text: "Restore" });
+  const name = h("input", { "aria-label": "Name of this state", placeholder: "Name for the present state", maxlength: "80", autocomplete: "off" });
+  return { id, list, difference, against, restore, name, heading: h("h4", {}) };
+}
+
+/** Fills an open panel and keeps it current. */
+function panel(store, edits, ui) {
+  let versions = [];
+  let chosen = null;
+  const [beginDifference, beginRefresh] = [turns(), turns()];
+
+  const showDifference = attempt(async () => {
+    const isOld = beginDifference();
+    const to = ui.against.value ? Number(ui.against.value) : null;
+    const { groups } = await api.difference(ui.id, chosen, to);
+    if (isOld()) return;
+    ui.heading.textContent = to === null ? `Since version ${chosen}` : `From version ${chosen} to version ${to}`;
+    ui.difference.replaceChildren(ui.heading, ...sentences(groups));
+  });
+
+  function choose(number) {
+    chosen = number;
+    const version = versions.find((one) => one.number === number);
+    for (const item of ui.list.children) setAttribute(item, "aria-selected", String(item.id === `version-${number}`));
+    ui.list.setAttribute("aria-activedescendant", `version-${number}`);
+    byId(`version-${number}`)?.scrollIntoView({ block: "nearest" });
+    setAllowed(ui.restore, version.present ? "The gait is as in this version." : null, `Puts version ${number} on the desk again; Undo takes that back`);
+    return showDifference();
+  }
+
+  async function refresh() {
+    const isOld = beginRefresh();
+    const found = await api.versions(ui.id);
+    if (isOld()) return undefined;
+    ({ versions } = found);
+    ui.list.replaceChildren(...versions.map((version) => option(version, choose)));
+    const kept = ui.against.value;
+    ui.against.replaceChildren(h("option", { value: "", text: "the present state" }),
+      ...versions.map((version) => h("option", { value: version.number, text: `version ${version.number}, ${titleOf(version)}` })));
+    ui.against.value = versions.some(({ number }) => String(number) === kept) ? kept : "";
+    if (!versions.length) {
+      ui.list.removeAttribute("aria-activedescendant");
+      setAllowed(ui.restore, "There is no version yet.");
+      ui.difference.replaceChildren(h("p", { class: "quiet", text: "There is no version yet. Saving, approving and naming make one; while you edit, one is made every two minutes." }));
+      return undefined;
+    }
+    return choose(versions.some(({ number }) => number === chosen) ? chosen : versions[0].number);
+  }
+
+  function roam(event) {
+    const at = versions.findIndex(({ number }) => number === chosen);
+    const to = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: versions.length - 1 }[event.key];
+    if (to === undefined) return;
+    event.preventDefault();
+    event.stopPropagation();
+    if (versions[to]) choose(versions[to].number);
+  }
+
+  const restore = attempt(async () => {
+    await edits.restoreVersion(chosen);
+    toast(`Version ${chosen} is on the desk again. Undo takes that back.`);
+    announce(`Version ${chosen} restored.`);
+  });
+  const keep = attempt(async () => {
+    const name = ui.name.value.trim();
+    if (!name) return ui.name.focus();
+    const version = await api.nameVersion(ui.id, name);
+    ui.name.value = "";
+    chosen = version.number;
+    return refresh();
+  });
+
+  ui.list.addEventListener("keydown", roam);
+  ui.against.addEventListener("change", showDifference);
+  onPress(ui.restore, restore);
+  return { refresh: attempt(refresh), keep };
+}
+
+/** Wires the button in the top bar; the panel follows the gait while it is open. */
+export function mountVersions(store, edits) {
+  const button = byId("versions");
+  let open = null;
+
+  function show() {
+    const { view } = store.state;
+    const ui = parts(view.id);
+    const behaviour = panel(store, edits, ui);
+    openDialog((close) => {
+      const frame = dialogFrame(`Versions of ${view.name}`, close, behaviour.keep,
+        h("p", { class: "quiet", text: "Every edit is kept at once. These are the states worth going back to." }),
+        h("div", { class: "version-columns" }, ui.list, h("div", { class: "version-side" },
+          h("label", { class: "version-against quiet" }, "Compared with ", ui.against), ui.difference)),
+        h("div", { class: "version-name" }, ui.name, h("button", { type: "submit", text: "Name this state" })),
+        h("div", { class: "buttons" }, h("button", { type: "button", text: "Close", on: { click: () => close(null) } }), ui.restore));
+      frame.classList.add("versions");
+      open = { element: frame, ...behaviour, id: view.id, close };
+      return frame;
+    });
+    open.refresh().then(() => ui.list.focus());
+  }
+
+  onPress(button, show);
+  store.watch(({ view }) => [view?.id, view?.revision, view?.version, view?.stamp], ({ view }) => {
+    setAllowed(button, view ? null : "No gait is selected.", "The states of this gait that can be gone back to, and what is different");
+    if (!open?.element.isConnected || !view) return;
+    if (open.id === view.id) open.refresh();
+    else open.close(null);
+  });
+}

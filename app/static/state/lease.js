@@ -1,0 +1,102 @@
+/** Who holds the robot: one person at a time moves it; everybody else looks on, asks for it, and can stop it. */
+
+import { api } from "../api/gaits.js";
+import { pageId } from "../api/author.js";
+import { confirmAct } from "../lib/dialogs.js";
+import { h, onPress, setText } from "../lib/dom.js";
+import { needOperator } from "./operator.js";
+import { acceptRobot, runIsOn } from "./store.js";
+import { attempt, toast } from "../lib/toasts.js";
+
+const FREE = "Nobody holds the robot. Whoever connects or arms it holds it then.";
+
+const isMine = (lease) => lease?.page === pageId();
+const isTaken = (lease) => Boolean(lease?.page);
+
+/** Why this tab may not move the robot; null where it may. */
+export function whyNotHeld(robot) {
+  const lease = robot?.lease;
+  return isTaken(lease) && !isMine(lease) ? lease.refusal : null;
+}
+
+/** Who holds the robot, in a sentence; nothing where nobody does. */
+export function holderSentence(robot) {
+  const lease = robot?.lease;
+  if (!isTaken(lease)) return "";
+  if (isMine(lease)) return "You hold the robot.";
+  return lease.is_gone ? `${lease.name} holds the robot, but is gone.` : `${lease.name} holds the robot.`;
+}
+
+/** Asks for the robot, gives it, keeps it, takes it over or lets it go, in the name of who sits here. */
+function handOver(store, act) {
+  return attempt(async () => {
+    if (!(await needOperator(store, "Others see who holds the robot."))) return;
+    acceptRobot(store, await api.lease(act, store.state.operator));
+  });
+}
+
+function takeOver(store) {
+  return attempt(async () => {
+    const { robot } = store.state;
+    const run = robot.robot === "paused" ? " The run stays paused until you resume it." : runIsOn(robot) ? " The run goes on, and is yours to pause." : "";
+    const sentence = `${robot.lease.name} cannot move the robot any more.${run} Look at the robot before you go on.`;
+    if (await confirmAct("Take the robot over?", sentence, "Take it over")) await handOver(store, "take")();
+  });
+}
+
+function build(store) {
+  const button = (text, act) => {
+    const element = h("button", { text });
+    onPress(element, act);
+    return element;
+  };
+  return {
+    sentence: h("p"), policy: h("p", { class: "why" }),
+    ask: button("Ask for it", handOver(store, "ask")),
+    take: button("Take over", takeOver(store)),
+    give: button("Give it", handOver(store, "give")),
+    keep: button("Keep it", handOver(store, "keep")),
+    release: button("Let it go", handOver(store, "release")),
+  };
+}
+
+function words(lease, robot) {
+  if (!isTaken(lease)) return FREE;
+  if (isMine(lease) && lease.asker) return `You hold the robot. ${lease.asker.name} asks for it.`;
+  if (lease.asker?.page === pageId()) return `${holderSentence(robot)} You have asked for it; wait for the answer.`;
+  return holderSentence(robot);
+}
+
+function show(parts, robot) {
+  const lease = robot?.lease;
+  const [taken, mine] = [isTaken(lease), isMine(lease)];
+  setText(parts.sentence, robot ? words(lease, robot) : "");
+  setText(parts.policy, robot?.link === "ready" ? (lease?.policy ?? "") : "");
+  parts.give.hidden = parts.keep.hidden = !(mine && lease.asker);
+  setText(parts.give, `Give it to ${lease?.asker?.name ?? ""}`);
+  parts.release.hidden = !mine || Boolean(lease.asker) || runIsOn(robot);
+  parts.take.hidden = !taken || mine || !lease.can_be_taken;
+  parts.ask.hidden = !taken || mine || lease.can_be_taken || lease.asker?.page === pageId();
+}
+
+/** Tells the holder that somebody asks, wherever on the page they are, and the asker what became of it. */
+function tell(store) {
+  let before = store.state.robot?.lease ?? null;
+  store.watch(({ robot }) => [robot?.lease?.page, robot?.lease?.asker?.page], ({ robot }) => {
+    const now = robot?.lease ?? null;
+    const asked = isMine(now) && now.asker && now.asker.page !== before?.asker?.page;
+    if (asked) toast(`${now.asker.name} asks for the robot. Give or keep it in the Robot panel.`, { of: "studio" });
+    if (isMine(now) && isTaken(before) && !isMine(before)) toast("You hold the robot now.", { of: "studio" });
+    if (isMine(before) && isTaken(now) && !isMine(now)) toast(`${now.name} holds the robot now.`, { of: "studio" });
+    before = now;
+  });
+}
+
+/** Builds the part of the Robot panel that says who holds the robot. */
+export function leasePart(store) {
+  const parts = build(store);
+  store.watch(({ robot }) => [robot?.lease, robot?.robot, robot?.run?.phase], ({ robot }) => show(parts, robot));
+  tell(store);
+  return h("div", { class: "lease", role: "group", "aria-label": "Who holds the robot" }, parts.sentence,
+    h("div", { class: "buttons" }, parts.ask, parts.take, parts.give, parts.keep, parts.release), parts.policy);
+}

@@ -1,0 +1,41 @@
+/** Who sits at this browser: asked once, remembered here. */
+
+import { askName } from "../lib/dialogs.js";
+
+const KEY = "footfall.operator";
+
+function remembered() {
+  try {
+    return localStorage.getItem(KEY) ?? "";
+  } catch {
+    return "";
+  }
+}
+
+function remember(name) {
+  try {
+    localStorage.setItem(KEY, name);
+  } catch {
+    return;
+  }
+}
+
+/** Puts the remembered name into the store. */
+export function recallOperator(store) {
+  store.set({ operator: remembered() });
+}
+
+/** Resolves to the operator's name, asking where it is not known; null where the user declines. */
+export async function needOperator(store, why) {
+  if (store.state.operator) return store.state.operator;
+  return changeOperator(store, why);
+}
+
+/** Asks for another name. */
+export async function changeOperator(store, why = "Approvals and runs are kept with the name of who gave them.") {
+  const name = await askName("Who is working here?", why, store.state.operator);
+  if (!name) return null;
+  remember(name);
+  store.set({ operator: name });
+  return name;
+}

@@ -1,0 +1,56 @@
+/** Cells of the footfall grid: which one an element or a place on the screen is, and which one holds the focus. */
+
+import { axisOf } from "../state/time_axis.js";
+
+const held = (value, count) => Math.min(Math.max(value, 0), count - 1);
+
+/** The nearest cell on a timeline. */
+export const clamped = ([foot, sample], { feet }) => [held(foot, feet.length), held(sample, feet[0].length)];
+
+/** The cell that an element belongs to, as [foot, sample], or null. */
+export const cellOf = (target) => {
+  const cell = target.closest?.("[role=gridcell]");
+  return cell ? [Number(cell.closest("[role=row]").dataset.foot) - 1, Number(cell.getAttribute("aria-colindex")) - 1] : null;
+};
+
+/** The cell under the focus: one of all cells is reached by Tab, the arrows move on from there. */
+export function rovingFocus(rows, reveal) {
+  let place = [0, 0];
+  function move([foot, sample]) {
+    const parts = rows();
+    const next = [held(foot, parts.length), held(sample, parts[0].cells.length)];
+    parts[place[0]]?.cells[place[1]]?.setAttribute("tabindex", "-1");
+    place = next;
+    const cell = parts[next[0]].cells[next[1]];
+    cell.setAttribute("tabindex", "0");
+    return cell;
+  }
+  return {
+    move,
+    place: () => place,
+    focus(cell) {
+      move(cell);
+      reveal(place[1]);
+      rows()[place[0]].cells[place[1]].focus({ preventScroll: true });
+      return place;
+    },
+  };
+}
+
+/** Turns places on the screen into cells; measured once a drag, so that no move asks for the layout. */
+export function cellFinder(store, rows) {
+  const parts = rows();
+  const [first, last] = [parts[0], parts.at(-1)].map(({ strip }) => strip.parentElement.getBoundingClientRect());
+  return (x, y) => {
+    const axis = axisOf(store.state);
+    const foot = Math.floor(((y - first.top) / (last.bottom - first.top)) * parts.length);
+    const sample = Math.floor(axis.first + ((x - first.left) / first.width) * axis.shown);
+    return [held(foot, parts.length), held(sample, axis.samples)];
+  };
+}
+
+/** Where the next border between stance and swing lies on a row, from a sample on. */
+export function nextBorder(row, sample, way) {
+  for (let at = sample + way; at > 0 && at < row.length - 1; at += way) if (row[at] !== row[at - way]) return at;
+  return way > 0 ? row.length - 1 : 0;
+}

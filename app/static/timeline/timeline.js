@@ -1,0 +1,86 @@
+/** The footfall timeline: an ARIA grid, a row a foot, a cell a sample. */
+
+import { axisKey, axisOf } from "../state/time_axis.js";
+import { byId, h } from "../lib/dom.js";
+import { lacksByCell } from "../document/missing_motion.js";
+import { mountRuler } from "./ruler.js";
+import { mountSelection } from "../state/selection.js";
+import { previewedDocument, shownDocument, shownPlan } from "../state/store.js";
+import { mountTimelineInput } from "./timeline_input.js";
+import { buildRow, drawRow, findingsByCell, fitRow } from "./timeline_rows.js";
+
+/** With more columns in the window the cells stand without gaps. */
+const DENSE = 140;
+
+function showNote(store, edits) {
+  const note = byId("edit-note");
+  const { refused, view } = store.state;
+  const plan = shownPlan(store.state);
+  const refusal = plan?.live?.status === "infeasible" ? null : plan?.refusal?.sentence;
+  const sentence = refused ?? refusal ?? view?.notice ?? null;
+  if (!sentence) return note.replaceChildren();
+  const text = h("p", { text: refused ? `Not accepted: ${refused}` : sentence, title: sentence, data: { toneText: refused || refusal ? "bad" : "caution" } });
+  return note.replaceChildren(text, ...(refused ? [h("button", { text: "Take it back", on: { click: edits.dropRefused } })] : []));
+}
+
+/** Gives back what a function made of a value the last time, as long as the value is the same. */
+function remembered(make) {
+  let last = [];
+  return (value) => {
+    if (last.length === 0 || !Object.is(last[0], value)) last = [value, make(value)];
+    return last[1];
+  };
+}
+
+/** Builds the grid and keeps it current. The ruler scrubs `playback`; `reveal` brings a sample into the shown window. */
+export function mountTimeline(store, edits, playback, reveal) {
+  const grid = byId("timeline");
+  const marks = h("div", { class: "timeline-marks", "aria-hidden": "true" });
+  const [findingsOf, lacksOf] = [remembered(findingsByCell), remembered(lacksByCell)];
+  let parts = [];
+  const input = mountTimelineInput(store, edits, grid, () => parts, reveal);
+
+  function fit(feet, samples) {
+    const focused = grid.contains(document.activeElement);
+    if (parts.length !== feet) {
+      parts = Array.from({ length: feet }, (_, foot) => buildRow(foot));
+      grid.replaceChildren(...parts.map(({ row }) => row), marks);
+      grid.dataset.feet = feet;
+      grid.setAttribute("aria-rowcount", feet);
+    }
+    parts.forEach((part) => fitRow(part, samples));
+    grid.setAttribute("aria-colcount", samples);
+    input.rebuilt(focused && !grid.contains(document.activeElement));
+  }
+
+  function place({ samples, shown, first }) {
+    grid.toggleAttribute("data-dense", shown > DENSE);
+    for (const { strip } of parts) {
+      strip.style.width = `${(100 * samples) / shown}%`;
+      strip.style.transform = first ? `translateX(${(-100 * first) / samples}%)` : "";
+    }
+  }
+
+  function render(state) {
+    const gait = previewedDocument(state);
+    if (!gait) return;
+    const { feet, locked } = gait.timeline;
+    if (parts.length !== feet.length || parts[0].cells.length !== feet[0].length) fit(feet.length, feet[0].length);
+    const before = state.preview ? shownDocument(state).timeline : null;
+    const [findings, lacks] = [findingsOf(state.live ? null : state.view.verdict), lacksOf(shownPlan(state))];
+    parts.forEach((part, foot) => drawRow(part, {
+      foot, steps: feet[foot], locked: locked?.[foot], findings, lacks, periodic: gait.options?.boundary === "periodic",
+      before: before && { steps: before.feet[foot], locked: before.locked?.[foot] }, role: state.view.roles?.[foot] ?? "",
+    }));
+    grid.toggleAttribute("data-refused", Boolean(state.refused));
+  }
+
+  store.watch((state) => [state.view, state.pending, state.gesture, state.preview, state.refused, shownPlan(state)], render);
+  store.watch((state) => [axisKey(state), parts.length], (state) => place(axisOf(state)));
+  store.watch((state) => [state.view, state.refused, shownPlan(state)], () => showNote(store, edits));
+  store.watch(({ selected }) => [selected], () => store.set({ selection: null, preview: null, zoom: null }));
+  store.watch(({ view, pending }) => [view, pending], ({ preview }) => { if (preview) store.set({ preview: null }); });
+  mountSelection(store, marks, () => parts);
+  mountRuler(store, playback);
+  return input;
+}

@@ -1,0 +1,77 @@
+/** The tool row of the timeline: what a drag does, the operations on the selection with their preview, and the zoom. */
+
+import { byId, h, onPress, setAllowed, setAttribute } from "../lib/dom.js";
+import { openAmount } from "./timeline_amount.js";
+import { menuButton } from "./timeline_menu.js";
+import { OPERATIONS } from "../document/operations.js";
+import { toast } from "../lib/toasts.js";
+
+const TOOLS = {
+  paint: ["Paint", "Paint (B): click toggles, a drag paints or moves a swing. Shift-drag locks, Ctrl-drag selects"],
+  select: ["Select", "Select: drag a rectangle, double click takes a swing, drag what is selected to move it (Alt copies). Ctrl-drag selects in every tool"],
+  lock: ["Lock", "Lock: drag over cells that are to keep their value; from a locked cell on it unlocks. Shift-drag locks in every tool, K locks the selection"],
+};
+
+function toolGroup(store) {
+  const buttons = Object.entries(TOOLS).map(([tool, [text, title]]) =>
+    h("button", { text, title, "aria-pressed": "false", data: { tool }, on: { click: () => store.set({ tool }) } }));
+  store.watch(({ tool }) => [tool], ({ tool }) => {
+    buttons.forEach((button) => setAttribute(button, "aria-pressed", String(button.dataset.tool === tool)));
+    byId("timeline").dataset.tool = tool;
+  });
+  return h("div", { class: "segmented", role: "group", "aria-label": "What a drag does" }, ...buttons);
+}
+
+/** A button of an operation: shows its preview while it is pointed at or focused, and says why it cannot be used. */
+function operationButton(store, actions, id, open) {
+  const { name, help, amount } = OPERATIONS[id];
+  const button = h("button", { text: amount ? `${name}…` : name, class: `op-${id}` });
+  const show = () => { if (button.getAttribute("aria-disabled") !== "true") actions.preview(id); };
+  if (!amount) {
+    for (const type of ["pointerenter", "focus"]) button.addEventListener(type, show);
+    for (const type of ["pointerleave", "blur"]) button.addEventListener(type, actions.dropPreview);
+  }
+  onPress(button, () => (amount ? open(id, button) : actions.act(id)), toast);
+  store.watch((state) => [state.view, state.pending, state.selection], (state) => {
+    const reason = !state.view ? "No gait is selected." : amount ? null : actions.outcome(id).reason;
+    setAllowed(button, reason, `${help}. Works on ${actions.scope()}`);
+  });
+  return button;
+}
+
+function zoomGroup(store, zoom) {
+  const button = (label, title, text, click) => h("button", { class: "icon-only", "aria-label": label, title, text, on: { click } });
+  const fit = h("button", { class: "fit", text: "Fit", title: "The whole timeline (F)" });
+  onPress(fit, zoom.fit);
+  store.watch((state) => [state.zoom], (state) => setAllowed(fit, state.zoom ? null : "All of it is shown.", "The whole timeline (F)"));
+  return h("div", { class: "segmented zoom", role: "group", "aria-label": "Zoom" },
+    button("Zoom out", "Further (−, or Ctrl and the wheel)", "−", () => zoom.closer(false)), button("Zoom in", "Closer (+, or Ctrl and the wheel)", "+", () => zoom.closer(true)), fit);
+}
+
+/**
+ * Builds the tool row.
+ * @returns {{close: () => boolean}} `close` drops an open menu, popover or preview
+ */
+export function mountTools(store, actions, zoom, selectAll) {
+  const place = byId("tools");
+  let popover = null;
+  const close = () => {
+    const opened = popover;
+    popover = null;
+    opened?.close();
+    return actions.dropPreview() || opened !== null;
+  };
+  const open = (id, anchor) => {
+    close();
+    popover = openAmount({ store, actions, id, place, anchor, close });
+  };
+  const menu = menuButton({ store, actions, place, open, close, selectAll, opened: (one) => { popover = one; } });
+  place.append(toolGroup(store), operationButton(store, actions, "mirror", open), operationButton(store, actions, "stretch", open), menu, zoomGroup(store, zoom));
+  document.addEventListener("pointerdown", (event) => {
+    if (popover && !place.contains(event.target) && !event.target.closest?.("#chart")) close();
+  }, true);
+  store.watch(({ selected }) => [selected], close);
+  store.watch((state) => [state.view, state.pending, state.selection], () => popover?.refresh());
+  return { close };
+}
+

@@ -1,0 +1,77 @@
+/** A trial beside its plan and physics: figures of the three in one table, and the simulation on its way. */
+
+import { request } from "../api/gaits.js";
+import { h, setText } from "../lib/dom.js";
+import { fixed } from "../lib/format.js";
+import { legend } from "./trial_plot.js";
+import { attempt } from "../lib/toasts.js";
+
+const LOOK_MS = 400;
+
+const trial = (id) => `/api/trials/${encodeURIComponent(id)}`;
+
+export const besideApi = {
+  read: (id) => request("GET", `${trial(id)}/beside`),
+  simulate: (id) => request("POST", `${trial(id)}/simulation`),
+  scene: (id, lap) => request("GET", `${trial(id)}/scene?lap=${lap}`),
+  band: (ids) => request("GET", `/api/trials/band?${new URLSearchParams(ids.map((id) => ["trial", id]))}`),
+};
+
+const HELP = "Mean of the feet from first to last frame, angles on the platform. The last column is how far the feet are on the average from where the camera saw them, at the same share of each iteration";
+
+function figures({ rows }) {
+  const cells = (row) => [fixed(row.net_distance, 2), fixed(row.net_angle_deg, 1), fixed(row.net_error_percent, 0), fixed(row.gap_mm, 1)];
+  const apart = ({ gaps_mm: gaps }) => (gaps ? gaps.map((gap, foot) => `foot ${foot + 1}: ${fixed(gap, 1)} mm`).join(", ") : null);
+  return h("table", { class: "run-table trial-beside", title: HELP }, h("caption", { text: "Planned, simulated, tracked, first to last" }),
+    h("thead", {}, h("tr", {}, ...["", "cm", "angle °", "error %", "feet mm"].map((text) => h("th", { scope: "col", text })))),
+    h("tbody", {}, ...rows.map((row) => h("tr", { title: apart(row) }, h("th", { scope: "row" }, legend([row.source])), ...cells(row).map((text) => h("td", { text }))))));
+}
+
+const WORDS = {
+  absent: () => "Physics is asked for what the robot was sent.",
+  running: ({ share }) => (share > 0 ? `Physics is at it: ${fixed(share * 100, 0)} %.` : "Physics is asked, after what is simulated now."),
+  failed: ({ sentence }) => `No simulated feet: ${sentence} `,
+  none: ({ sentence }) => sentence,
+  done: ({ remark }) => remark ?? "",
+};
+
+/**
+ * Builds the table, which asks for the simulation and follows it until it is there.
+ * @param {string} id of the trial
+ * @param {(simulated: object|null) => void} shown told of physics' ways once they are there
+ * @returns {{element: HTMLElement, refresh: () => Promise<void>, leave: () => void}}
+ */
+export function besidePart(id, shown) {
+  const note = h("p", { class: "quiet", role: "status", "aria-label": "Physics" });
+  const again = h("button", { class: "link", text: "Try again", hidden: true });
+  const table = h("div");
+  const element = h("div", { class: "trial-beside-part" }, table, h("div", {}, note, again));
+  let timer = 0;
+  let isLeft = false;
+
+  function tell(standing) {
+    setText(note, WORDS[standing.state](standing));
+    again.hidden = standing.state !== "failed";
+  }
+
+  async function refresh() {
+    const beside = await besideApi.read(id);
+    if (isLeft) return;
+    table.replaceChildren(figures(beside));
+    tell(beside.simulation);
+    shown(beside.simulated);
+    if (["absent", "running"].includes(beside.simulation.state)) follow();
+  }
+
+  const follow = attempt(async () => {
+    clearTimeout(timer);
+    const standing = await besideApi.simulate(id);
+    if (isLeft) return;
+    if (standing.state === "done") await refresh();
+    else tell(standing);
+    if (standing.state === "running") timer = setTimeout(follow, LOOK_MS);
+  });
+
+  again.addEventListener("click", follow);
+  return { element, refresh, leave() { isLeft = true; clearTimeout(timer); } };
+}

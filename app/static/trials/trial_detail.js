@@ -1,0 +1,131 @@
+/** One trial: how far each foot went beside its plan, iteration by iteration, with a note and files. */
+
+import { h, onPress } from "../lib/dom.js";
+import { clockTime, fixed } from "../lib/format.js";
+import { attempt } from "../lib/toasts.js";
+import { trialApi } from "../api/trials.js";
+import { besidePart } from "./trial_beside.js";
+import { followTrial } from "./trial_kept.js";
+import { notePart } from "./trial_note.js";
+import { photosPart } from "./trial_photos.js";
+import { pathPlot } from "./trial_plot.js";
+import { sourcePart } from "./trial_source.js";
+import { wayPlot } from "./trial_way.js";
+
+function table(caption, help, head, rows) {
+  return h("table", { class: "run-table", title: help }, h("caption", { text: caption }),
+    h("thead", {}, h("tr", {}, ...head.map((text) => h("th", { scope: "col", text })))),
+    h("tbody", {}, ...rows.map(([{ text, foot }, ...values]) => h("tr", { data: foot ? { foot } : {} },
+      h("th", { scope: "row" }, foot && h("i", { class: "foot-dot", "aria-hidden": "true" }), text), ...values.map((value) => h("td", { text: value }))))));
+}
+
+const published = ({ distance, angle_deg: angle, error_percent: error }) => [fixed(distance, 2), fixed(angle, 1), fixed(error, 0)];
+const net = ({ net_distance: distance, net_angle_deg: angle, net_error_percent: error }) => [fixed(distance, 2), fixed(angle, 1), fixed(error, 0)];
+
+function movementTable(caption, help, figures, plan, columns) {
+  const rows = figures.feet.map((foot, index) => [{ text: `foot ${index + 1}`, foot: index + 1 }, ...columns(foot)]);
+  rows.push([{ text: "mean" }, ...columns(figures)]);
+  if (plan) rows.push([{ text: "planned" }, ...columns(plan.figures)]);
+  return table(caption, help, ["", "cm", "angle °", "error %"], rows);
+}
+
+function iterationTable({ parts }) {
+  return table("Iterations, first to last", "Mean of the feet's net movements in each iteration, its time and its speed", ["", "cm", "s", "mm/s"],
+    parts.map((part, index) => [{ text: `iteration ${index + 1}` }, fixed(part.net_distance, 2), fixed(part.seconds, 1), fixed(part.speed_mm_s, 2)]));
+}
+
+function slipTable({ slip }) {
+  return table("Slip of standing feet, cm", "Farthest that each foot slid between its own steps", ["", "largest", "mean"],
+    slip.map((stands, index) => [{ text: `foot ${index + 1}`, foot: index + 1 }, fixed(Math.max(...stands), 2), fixed(stands.reduce((sum, value) => sum + value, 0) / stands.length, 2)]));
+}
+
+function facts(trial) {
+  const rows = [
+    ["By", trial.by || "–"], ["Added", clockTime(trial.made)], ["Gait", trial.gait_name || "–"], ["Wanted", `${fixed(trial.expected_cm, 1)} cm`],
+    ["Frames", `${trial.frames}, ${fixed(trial.frame_rate, 1)} a second`], ["Gaps", trial.filled ? `${trial.gaps.length}, ${trial.filled} places filled` : "none"],
+    ...(trial.plan ? [["Placement", `${fixed(trial.plan.turn_deg, 1)}°, feet ± ${fixed(Math.max(...trial.plan.gaps_cm) * 10, 1)} mm`, "How the plan lies over the track: turned so that the feet of the first frame agree best; by how much they still differ at most"]] : []),
+  ];
+  return h("dl", { class: "summary" }, ...rows.flatMap(([name, value, help]) => [h("dt", { text: name }), h("dd", { text: value, title: help ?? null })]));
+}
+
+function endsLine(trial, change) {
+  if (trial.parts.length < 2) return null;
+  if (trial.ends_from === "run") return h("p", { class: "quiet", text: "The ends of iterations are the run's own." });
+  if (trial.ends_by_hand) {
+    const again = h("button", { class: "link", text: "Find them again" });
+    onPress(again, () => change({ ends: null }));
+    return h("p", { class: "quiet" }, "The ends of iterations were moved by hand. ", again);
+  }
+  return h("p", { class: trial.is_clear ? "quiet" : "why", text: trial.is_clear ? "The ends of iterations were found from the feet's steps." : "The feet's steps overlap between iterations: look at their ends." });
+}
+
+/** That a trial is deleted, with a way back; nothing else can be done to it. */
+function deletedLine({ id, deleted }) {
+  if (!deleted) return null;
+  const back = h("button", { class: "link", text: "Bring it back" });
+  onPress(back, attempt(() => trialApi.restore(id)));
+  return h("p", { class: "why", role: "status", data: { toneText: "caution" } }, "This trial is deleted. ", back);
+}
+
+function filesLine(trial, remove) {
+  const at = `/api/trials/${encodeURIComponent(trial.id)}`;
+  const erase = h("button", { class: "link", text: "Delete", title: "Takes this trial out of the list; it can be brought back", on: { click: () => remove(trial) } });
+  return h("div", { class: "run-files" }, h("a", { href: `${at}/track.csv`, download: "", text: "Track as CSV", title: "cm; what was not seen is empty" }),
+    h("a", { href: `${at}/report`, download: "", text: "Report", title: "One HTML file with figures, plots, note, photos and origin, to open offline and to print" }), !trial.deleted && erase);
+}
+
+/** Redraws the plots; the mark that had the focus has it again. */
+function keepingMark(plots, redraw) {
+  const label = document.activeElement?.getAttribute?.("aria-label");
+  redraw();
+  if (label?.startsWith("End of iteration")) [...plots.querySelectorAll(".end-handle")].find((one) => one.getAttribute("aria-label") === label)?.focus();
+}
+
+/**
+ * Builds a trial's page in the panel.
+ * @param {object} store
+ * @param {string} id
+ * @param {{all: () => void, remove: (trial: object) => void, tracks: Function, video: (id: string) => void}} acts `tracks` makes the
+ *   switch of the 3D scene
+ * @returns {Promise<{element: HTMLElement, leave: () => void}>}
+ */
+export async function trialDetail(store, id, { all, remove, tracks, video }) {
+  const [trial, paths] = await Promise.all([trialApi.read(id), trialApi.paths(id)]);
+  const sources = { tracked: paths.track, planned: paths.plan, simulated: null };
+  const [head, plots, tail] = ["trial-part", "trial-plots", "trial-part"].map((name) => h("div", { class: name }));
+  const beside = besidePart(id, (simulated) => { sources.simulated = simulated; drawPlots(); });
+  const scene = tracks([id]);
+  const note = notePart(async (text) => { if (!await kept.change({ note: text }, "Note kept.")) note.offer(); });
+  let shown = trial;
+  let isLate = false;
+
+  /** Draws the plots, but not under a hand that holds a mark: when that lets go. */
+  function drawPlots() {
+    isLate = plots.querySelector("[data-held]") !== null;
+    if (isLate) return;
+    const moved = async (part, frame) => {
+      if (!await kept.change({ ends: shown.parts.map(({ end }, index) => (index === part ? frame : end)) })) drawPlots();
+    };
+    keepingMark(plots, () => plots.replaceChildren(pathPlot(sources), wayPlot(sources, shown, moved)));
+  }
+
+  function draw(now) {
+    shown = now;
+    note.show(now.note);
+    head.replaceChildren(...[h("button", { class: "link", text: "All trials", on: { click: all } }),
+      h("div", { class: "run-line run-title" }, h("b", { text: now.name })), deletedLine(now), facts(now), sourcePart(now, video)].filter(Boolean));
+    tail.replaceChildren(...[endsLine(now, (changes) => kept.change(changes)), beside.element, iterationTable(now),
+      movementTable("Movement as published", "Largest excursions from the first frame; never negative. Angles on the platform. The planned motion by the same definition", now.figures, now.plan, published),
+      movementTable("Movement, first to last", "Last minus first frame; angles on the platform", now.figures, now.plan, net),
+      slipTable(now), filesLine(now, remove)].filter(Boolean));
+    drawPlots();
+    attempt(beside.refresh)();
+    scene.refresh();
+  }
+
+  plots.addEventListener("lostpointercapture", () => { if (isLate) drawPlots(); });
+  draw(trial);
+  const kept = followTrial(store, trial, draw);
+  const element = h("div", { class: "run-detail" }, head, note.element, photosPart(id), scene.element, plots, tail);
+  return { element, leave() { kept.leave(); beside.leave(); scene.leave(); } };
+}

@@ -1,0 +1,100 @@
+/** Adding tracks: files, the wanted distance, and what they are laid over. */
+
+import { h } from "../lib/dom.js";
+import { clockTime } from "../lib/format.js";
+import { attempt, toast } from "../lib/toasts.js";
+import { trialApi } from "../api/trials.js";
+
+const FRAME_RATE = 13;
+
+function field(name, help, attributes) {
+  const input = h("input", { "aria-label": name, title: help, ...attributes });
+  return { input, label: h("label", {}, h("span", { text: name }), input) };
+}
+
+const number = (name, help, value, attributes = {}) => field(name, help, { type: "number", step: "any", min: "0", value, required: true, ...attributes });
+
+/** How far the shown gait's body goes as planned, cm. */
+function wantedCm(view) {
+  const body = view?.plan?.body;
+  if (!body?.length) return null;
+  const [first, last] = [body[0], body.at(-1)];
+  return Number((Math.hypot(last[0] - first[0], last[1] - first[1]) * 100).toFixed(2)) || null;
+}
+
+/**
+ * What every trial is told: the wanted distance, how many iterations, and the plan that it is laid over.
+ * @param {object} store
+ * @param {{expected_cm?: number, iterations?: number, gait?: string, run?: string}} [kept] what was written before
+ * @returns {{labels: HTMLElement[], values: () => object}}
+ */
+export function walkFields(store, kept = {}) {
+  const { view } = store.state;
+  const expected = number("Wanted distance, cm", "Of the whole walk, all iterations together", kept.expected_cm ?? wantedCm(view) ?? "");
+  const iterations = number("Iterations", "How often every foot steps in the track", kept.iterations ?? view?.document?.iterations ?? 3, { step: "1", min: "1", max: "50" });
+  let isTyped = expected.input.value === "" || kept.expected_cm !== undefined;
+  expected.input.addEventListener("input", () => { isTyped = true; });
+  iterations.input.addEventListener("input", () => {
+    const step = wantedCm(view) / (view?.document?.iterations || 1);
+    if (!isTyped && iterations.input.valueAsNumber > 0) expected.input.value = Number((step * iterations.input.valueAsNumber).toFixed(2));
+  });
+  const over = h("select", { "aria-label": "Laid over", title: "The plan that the tracks are compared with; it is kept with the trial" });
+  const option = (value, text) => h("option", { value, text });
+  let [runs, touched] = [[], false];
+
+  /** Another gait may be shown by now: the one that was shown first stays to be chosen. */
+  function fill(wanted) {
+    const now = store.state.view;
+    const gaits = [...new Map([view, now].filter(Boolean).map((one) => [one.id, one.document.name]))];
+    over.replaceChildren(...gaits.map(([id, name]) => option(`gait:${id}`, `${name}, as planned now`)), option("", "no plan"),
+      ...runs.map((run) => option(`run:${run.id}`, `run of ${run.gait_name}, ${clockTime(run.started)}, ${run.by}`)));
+    if ([...over.options].some(({ value }) => value === wanted)) over.value = wanted;
+  }
+
+  const wanted = kept.run ? `run:${kept.run}` : kept.gait ? `gait:${kept.gait}` : undefined;
+  fill(wanted);
+  attempt(async () => {
+    ({ runs } = await trialApi.runs());
+    fill(wanted && !touched ? wanted : over.value);
+  })();
+  over.addEventListener("change", () => { touched = true; });
+  for (const kind of ["pointerdown", "focus"]) over.addEventListener(kind, () => fill(over.value));
+  return {
+    labels: [expected.label, iterations.label, h("label", {}, h("span", { text: "Laid over" }), over)],
+    values() {
+      const [kind, id] = over.value.split(/:(.*)/);
+      return { expected_cm: expected.input.valueAsNumber, iterations: iterations.input.valueAsNumber, ...(id ? { [kind]: id } : {}) };
+    },
+  };
+}
+
+/**
+ * Builds the form.
+ * @param {{store: object, all: () => void, done: (added: object[]) => void}} page
+ */
+export function trialForm({ store, all, done }) {
+  const files = h("input", { type: "file", multiple: true, accept: ".csv,text/csv", "aria-label": "Track files", required: true });
+  const rate = number("Frames a second", "Of the recording; the files do not tell", FRAME_RATE);
+  const perCm = number("Pixels a centimetre", "Leave empty for tracks in centimetres", "", { required: false });
+  const [x, y] = [number("Centre x, px", "Pixel of the platform's centre", "", { required: false }), number("Centre y, px", "Pixel of the platform's centre; y runs downwards", "", { required: false })];
+  const walk = walkFields(store);
+
+  const keep = attempt(async (event) => {
+    event.preventDefault();
+    const pixels = perCm.input.value ? { per_cm: perCm.input.valueAsNumber, origin: [x.input.valueAsNumber || 0, y.input.valueAsNumber || 0] } : null;
+    const added = [];
+    for (const file of files.files) {
+      added.push(await trialApi.add({ name: file.name.replace(/\.csv$/i, ""), csv: await file.text(), frame_rate: rate.input.valueAsNumber, pixels, ...walk.values() }));
+    }
+    if (added.length > 1) toast(`${added.length} trials are kept.`);
+    done(added);
+  });
+
+  const [expected, iterations, over] = walk.labels;
+  return h("form", { class: "trial-form", on: { submit: keep } },
+    h("button", { type: "button", class: "link", text: "All trials", on: { click: all } }),
+    h("p", { class: "quiet", text: "Foot tracks as CSV: X_D1, Y_D1, X_D2, … and a row a frame, in centimetres with gaps left empty, or in pixels with 0,0 as a gap." }),
+    h("label", {}, h("span", { text: "Files" }), files), expected, iterations, rate.label, over,
+    h("details", {}, h("summary", { text: "The files are in pixels" }), perCm.label, x.label, y.label),
+    h("button", { class: "primary", text: "Add trials" }));
+}

@@ -1,0 +1,59 @@
+/** A trial as the studio keeps it, followed while it is shown: changed here one after the other, and elsewhere at any time. */
+
+import { announce, report, toast } from "../lib/toasts.js";
+import { trialApi } from "../api/trials.js";
+
+const CONFLICT = 409;
+
+/**
+ * Follows a trial.
+ * @param {object} store
+ * @param {object} first as the studio tells it
+ * @param {(trial: object) => void} shown told of each other state
+ * @returns {{change: (changes: object, done?: string) => Promise<boolean>, leave: () => void}} `change` says whether it was kept
+ */
+export function followTrial(store, first, shown) {
+  const { id } = first;
+  let [now, last, isLeft] = [first, Promise.resolve(), false];
+
+  function take(trial) {
+    if (isLeft || trial.revision < now.revision) return;
+    now = trial;
+    shown(now);
+  }
+
+  async function refused(error) {
+    if (error.status !== CONFLICT) throw error;
+    take(await trialApi.read(id));
+    const words = now.deleted ? error.message : `The trial “${now.name}” was changed elsewhere meanwhile; it is shown as it is now. Make your last change again.`;
+    toast(words, { tone: "bad", of: "studio" });
+  }
+
+  async function send(changes, done) {
+    try {
+      take(await trialApi.change(id, now.revision, changes));
+      if (done) announce(done);
+      return true;
+    } catch (error) {
+      await refused(error).catch(report);
+      return false;
+    }
+  }
+
+  /** Does one thing after the other, so that each is made from what the one before led to. */
+  function inTurn(act) {
+    last = last.then(act, act);
+    return last;
+  }
+
+  async function look() {
+    const told = store.state.trialChanges[id];
+    if (isLeft || (told && told.revision <= now.revision && told.deleted === now.deleted)) return;
+    take(await trialApi.read(id).catch((error) => { report(error); return now; }));
+  }
+
+  const forget = store.watch(({ trialChanges, connected }) => [trialChanges[id], connected], ({ trialChanges, connected }) => {
+    if (connected && trialChanges[id]) inTurn(look);
+  });
+  return { change: (changes, done = "") => inTurn(() => send(changes, done)), leave() { isLeft = true; forget(); } };
+}

@@ -1,0 +1,119 @@
+/** The list of trials, and gaits by steps compared in a table that sorts by any column. */
+
+import { h, svg } from "../lib/dom.js";
+import { clockTime, fixed } from "../lib/format.js";
+import { turns } from "../lib/latest_only.js";
+import { attempt } from "../lib/toasts.js";
+import { trialApi } from "../api/trials.js";
+
+const COLUMNS = [
+  { key: "gait_name", text: "gait", help: "Gait, and its step an iteration in cm: as planned, or without a plan as wanted" },
+  { key: "distance", text: "cm", help: "Distance as in the published tables: largest excursions; mean over trials" },
+  { key: "error_percent", text: "error %", help: "Distance beside what was wanted, %" },
+  { key: "angle_deg", text: "angle °", help: "Direction of the largest excursions on the platform, degrees" },
+  { key: "speed_mm_s", text: "mm/s", help: "Mean speed of an iteration" },
+];
+
+const order = { key: "gait_name", up: true };
+
+/** Distances of a gait's trials as a small line, with the wanted one dotted. */
+function sparkline({ distances, expected_cm: wanted }) {
+  const [width, height] = [46, 14];
+  const high = Math.max(...distances, wanted) * 1.1;
+  const y = (value) => (height - (value / high) * height).toFixed(1);
+  const x = (index) => (distances.length === 1 ? width / 2 : 2 + (index / (distances.length - 1)) * (width - 4)).toFixed(1);
+  return svg("svg", { class: "sparkline", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": `Distances ${distances.map((value) => fixed(value, 1)).join(", ")} cm` },
+    svg("line", { x1: 0, x2: width, y1: y(wanted), y2: y(wanted) }),
+    svg("polyline", { points: distances.map((value, index) => `${x(index)},${y(value)}`).join(" ") }),
+    ...distances.map((value, index) => svg("circle", { r: 1.6, cx: x(index), cy: y(value) })));
+}
+
+const spread = (value, by, decimals) => (by === null ? fixed(value, decimals) : `${fixed(value, decimals)} ± ${fixed(by, decimals)}`);
+
+/** A gait's name with its step, and with the iterations where only they tell it from another row. */
+function nameOf(group, groups) {
+  const isTwin = groups.some((other) => other !== group && other.gait_name === group.gait_name && fixed(other.step_cm, 1) === fixed(group.step_cm, 1));
+  return `${group.gait_name}, ${fixed(group.step_cm, 1)} cm${isTwin ? `, ${group.iterations} iteration${group.iterations === 1 ? "" : "s"}` : ""}`;
+}
+
+function compareRow(group, groups, band) {
+  const name = nameOf(group, groups);
+  const show = h("button", { class: "link", text: "Show band", "aria-label": `Show band of ${name}`, title: "The trials over each other: their mean way, how far they lie apart, and the plan", on: { click: () => band(group) } });
+  return h("tr", {},
+    h("th", { scope: "row" }, h("span", { text: name }), h("span", { class: "more quiet" }, `× ${group.trials.length}`, sparkline(group), show)),
+    h("td", { text: spread(group.distance, group.distance_spread, 1) }),
+    ...[group.error_percent, group.angle_deg].map((value) => h("td", { text: fixed(value, 0) })), h("td", { text: fixed(group.speed_mm_s, 2) }));
+}
+
+function sorted(groups) {
+  const value = (group) => group[order.key];
+  const way = order.up ? 1 : -1;
+  return [...groups].sort((a, b) => way * (typeof value(a) === "string" ? value(a).localeCompare(value(b)) || a.step_cm - b.step_cm : value(a) - value(b)));
+}
+
+function comparedTable(groups, band) {
+  const rows = h("tbody");
+  const heads = COLUMNS.map(({ key, text, help }) => {
+    const button = h("button", { class: "plain", text, title: `${help}. Press to sort` });
+    button.addEventListener("click", () => {
+      Object.assign(order, { key, up: order.key === key ? !order.up : true });
+      fill();
+    });
+    return { key, cell: h("th", { scope: "col" }, button) };
+  });
+  function fill() {
+    rows.replaceChildren(...sorted(groups).map((group) => compareRow(group, groups, band)));
+    for (const { key, cell } of heads) cell.setAttribute("aria-sort", key !== order.key ? "none" : order.up ? "ascending" : "descending");
+  }
+  fill();
+  return h("table", { class: "run-table trial-compared" }, h("caption", { text: "Gaits compared" }), h("thead", {}, h("tr", {}, ...heads.map(({ cell }) => cell))), rows);
+}
+
+function trialRow(trial, open) {
+  const button = h("button", { class: "run-row", data: { trial: trial.id }, title: "Show this trial beside its plan", on: { click: () => open(trial.id) } },
+    h("span", { class: "run-line" }, h("b", { text: trial.name }), h("span", { text: `${fixed(trial.distance, 1)} of ${fixed(trial.expected_cm, 1)} cm` })),
+    h("span", { class: "run-line quiet" }, h("span", { text: [trial.gait_name, trial.by, clockTime(trial.made)].filter(Boolean).join(" · ") })),
+    trial.note ? h("span", { class: "run-line run-note", text: trial.note }) : null);
+  return h("li", {}, button);
+}
+
+function listParts({ trials, compared }, { open, band }) {
+  const groups = compared.map((group) => ({ ...group, lines: trials.filter(({ id }) => group.trials.includes(id)) }));
+  const file = (form, text, help) => h("a", { href: `/api/trials/table?form=${form}`, download: "", text, title: help });
+  return [
+    trials.length ? comparedTable(groups, band) : h("p", { class: "teach", text: "No trial yet. Add the foot tracks of a recording: how far each foot went, which way, how fast, and how that compares with the plan." }),
+    ...(trials.length ? [h("div", { class: "run-files" }, file("csv", "CSV", "The table of gaits"), file("latex", "LaTeX", "The table of gaits for a paper"),
+      h("a", { href: "/api/trials/report", download: "", text: "Report", title: "One HTML file with the table, and the trials of each gait over each other" }))] : []),
+    h("ul", { class: "run-list", role: "list", "aria-label": "Trials" }, ...trials.map((trial) => trialRow(trial, open))),
+  ];
+}
+
+/**
+ * Builds the list, which follows what becomes of trials.
+ * @param {{store: object, open: (id: string) => void, add: () => void, band: (group: object) => void, videos: () => void, cameras: () => void, learn: () => void}} acts
+ * @returns {Promise<{element: HTMLElement, leave: () => void}>}
+ */
+export async function trialList({ store, open, add, band, videos, cameras, learn }) {
+  const first = store.state.trialChanges;
+  const body = h("div", { class: "trial-part" });
+  const begin = turns();
+
+  async function fill() {
+    const isOld = begin();
+    const content = await trialApi.list();
+    if (isOld()) return;
+    const held = body.contains(document.activeElement) ? document.activeElement.dataset.trial : null;
+    body.replaceChildren(...listParts(content, { open, band }));
+    if (held) body.querySelector(`[data-trial="${held}"]`)?.focus();
+  }
+
+  await fill();
+  const forget = store.watch(({ trialChanges }) => [trialChanges], ({ trialChanges }) => { if (trialChanges !== first) attempt(fill)(); });
+  const element = h("div", { class: "run-all" },
+    h("div", { class: "trial-ways" }, h("button", { class: "primary", text: "Add trials…", on: { click: add } }),
+      h("button", { text: "From a video…", title: "The feet are found in a video of the robot from under its glass platform", on: { click: videos } }),
+      h("button", { class: "link", text: "Cameras", title: "The studio's cameras: live pictures, setups, recording with the run", on: { click: cameras } }),
+      h("button", { class: "link", text: "Learn from trials", title: "Physics parameters that no data sheet gives, fitted to what the robot did", on: { click: learn } })),
+    body);
+  return { element, leave() { begin(); forget(); } };
+}

@@ -1,5 +1,0 @@
-/** The style sheet of videos and cameras, which comes with their modules. */
-
-import { h } from "./dom.js";
-
-document.head.append(h("link", { rel: "stylesheet", href: new URL("./video.css", import.meta.url).pathname }));

@@ -1,0 +1,33 @@
+/** Trials from a video: the file is sent, a camera setup chosen or made, the feet tracked; it ends in the open trial. */
+
+import { h } from "../lib/dom.js";
+import { attempt, report } from "../lib/toasts.js";
+import { openVideo } from "./video_page.js";
+import { videoApi } from "../api/videos.js";
+import { uploadField, videoRow } from "./video_rows.js";
+
+/**
+ * Opens the videos in the trials' panel.
+ * @param {object} page `store`, `show(content, whenLeft)`, `begin()` tells later whether something else was asked for, `all` shows the list of trials, `one` a trial
+ */
+export const openVideos = attempt(async (page) => {
+  const again = () => openVideos(page);
+  const open = (video) => openVideo(page, video, { back: again }).catch(report);
+  const isOld = page.begin();
+  const { videos } = await videoApi.list();
+  if (isOld()) return;
+  const upload = uploadField(open);
+  const kept = videos.filter(({ state }) => state !== "removed");
+  page.show(h("div", { class: "trial-form" },
+    h("button", { type: "button", class: "link", text: "All trials", on: { click: page.all } }),
+    h("p", { class: "quiet", text: "A video of the robot from under its glass platform: the four coloured feet are found in every frame." }), upload,
+    h("h3", { text: "Videos" }), kept.length ? null : h("p", { class: "teach", text: "No video yet. What is sent here and what cameras record is kept in the data folder." }),
+    h("ul", { class: "run-list", role: "list", "aria-label": "Videos" }, ...kept.map((video) => videoRow(video, { open, trial: page.one })))));
+});
+
+/** Opens one video by its id. */
+export const openVideoOf = attempt(async (page, id) => {
+  const isOld = page.begin();
+  const video = await videoApi.read(id);
+  if (!isOld()) await openVideo(page, video, { back: () => openVideos(page) });
+});

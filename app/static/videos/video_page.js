@@ -1,0 +1,89 @@
+/** One video in the panel, beside its picture: a camera setup is chosen or made, and its feet are tracked into a trial. */
+
+import { newSetup, openSetup } from "../cameras/camera_setup.js";
+import { setupWords } from "../cameras/camera_words.js";
+import { h, onPress, setAllowed, setText } from "../lib/dom.js";
+import { attempt, toast } from "../lib/toasts.js";
+import { walkFields } from "../trials/trial_form.js";
+import { setupApi, videoApi, videoSource } from "../api/videos.js";
+import { videoFacts } from "./video_rows.js";
+import { openStage } from "./video_stage.js";
+import { trackingPart } from "./video_tracking.js";
+
+/** The choice of a setup, with what the chosen one lacks. */
+function setupChoice({ setups, chosen, changed, edit, make }) {
+  const select = h("select", { "aria-label": "Camera setup", title: "How the camera saw the platform, and which colours the feet have" },
+    ...setups.map(({ id, setup }) => h("option", { value: id, text: setup.name })), setups.length ? null : h("option", { value: "", text: "none yet" }));
+  const state = h("p", { class: "why", role: "status" });
+  const change = h("button", { type: "button", class: "link", text: "Change it…" });
+  const made = h("button", { type: "button", class: "link", text: "New setup…", on: { click: make } });
+  const now = () => setups.find(({ id }) => id === select.value) ?? null;
+  const show = () => {
+    const one = now();
+    change.hidden = !one;
+    setText(state, one ? `${one.setup.name}, version ${one.revision}: ${setupWords(one)}` : "A setup tells the lens, where the platform is in the picture, and the colours of the feet.");
+    changed(one);
+  };
+  select.addEventListener("change", show);
+  change.addEventListener("click", () => edit(now()));
+  if (setups.some(({ id }) => id === chosen)) select.value = chosen;
+  return { element: h("div", { class: "camera-part" }, h("label", {}, h("span", { text: "Camera setup" }), select), state, h("div", { class: "camera-row" }, change, made)), now, show };
+}
+
+function removeButton(video, back) {
+  const remove = attempt(async () => {
+    await videoApi.remove(video.id);
+    back();
+    toast(`The video ${video.name} is deleted; trials of it stay.`, { action: { label: "Undo", act: attempt(async () => { await videoApi.restore(video.id); back(); }) } });
+  });
+  return h("button", { type: "button", class: "link", text: "Delete", "aria-label": "Delete this video", on: { click: remove } });
+}
+
+/**
+ * Opens a video in the panel.
+ * @param {object} page of the trials' panel: `store`, `show`, `one` opens a trial
+ * @param {object} video
+ * @param {{back: () => void, chosen?: string, frame?: number, kept?: object}} ways `chosen` is the setup that was chosen before,
+ *   `kept` what was written in the form
+ */
+export async function openVideo(page, video, { back, chosen = "", frame = 0, kept = {} }) {
+  const isOld = page.begin();
+  const { setups } = await setupApi.list();
+  if (isOld()) return;
+  const stage = openStage(videoSource(video), frame);
+  const name = h("input", { "aria-label": "Trial name", required: true, maxlength: "120", value: kept.name ?? video.name.replace(/\.\w+$/, "") });
+  const walk = walkFields(page.store, { ...kept, run: kept.run ?? video.run });
+  const track = h("button", { class: "primary", text: "Track the feet" });
+  const words = () => ({ name: name.value.trim(), ...walk.values() });
+  let tracking = false;
+
+  const again = (setup) => () => openVideo(page, video, { back, chosen: setup, frame: stage.frame, kept: words() });
+  const edit = (answer) => openSetup(page, { answer, source: videoSource(video), frame: stage.frame, back: { text: `Back to ${video.name}`, act: again(answer.id) } });
+  const make = attempt(async () => {
+    const older = page.begin();
+    const answer = await newSetup();
+    if (!older()) edit(answer);
+  });
+  const choice = setupChoice({ setups, chosen, edit, make, changed: allow });
+
+  function allow() {
+    const setup = choice.now();
+    const why = tracking ? "This video is being tracked." : !setup ? "Choose or make a camera setup first." : setup.ready ? null : setupWords(setup);
+    setAllowed(track, why, "Follows the four feet through every frame");
+  }
+
+  const begin = attempt(async () => {
+    await videoApi.track(video.id, { setup: choice.now().id, note: "", gait: "", run: "", ...words() });
+  });
+  const progress = trackingPart(page.store, video.id, { done: page.one, changed: (isOn) => { tracking = isOn; allow(); } });
+  const form = h("form", { class: "trial-form", on: { submit: (event) => event.preventDefault() } },
+    h("button", { type: "button", class: "link", text: "All videos", on: { click: back } }),
+    h("div", { class: "run-line run-title" }, h("b", { text: video.name })), h("p", { class: "quiet", text: videoFacts(video) }),
+    video.sentence ? h("p", { class: "why", data: { toneText: "caution" }, text: video.sentence }) : null,
+    ...video.trials.map(({ id, name: of }) => h("button", { type: "button", class: "link", text: video.trials.length > 1 ? `Open its trial “${of}”` : "Open its trial", title: of, on: { click: () => page.one(id) } })),
+    choice.element, h("label", {}, h("span", { text: "Trial name" }), name), ...walk.labels, progress, track,
+    h("div", { class: "run-files" }, h("a", { href: `/api/videos/${encodeURIComponent(video.id)}/file`, download: "", text: "The file" }), removeButton(video, back)));
+  onPress(track, () => { if (form.reportValidity()) begin(); }, (why) => toast(why, { of: "studio" }));
+  page.show(form, () => stage.close());
+  choice.show();
+}

@@ -1,0 +1,182 @@
+/** A picture to look closely at: zoomed by wheel, buttons and keys, moved by dragging, with drawings over it. */
+
+import { h, icon, svg } from "../lib/dom.js";
+
+const CLOSEST = 24;
+const WHEEL = 0.0015;
+const STEP = 1.4;
+const CLICK_PX = 4;
+const PAN_PX = 48;
+
+const between = (value, least, most) => Math.min(Math.max(value, least), most);
+
+/** The scale and place of a picture in its frame; `x`, `y` is where the picture's corner lies, screen px. */
+function createView() {
+  const view = { scale: 1, x: 0, y: 0, fitted: true };
+  return {
+    view,
+    fit(frame, size) {
+      view.scale = Math.min(frame.width / size.width, frame.height / size.height) || 1;
+      view.x = (frame.width - size.width * view.scale) / 2;
+      view.y = (frame.height - size.height * view.scale) / 2;
+      view.fitted = true;
+    },
+    /** Zooms so that the place under the pointer stays there. */
+    zoom(factor, at, least) {
+      const scale = between(view.scale * factor, least, CLOSEST);
+      view.x = at.x - ((at.x - view.x) * scale) / view.scale;
+      view.y = at.y - ((at.y - view.y) * scale) / view.scale;
+      view.scale = scale;
+      view.fitted = false;
+    },
+    move(dx, dy, frame, size) {
+      view.x = between(view.x + dx, 40 - size.width * view.scale, frame.width - 40);
+      view.y = between(view.y + dy, 40 - size.height * view.scale, frame.height - 40);
+      view.fitted = false;
+    },
+  };
+}
+
+/** A click that was no drag, dragging, and the wheel. */
+function mountPointer(frame, { pan, zoom, click, hover }) {
+  let from = null;
+  const at = (event) => {
+    const { left, top } = frame.getBoundingClientRect();
+    return { x: event.clientX - left, y: event.clientY - top };
+  };
+  frame.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0 || event.target.closest(".video-point, .video-zoom")) return;
+    from = { x: event.clientX, y: event.clientY, moved: false };
+    frame.setPointerCapture(event.pointerId);
+  });
+  frame.addEventListener("pointermove", (event) => {
+    if (!from) return hover(event.target.closest(".video-zoom") ? null : at(event));
+    const [dx, dy] = [event.clientX - from.x, event.clientY - from.y];
+    if (!from.moved && Math.hypot(dx, dy) < CLICK_PX) return undefined;
+    from = { x: event.clientX, y: event.clientY, moved: true };
+    hover(null);
+    return pan(dx, dy);
+  });
+  frame.addEventListener("pointerup", (event) => {
+    const clicked = from && !from.moved;
+    from = null;
+    if (clicked) click(at(event));
+  });
+  frame.addEventListener("pointercancel", () => { from = null; });
+  frame.addEventListener("pointerleave", () => hover(null));
+  frame.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    zoom(Math.exp(-event.deltaY * WHEEL), at(event));
+  }, { passive: false });
+}
+
+function mountKeys(frame, { closer, further, fit, pan }) {
+  const acts = {
+    "+": closer, "=": closer, "-": further, "−": further, f: fit,
+    ArrowLeft: () => pan(PAN_PX, 0), ArrowRight: () => pan(-PAN_PX, 0), ArrowUp: () => pan(0, PAN_PX), ArrowDown: () => pan(0, -PAN_PX),
+  };
+  frame.addEventListener("keydown", (event) => {
+    const act = acts[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    if (!act || event.target !== frame || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    act();
+  });
+}
+
+function zoomButtons({ zoom, fit, middle }) {
+  const button = (text, name, act) => h("button", { type: "button", class: "icon-only", "aria-label": name, title: name, text, on: { click: act } });
+  const fitting = button("", "Fit the picture", fit);
+  fitting.append(icon("fit"));
+  return h("div", { class: "video-zoom", role: "group", "aria-label": "Zoom" }, button("−", "Further", () => zoom(1 / STEP, middle())), button("+", "Closer", () => zoom(STEP, middle())), fitting);
+}
+
+const newImage = () => Object.assign(new Image(), { className: "video-image", alt: "", draggable: false });
+
+/** Puts a new picture in the old one's place once it can be drawn, so that nothing flickers; gives back whether it is the newest. */
+function mountImage(replace) {
+  let [asked, shown] = [0, null];
+  return async (source, size) => {
+    const number = ++asked;
+    const url = source instanceof Blob ? URL.createObjectURL(source) : source;
+    const forget = () => { if (url !== source) URL.revokeObjectURL(url); };
+    const next = newImage();
+    next.src = url;
+    try {
+      await next.decode();
+    } catch {
+      forget();
+      throw new Error("The picture cannot be drawn.");
+    }
+    if (number < asked) {
+      forget();
+      return false;
+    }
+    replace(next, size ? { width: size[0], height: size[1] } : { width: next.naturalWidth, height: next.naturalHeight });
+    shown?.();
+    shown = forget;
+    return true;
+  };
+}
+
+/**
+ * Builds the view. Places are in the picture's pixels as cameras count them: 0, 0 is the middle of the first pixel.
+ * @param {string} name of the picture, for assistive tools
+ * @returns {object} `element`; `show(blob or address, size)`, where the size in px is told if the picture comes smaller; `drawing`, an SVG group in the picture's pixels; `layer` for points over it;
+ *   `size`; `toScreen(place)`; `toPlace(screen)`; `onView(act)` after each change of scale; `onClick(act)` and `onHover(act)`
+ *   with the place; `reveal(place)`; `image`
+ */
+export function pictureView(name) {
+  let image = newImage();
+  const drawing = svg("g");
+  const overlay = svg("svg", { class: "video-overlay", "aria-hidden": "true" }, drawing);
+  const layer = h("div", { class: "video-layer" });
+  const { view, fit, zoom, move } = createView();
+  const told = { view: [], click: [], hover: [] };
+  let size = { width: 1280, height: 720 };
+  const bounds = () => ({ width: frame.clientWidth, height: frame.clientHeight });
+  const least = () => Math.min(bounds().width / size.width, bounds().height / size.height, 1) / 2;
+  const toScreen = ([x, y]) => [view.x + (x + 0.5) * view.scale, view.y + (y + 0.5) * view.scale];
+  const toPlace = ({ x, y }) => [(x - view.x) / view.scale - 0.5, (y - view.y) / view.scale - 0.5];
+  const isInside = ([x, y]) => x >= 0 && y >= 0 && x <= size.width - 1 && y <= size.height - 1;
+
+  function drawn() {
+    image.style.transform = `translate(${view.x}px, ${view.y}px) scale(${view.scale})`;
+    image.toggleAttribute("data-close", view.scale >= 4);
+    drawing.setAttribute("transform", `translate(${view.x + view.scale / 2} ${view.y + view.scale / 2}) scale(${view.scale})`);
+    told.view.forEach((act) => act(view.scale));
+  }
+  const doing = (act) => (...values) => { act(...values); drawn(); };
+  const fitted = doing(() => fit(bounds(), size));
+  const zoomed = doing((factor, at) => zoom(factor, at, least()));
+  const panned = doing((dx, dy) => move(dx, dy, bounds(), size));
+  const middle = () => ({ x: bounds().width / 2, y: bounds().height / 2 });
+  const frame = h("div", { class: "video-frame", role: "group", tabindex: "0", "aria-label": name, data: { keys: "", arrows: "" },
+    "aria-description": "Arrow keys move the picture, plus and minus zoom, F fits it" }, image, overlay, layer, zoomButtons({ zoom: zoomed, fit: fitted, middle }));
+
+  mountPointer(frame, { pan: panned, zoom: zoomed, hover: (at) => told.hover.forEach((act) => act(at && isInside(toPlace(at)) ? toPlace(at) : null)),
+    click: (at) => { if (isInside(toPlace(at))) told.click.forEach((act) => act(toPlace(at))); } });
+  mountKeys(frame, { closer: () => zoomed(STEP, middle()), further: () => zoomed(1 / STEP, middle()), fit: fitted, pan: panned });
+  new ResizeObserver(() => { if (view.fitted) fitted(); else drawn(); }).observe(frame);
+
+  return {
+    element: frame, drawing, layer, toScreen, toPlace, isInside,
+    get image() { return image; },
+    get size() { return size; },
+    show: mountImage((next, nextSize) => {
+      const changed = nextSize.width !== size.width || nextSize.height !== size.height;
+      size = nextSize;
+      image.replaceWith(Object.assign(next, size));
+      image = next;
+      if (changed || view.fitted) fitted();
+      else drawn();
+    }),
+    onView: (act) => { told.view.push(act); act(view.scale); },
+    onClick: (act) => told.click.push(act),
+    onHover: (act) => told.hover.push(act),
+    /** Brings a place into the frame where it is outside. */
+    reveal(place) {
+      const [[x, y], { width, height }] = [toScreen(place), bounds()];
+      panned(between(x, 30, width - 30) - x, between(y, 30, height - 30) - y);
+    },
+  };
+}

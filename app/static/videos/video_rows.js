@@ -1,0 +1,75 @@
+/** Kept videos in a list, and a file on its way to the studio. */
+
+import { lengthWords, sizeWords } from "../cameras/camera_words.js";
+import { h, setText } from "../lib/dom.js";
+import { clockTime, fixed } from "../lib/format.js";
+import { report, toast } from "../lib/toasts.js";
+import { videoApi } from "../api/videos.js";
+import "./video_style.js";
+
+/** Size, rate and length of a video. */
+export const videoFacts = ({ size, rate, seconds, bytes }) => `${size.join(" × ")} px · ${fixed(rate, 1)} frames/s · ${lengthWords(seconds)} · ${sizeWords(bytes)}`;
+
+const trialsWord = ({ trials }) => (trials.length > 1 ? `has ${trials.length} trials` : trials.length ? "has a trial" : "");
+
+/** A kept video in the list, with the ways to what was tracked in it. */
+export function videoRow(video, { open, trial }) {
+  const state = video.state === "kept" ? (video.kind === "recording" ? `of a run, camera ${video.camera}` : "") : video.state;
+  const { trials } = video;
+  const ways = trials.map(({ id, name }) => h("button", { type: "button", class: "link", text: trials.length > 1 ? `Trial: ${name}` : "Open its trial", title: name, on: { click: () => trial(id) } }));
+  return h("li", {}, h("button", { type: "button", class: "run-row", data: { video: video.id }, title: video.sentence || "Track the feet in this video", on: { click: () => open(video) } },
+    h("span", { class: "run-line" }, h("b", { text: video.name }), h("span", { text: lengthWords(video.seconds) })),
+    h("span", { class: "run-line quiet" }, h("span", { text: [clockTime(video.made), state, trialsWord(video)].filter(Boolean).join(" · ") }))), ways.length ? h("div", { class: "video-trials" }, ...ways) : null);
+}
+
+/** A field for a file, which is sent when it is chosen, with its progress and Cancel. */
+function buildUpload() {
+  const file = h("input", { type: "file", accept: "video/*,.avi,.mkv,.mov,.mp4", "aria-label": "Video file" });
+  const bar = h("i");
+  const words = h("p", { class: "quiet number", role: "status" });
+  const cancel = h("button", { type: "button", text: "Cancel", "aria-label": "Cancel upload" });
+  const going = h("div", { class: "video-going", hidden: true }, h("div", { class: "progress" }, bar), words, cancel);
+  const field = { element: h("div", { class: "video-upload" }, h("label", {}, h("span", { text: "Video file" }), file), going), done: () => {} };
+  let ending = null;
+
+  function progress(share, size) {
+    bar.style.transform = `scaleX(${share})`;
+    setText(words, share < 1 ? `${fixed(share * 100, 0)} % of ${sizeWords(size)} sent` : "Sent; the studio looks at it…");
+  }
+
+  async function send() {
+    const [chosen] = file.files;
+    if (!chosen) return;
+    ending = new AbortController();
+    [going.hidden, file.disabled] = [false, true];
+    progress(0, chosen.size);
+    let video = null;
+    try {
+      video = await videoApi.upload(chosen, { signal: ending.signal, progress: (share) => progress(share, chosen.size) });
+    } catch (error) {
+      report(error);
+    }
+    ending = null;
+    [going.hidden, file.disabled, file.value] = [true, false, ""];
+    if (video?.again) toast(`${chosen.name} is here already, sent ${clockTime(video.made)} as “${video.name}”; it is not kept twice.`, { of: "studio" });
+    if (video && field.element.isConnected) field.done(video);
+    else if (video) toast(`${video.name} is sent.`, { action: { label: "Track its feet", act: () => field.done(video) } });
+  }
+
+  file.addEventListener("change", send);
+  cancel.addEventListener("click", () => ending?.abort());
+  return field;
+}
+
+let upload = null;
+
+/**
+ * The field for a video; a file goes on being sent where its panel is left, and is there again when that is opened.
+ * @param {(video: object) => void} done
+ * @returns {HTMLElement}
+ */
+export function uploadField(done) {
+  upload ??= buildUpload();
+  upload.done = done;
+  return upload.element;
+}

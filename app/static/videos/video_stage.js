@@ -1,0 +1,119 @@
+/** A large picture in the place of the 3D preview and the timeline: of a kept video with its frames, or of a camera. */
+
+import { h, setText } from "../lib/dom.js";
+import { fixed } from "../lib/format.js";
+import { lane } from "../lib/latest_only.js";
+import { pictureView } from "./video_picture.js";
+import { pictureOf } from "../api/videos.js";
+import "./video_style.js";
+
+const LIVE_MS = 250;
+const RETRY_MS = 1000;
+const MOST_RETRY_MS = 10000;
+
+function frameSlider(moved) {
+  const range = h("input", { type: "range", min: "0", step: "1", value: "0", "aria-label": "Frame" });
+  const number = h("input", { type: "number", min: "0", step: "1", value: "0", "aria-label": "Frame number" });
+  const words = h("span", { class: "quiet number" });
+  const element = h("div", { class: "video-frames" }, range, number, words);
+  let rate = 1;
+  const show = (frame) => {
+    range.value = number.value = String(frame);
+    range.setAttribute("aria-valuetext", `frame ${frame}, ${fixed(frame / rate, 2)} s`);
+    setText(words, `of ${Number(range.max) + 1} · ${fixed(frame / rate, 2)} s`);
+  };
+  const take = (input) => () => {
+    const frame = Math.round(Math.min(Math.max(input.valueAsNumber || 0, 0), Number(range.max)));
+    show(frame);
+    moved(frame);
+  };
+  range.addEventListener("input", take(range));
+  number.addEventListener("change", take(number));
+  return {
+    element,
+    open({ kind, frames, rate: perSecond }, frame) {
+      element.hidden = kind !== "video";
+      rate = perSecond || 1;
+      range.max = number.max = String(Math.max(frames - 1, 0));
+      show(Math.min(frame, Number(range.max)));
+    },
+    get frame() { return Number(range.value); },
+  };
+}
+
+/**
+ * Opens the picture.
+ * @param {object} source of `videoSource` or `cameraSource`
+ * @param {number} [frame] that is shown first
+ * @param {(why: string|null) => void} [lost] told why there is no picture of now, and null when there is one again
+ * @returns {object} `picture` of `pictureView`; `frame`; `fetches(act)`: another way to a picture, `act(frame)` gives a blob, an
+ *   address or null where it is out of date; `away(why)`: what the server says of a camera that is gone, null where it is not;
+ *   `refresh()`; `close()`; `source`
+ */
+export function openStage(source, frame = 0, lost = () => {}) {
+  const picture = pictureView(`Picture of ${source.name}`);
+  const title = h("b", { text: source.name });
+  const note = h("span", { class: "quiet", role: "status", text: "Waiting for the picture…" });
+  const plain = (number) => pictureOf(source, number);
+  let [fetching, timer, closed, retry] = [plain, 0, false, RETRY_MS];
+  let [said, failed, shown] = [null, null, null];
+
+  /** An old picture must not look like one of now. */
+  function standing() {
+    const why = said ?? failed;
+    setText(note, why ?? "");
+    note.dataset.toneText = why === null ? "" : "caution";
+    note.title = why ?? "";
+    element.toggleAttribute("data-gone", why !== null);
+    if (why === shown) return;
+    shown = why;
+    lost(why);
+  }
+
+  const offer = lane(async (number) => {
+    if (closed) return;
+    try {
+      const next = await fetching(number);
+      if (next !== null && !closed) await picture.show(next);
+      failed = null;
+    } catch (error) {
+      failed = error.message;
+    }
+    if (closed) return;
+    standing();
+    if (source.kind !== "camera") return;
+    clearTimeout(timer);
+    timer = setTimeout(() => offer(0), failed === null ? LIVE_MS : retry);
+    retry = failed === null ? RETRY_MS : Math.min(2 * retry, MOST_RETRY_MS);
+  });
+  const slider = frameSlider(offer);
+  slider.open(source, frame);
+  const element = h("section", { class: "video-stage", "aria-label": "Picture", data: { keys: "" } },
+    h("header", {}, title, note, slider.element), picture.element);
+  document.querySelector("section.stage").append(element);
+  document.body.toggleAttribute("data-video", true);
+  offer(slider.frame);
+
+  return {
+    picture, source,
+    get frame() { return slider.frame; },
+    get isAway() { return said !== null; },
+    fetches(act) {
+      fetching = act ?? plain;
+      offer(slider.frame);
+    },
+    refresh: () => offer(slider.frame),
+    away(why) {
+      if (why === said) return;
+      said = why;
+      standing();
+      if (why === null) offer(0);
+    },
+    close() {
+      closed = true;
+      clearTimeout(timer);
+      element.remove();
+      document.body.toggleAttribute("data-video", document.querySelector(".video-stage") !== null);
+    },
+  };
+}

@@ -1,0 +1,5 @@
+/** The style sheet of videos and cameras, which comes with their modules. */
+
+import { h } from "../lib/dom.js";
+
+document.head.append(h("link", { rel: "stylesheet", href: new URL("./video.css", import.meta.url).pathname }));

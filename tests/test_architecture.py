@@ -63,9 +63,9 @@ def forbidden(path: str, name: str) -> bool:
 def forbidden_in_app(path: str, name: str, top: str) -> bool:
     if top in SOLVERS or top == "robot_description" or name.startswith("solver_jobs."):
         return True
-    if path.startswith("app/bridge/"):
+    if path.startswith(("app/bridge/", "app/emulator/")):
         allowed_serial = path == "app/bridge/transport.py"
-        leaf = top == "app" and not name.startswith("app.bridge")
+        leaf = top == "app" and not name.startswith(("app.bridge", "app.emulator"))
         return (
             leaf
             or top in SHAPES | WEB | {"pydantic", "solver_jobs"}
@@ -74,11 +74,11 @@ def forbidden_in_app(path: str, name: str, top: str) -> bool:
     if top in SHAPES:
         return not path.startswith("app/scene/")
     if top in WEB:
-        edge = {"app/server/application.py", "app/server/launch.py", "app/web/access.py"}
-        return path not in edge and not path.startswith("app/routes/")
+        edge = ("app/server/", "app/web/", "app/routes/")
+        return not path.startswith(edge)
     if top == "pydantic":
         files = {"app/documents/gait_json.py", "app/documents/gait_schema.py", "app/cameras/setup_schema.py"}
-        return path not in files and not path.startswith("app/routes/")
+        return path not in files and not path.startswith(("app/routes/", "app/web/"))
     return top == "serial"
 
 

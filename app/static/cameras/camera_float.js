@@ -4,7 +4,7 @@ import { cameraTone, cameraWord } from "./camera_words.js";
 import { remember } from "../lib/check_menu.js";
 import { byId, h, icon, setText } from "../lib/dom.js";
 import { streamOf } from "../api/videos.js";
-import "../videos/video_style.js";
+import "../pictures/picture_style.js";
 
 const WIDTH = 480;
 const STEP_PX = 16;

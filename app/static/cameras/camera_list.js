@@ -8,8 +8,8 @@ import { h, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { attempt } from "../lib/toasts.js";
 import { cameraApi, cameraSource, look, setupApi } from "../api/videos.js";
-import { openStage } from "../videos/video_stage.js";
-import "../videos/video_style.js";
+import { openStage } from "../pictures/picture_stage.js";
+import "../pictures/picture_style.js";
 
 const LOOK_WIDTH = 1280;
 const HELP = "Start the studio with --camera NAME=FILE to have a video file in a camera's place, or plug a camera in.";

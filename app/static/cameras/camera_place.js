@@ -3,7 +3,7 @@
 import { h, setText, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { guessPlace } from "./camera_guess.js";
-import { picturePoints } from "../videos/video_points.js";
+import { picturePoints } from "../pictures/picture_points.js";
 
 const MOST_POINTS = 200;
 const SQUARE = [[-5, -5], [5, -5], [5, 5], [-5, 5]];

@@ -5,7 +5,7 @@ import { fixed } from "../lib/format.js";
 import { attempt, toast } from "../lib/toasts.js";
 import { trialApi } from "../api/trials.js";
 import { videoApi } from "../api/videos.js";
-import "../videos/video_style.js";
+import "../pictures/picture_style.js";
 
 /** Tells of a trial that a run's recording led to; trials of other origin are known to who made them. */
 export const tellTrial = attempt(async (id, open) => {

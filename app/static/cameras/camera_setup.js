@@ -8,7 +8,7 @@ import { setupWords } from "./camera_words.js";
 import { h, setText } from "../lib/dom.js";
 import { attempt, toast } from "../lib/toasts.js";
 import { setupApi } from "../api/videos.js";
-import { openStage } from "../videos/video_stage.js";
+import { openStage } from "../pictures/picture_stage.js";
 
 const PARTS = [["lens", "Lens", lensPart], ["place", "Place", placePart], ["feet", "Feet", feetPart]];
 

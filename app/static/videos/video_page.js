@@ -7,7 +7,7 @@ import { attempt, toast } from "../lib/toasts.js";
 import { walkFields } from "../trials/trial_form.js";
 import { setupApi, videoApi, videoSource } from "../api/videos.js";
 import { videoFacts } from "./video_rows.js";
-import { openStage } from "./video_stage.js";
+import { openStage } from "../pictures/picture_stage.js";
 import { trackingPart } from "./video_tracking.js";
 
 /** The choice of a setup, with what the chosen one lacks. */

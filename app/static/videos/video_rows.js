@@ -5,7 +5,7 @@ import { h, setText } from "../lib/dom.js";
 import { clockTime, fixed } from "../lib/format.js";
 import { report, toast } from "../lib/toasts.js";
 import { videoApi } from "../api/videos.js";
-import "./video_style.js";
+import "../pictures/picture_style.js";
 
 /** Size, rate and length of a video. */
 export const videoFacts = ({ size, rate, seconds, bytes }) => `${size.join(" × ")} px · ${fixed(rate, 1)} frames/s · ${lengthWords(seconds)} · ${sizeWords(bytes)}`;

@@ -2,7 +2,7 @@
 
 import { h } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
-import { loupe } from "./video_loupe.js";
+import { loupe } from "./loupe.js";
 
 const STEPS = { plain: 1, far: 10, fine: 0.1 };
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };

@@ -3,9 +3,9 @@
 import { h, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { lane } from "../lib/latest_only.js";
-import { pictureView } from "./video_picture.js";
+import { pictureView } from "./picture_view.js";
 import { pictureOf } from "../api/videos.js";
-import "./video_style.js";
+import "./picture_style.js";
 
 const LIVE_MS = 250;
 const RETRY_MS = 1000;

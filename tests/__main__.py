@@ -12,7 +12,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from tests.chromium import chromium_path
+from tests.support.chromium import chromium_path
 
 PROJECT = Path(__file__).resolve().parents[1]
 

@@ -10,7 +10,7 @@ from playwright.sync_api import Browser, expect, sync_playwright
 
 from app.bench.page.edits import CHROMIUM_WORDS
 from app.emulator.emulated_robot import EmulatedRobot, start_emulator
-from tests.chromium import LONG_MS, chromium_path
+from tests.support.chromium import LONG_MS, chromium_path
 
 # A slow machine is no failure, and one commit gives one answer; `--hypothesis-profile explore` looks further.
 settings.register_profile(

@@ -9,7 +9,8 @@ import pytest
 
 from app.emulator.emulated_robot import EmulatedRobot
 from app.store.database import Database
-from tests.studio_process import StudioProcess, running_studio
+from app.vision.services import Eyes, open_eyes
+from tests.support.studio_process import StudioProcess, running_studio
 
 
 @pytest.fixture
@@ -25,3 +26,11 @@ def studio(tmp_path_factory: pytest.TempPathFactory, robot: EmulatedRobot) -> It
     """A running studio with an empty data folder, told of the robot."""
     with running_studio(tmp_path_factory.mktemp("data"), "--robot", robot.device) as running:
         yield running
+
+
+@pytest.fixture(scope="module")
+def eyes() -> Iterator[Eyes]:
+    """The processes that look at pictures."""
+    opened = open_eyes()
+    yield opened
+    opened.close()

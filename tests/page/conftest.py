@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from tests.studio_process import StudioProcess, running_studio
+from tests.support.studio_process import StudioProcess, running_studio
 
 
 @pytest.fixture(scope="module")

@@ -19,9 +19,9 @@ from core.robot.model import load_robot
 from core.trials.alignment import repeated_motion
 from core.vision.track import FootTrack
 from core.wire.trajectory_csv import format_trajectory_csv
-from tests.core.trials.tracks import stepping_track
-from tests.reference import reference_path
-from tests.simulated_walk import walk_plan
+from tests.support.reference import reference_path
+from tests.support.simulated_walk import walk_plan
+from tests.support.trials.tracks import stepping_track
 
 ROBOT = load_robot("deltawalker")
 WORDS = TrialWords("first", "Ada", 3.0, 3, gait="walk", gait_name="Walk 10 mm")

@@ -14,8 +14,8 @@ from app.trials.photos import TrialPhotos
 from app.trials.service import TrialDesk, TrialWords
 from app.vision.services import Eyes
 from core.errors import InputError, NotFoundError
-from tests.core.trials.test_picture_size import picture
-from tests.core.trials.tracks import stepping_track
+from tests.core.vision.test_image_header import picture
+from tests.support.trials.tracks import stepping_track
 
 
 @pytest.fixture

@@ -27,10 +27,10 @@ from app.vision.services import Eyes
 from core.errors import NotFoundError
 from core.vision.track import FootTrack
 from solver_jobs import Simulator
-from tests.app.trials.walking import walk_planned, walked
-from tests.core.trials.test_picture_size import picture
-from tests.core.trials.tracks import stepping_track
-from tests.simulated_walk import walk_problem
+from tests.core.vision.test_image_header import picture
+from tests.support.simulated_walk import walk_problem
+from tests.support.trials.tracks import stepping_track
+from tests.support.trials.walking import walk_planned, walked
 
 WORDS = TrialWords("on <glass>", "Ada", 1.0, 1, note="new tape & a cable", gait="walk", gait_name="Walk")
 

@@ -14,7 +14,7 @@ from app.trials.run_trial import run_trial
 from app.vision.tracking import VideoTrack
 from core.errors import InputError, StateError
 from core.vision.track import FootTrack
-from tests.ran_robot import keep_run
+from tests.support.ran_robot import keep_run
 
 RATE = 10.0
 

@@ -12,8 +12,8 @@ from core.physics.findings import SLIP_LIMIT, TILT_LIMIT, physics_outcomes
 from core.physics.metrics import report
 from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
-from tests.core.physics import made_motions as made
-from tests.core.physics.made_motions import PLANNED, PROBLEM
+from tests.support import synthetic_motions as made
+from tests.support.synthetic_motions import PLANNED, PROBLEM
 
 
 def findings(motion: SimulatedMotion, problem: SimulationProblem = PROBLEM) -> list[Finding]:

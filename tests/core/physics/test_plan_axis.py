@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from core.physics.plan_axis import plan_times
-from tests.simulated_walk import SAMPLES_A_MOVE, followed, walk_problem
+from tests.support.simulated_walk import SAMPLES_A_MOVE, followed, walk_problem
 
 
 def test_arrivals_lie_at_the_plans_times_and_all_between_evenly() -> None:

@@ -15,8 +15,8 @@ from core.trials.alignment import align, foot_gaps, placed_motion, repeated_moti
 from core.trials.band import trial_band
 from core.vision.track import FootTrack
 from core.vision.track_csv import parse_track_csv
-from tests.core.trials.tracks import STANCE, stepping_track
-from tests.reference import reference_path
+from tests.support.reference import reference_path
+from tests.support.trials.tracks import STANCE, stepping_track
 
 
 @given(st.floats(-3.1, 3.1), st.floats(-0.1, 0.1), st.floats(-0.1, 0.1))

@@ -11,8 +11,8 @@ from core.errors import InputError
 from core.trials.iterations import find_iterations, iteration_movements, standing_slip
 from core.vision.track import FootTrack
 from core.vision.track_csv import parse_track_csv
-from tests.core.trials.tracks import RATE, stepping_track
-from tests.reference import reference_path
+from tests.support.reference import reference_path
+from tests.support.trials.tracks import RATE, stepping_track
 
 CLICKED_WITHIN = 3.1
 """Seconds by which an end found from the steps may differ from one that was clicked by eye."""

@@ -16,8 +16,8 @@ from core.errors import InputError
 from core.trials.movement import Movement, foot_movements, mean_movement, spread
 from core.vision.track import FootTrack
 from core.vision.track_csv import parse_track_csv
-from tests.core.trials.tracks import stepping_track
-from tests.reference import reference_path
+from tests.support.reference import reference_path
+from tests.support.trials.tracks import stepping_track
 
 EXPECTED_CM = {"a": 3.0, "b": 4.5, "c": 6.0, "d": 7.5}
 ROUNDING = 0.005 + 1e-9

@@ -15,7 +15,7 @@ from core.patterns.check import broken_rules, check_pattern
 from core.patterns.problem import BalanceModel, PatternProblem, PatternRules, PatternStatus, Rule
 from solver_jobs.patterns.model import build_model
 from solver_jobs.patterns.solve import best_patterns
-from tests.solver_jobs.patterns.clashes import periodic, transition
+from tests.support.solvers.conflicts import periodic, transition
 
 RADIUS, MARGIN = 0.040, 0.003
 

@@ -16,8 +16,8 @@ from core.patterns.check import check_pattern
 from core.patterns.problem import PatternProgress, PatternStatus
 from solver_jobs import PatternSolver
 from solver_jobs.patterns.solve import solve_pattern
-from tests.solver_jobs.patterns.clashes import transition
 from tests.solver_jobs.patterns.test_solve import hard_problem
+from tests.support.solvers.conflicts import transition
 
 PATIENCE = 60.0
 """Longest wait for anything, s."""

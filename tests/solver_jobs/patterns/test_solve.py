@@ -26,8 +26,8 @@ from core.patterns.problem import (
 from solver_jobs.patterns.callbacks import Watch
 from solver_jobs.patterns.model import build_model
 from solver_jobs.patterns.solve import best_patterns
-from tests.solver_jobs.patterns.clashes import periodic, transition
-from tests.solver_jobs.patterns.trying import every_sum
+from tests.support.solvers.brute_force import every_sum
+from tests.support.solvers.conflicts import periodic, transition
 
 NO_RULES = PatternRules(None, None, None, None, None, None, None)
 

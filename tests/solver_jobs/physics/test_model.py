@@ -25,7 +25,7 @@ from core.robot.closed_chain import (
 from core.robot.kinematics import BodyPose
 from core.robot.model import ROBOT_NAMES, load_robot
 from solver_jobs.physics.mjcf import arm_name, gravity_vector, mjcf_text
-from tests.solver_jobs.physics.rigs import MODEL, SCALES
+from tests.support.solvers.rigs import MODEL, SCALES
 
 STEP = 0.001
 

@@ -15,7 +15,7 @@ from core.errors import InputError, SimulationCancelledError
 from core.physics.problem import SimulationProblem
 from core.robot.model import load_robot
 from solver_jobs import Simulator, simulate, simulate_variations
-from tests.solver_jobs.physics.rigs import SCALES, problem_of_strokes, resting
+from tests.support.solvers.rigs import SCALES, problem_of_strokes, resting
 
 PATIENCE = 120.0
 """Longest wait for anything, s."""

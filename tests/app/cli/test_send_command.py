@@ -1,0 +1,125 @@
+"""`footfall send`: its runs are kept beside those of a studio that is open, however they end."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from app.emulator.emulated_robot import EmulatedRobot, start_emulator
+from app.runs.service import RunDesk
+from app.store.database import Database
+from app.store.run_store import RunFilter
+from tests.support.command import run, run_json
+from tests.support.studio_process import PROJECT, wait_for
+
+SPEED = 10.0
+COUNT = 12
+
+
+@pytest.fixture
+def way(tmp_path: Path) -> Path:
+    """Every motor goes to and fro."""
+    rows = ["0.4," + ",".join([f"{h}.0000"] * 12) for h in (5, 8) * (COUNT // 2)]
+    header = "duration_s," + ",".join(f"h{i}" for i in range(1, 13))
+    path = tmp_path / "way.csv"
+    path.write_text("\n".join([header, *rows]) + "\n")
+    return path
+
+
+@pytest.fixture
+def robot() -> Iterator[EmulatedRobot]:
+    emulated = start_emulator("nominal", SPEED, booted=True)
+    yield emulated
+    emulated.close()
+
+
+@pytest.fixture
+def desk(database: Database) -> RunDesk:
+    """The runs of a studio that has the data folder open."""
+    return RunDesk(database)
+
+
+def words(way: Path, robot: str) -> tuple[str, ...]:
+    return ("send", str(way), "--robot", robot, "--yes", "--data", str(way.parent))
+
+
+def newest(desk: RunDesk) -> dict[str, Any]:
+    run: dict[str, Any] = desk.found(RunFilter(), 0, 1)["runs"][0]
+    return run
+
+
+def test_a_run_of_a_file_is_kept_where_the_studio_lists_it(
+    capsys: pytest.CaptureFixture[str], way: Path, robot: EmulatedRobot, desk: RunDesk
+) -> None:
+    status, out, err = run(capsys, *words(way, robot.device), "--json")
+    answer = json.loads(out)
+    assert (status, answer["state"], answer["reached"]) == (0, "done", COUNT)
+    kept = newest(desk)
+    assert (kept["id"], kept["state"], kept["gait_name"]) == (answer["run"], "done", "way.csv")
+    assert (kept["reached"], kept["count"], kept["waypoints_hash"]) == (
+        COUNT,
+        COUNT,
+        answer["waypoints_hash"],
+    )
+    assert kept["errors"]["arrived"] == COUNT
+    assert [state["robot"] for state in desk.summary(kept["id"])["states"]] == ["moving", "done"]
+    assert f"moving: on the way to the start pose, then {COUNT} waypoints in about" in err
+    assert f"moving: waypoint 3 of {COUNT} reached, about" in err
+    assert f"done: waypoint {COUNT} of {COUNT} reached," in err
+
+
+def test_ctrl_c_stops_the_robot_says_what_happened_and_the_next_run_goes_to_its_end(
+    way: Path, robot: EmulatedRobot, desk: RunDesk
+) -> None:
+    command = [sys.executable, "-m", "app", *words(way, robot.device), "--json"]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, cwd=PROJECT, stdout=pipe, stderr=pipe, text=True) as first:
+        wait_for(lambda: len(robot.firmware.messages) > 4, "the run has begun")
+        assert newest(desk)["state"] == "running"
+        first.send_signal(signal.SIGINT)
+        out, _ = first.communicate(timeout=60)
+    answer = json.loads(out)
+    assert (first.returncode, answer["state"]) == (130, "stopped")
+    assert answer["error"].startswith(f"Interrupted: {answer['reached']} of {COUNT} waypoints were reached.")
+    assert robot.firmware.messages[-1].payload == "s,1"
+    assert (newest(desk)["state"], newest(desk)["reached"]) == ("stopped", answer["reached"])
+    second = subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, timeout=60)
+    assert second.returncode == 0, second.stderr
+    assert json.loads(second.stdout)["reached"] == COUNT
+
+
+def test_a_send_that_is_killed_leaves_its_run_interrupted_with_what_had_passed(
+    way: Path, robot: EmulatedRobot, desk: RunDesk
+) -> None:
+    command = [sys.executable, "-m", "app", *words(way, robot.device)]
+    with subprocess.Popen(command, cwd=PROJECT, stderr=subprocess.PIPE) as sending:
+        wait_for(lambda: len(robot.firmware.messages) > 5, "the run is on")
+        sending.kill()
+    kept = newest(desk)
+    assert kept["state"] == "interrupted"
+    assert kept["errors"]["arrived"] >= 1
+
+
+def test_a_single_pose_is_sent_and_kept_without_figures(
+    capsys: pytest.CaptureFixture[str], way: Path, robot: EmulatedRobot, desk: RunDesk
+) -> None:
+    way.write_text("\n".join(way.read_text().splitlines()[:2]) + "\n")
+    status, answer = run_json(capsys, *words(way, robot.device))
+    assert (status, answer["reached"]) == (0, 1)
+    assert newest(desk)["errors"] is None
+
+
+def test_a_data_folder_that_cannot_be_used_is_bad_input(
+    capsys: pytest.CaptureFixture[str], way: Path, robot: EmulatedRobot
+) -> None:
+    status, answer = run_json(capsys, *words(way, robot.device)[:-1], str(way))
+    assert (status, answer["where"]) == (2, "--data")
+    assert "Give another with --data" in answer["error"]
+    assert robot.firmware.messages == []

@@ -1,0 +1,135 @@
+"""Approvals on the desk: of the verdict of this moment, gone for good with a reason, recorded, compared."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from app.gaits.approvals import Word, approval_difference
+from app.gaits.service import GaitDesk
+from app.plans.plan import Plan
+from app.simulation.problem import simulation_problem
+from app.store.database import Database
+from app.store.gait_files import GaitFiles
+from core.checks.simulation import NOT_SIMULATED, Simulated
+from core.errors import InputError, NotFoundError, StateError
+from core.physics.metrics import report
+from core.physics.parameters import physics_set
+from core.robot.model import RobotModel
+from tests.support.simulated_walk import followed, no_solver
+
+GAIT = "walk-manual-0"
+ADA = Word("Ada", accept_warnings=True)
+Opened = Callable[[], GaitDesk]
+
+
+@pytest.fixture
+def simulations() -> list[Simulated]:
+    """Those that the desk knows; the last one counts."""
+    return []
+
+
+@pytest.fixture
+def opened(tmp_path: Path, database: Database, simulations: list[Simulated]) -> Opened:
+    def simulated(plan: Plan) -> Simulated | None:
+        return simulations[-1] if simulations else None
+
+    def open_desk() -> GaitDesk:
+        files = GaitFiles(tmp_path)
+        return GaitDesk(files, database, lambda gait: no_solver, simulated_for=simulated)
+
+    return open_desk
+
+
+def approved(desk: GaitDesk, word: Word = ADA) -> None:
+    desk.check(GAIT)
+    assert desk.approve(GAIT, word).approval is not None
+
+
+def simulate(desk: GaitDesk, simulations: list[Simulated]) -> str:
+    plan = desk.plan(GAIT)
+    problem = simulation_problem(plan, physics_set())
+    simulations.append(Simulated(report(problem, followed(problem)), problem))
+    return problem.waypoints.content_hash
+
+
+def test_warnings_that_were_not_accepted_block_and_accepted_ones_are_recorded(opened: Opened) -> None:
+    desk = opened()
+    verdict = desk.check(GAIT).verdict
+    assert verdict is not None
+    with pytest.raises(StateError, match="warnings stand, the first: "):
+        desk.approve(GAIT, Word("Ada"))
+    approved(desk)
+    [record] = desk.approvals.all(GAIT)
+    assert record.approval.warnings == tuple(finding.sentence for finding in verdict.warnings)
+    assert record.version == desk.versions.newest_number(GAIT)
+    assert record.figures["simulated"] is False
+
+
+def test_a_newer_simulation_takes_verdict_and_approval_away_and_is_part_of_the_next(
+    opened: Opened, simulations: list[Simulated]
+) -> None:
+    desk = opened()
+    approved(desk)
+    [gone] = desk.take_simulation(simulate(desk, simulations))
+    assert (gone.verdict, gone.approval) == (None, None)
+    assert gone.revoked == "It was simulated since, and its approval is gone."
+    verdict = desk.check(GAIT).verdict
+    assert verdict is not None
+    assert NOT_SIMULATED not in verdict.notes
+    assert "simulated_slip" in {margin.rule for margin in verdict.margins}
+
+
+def test_a_verdict_that_a_simulation_overtook_cannot_be_approved_nor_sent(
+    opened: Opened, simulations: list[Simulated]
+) -> None:
+    desk = opened()
+    approved(desk)
+    simulate(desk, simulations)
+    with pytest.raises(StateError, match="The verdict is out of date"):
+        desk.approve(GAIT, ADA)
+    assert desk.confirmed(GAIT).approval is None
+
+
+def test_other_parameters_of_the_robot_take_the_approval_for_good(
+    opened: Opened, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    approved(opened())
+    with monkeypatch.context() as other:
+        other.setattr(RobotModel, "parameters_hash", property(lambda model: "0" * 64))
+        desk = opened()
+        desk.plan(GAIT)
+        said = desk.open_gait(GAIT).revoked
+        assert said == "The robot's parameters changed, and its approval is gone."
+    again = opened()
+    again.plan(GAIT)
+    assert again.open_gait(GAIT).approval is None
+
+
+def test_approvals_are_compared_in_sentences(opened: Opened) -> None:
+    desk = opened()
+    approved(desk)
+    desk.edit(GAIT, desk.document(GAIT).with_options(stop_bound=0.9), "Stop bound", None)
+    assert desk.open_gait(GAIT).revoked == "The gait changed (“Stop bound”), and its approval is gone."
+    approved(desk, Word("Grace", accept_warnings=True))
+    after, before = desk.approvals.all(GAIT)
+    documents = (desk.approvals.document(GAIT, before), desk.approvals.document(GAIT, after))
+    sides = [
+        {
+            "waypoints_hash": one.approval.waypoints_hash,
+            "robot_hash": one.approval.robot_hash,
+            "figures": one.figures,
+        }
+        for one in (before, after)
+    ]
+    groups = {group.title: group.sentences for group in approval_difference(documents, sides[0], sides[1])}
+    assert groups["Options"] == ("Stop bound 1.0 s → 0.9 s",)
+    assert groups["What is sent"][0] == "Other waypoints"
+    assert "simulated" not in " ".join(groups["What is sent"])
+    unkept = approval_difference((None, documents[1]), sides[0], sides[1])
+    assert "first release" in unkept[0].sentences[0]
+    with pytest.raises(NotFoundError, match="has no approval 99"):
+        desk.approvals.get(GAIT, 99)
+    assert issubclass(NotFoundError, InputError)

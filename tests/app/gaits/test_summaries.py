@@ -1,0 +1,160 @@
+"""The list of gaits: read once a file, right after every change, and small on the wire after an edit."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from app.bench.page.gait_list import fill
+from app.gaits.live_preview import LiveDesk
+from app.gaits.service import GaitDesk
+from app.gaits.summaries import GaitList
+from app.session.event_hub import Subscriber
+from app.store.database import Database
+from app.store.gait_files import GaitFiles
+from app.studio.studio import Studio
+from core.errors import InputError
+from core.gait.gait import Gait
+from core.library.library import library
+from solver_jobs import SolveStatus
+from tests.app.gaits.test_service import WALK, edit
+from tests.support.live_tiers import FixedTier
+
+COUNT = 30
+
+
+class CountedFiles(GaitFiles):
+    """Gait files that count how often one is read."""
+
+    def __init__(self, data: Path) -> None:
+        super().__init__(data)
+        self.read_ids: list[str] = []
+
+    def read(self, gait_id: str) -> Gait:
+        self.read_ids.append(gait_id)
+        return super().read(gait_id)
+
+
+@pytest.fixture
+def files(tmp_path: Path) -> CountedFiles:
+    fill(tmp_path, COUNT)
+    return CountedFiles(tmp_path)
+
+
+def open_desk(files: GaitFiles, database: Database) -> GaitDesk:
+    return GaitDesk(files, database, LiveDesk(FixedTier(SolveStatus.INFEASIBLE)).solve_for)
+
+
+@pytest.fixture
+def desk(files: CountedFiles, database: Database) -> GaitDesk:
+    return open_desk(files, database)
+
+
+def line(gaits: GaitList, gait_id: str) -> dict[str, Any]:
+    return next(line for line in gaits.lines() if line["id"] == gait_id)
+
+
+def test_every_file_is_read_once(desk: GaitDesk, files: CountedFiles) -> None:
+    gaits = GaitList(desk)
+    lines = gaits.lines()
+    assert len(lines) == COUNT + len(library())
+    assert sorted(files.read_ids) == sorted(files.ids())
+    assert gaits.lines() == lines
+    assert len(files.read_ids) == COUNT
+
+
+def test_a_line_follows_edits_saves_and_other_programs(
+    desk: GaitDesk, files: CountedFiles, tmp_path: Path, database: Database
+) -> None:
+    gaits = GaitList(desk)
+    assert line(gaits, "trial-0001")["edited"] is False
+    gait = desk.open_gait("trial-0001").gait
+    desk.edit("trial-0001", replace(gait, name="Better"), "Name", None)
+    assert (line(gaits, "trial-0001")["name"], line(gaits, "trial-0001")["edited"]) == ("Better", True)
+    restarted = GaitList(open_desk(files, database))
+    assert (line(restarted, "trial-0001")["name"], line(restarted, "trial-0001")["edited"]) == (
+        "Better",
+        True,
+    )
+    desk.save("trial-0001")
+    assert line(gaits, "trial-0001")["edited"] is False
+    path = tmp_path / "gaits" / "trial-0002.json"
+    content = json.loads(path.read_text())
+    path.write_text(json.dumps({**content, "name": "By git"}))
+    os.utime(path, ns=(1, 1))
+    assert line(gaits, "trial-0002")["name"] == "By git"
+    edit(desk, WALK)
+    assert line(gaits, WALK)["edited"] is True
+
+
+def test_gaits_come_go_and_come_back(desk: GaitDesk) -> None:
+    gaits = GaitList(desk)
+    before = len(gaits.lines())
+    made = desk.create(replace(library()[WALK].gait, name="New"))
+    assert not gaits.has(made.id)
+    assert line(gaits, made.id)["kind"] == "saved"
+    edit(desk, made.id)
+    assert line(gaits, made.id)["edited"] is True
+    desk.delete(made.id)
+    assert len(gaits.lines()) == before
+    assert not gaits.has(made.id)
+    desk.restore(made.id)
+    assert line(gaits, made.id)["edited"] is True
+
+
+@pytest.mark.parametrize("content", ["{", "[]", '{"format": "footfall-gait", "version": 99}', ""])
+def test_a_damaged_file_is_left_out_and_comes_when_it_is_mended(
+    desk: GaitDesk, tmp_path: Path, content: str
+) -> None:
+    path = tmp_path / "gaits" / "trial-0003.json"
+    whole = path.read_text()
+    path.write_text(content)
+    gaits = GaitList(desk)
+    assert len(gaits.lines()) == COUNT + len(library()) - 1
+    with pytest.raises(InputError, match=r"trial-0003\.json"):
+        desk.open_gait("trial-0003")
+    path.write_text(whole)
+    assert line(gaits, "trial-0003")["name"] == "Trial 3"
+
+
+def test_after_an_edit_pages_are_sent_one_gait_and_not_the_list(
+    tmp_path: Path,
+) -> None:
+    fill(tmp_path, COUNT)
+    studio = Studio(tmp_path, "emulator")
+    try:
+        # In a thread of its own: in this one the browser of other tests may have its loop.
+        with ThreadPoolExecutor(max_workers=1) as elsewhere:
+            told = elsewhere.submit(lambda: asyncio.run(_told(studio))).result()
+    finally:
+        studio.close()
+    assert [event["type"] for event in told] == ["gait", "gait", "gaits"]
+    assert told[0]["view"]["edited"] is True
+    assert len(told[2]["gaits"]) == COUNT + len(library()) + 1
+
+
+async def _told(studio: Studio) -> list[dict[str, Any]]:
+    """What a page hears of an edit and of a new gait."""
+    subscriber: Subscriber = studio.hub.subscribe("page")
+    await asyncio.wrap_future(studio.call(studio.hello))
+
+    def act() -> None:
+        gait = studio.gaits.open_gait("trial-0001").gait
+        studio.publish_gait(studio.gaits.edit("trial-0001", replace(gait, name="Better"), "Name", None))
+        studio.publish_gait(studio.gaits.create(replace(gait, name="Another")))
+
+    await asyncio.wrap_future(studio.call(act))
+    events: list[dict[str, Any]] = []
+    while len(events) < 3:
+        text = await asyncio.wait_for(subscriber.next(), 10)
+        event = json.loads(text or "{}")
+        events += [event] if event.get("type") in ("gait", "gaits") else []
+    studio.hub.unsubscribe(subscriber)
+    return events

@@ -1,0 +1,147 @@
+"""Simulations that are kept: fresh for the very plan, gone stale with any edit, told apart by waypoints."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.common.version import VERSION
+from app.plans.plan import Plan, make_plan
+from app.simulation.problem import (
+    physics_content,
+    report_content,
+    report_from_content,
+    simulation_key,
+    simulation_problem,
+)
+from app.simulation.repository import KeptSimulations
+from app.store.database import Database
+from app.store.simulation_store import MOST_KEPT, SimulationLog, SimulationRow
+from core.errors import CheckError, NotFoundError
+from core.library.library import library
+from core.physics.parameters import PhysicsSet, physics_set, physics_sets
+from tests.support.simulated_walk import (
+    GAIT,
+    no_solver,
+    walk_plan,
+    walk_report,
+)
+
+
+@pytest.fixture
+def kept(database: Database) -> KeptSimulations:
+    return KeptSimulations(SimulationLog(database))
+
+
+def row_of(plan: Plan, physics: PhysicsSet, made: float = 1.0) -> SimulationRow:
+    assert plan.waypoints is not None
+    return SimulationRow(GAIT, simulation_key(plan, physics), plan.waypoints.content_hash, physics.name, made)
+
+
+def put(kept: KeptSimulations, plan: Plan, name: str | None = None, made: float = 1.0, **more: Any) -> str:
+    physics = physics_set(name)
+    row = row_of(plan, physics, made)
+    content = {
+        "program": VERSION,
+        "physics": physics_content(physics),
+        "report": report_content(walk_report()),
+        "variations": None,
+    }
+    kept.put(row, {**content, **more})
+    return row.key
+
+
+def shorter_plan() -> Plan:
+    gait = library()[GAIT].gait
+    x, y, yaw = gait.step
+    return make_plan(replace(gait, step=(0.9 * x, 0.9 * y, yaw)), None, no_solver)
+
+
+def test_a_simulation_is_fresh_for_its_plan_and_stale_for_another(kept: KeptSimulations) -> None:
+    assert kept.standing(GAIT, walk_plan()) is None
+    key = put(kept, walk_plan())
+    standing, later = kept.standing(GAIT, walk_plan()), kept.standing(GAIT, shorter_plan())
+    assert standing is not None
+    assert later is not None
+    assert [(one["key"], one["fresh"]) for one in (standing, later)] == [(key, True), (key, False)]
+    assert kept.is_fresh(GAIT, key, walk_plan())
+    assert not kept.is_fresh(GAIT, key, shorter_plan())
+
+
+def test_going_back_to_a_simulated_plan_finds_its_simulation_again(kept: KeptSimulations) -> None:
+    first = put(kept, walk_plan(), made=1.0)
+    second = put(kept, shorter_plan(), made=2.0)
+    standing = [kept.standing(GAIT, plan) for plan in (walk_plan(), shorter_plan())]
+    assert [one and one["key"] for one in standing] == [first, second]
+
+
+def test_the_report_of_a_plan_comes_back_as_it_was(kept: KeptSimulations) -> None:
+    slip = np.array([0.001, 0.0, 0.002, 1 / 3])
+    put(kept, walk_plan(), report=report_content(walk_report(slip=slip, fell=True, fell_time=3.5)))
+    found = kept.simulated(walk_plan())
+    assert found is not None
+    assert (found.report.fell, found.report.fell_time) == (True, 3.5)
+    assert (found.report.slip == slip).all()
+    assert kept.simulated(shorter_plan()) is None
+
+
+def test_what_the_robots_usual_parameters_find_stands_whatever_else_is_tried(kept: KeptSimulations) -> None:
+    put(kept, walk_plan(), "published", made=1.0)
+    put(kept, walk_plan(), "model", made=2.0)
+    newest = kept.simulated(walk_plan())
+    put(kept, walk_plan(), "scales", made=3.0)
+    put(kept, walk_plan(), "model", made=4.0)
+    usual = kept.simulated(walk_plan())
+    assert [one and one.problem.physics.name for one in (newest, usual)] == ["model", "scales"]
+
+
+@pytest.mark.parametrize(("name", "other"), [("VERSION", "0.0.1"), ("FORM", 1)])
+def test_what_another_program_computed_is_no_simulation_of_today(
+    kept: KeptSimulations, monkeypatch: pytest.MonkeyPatch, name: str, other: object
+) -> None:
+    with monkeypatch.context() as before:
+        before.setattr(f"app.simulation.problem.{name}", other)
+        put(kept, walk_plan())
+    assert kept.simulated(walk_plan()) is None
+    standing = kept.standing(GAIT, walk_plan())
+    assert standing is not None
+    assert not standing["fresh"]
+
+
+def test_variations_stay_where_the_same_is_simulated_without_them(kept: KeptSimulations) -> None:
+    key = put(kept, walk_plan(), variations={"walks": 3})
+    put(kept, walk_plan())
+    assert kept.content(key)["variations"] == {"walks": 3}
+
+
+def test_a_simulation_that_is_not_kept_is_named_with_the_remedy(kept: KeptSimulations) -> None:
+    with pytest.raises(NotFoundError, match="Simulate again"):
+        kept.content("none")
+
+
+def test_the_oldest_simulations_go(database: Database) -> None:
+    log = SimulationLog(database)
+    for number in range(MOST_KEPT + 1):
+        log.put(SimulationRow(GAIT, f"key {number}", "w", "scales", float(number)), {})
+    rows = log.of_gait(GAIT)
+    assert (len(rows), rows[0].key) == (MOST_KEPT, f"key {MOST_KEPT}")
+    assert log.content("key 0") is None
+
+
+def test_each_set_of_parameters_has_a_key_of_its_own() -> None:
+    keys = {simulation_key(walk_plan(), physics) for physics in physics_sets().values()}
+    assert len(keys) == len(physics_sets())
+
+
+def test_a_plan_without_waypoints_is_refused_with_its_reason() -> None:
+    with pytest.raises(CheckError, match="no plan to simulate"):
+        simulation_problem(replace(walk_plan(), way=None), physics_set())
+
+
+def test_a_report_survives_the_way_through_json() -> None:
+    report = walk_report(saturation=np.full((4, 3), 0.25))
+    again = report_from_content(report_content(report))
+    assert report_content(again) == report_content(report)

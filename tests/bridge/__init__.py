@@ -1,1 +1,0 @@
-"""Tests of the wire, the emulated robot and the bridge."""

@@ -1,0 +1,203 @@
+"""Trajectory files: every layout of the lab reads, ours comes back to the last bit, bad ones are named."""
+
+from __future__ import annotations
+
+import json
+from contextlib import suppress
+from hashlib import sha256
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from core.errors import InputError
+from core.motion.trajectory import Trajectory, difference_velocities
+from core.wire.trajectory_csv import (
+    CsvLayout,
+    format_companion,
+    format_trajectory_csv,
+    parse_trajectory_csv,
+)
+from tests.support.reference import REFERENCE, reference_path
+
+numbers = st.floats(-1e3, 1e3, allow_nan=False)
+
+
+@st.composite
+def trajectories(draw: st.DrawFn) -> Trajectory:
+    n, legs = draw(st.integers(2, 8)), draw(st.sampled_from([4, 6, 12]))
+    return Trajectory(
+        times=np.cumsum(draw(arrays(np.float64, (n,), elements=st.floats(0.01, 5.0)))),
+        body_world=draw(arrays(np.float64, (n, 3), elements=numbers)),
+        heading=draw(arrays(np.float64, (n,), elements=st.floats(-3, 3))),
+        feet_world=draw(arrays(np.float64, (n, legs, 3), elements=numbers)),
+        contact=draw(arrays(np.bool_, (n, legs))),
+        body_velocity=draw(arrays(np.float64, (n, 3), elements=numbers)),
+        feet_velocity=draw(arrays(np.float64, (n, legs, 3), elements=numbers)),
+    )
+
+
+@given(trajectories())
+def test_a_trajectory_with_its_companion_comes_back_to_the_last_bit(trajectory: Trajectory) -> None:
+    text = format_trajectory_csv(trajectory)
+    read = parse_trajectory_csv(text, "t.csv", format_companion(trajectory, text))
+    assert read.assumptions == ()
+    for name in vars(trajectory):
+        before, after = getattr(trajectory, name), getattr(read.trajectory, name)
+        assert (before is None and after is None) or np.array_equal(before, after), name
+
+
+@given(trajectories(), st.booleans())
+def test_without_a_companion_the_number_of_rows_tells_how_many_feet_there_are(
+    trajectory: Trajectory, has_velocities: bool
+) -> None:
+    text = format_trajectory_csv(trajectory, CsvLayout("Column1", has_velocities))
+    read = parse_trajectory_csv(text, "t.csv")
+    assert np.array_equal(read.trajectory.feet_world, trajectory.feet_world)
+    assert format_trajectory_csv(read.trajectory, read.layout) == text
+
+
+def published_names() -> list[str]:
+    folder = REFERENCE / "trajectories"
+    return sorted(str(p.relative_to(REFERENCE)) for p in folder.rglob("*.csv")) or ["trajectories/absent.csv"]
+
+
+def numbers_of(text: str, first_line: int) -> list[list[str]]:
+    """Every number of a file as the 16 hexadecimal digits of its double."""
+    rows = text.replace("\r\n", "\n").rstrip("\n").split("\n")[first_line:]
+    return [[np.float64(field).tobytes().hex() for field in row.rstrip(",").split(",")] for row in rows]
+
+
+@pytest.mark.parametrize("name", published_names())
+def test_a_published_file_that_is_read_and_written_is_the_same_to_the_last_bit(name: str) -> None:
+    path = reference_path(name)
+    text = path.read_text("utf-8-sig")
+    read = parse_trajectory_csv(text, path.name)
+    written = format_trajectory_csv(read.trajectory, read.layout)
+    assert read.assumptions
+    assert numbers_of(written, 1) == numbers_of(text, 1)
+    assert written.split("\n")[0] == text.replace("\r\n", "\n").split("\n")[0]
+
+
+@pytest.mark.parametrize(
+    ("name", "first", "rows"),
+    [
+        ("trajectories/direction1/walk_a.csv", "Column1,Column2", 30),
+        ("trajectories/direction3/walk_a.csv", "0.0000", 15),
+        ("trajectories/rotation/rots_a.csv", "0.0000", 15),
+        ("trajectories/rotation/rots_dance.csv", "zero,pos 15", 15),
+    ],
+)
+def test_a_layout_is_known_and_written_again(name: str, first: str, rows: int) -> None:
+    path = reference_path(name)
+    read = parse_trajectory_csv(path.read_text(), path.name)
+    written = format_trajectory_csv(read.trajectory, read.layout)
+    assert written.startswith(first)
+    assert len(written.rstrip("\n").split("\n")) == rows + 1
+    assert read.layout.has_velocities == (rows == 30)
+
+
+@given(trajectories(), st.sampled_from([None, "Column1,Column2", "zero,pos 15,zero"]), st.booleans())
+def test_every_layout_reads_back_as_itself(trajectory: Trajectory, header: str | None, moving: bool) -> None:
+    layout = CsvLayout(header, moving)
+    text = format_trajectory_csv(trajectory, layout)
+    first = 0 if header is None else 1
+    if header is None and text.split("\n")[0] == ",".join(f"{k}.0" for k in range(trajectory.knot_count)):
+        return  # a body that moves 0, 1, 2, … m cannot be told from the lab's counting header
+    read = parse_trajectory_csv(text, "t.csv", format_companion(trajectory, text))
+    assert read.layout == layout
+    assert numbers_of(format_trajectory_csv(read.trajectory, read.layout), first) == numbers_of(text, first)
+
+
+def test_without_a_companion_contact_is_found_where_feet_rest_on_the_ground() -> None:
+    path = reference_path("trajectories/direction1/walk_b.csv")
+    contact = parse_trajectory_csv(path.read_text(), path.name).trajectory.contact
+    assert (~contact).sum(axis=0).tolist() == [5, 5, 5, 5]
+    assert contact.sum(axis=1).min() == 3
+
+
+def test_a_companion_of_another_version_is_said_and_not_believed() -> None:
+    times = np.array([0.0, 0.2, 0.4])
+    positions = np.zeros((3, 4, 3))
+    trajectory = Trajectory(times, np.zeros((3, 3)), np.ones(3), positions, np.ones((3, 4), dtype=np.bool_))
+    companion = format_companion(trajectory, "another text")
+    read = parse_trajectory_csv(format_trajectory_csv(trajectory), "t.csv", companion)
+    assert "another version" in read.assumptions[0]
+    assert read.trajectory.heading.tolist() == [0.0, 0.0, 0.0]
+
+
+ROW = "0.0,0.1,0.2"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "holds no numbers"),
+        ("\n".join([ROW] * 14), "14 rows of numbers"),
+        ("\n".join([ROW] * 41), r"41 rows .* 6 feet have 21 \(positions\) or 42 .*; 12 feet have 39"),
+        ("\n".join([*[ROW] * 14, "0.0,0.1"]), "line 15: 2 numbers"),
+        ("\n".join([*[ROW] * 14, "0.0,nan,0.2"]), "t.csv:15, column 2: nan is not a finite"),
+        ("\n".join([*[ROW] * 14, "0.0,x,0.2"]), "t.csv:15, column 2: “x” is not a number"),
+        ("\n".join([*[ROW] * 14, "0.0,1_0,0.2"]), "t.csv:15, column 2: “1_0” is not a number"),
+        (
+            f"{ROW}\n" + ";".join(["0.1234"] * 9),
+            "t.csv:2, column 1: “(0.1234;){5}0.123…” is not a number. Sep",
+        ),
+        ("\n".join([*[ROW] * 7, "", *[ROW] * 8]), "t.csv:8, column 1: “” is not a number"),
+        ("Column1,Column2\n1,2\n1,1e400", "t.csv:3, column 2: 1e400 is not a finite"),
+        ("Column1,Column2\n1,2\n-1e300,1", "t.csv:3, column 1: -1e300 is no position or speed of a gait"),
+        ("\n".join(["duration_s,h1,h2", *[ROW] * 15]), "is a waypoint file"),
+        ("\n".join(["0.5"] * 15), "one knot"),
+    ],
+)
+def test_malformed_files_are_refused_by_line_and_column(text: str, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        parse_trajectory_csv(text, "t.csv")
+
+
+@given(st.text(st.sampled_from("0123456789.,-+eE_ \n\rnaifC\u0661"), max_size=60))
+def test_any_text_is_read_or_refused_with_a_sentence(text: str) -> None:
+    with suppress(InputError):
+        assert parse_trajectory_csv(text, "t.csv").trajectory.knot_count >= 2
+
+
+@given(
+    st.recursive(
+        st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5),
+        lambda inner: (
+            st.lists(inner, max_size=4)
+            | st.dictionaries(st.sampled_from(["legs", "times", "heading", "contact"]), inner, max_size=4)
+        ),
+        max_leaves=8,
+    )
+)
+def test_any_companion_is_believed_refused_or_set_aside(content: object) -> None:
+    text = "\n".join([ROW] * 15) + "\n"
+    bound = {"format": "footfall-trajectory", "version": 1, "csv_sha256": sha256(text.encode()).hexdigest()}
+    if isinstance(content, dict):
+        content = {**content, **bound}
+    with suppress(InputError):
+        read = parse_trajectory_csv(text, "t.csv", json.dumps(content))
+        assert read.has_companion or read.assumptions
+
+
+def test_velocities_by_differences_are_exact_for_even_motion() -> None:
+    times = np.array([0.0, 0.4, 1.0])
+    positions = times[:, None] * np.array([[1.0, -2.0, 0.5]])
+    assert difference_velocities(times, positions) == pytest.approx(np.tile([1.0, -2.0, 0.5], (3, 1)))
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [("legs", "four"), ("legs", 1e400), ("times", [0.0]), ("contact", [[1], [1, 0]]), ("heading", "north")],
+)
+def test_a_companion_that_does_not_fit_is_refused(field: str, value: object) -> None:
+    times = np.array([0.0, 0.2, 0.4])
+    feet = np.zeros((3, 4, 3))
+    trajectory = Trajectory(times, np.zeros((3, 3)), np.ones(3), feet, np.ones((3, 4), dtype=np.bool_))
+    text = format_trajectory_csv(trajectory)
+    companion = {**json.loads(format_companion(trajectory, text)), field: value}
+    with pytest.raises(InputError):
+        parse_trajectory_csv(text, "t.csv", json.dumps(companion))

@@ -1,0 +1,55 @@
+"""The check on the page: warnings want a tick, an edit takes the approval away, approvals are compared."""
+
+from __future__ import annotations
+
+import re
+
+from playwright.sync_api import Browser, Page, expect
+
+from tests.support.page.opened import look, opened_page
+from tests.support.studio_process import StudioProcess
+
+
+def check(page: Page) -> None:
+    page.get_by_role("button", name="Check", exact=True).click()
+    expect(page.get_by_role("list", name="Findings")).to_be_visible()
+
+
+def test_warnings_want_a_tick_and_the_approvals_of_a_gait_are_compared(
+    browser: Browser, studio: StudioProcess
+) -> None:
+    with opened_page(browser, studio.url, 1280, 720, has_scene=False) as page:
+        page.evaluate("localStorage.setItem('footfall.gait', 'walk-manual-0')")
+        page.reload()
+        page.get_by_role("button", name=re.compile("Operator")).click()
+        page.get_by_role("textbox", name="Your name").fill("Ada")
+        page.keyboard.press("Enter")
+        page.get_by_role("tab", name="Check").click()
+        check(page)
+        approve = page.get_by_role("button", name="Approve", exact=True)
+        tick = page.get_by_role("checkbox", name=re.compile("I have seen"))
+        expect(approve).to_have_attribute("aria-disabled", "true")
+        look(page, "warnings")
+        tick.check()
+        expect(approve).not_to_have_attribute("aria-disabled", "true")
+        approve.click()
+        approvals = page.get_by_role("list", name="Approvals")
+        expect(approvals.get_by_text("stands")).to_be_visible()
+        expect(tick).to_be_hidden()
+        bound = page.get_by_role("spinbutton", name="Stop bound", exact=True)
+        bound.fill("0.9")
+        bound.press("Enter")
+        gone = page.get_by_text(re.compile("the gait changed .*, and its approval is gone"))
+        expect(gone).to_be_visible()
+        expect(approvals.get_by_text("gone")).to_be_visible()
+        check(page)
+        expect(tick).not_to_be_checked()
+        tick.check()
+        approve.click()
+        expect(approvals.get_by_role("listitem")).to_have_count(2)
+        approvals.get_by_role("button", name=re.compile("Compare")).last.click()
+        changed = page.get_by_role("region", name="What changed")
+        expect(changed).to_contain_text("Stop bound 1.0 s → 0.9 s")
+        expect(changed).to_contain_text("Other waypoints")
+        changed.scroll_into_view_if_needed()
+        look(page, "approvals")

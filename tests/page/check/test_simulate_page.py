@@ -1,0 +1,135 @@
+"""Simulate on the page: figures, the robot beside its plan, variations, and what an edit does to them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Browser, Locator, Page, expect
+
+from tests.support.page.opened import opened_page
+from tests.support.studio_process import StudioProcess
+
+GHOST = """() => {
+  const scene = document.getElementById("viser").contentWindow.__viserMutable?.nodeRefFromName ?? {};
+  const isDrawn = (name) => {
+    let ends = null;
+    scene[name]?.traverse(({ geometry }) => { ends ??= geometry?.attributes?.instanceStart?.data?.array; });
+    return scene[name]?.visible && ends?.some((value) => value !== 0);
+  };
+  return isDrawn("/ghost/simulated") && isDrawn("/ghost/contact");
+}"""
+"""Whether the simulated robot and its contacts are drawn."""
+
+
+@pytest.fixture
+def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
+    with opened_page(browser, studio.url, 1280, 800) as opened:
+        opened.get_by_role("tab", name="Simulate").click()
+        yield opened
+
+
+def panel(page: Page) -> Locator:
+    return page.get_by_role("tabpanel", name="Simulate")
+
+
+def test_a_gait_is_simulated_shown_over_its_plan_and_stale_after_an_edit(page: Page) -> None:
+    expect(panel(page)).to_contain_text("Not simulated yet.")
+    panel(page).get_by_role("button", name="Simulate", exact=True).click()
+    jobs = page.get_by_role("list", name="Jobs", exact=True)
+    expect(jobs.get_by_role("listitem")).to_contain_text("Walk 10 mm")
+    words = panel(page).get_by_role("status", name="Simulated")
+    expect(words).to_contain_text(re.compile("^Walks"))
+    expect(words).to_contain_text("Robot on the scales, 0.570 kg")
+    row = panel(page).get_by_role("row", name=re.compile("^Largest tilt"))
+    expect(row).to_contain_text("°")
+    row.get_by_role("button").click()
+    time = re.search(r"([\d.]+) s$", row.inner_text())
+    assert time is not None
+    expect(page.get_by_label("Time", exact=True)).to_contain_text(time.group(1))
+
+    expect(page.locator(".measured-key")).to_have_text(["simulated dashed, planned dotted"] * 3)
+    page.wait_for_function(GHOST)
+    found = Axe().run(page, context={"include": [["#simulate"]]}).response["violations"]
+    assert [one["id"] for one in found if one["impact"] in ("serious", "critical")] == []
+
+    page.get_by_role("gridcell", name="foot 3, sample 12: stance").click()
+    expect(panel(page)).to_contain_text("The gait changed since")
+    expect(page.locator(".measured-key")).to_have_count(0)
+    expect(jobs).to_contain_text("older version of the gait")
+    page.wait_for_function(f"() => !({GHOST})()")
+    page.get_by_role("button", name="Undo").click()
+    expect(page.locator(".measured-key")).to_have_count(3)
+
+
+def test_a_simulation_is_cancelled_and_a_reload_brings_the_last_one_back(page: Page) -> None:
+    expect(panel(page).get_by_role("status", name="Simulated")).to_be_visible()
+    panel(page).get_by_role("button", name="64 variations").click()
+    panel(page).get_by_role("button", name="Cancel simulation").click()
+    expect(panel(page).get_by_role("button", name="Cancel simulation")).to_be_hidden()
+    expect(page.get_by_role("list", name="Jobs", exact=True)).to_contain_text("cancelled")
+    expect(panel(page).get_by_role("list", name="Variations")).to_be_hidden()
+
+
+MAP = """async () => {
+  const { robustness } = await import("/static/check/robustness.js");
+  const map = robustness();
+  const figures = { walks: false, fell: false, max_tilt: 0.1, distance: 0.01, feet_error: 0.001 };
+  const run = (name, more) => ({ ...figures, name, ended_early: "", ...more });
+  const [walks, falls, ends] = [{ walks: true }, { fell: true }, { ended_early: "It fell." }];
+  const runs = [run("a", walks), run("b", falls), run("c"), run("d", ends)];
+  map.show({ count: runs.length, runs }, false);
+  const cells = [...map.element.querySelectorAll("li")];
+  return {
+    words: map.element.querySelector("b").textContent,
+    came: cells.map((cell) => cell.dataset.came),
+    signs: cells.map((cell) => cell.textContent),
+    titles: cells.map((cell) => cell.title),
+  };
+}"""
+
+
+def test_the_map_tells_walking_tipping_and_falling_apart_without_colour(page: Page) -> None:
+    shown = page.evaluate(MAP)
+    assert shown["words"] == "1 of 4 walk (25 %)"
+    assert shown["came"] == ["walks", "falls", "tips", "falls"]
+    assert shown["signs"] == ["", "×", "!", "×"]
+    assert shown["titles"][0].startswith("Variation 1: a. It walks: leans by 5.7°")
+    assert shown["titles"][3] == "Variation 4: d. It ends early: It fell."
+
+
+def test_a_rule_without_a_value_has_no_room_of_zero(page: Page) -> None:
+    shown = page.evaluate("""async () => {
+      const { readable } = await import("/static/lib/format.js");
+      const shown = [readable(null, "rad"), readable(null, "m"), readable(0, "rad")];
+      return shown.map(({ value, unit }) => value + unit);
+    }""")
+    assert shown == ["–", "–", "0.00°"]
+
+
+OVERS = """async () => {
+  const { oversOf } = await import("/static/plots/measured.js");
+  const feet = [[[0, 0, 0]], [[0, 0, 0.001]]];
+  const motion = { times: [0, 1], strokes_mm: [[1], [2]], feet, margins_mm: [3, null] };
+  const simulation = { key: "k", plan: "p", motion };
+  const run = { gait: "g", strokes: { plan_times: [0, 1], laps: [0, 0], measured_mm: [[1], [3]] } };
+  const view = { plan: { hash: "p" }, simulation: { key: "k", fresh: true } };
+  const stale = { plan: { hash: "q" }, simulation: { key: "k", fresh: false } };
+  const words = (state, strip) => oversOf({ selected: "g", view, ...state }, strip).map(({ word }) => word);
+  return {
+    both: words({ simulation, run }, "strokes"),
+    simulated: words({ simulation }, "margin"),
+    stale: words({ simulation, run, view: stale }, "strokes"),
+    iterate: words({ simulation, iterate: { plan: { hash: "i" } } }, "strokes"),
+  };
+}"""
+
+
+def test_a_run_and_a_simulation_lie_over_each_other_and_a_stale_one_over_nothing(page: Page) -> None:
+    shown = page.evaluate(OVERS)
+    assert shown["both"] == ["simulated dashed", "measured solid"]
+    assert shown["simulated"] == ["simulated dashed"]
+    assert shown["stale"] == ["measured solid"]
+    assert shown["iterate"] == []

@@ -1,0 +1,208 @@
+"""The strip plots under the timeline: which are shown, what they say, and how finely they are drawn."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, Locator, Page, expect
+
+from tests.support.page.opened import opened_page
+from tests.support.studio_process import StudioProcess, wait_for
+
+LONGEST_DRAWING_MS = 50.0
+FOUR_FEET = {"foot-1", "foot-2", "foot-3", "foot-4"}
+
+DRAW = """async ([legs, samples]) => {
+  const { createStore } = await import("/static/state/store.js");
+  const { mountPlots } = await import("/static/plots/plots.js");
+  const store = createStore();
+  document.querySelector("#plots").replaceChildren();
+  mountPlots(store);
+  const list = (count, of) => Array.from({ length: count }, (_, at) => of(at));
+  const wave = (index, at) => 10 + 8 * Math.sin(index / 9 + at);
+  const rows = (count, of) => list(samples, (index) => list(count, (at) => of(index, at)));
+  const plan = (shift) => ({
+    hash: String(shift), note: "", times: list(samples, (index) => 0.4 * index),
+    margin: list(samples, (index) => wave(index, 0) / 1000),
+    feet: rows(legs, (index, at) => [0, 0, wave(index, at + shift) / 1000]),
+    strokes_mm: rows(3 * legs, wave), stroke_limits_mm: [0.5, 19.5],
+    foot_speeds_mm_s: rows(legs, wave), motor_speeds_mm_s: rows(3 * legs, wave),
+    speed_limits_mm_s: { foot: 15, motor: 15 },
+  });
+  const timeline = { sample_time: 0.4, feet: list(legs, () => "1".repeat(samples)) };
+  const frame = () => new Promise((done) => requestAnimationFrame(done));
+  for (let frames = 0; frames < 3; frames += 1) await frame(); // until every strip knows its size
+  const times = [];
+  for (let round = 0; round < 7; round += 1) {
+    const begun = performance.now();
+    store.set({ view: { id: "x", plan: plan(round), document: { timeline, options: {} } } });
+    await null;
+    document.querySelector("#plots").getBoundingClientRect();
+    times.push(performance.now() - begun);
+  }
+  return times.sort((a, b) => a - b);
+}"""
+PAINTED = """(strip) => {
+  const canvas = strip.querySelector("canvas");
+  if (!canvas || canvas.width * canvas.height === 0) return {};
+  const style = getComputedStyle(document.documentElement);
+  const names = ["--good", "--bad", ...Array.from({ length: 12 }, (_, foot) => `--foot-${foot + 1}`)];
+  const parts = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
+  const colours = names.map((name) => parts(style.getPropertyValue(name).trim()));
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  const rows = {};
+  for (let at = 0; at < data.length; at += 4) {
+    if (data[at + 3] < 200) continue;
+    const isNear = (part, axis) => Math.abs(part - data[at + axis]) <= 4;
+    const near = colours.findIndex((colour) => colour.every(isNear));
+    const row = Math.floor(at / 4 / canvas.width) / canvas.height;
+    if (near >= 0) (rows[names[near].slice(2)] ??= new Set()).add(row);
+  }
+  return Object.fromEntries(Object.entries(rows).map(([name, found]) => [name, [...found]]));
+}"""
+"""Rows of the canvas, 0 at the top to 1, in which each colour is painted."""
+BANDS = """(strip) => {
+  const canvas = strip.querySelector("canvas");
+  if (!canvas || canvas.width * canvas.height === 0) return 0;
+  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, 1);
+  return data.filter((_, at) => at % 4 === 3).filter((alpha) => alpha > 20 && alpha < 80).length;
+}"""
+"""Columns whose topmost pixel is tinted."""
+LIMITS = """(strip) => {
+  const box = strip.getBoundingClientRect();
+  const tops = [...strip.querySelectorAll(".limit")].map((line) => line.getBoundingClientRect().top);
+  return tops.map((top) => (top - box.top) / box.height);
+}"""
+
+
+@pytest.fixture
+def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
+    with opened_page(browser, studio.url, 1280, 720, has_scene=False) as opened:
+        wait_for(lambda: "good" in painted(opened, "margin"), "the margin is drawn")
+        yield opened
+
+
+def strip(page: Page, key: str) -> Locator:
+    return page.locator(f'.strip[data-strip="{key}"]')
+
+
+def painted(page: Page, key: str) -> dict[str, list[float]]:
+    """Rows of a strip, 0 at the top to 1, in which each colour of the theme is painted."""
+    rows: dict[str, list[float]] = strip(page, key).evaluate(PAINTED)
+    return rows
+
+
+def feet_painted(page: Page, key: str) -> set[str]:
+    return {name for name in painted(page, key) if name.startswith("foot-")}
+
+
+def show(page: Page, *names: str) -> None:
+    page.get_by_role("button", name="Plots").click()
+    for name in names:
+        page.get_by_role("menuitemcheckbox", name=name).click()
+    page.keyboard.press("Escape")
+
+
+def test_three_strips_are_shown_at_first_and_a_choice_outlasts_a_reload(page: Page) -> None:
+    expect(page.locator(".strip:visible")).to_have_count(3)
+    show(page, "Motor speeds", "Strokes")
+    wait_for(lambda: feet_painted(page, "motor_speeds") == FOUR_FEET, "four feet are drawn")
+    expect(strip(page, "strokes")).to_be_hidden()
+    page.reload()
+    wait_for(lambda: feet_painted(page, "motor_speeds") == FOUR_FEET, "four feet are drawn")
+    expect(strip(page, "strokes")).to_be_hidden()
+
+
+def test_the_menu_is_used_by_keyboard_alone(page: Page) -> None:
+    button = page.get_by_role("button", name="Plots")
+    button.focus()
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("End")
+    expect(page.get_by_role("menuitemcheckbox", name="Motor speeds")).to_be_focused()
+    page.keyboard.press("ArrowUp")
+    page.keyboard.press(" ")
+    expect(strip(page, "foot_speeds")).to_be_visible()
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("menu", name="Plots")).to_be_hidden()
+    expect(button).to_be_focused()
+
+
+def test_every_strip_says_its_range_and_its_limits(page: Page) -> None:
+    show(page, "Foot speeds", "Motor speeds")
+    words = re.compile(r"^Foot speeds: 0\.0 to [1-9][0-9.]* mm/s, limit 15\.0")
+    expect(strip(page, "foot_speeds")).to_have_attribute("aria-label", words)
+    both = re.compile(r"^Strokes: [0-9.]+ to [0-9.]+ mm, limits 0\.5 and 19\.5")
+    expect(strip(page, "strokes")).to_have_attribute("aria-label", both)
+
+
+def test_the_pointer_reads_a_value_with_its_foot_and_time(page: Page) -> None:
+    box = strip(page, "heights").bounding_box()
+    assert box is not None
+    # Foot 3 is at its highest at 2.8 s; a sample's column is 1/45 of the strip.
+    page.mouse.move(box["x"] + box["width"] * 7.5 / 45, box["y"] + 3)
+    expect(page.locator(".plot-hover")).to_contain_text("foot 3 · 3.0 mm · 2.8 s")
+    page.mouse.move(box["x"] + box["width"] / 2, 20)
+    expect(page.locator(".plot-hover")).to_be_hidden()
+
+
+def test_what_passes_a_limit_is_drawn_in_the_bad_colour_where_it_is(
+    page: Page, studio: StudioProcess
+) -> None:
+    assert "bad" not in painted(page, "strokes")
+    document: dict[str, Any] = studio.ask("GET", "/api/gaits/walk").content
+    answer = studio.ask("PUT", "/api/gaits/walk?label=Too%20far", {**document, "step": [0.04, 0.04, 0.0]})
+    assert answer.status == 200
+    wait_for(lambda: "bad" in painted(page, "strokes"), "a stroke passes its limit")
+    upper, lower = sorted(strip(page, "strokes").evaluate(LIMITS))
+    assert all(row < upper + 0.04 or row > lower - 0.04 for row in painted(page, "strokes")["bad"])
+    assert studio.ask("POST", "/api/gaits/walk/undo").status == 200
+    wait_for(lambda: "bad" not in painted(page, "strokes"), "every stroke keeps its limits")
+
+
+def test_twelve_feet_of_240_samples_are_drawn_at_once(page: Page) -> None:
+    show(page, "Foot speeds", "Motor speeds")
+    times = page.evaluate(DRAW, [12, 240])
+    assert len(feet_painted(page, "foot_speeds")) == 12
+    # The quickest of seven: other programs on the machine can only add to it.
+    assert times[0] < LONGEST_DRAWING_MS
+
+
+def test_more_samples_than_pixels_are_thinned_and_keep_their_extremes(page: Page) -> None:
+    path = page.evaluate(
+        """async () => {
+          const { acrossOf, pathOf, WIDTH } = await import("/static/plots/curves.js");
+          const times = Array.from({ length: 60000 }, (_, index) => index * 0.001);
+          const axis = { samples: 60000, columns: 60000, first: 0, shown: 60000, step: 0.001, duration: 60 };
+          const across = acrossOf(axis, times);
+          const values = times.map((_, index) => (index === 31234 ? 77 : index === 40000 ? null : index % 2));
+          return pathOf(across, (index) => values[index], (value) => value);
+        }"""
+    )
+    corners = [float(y) for y in re.findall(r"[ML][0-9.]+ ([0-9.-]+)", path)]
+    assert len(corners) <= 2002
+    assert max(corners) == 77
+    assert min(corners) == 0
+
+
+def test_where_a_stroke_is_not_known_the_strip_is_marked(page: Page, studio: StudioProcess) -> None:
+    document: dict[str, Any] = studio.ask("GET", "/api/gaits/walk").content
+    far = {**document, "step": [0.12, 0.0, 0.0]}
+    assert studio.ask("PUT", "/api/gaits/walk?label=Far%20too%20far", far).status == 200
+    wait_for(lambda: strip(page, "strokes").evaluate(BANDS) > 0, "what is not known is marked")
+    assert studio.ask("POST", "/api/gaits/walk/undo").status == 200
+    wait_for(lambda: strip(page, "strokes").evaluate(BANDS) == 0, "all is known again")
+
+
+def test_a_grid_has_at_most_a_hundred_lines_a_side(page: Page) -> None:
+    said = page.evaluate(
+        """async () => {
+            const { ground, gridPlaces } = await import("/static/trials/trial_plot.js");
+            const drawn = ({ lines, step }) => [lines.length, step];
+            const far = (end) => drawn(ground([{ x: [-1.5, end], y: [0, 2] }]));
+            return [far(3), far(5000), gridPlaces(-1.5, 2, 1), gridPlaces(-15, 25, 10)];
+        }"""
+    )
+    assert said == [[8, 1], [52, 100], [-1, 0, 1, 2], [-10, 0, 10, 20]]

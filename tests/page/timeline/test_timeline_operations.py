@@ -1,0 +1,323 @@
+"""Operations on the selection: each is one named edit, shows its preview, and lets locked cells be."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import pytest
+from playwright.sync_api import Browser, expect
+
+from tests.support.page.timeline_page import (
+    FOUR,
+    TimelinePage,
+    opened_timeline,
+    painted,
+)
+from tests.support.studio_process import running_studio, wait_for
+
+ZEROS = "0" * 24
+OUTCOME = """async ([id, state, amount]) => {
+  const { outcomeOf } = await import("/static/document/operations.js");
+  return JSON.parse(JSON.stringify(outcomeOf(id, state, amount)));
+}"""
+
+
+@pytest.fixture(scope="module")
+def timeline(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[TimelinePage]:
+    data = tmp_path_factory.mktemp("data")
+    with running_studio(data) as studio, opened_timeline(browser, studio) as opened:
+        yield opened
+
+
+def spliced(first: int, last: int, *inside: str) -> tuple[str, ...]:
+    """The four rows with samples (counted from 1) replaced by other text."""
+    return tuple(row[: first - 1] + text + row[last:] for row, text in zip(FOUR, inside, strict=True))
+
+
+@dataclass(frozen=True)
+class Case:
+    """An operation on a rectangle: its name, number where it asks for one, what becomes of FOUR."""
+
+    operation: str
+    start: tuple[int, int]
+    end: tuple[int, int]
+    feet: tuple[str, ...]
+    label: str
+    amount: int | None = None
+
+
+CASES = (
+    Case(
+        "stance",
+        (1, 5),
+        (2, 9),
+        painted(painted(FOUR, 1, 5, 8, "1"), 2, 9, 9, "1"),
+        "Feet 1–2, samples 5–9 to stance",
+    ),
+    Case("duplicate", (1, 5), (1, 8), painted(FOUR, 1, 9, 12, "0"), "Duplicate foot 1, samples 5–8"),
+    Case("mirror", (1, 5), (1, 12), (FOUR[1], FOUR[0], *FOUR[2:]), "Mirror foot 1, samples 5–12"),
+    Case(
+        "reverse",
+        (1, 5),
+        (1, 9),
+        painted(painted(FOUR, 1, 5, 5, "1"), 1, 9, 9, "0"),
+        "Reverse foot 1, samples 5–9",
+    ),
+    Case(
+        "shift",
+        (1, 5),
+        (1, 9),
+        painted(painted(FOUR, 1, 6, 6, "1"), 1, 9, 9, "0"),
+        "Shift foot 1, samples 5–9 by −3",
+        -3,
+    ),
+    Case(
+        "stretch", (1, 5), (1, 8), painted(FOUR, 1, 5, 10, "0"), "Stretch foot 1, samples 5–8 to 6 samples", 6
+    ),
+    Case(
+        "stretch",
+        (1, 5),
+        (4, 8),
+        spliced(5, 8, "00", "11", "11", "11"),
+        "Stretch all feet, samples 5–8 to 2 samples",
+        2,
+    ),
+    Case(
+        "insert",
+        (3, 6),
+        (3, 6),
+        spliced(6, 5, "000", "111", "111", "111"),
+        "Insert 3 samples before sample 6",
+        3,
+    ),
+    Case("remove", (2, 1), (2, 3), spliced(1, 3, "", "", "", ""), "Remove samples 1–3"),
+    Case(
+        "repeat",
+        (1, 5),
+        (1, 10),
+        spliced(5, 10, "000011" * 2, "111100" * 2, "111111" * 2, "111111" * 2),
+        "Repeat samples 5–10 2×",
+        2,
+    ),
+)
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.operation} {case.amount or ''}")
+def test_an_operation_changes_the_region_and_nothing_else(timeline: TimelinePage, case: Case) -> None:
+    region = {
+        "feet": [case.start[0] - 1, case.end[0] - 1],
+        "samples": [case.start[1] - 1, case.end[1] - 1],
+    }
+    content = {
+        "timeline": {"sample_time": 0.4, "feet": FOUR, "locked": None},
+        "direction": 1,
+        "iterations": 1,
+    }
+    asked = [case.operation, {"document": content, "region": region, "mirror": [1, 0, 3, 2]}, case.amount]
+    outcome = timeline.page.evaluate(OUTCOME, asked)
+    assert outcome.get("reason") is None
+    assert tuple(outcome["document"]["timeline"]["feet"]) == case.feet
+    assert outcome["label"] == case.label
+    assert outcome["document"] | {"timeline": None} == content | {"timeline": None}
+
+
+def test_a_number_is_asked_for_shown_on_the_timeline_and_is_one_named_edit(timeline: TimelinePage) -> None:
+    gait = timeline.open("Amount")
+    after = painted(FOUR, 1, 5, 10, "0")
+    timeline.select((1, 5), (1, 8))
+    timeline.item("Stretch").click()
+    asked = timeline.page.get_by_role("dialog", name="Stretch")
+    asked.get_by_label("New length").fill("6")
+    wait_for(lambda: timeline.shown() == after, "the timeline shows the preview")
+    assert timeline.feet(gait) == FOUR
+    asked.get_by_role("button", name="Apply").click()
+    timeline.becomes(gait, *after)
+    timeline.last_edit("Stretch foot 1, samples 5–8 to 6 samples")
+    assert len(timeline.selected()) == 6
+    timeline.undo().click()
+    timeline.becomes(gait, *FOUR)
+
+
+def test_any_whole_length_is_taken_and_a_wrong_factor_has_a_sentence(timeline: TimelinePage) -> None:
+    nine = tuple(row[:9] for row in FOUR)
+    gait = timeline.open("Any length", nine)
+    timeline.press("Escape", "Control+a")
+    timeline.item("Stretch").click()
+    asked = timeline.page.get_by_role("dialog", name="Stretch")
+    factor = asked.get_by_label("Factor")
+    factor.fill("0")
+    expect(asked.get_by_role("status")).to_have_text("Factor needs a number above 0.")
+    asked.get_by_label("New length").fill("10")
+    expect(factor).to_have_value("1.11")
+    asked.get_by_role("button", name="Apply").click()
+    wait_for(lambda: len(timeline.feet(gait)[0]) == 10, "the gait has 10 samples")
+
+
+def test_pointing_at_a_line_shows_its_preview_and_escape_drops_it(timeline: TimelinePage) -> None:
+    gait = timeline.open("Preview")
+    timeline.select((1, 1), (1, 10))
+    line = timeline.item("Reverse in time")
+    line.hover()
+    reversed_rows = (FOUR[0][:10][::-1] + FOUR[0][10:], *FOUR[1:])
+    wait_for(lambda: timeline.shown() == reversed_rows, "the preview is shown")
+    changed = timeline.page.locator(".cell[data-preview]")
+    expect(changed).to_have_count(
+        0 if reversed_rows == FOUR else sum(a != b for a, b in zip(FOUR[0], reversed_rows[0], strict=True))
+    )
+    timeline.press("Escape")
+    expect(line).to_be_hidden()
+    timeline.becomes(gait, *FOUR)
+    assert len(timeline.selected()) == 10
+
+
+def test_the_menu_is_used_with_the_keyboard_alone(timeline: TimelinePage) -> None:
+    gait = timeline.open("Keyboard menu")
+    timeline.cell(1, 5).focus()
+    timeline.press("Shift+ArrowRight")
+    button = timeline.page.get_by_role("button", name="Edit", exact=True)
+    button.focus()
+    timeline.press("Enter", "ArrowDown", "ArrowDown", "ArrowDown", "ArrowDown", "Enter")
+    timeline.becomes(gait, *painted(FOUR, 1, 5, 6, "1"))
+    expect(button).to_be_focused()
+    timeline.press("Enter", "ArrowUp", "Home", "End", "Escape")
+    expect(timeline.page.get_by_role("menu", name="Edit the timeline")).to_be_hidden()
+    expect(button).to_be_focused()
+
+
+def test_samples_come_and_go_at_the_focused_cell(timeline: TimelinePage) -> None:
+    gait = timeline.open("Columns")
+    timeline.cell(2, 6).focus()
+    timeline.item("Insert samples").click()
+    asked = timeline.page.get_by_role("dialog", name="Insert samples")
+    expect(asked).to_contain_text("Works on all feet, sample 6.")
+    asked.get_by_role("spinbutton").press("Enter")
+    timeline.becomes(gait, *spliced(6, 5, "0", "1", "1", "1"))
+    timeline.press("Escape")
+    timeline.cell(2, 6).focus()
+    timeline.item("Remove samples").click()
+    timeline.becomes(gait, *FOUR)
+    timeline.last_edit("Remove sample 6")
+
+
+def test_without_a_selection_the_whole_timeline_is_meant(timeline: TimelinePage) -> None:
+    gait = timeline.open("Whole")
+    timeline.page.get_by_role("button", name="Mirror", exact=True).click()
+    timeline.becomes(gait, FOUR[1], FOUR[0], FOUR[3], FOUR[2])
+    timeline.last_edit("Mirror the whole timeline")
+    timeline.item("Rotate by 90°").click()
+    timeline.becomes(gait, FOUR[2], FOUR[1], FOUR[0], FOUR[3])
+    timeline.last_edit("Direction to 2")
+    assert timeline.document(gait)["direction"] == 2
+
+
+def test_repeating_the_whole_is_more_iterations(timeline: TimelinePage) -> None:
+    drawn = tuple("1" * (5 + 10 * foot) + "0" * 5 + "1" * (35 - 10 * foot) for foot in range(4))
+    gait = timeline.open("Iterations", drawn)
+    timeline.item("Repeat").click()
+    asked = timeline.page.get_by_role("dialog", name="Repeat")
+    expect(asked.get_by_role("status")).to_contain_text(
+        "2 iterations. The timeline goes from 45 to 85 samples (33.6 s)"
+    )
+    asked.get_by_role("spinbutton").press("Enter")
+    wait_for(lambda: len(timeline.feet(gait)[0]) == 85, "it is run through twice")
+    assert timeline.document(gait)["iterations"] == 2
+    timeline.last_edit("Iterations to 2")
+    expect(timeline.grid).to_have_attribute("aria-colcount", "85")
+
+
+def test_a_stretch_takes_a_factor_and_keeps_every_swing(timeline: TimelinePage) -> None:
+    gait = timeline.open("Factor")
+    timeline.page.get_by_role("button", name="Stretch…").click()
+    asked = timeline.page.get_by_role("dialog", name="Stretch")
+    asked.get_by_label("Factor").fill("1.5")
+    expect(asked.get_by_label("New length")).to_have_value("36")
+    asked.get_by_label("New length").fill("3")
+    expect(asked.get_by_role("status")).to_contain_text("would vanish")
+    expect(asked.get_by_role("button", name="Apply")).to_have_attribute("aria-disabled", "true")
+    asked.get_by_label("New length").fill("0")
+    expect(asked.get_by_role("status")).to_contain_text("must lie between 1 and 2000 samples")
+    asked.get_by_role("button", name="Cancel").click()
+    timeline.becomes(gait, *FOUR)
+
+
+def test_what_a_locked_cell_forbids_says_which_and_does_nothing(timeline: TimelinePage) -> None:
+    locked = [ZEROS[:5] + "1" + ZEROS[6:], ZEROS, ZEROS, ZEROS]
+    gait = timeline.open("Held", timeline={"sample_time": 0.4, "feet": list(FOUR), "locked": locked})
+    timeline.select((1, 5), (1, 8))
+    line = timeline.item("To stance")
+    line.hover()
+    expect(line).to_have_attribute("aria-disabled", "true")
+    expect(line).to_have_attribute(
+        "aria-description", re.compile("Foot 1, sample 6 is locked and would change")
+    )
+    timeline.press("Escape", "Delete")
+    timeline.said("Foot 1, sample 6 is locked and would change: unlock it first.")
+    line = timeline.item("Remove samples")
+    expect(line).to_have_attribute(
+        "aria-description", re.compile("Foot 1, sample 6 is locked: unlock all cells")
+    )
+    timeline.press("Escape")
+    assert timeline.feet(gait) == FOUR
+
+
+def test_cells_are_copied_as_text_and_pasted_where_they_fit(timeline: TimelinePage) -> None:
+    page = timeline.page
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    gait = timeline.open("Clipboard")
+    timeline.select((1, 7), (2, 10))
+    timeline.press("Control+c")
+    wait_for(
+        lambda: page.evaluate("() => navigator.clipboard.readText()") == "0011\n1100",
+        "it is on the clipboard",
+    )
+    timeline.press("Escape")
+    timeline.cell(3, 1).focus()
+    timeline.press("Control+v")
+    pasted = painted(painted(FOUR, 3, 1, 2, "0"), 4, 3, 4, "0")
+    timeline.becomes(gait, *pasted)
+    timeline.last_edit("Paste at foot 3, sample 1")
+    timeline.press("Escape")
+    timeline.cell(4, 23).focus()
+    timeline.press("Control+v")
+    timeline.becomes(gait, *painted(pasted, 4, 23, 24, "0"))
+    timeline.said("2 samples behind the end and 1 row below the last foot did not fit and were left out.")
+    timeline.undo().click()
+    page.evaluate("() => navigator.clipboard.writeText('stance, swing')")
+    timeline.press("Control+v")
+    timeline.said(
+        "The clipboard holds no timeline: line 1 has other characters than 1 (stance) and 0 (swing)."
+    )
+    timeline.becomes(gait, *pasted)
+
+
+def test_a_copy_that_ends_with_the_timeline_is_cut_and_says_so(timeline: TimelinePage) -> None:
+    gait = timeline.open("Clipped")
+    timeline.select((4, 17), (4, 21))
+    timeline.press("Control+d")
+    timeline.becomes(gait, *painted(FOUR, 4, 22, 24, "0"))
+    timeline.said("The last 2 samples would lie behind the end and are left out.")
+    timeline.press("Control+d")
+    timeline.said("There is no room behind it")
+
+
+def test_cut_duplicate_and_delete_have_their_keys(timeline: TimelinePage) -> None:
+    gait = timeline.open("Cut keys")
+    timeline.select((1, 5), (1, 8))
+    timeline.press("Control+x")
+    timeline.becomes(gait, *painted(FOUR, 1, 5, 8, "1"))
+    timeline.last_edit("Cut foot 1, samples 5–8")
+    timeline.press("Control+v", "Control+d")
+    timeline.becomes(gait, *painted(FOUR, 1, 9, 12, "0"))
+    timeline.press("Backspace")
+    timeline.becomes(gait, *FOUR)
+    timeline.press("Escape")
+    timeline.cell(2, 9).focus()
+    timeline.press("Delete")
+    timeline.becomes(gait, *painted(FOUR, 2, 9, 9, "1"))
+    timeline.page.get_by_role("slider", name="Playhead").focus()
+    timeline.press("Delete")
+    timeline.said("Nothing is selected")
+    timeline.press("Control+z", "Control+Shift+z", "Control+z", "Control+y")
+    timeline.becomes(gait, *painted(FOUR, 2, 9, 9, "1"))

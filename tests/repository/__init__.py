@@ -1,0 +1,1 @@
+"""Tests of the repository itself: structure, packaging, README, documentation."""

@@ -1,0 +1,139 @@
+"""The live tier's process, and the remedies that it tries."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from core.gait.gait import (
+    Gait,
+    GaitOptions,
+    heading_step,
+    motion_problem,
+)
+from core.library.library import library
+from core.problem.motion_check import check_motion
+from core.problem.motion_problem import Workspace
+from core.robot.model import load_robot
+from solver_jobs import LiveSolver, SolveStatus
+from solver_jobs.live.solve import solve_live
+from solver_jobs.tiers.remedies import find_remedies
+from solver_jobs.workers import live_service
+from solver_jobs.workers.spawning import start_process
+from tests.support.solvers.cases import gait_problem
+
+MODEL = load_robot("deltawalker")
+PROBLEM = gait_problem("walk", 0.010, Workspace.STROKE)
+
+
+def gait_of(name: str, step: float, **options: Any) -> Gait:
+    chosen = library()[name].gait
+    wanted = replace(GaitOptions(), **options)
+    return replace(chosen, step=heading_step(chosen.orientation, step), options=wanted)
+
+
+@pytest.fixture(scope="module")
+def solver() -> Iterator[LiveSolver]:
+    live = LiveSolver(PROBLEM)
+    live.start()
+    yield live
+    live.close()
+
+
+def test_it_answers_as_the_function_does(solver: LiveSolver) -> None:
+    result = solver.solve(PROBLEM, 30.0)
+    assert result.status is SolveStatus.SOLVED
+    wanted = solve_live(PROBLEM).trajectory
+    assert (result.trajectory.body_world == wanted.body_world).all()
+    assert check_motion(PROBLEM, result.trajectory).confirmed
+
+
+def test_a_process_that_is_killed_is_replaced(solver: LiveSolver) -> None:
+    solver.solve(PROBLEM, 30.0)
+    first = solver.process_id
+    assert first is not None
+    os.kill(first, signal.SIGKILL)
+    assert [solver.solve(PROBLEM, 30.0).status for _ in range(2)] == [SolveStatus.SOLVED] * 2
+    assert solver.process_id not in (None, first)
+
+
+def test_no_answer_in_time_is_failed_with_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:
+    started: list[str] = []
+
+    def start(body: Any, warm_up: None, name: str) -> Any:
+        started.append(name)
+        return start_process(body, warm_up, name)
+
+    monkeypatch.setattr(live_service, "start_process", start)
+    live = LiveSolver()
+    result = live.solve(PROBLEM, 0.001)
+    live.close()
+    assert result.status is SolveStatus.FAILED
+    assert started == ["footfall-live"], "it is not asked twice, and waited for twice as long"
+    assert "gave no answer" in result.explanation[0]
+
+
+def test_a_closed_solver_says_so() -> None:
+    live = LiveSolver()
+    live.close()
+    assert live.solve(PROBLEM).status is SolveStatus.FAILED
+    search = live.remedies(gait_of("walk", 0.030))
+    assert (search.remedies, search.complete) == ((), False)
+
+
+@pytest.mark.parametrize(
+    ("gait", "labels"),
+    [
+        (gait_of("amble", 0.020, workspace=Workspace.CYLINDER), {"Step", "Workspace", "Order"}),
+        (gait_of("walk", 0.020, clearance=0.009, margin=0.012), {"Margin"}),
+        (gait_of("walk", 0.030), {"Step", "Phases"}),
+    ],
+)
+def test_every_remedy_works(gait: Gait, labels: set[str], solver: LiveSolver) -> None:
+    assert solve_live(motion_problem(gait, MODEL)).status is SolveStatus.INFEASIBLE
+    search = solver.remedies(gait, 60.0)
+    assert search.complete
+    remedies = search.remedies
+    assert labels <= {remedy.label.split()[0] for remedy in remedies}
+    for remedy in remedies:
+        problem = motion_problem(remedy.gait, MODEL)
+        result = solve_live(problem)
+        assert result.status is SolveStatus.SOLVED, remedy.label
+        assert check_motion(problem, result.trajectory).confirmed
+        assert remedy.sentence
+
+
+def test_the_search_for_remedies_can_be_interrupted() -> None:
+    asked = 0
+
+    def go_on() -> bool:
+        nonlocal asked
+        asked += 1
+        return asked < 3
+
+    search = find_remedies(gait_of("walk", 0.030), MODEL, go_on)
+    assert (search.remedies, search.complete) == ((), False)
+    assert asked == 3
+
+
+@pytest.mark.parametrize("knots", [1, 2])
+def test_a_swing_that_is_too_short_is_placed_and_can_be_lengthened(knots: int) -> None:
+    walk = gait_of("walk", 0.010)
+    stance = np.array(walk.timeline.stance)
+    stance[2, 5 + knots : 10] = True
+    short = replace(walk, timeline=replace(walk.timeline, stance=stance))
+    result = solve_live(motion_problem(short, MODEL))
+    assert result.status is SolveStatus.INFEASIBLE
+    search = find_remedies(short, MODEL, lambda: True)
+    assert search.complete
+    assert "Swings of" in search.remedies[0].label
+    assert solve_live(motion_problem(search.remedies[0].gait, MODEL)).status is SolveStatus.SOLVED
+    if knots == 1:
+        assert (result.lacks[0].family, result.lacks[0].feet) == ("clearance", (2,))
+        assert "at knot 6" in result.lacks[0].sentence

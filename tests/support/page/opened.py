@@ -1,0 +1,65 @@
+"""A page of the studio that must not throw."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from playwright.sync_api import Browser, BrowserContext, Page, expect
+
+from app.bench.page.edits import CHROMIUM_WORDS
+from tests.support.chromium import LONG_MS, chromium_path
+
+_FLAT: dict[Browser, Browser] = {}
+"""Beside each browser one that draws without a GPU, real or emulated; it ends with its Playwright."""
+
+
+@contextmanager
+def opened_page(
+    browser: Browser, url: str, width: int, height: int, *, has_scene: bool = True
+) -> Iterator[Page]:
+    """Opens an address in a window of a size, and ends with an error where the page threw one.
+
+    Without its 3D scene, which is seconds of drawing in software, where a test has nothing to do with it.
+    """
+    drawing = browser if has_scene else flat_browser(browser)
+    page = drawing.new_page(viewport={"width": width, "height": height})
+    page.set_default_timeout(LONG_MS)
+    if not has_scene:
+        leave_scene_out(page)
+    problems: list[str] = []
+    page.on("pageerror", lambda error: problems.append(str(error)))
+    page.goto(url)
+    yield page
+    page.close()
+    assert problems == []
+
+
+def flat_browser(browser: Browser) -> Browser:
+    """A browser for pages without a 3D scene: an emulated GPU costs a quarter of their time."""
+    if browser not in _FLAT:
+        words = [word for word in CHROMIUM_WORDS if "gl" not in word] + ["--disable-gpu"]
+        _FLAT[browser] = browser.browser_type.launch(executable_path=chromium_path(), args=words)
+    return _FLAT[browser]
+
+
+def leave_scene_out(where: Page | BrowserContext) -> None:
+    """An empty frame instead of the 3D scene, in a page or in all of a window's."""
+    where.route("**/viser/**", lambda route: route.fulfill(body="<html></html>", content_type="text/html"))
+
+
+def look(page: Page, name: str) -> None:
+    """Keeps a screenshot where somebody asked for them."""
+    folder = os.environ.get("FOOTFALL_SCREENSHOTS")
+    if folder:
+        page.screenshot(path=f"{folder}/{name}.png")
+
+
+def choose(page: Page, name: str) -> None:
+    """Shows a gait of the list, and waits until the live tier has answered for it."""
+    alone = re.compile(f"^{re.escape(name)}(?!,)")  # and not one of its other foot orders
+    page.get_by_role("list", name="Gaits").get_by_role("button", name=alone).click()
+    expect(page.get_by_label("Gait name")).to_have_value(name)
+    expect(page.get_by_role("status", name="Live answer")).to_contain_text("Feasible")

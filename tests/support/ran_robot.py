@@ -1,0 +1,99 @@
+"""An emulated robot that runs a plan in its own time, and its run in a database as the studio keeps it."""
+
+from __future__ import annotations
+
+import secrets
+from dataclasses import dataclass
+from functools import cache
+
+from app.bridge.states import Direction, RobotState, RunPlan, Transition
+from app.plans.plan import Plan, PlanSource
+from app.runs.plan_json import run_plan_content
+from app.store.database import Database
+from app.store.run_store import RunLog
+from core.findings import Approval
+from core.gait.manual_motion import manual_motion
+from core.library.library import library
+from core.motion.trajectory import Trajectory
+from core.robot.model import load_robot
+from core.runs.reading import RunBytes
+from core.wire.waypoint_merging import WaypointPlan, plan_waypoints
+from tests.support.virtual_robot import VirtualRobot, make_plan
+
+ROBOT = load_robot("deltawalker")
+STARTED = 1_790_000_000.0
+"""When the first run that is kept began, s since the epoch."""
+
+
+class TimedRobot(VirtualRobot):
+    """An emulated robot whose bytes are kept with their times."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.pieces: list[RunBytes] = []
+
+    def step(self) -> None:
+        sent, heard = len(self.log), len(self.heard)
+        super().step()
+        self.pieces += [RunBytes(self.now, False, data) for data in self.heard[heard:]]
+        outgoing = [data for way, data in self.log[sent:] if way is Direction.TO_ROBOT]
+        self.pieces += [RunBytes(self.now, True, data) for data in outgoing]
+
+
+@dataclass(frozen=True, eq=False)
+class Ran:
+    """A robot that has run a whole plan, and what it was to do."""
+
+    robot: TimedRobot
+    trajectory: Trajectory
+    way: WaypointPlan
+    approval: Approval
+    began: float
+    changes: tuple[Transition, ...]
+
+
+@cache
+def ran() -> Ran:
+    """The run of a walk by hand, one waypoint a knot, from somewhere else than where it begins."""
+    motion = manual_motion(library()["walk-manual-0"].gait, ROBOT).trajectory
+    way = plan_waypoints(ROBOT, motion)
+    approval = Approval("verdict", way.waypoints.content_hash, "Ada", "2026-01-01T00:00:00+00:00")
+    robot = TimedRobot()
+    robot.begin(make_plan([[9.0] * 12]))
+    robot.until_robot(RobotState.DONE)
+    robot.session.arm("Ada", robot.now)
+    began, before, known = robot.now, len(robot.log), len(robot.session.transitions)
+    robot.session.send(RunPlan(way.waypoints, approval, way.hold_ok), "Ada", robot.now)
+    robot.pieces = [RunBytes(robot.now, True, data) for _, data in robot.log[before:]]
+    robot.until_robot(RobotState.DONE)
+    return Ran(robot, motion, way, approval, began, tuple(robot.session.transitions)[known:])
+
+
+def keep_run(database: Database, by: str = "Ada", gait: str = "walk", day: int = 0) -> str:
+    """Puts the run into a database; its id."""
+    done, run, log = ran(), secrets.token_hex(6), RunLog(database)
+    seconds = done.robot.now - done.began
+    started = STARTED + day * 86400.0
+    database.put_run(
+        {
+            "id": run,
+            "gait": gait,
+            "gait_name": gait.capitalize(),
+            "waypoints_hash": done.way.waypoints.content_hash,
+            "by": by,
+            "started": started,
+            "started_monotonic": done.began,
+            "ended": started + seconds,
+            "state": "done",
+            "sentence": "The last waypoint was reached.",
+            "reached": done.way.waypoints.count,
+            "count": done.way.waypoints.count,
+            "seconds": seconds,
+        }
+    )
+    plan = Plan(PlanSource.MANUAL, "", ROBOT, done.trajectory, done.way, None)
+    log.put_plan(run, run_plan_content(plan, done.way, done.approval))
+    words = {True: Direction.TO_ROBOT.value, False: Direction.FROM_ROBOT.value}
+    database.add_bytes([(run, piece.time, words[piece.to_robot], piece.data) for piece in done.robot.pieces])
+    log.add_states([(run, one.time, one.link.value, one.robot.value, one.cause) for one in done.changes])
+    return run

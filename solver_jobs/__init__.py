@@ -23,7 +23,7 @@ from solver_jobs.results.motion import (
 )
 from solver_jobs.tiers.frontier import Frontier, FrontierSearch
 from solver_jobs.tiers.remedies import Remedy, RemedySearch
-from solver_jobs.workers.batch_simulation_service import TravelQuestion, TravelSimulator
+from solver_jobs.workers.batch_simulation_service import BatchSimulation, BatchSimulator
 from solver_jobs.workers.job import (
     OPEN_STATES,
     Job,
@@ -31,35 +31,35 @@ from solver_jobs.workers.job import (
     JobState,
     result_sentence,
 )
-from solver_jobs.workers.job_queue import JobRunner
+from solver_jobs.workers.job_queue import JobQueue
 from solver_jobs.workers.live_service import LiveSolver
 from solver_jobs.workers.pattern_service import PatternSearch, PatternSolver
 from solver_jobs.workers.signals import interrupts_held
 from solver_jobs.workers.simulation_service import Simulation, Simulator
 from solver_jobs.workers.simulation_worker import Simulated
 from solver_jobs.workers.spawning import NICENESS
-from solver_jobs.workers.task_service import Question, QuestionService
-from solver_jobs.workers.task_worker import Report, answer_questions
-from solver_jobs.workers.worker_process import WorkerEndedError, WorkerHandle
+from solver_jobs.workers.task_service import Task, TaskService
+from solver_jobs.workers.task_worker import Report, run_tasks
+from solver_jobs.workers.worker_process import WorkerEndedError, WorkerProcess
 
 __all__ = [
     "NICENESS",
     "OPEN_STATES",
+    "BatchSimulation",
+    "BatchSimulator",
     "Evidence",
     "Frontier",
     "FrontierSearch",
     "Iterate",
     "Job",
     "JobKind",
-    "JobRunner",
+    "JobQueue",
     "JobState",
     "Lack",
     "LiveSolver",
     "MotionResult",
     "PatternSearch",
     "PatternSolver",
-    "Question",
-    "QuestionService",
     "Remedy",
     "RemedySearch",
     "Report",
@@ -67,14 +67,14 @@ __all__ = [
     "Simulation",
     "Simulator",
     "SolveStatus",
+    "Task",
+    "TaskService",
     "TimingResult",
-    "TravelQuestion",
-    "TravelSimulator",
     "WorkerEndedError",
-    "WorkerHandle",
-    "answer_questions",
+    "WorkerProcess",
     "fastest_timing",
     "result_sentence",
+    "run_tasks",
     "shortest_problem",
     "simulate",
     "simulate_variations",

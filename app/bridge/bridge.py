@@ -15,11 +15,11 @@ from dataclasses import dataclass
 from functools import partial
 
 from app.bridge.jog import JogPlan
-from app.bridge.state_machine import RobotSession
+from app.bridge.state_machine import RobotStateMachine
 from app.bridge.states import IN_RUN, Direction, LinkState, RobotSnapshot, RunPlan, Transition
 from app.bridge.stop_confirmation import STOP_LIMIT
 from app.bridge.transport import Transport
-from app.bridge.write_gate import Clock, Gate, Log
+from app.bridge.write_gate import Clock, Log, WriteGate
 from core.errors import RobotError, StateError
 
 logger = logging.getLogger(__name__)
@@ -72,10 +72,10 @@ class RobotBridge:
         self._clock = clock
         self._tick = tick
         self._opener = opener
-        self._gate = Gate(log, clock)
-        self._session = RobotSession(self._gate)
+        self._gate = WriteGate(log, clock)
+        self._session = RobotStateMachine(self._gate)
         self._lock = threading.Lock()
-        self._opening = threading.Lock()
+        self._handshake = threading.Lock()
         self._leaving = threading.Lock()
         self._inbox: queue.SimpleQueue[_Bytes | _HungUp | None] = queue.SimpleQueue()
         self._subscribers: tuple[Callback, ...] = ()
@@ -129,7 +129,7 @@ class RobotBridge:
             StateError: a robot is connected.
             RobotError: the device is absent or busy.
         """
-        with self._opening:
+        with self._handshake:
             self._require_free()
             self._lines_opened += 1
             transport = self._open(device, self._lines_opened)
@@ -324,17 +324,17 @@ class RobotBridge:
 
     def _await_stop(self) -> None:
         deadline = self._clock() + STOP_LIMIT
-        settled = threading.Event()
+        normalise = threading.Event()
 
         def look(_: RobotSnapshot | None = None) -> None:
             with self._lock:
                 if not self._session.awaits_stop:
-                    settled.set()
+                    normalise.set()
 
         unsubscribe = self.subscribe(look)
         look()
-        while not settled.is_set() and self._clock() < deadline:
-            settled.wait(self._tick)
+        while not normalise.is_set() and self._clock() < deadline:
+            normalise.wait(self._tick)
         unsubscribe()
 
     def _work(self) -> None:

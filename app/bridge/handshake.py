@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.bridge.telemetry import Watch
+from app.bridge.telemetry import TelemetryMonitor
 from core.wire.lines import Line, NewData
 
 START_LIMIT = 15.0
@@ -16,7 +16,7 @@ GOOD_LINES = 2
 """Telemetry lines with no movement between them after which a robot idles."""
 
 
-class Opening:
+class Handshake:
     """Follows a line from its opening to the robot's readiness.
 
     The flush is due at the first pass of the robot's loop. While the board boots there is none, so the flush
@@ -39,16 +39,16 @@ class Opening:
         """The board boots once more; its memory is empty and needs no other flush."""
         self.began = now
 
-    def flush_due(self, line: Line, watch: Watch) -> bool:
+    def flush_due(self, line: Line, watch: TelemetryMonitor) -> bool:
         """Whether this line shows that the robot's loop runs and it is time for the flush."""
         return self.flushed_at is None and isinstance(line, NewData) and watch.readings > 0
 
-    def flushed(self, now: float, watch: Watch) -> None:
+    def flushed(self, now: float, watch: TelemetryMonitor) -> None:
         """The flush went out."""
         self.began = self.flushed_at = now
         watch.idle_lines = 0
 
-    def settled(self, now: float, watch: Watch) -> bool:
+    def normalise(self, now: float, watch: TelemetryMonitor) -> bool:
         """Whether the flush has had its effect and the robot idles."""
         if self.flushed_at is None or now < self.flushed_at + FLUSH_TIME:
             return False

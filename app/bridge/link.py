@@ -1,13 +1,13 @@
 """The bridge's link to the robot: opening, silence, loss, faults, and the stop's way through all of them.
 
-It knows no runs; `RobotSession` does, and says through the two methods at the end what it is busy with.
+It knows no runs; `RobotStateMachine` does, and says through the two methods at the end what it is busy with.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 
-from app.bridge.handshake import START_LIMIT, Opening
+from app.bridge.handshake import START_LIMIT, Handshake
 from app.bridge.messages import (
     CONNECTING,
     NOT_CONNECTED,
@@ -17,11 +17,11 @@ from app.bridge.messages import (
     stranger_sentence,
     without_remedy,
 )
-from app.bridge.state_log import Ledger
+from app.bridge.state_log import StateLog
 from app.bridge.states import IN_RUN, LinkState, RobotState
-from app.bridge.stop_procedure import StopWay
-from app.bridge.telemetry import Watch
-from app.bridge.write_gate import Gate
+from app.bridge.stop_procedure import StopProcedure
+from app.bridge.telemetry import TelemetryMonitor
+from app.bridge.write_gate import WriteGate
 from core.errors import RobotError
 from core.wire.lines import (
     Line,
@@ -34,7 +34,7 @@ SILENCE_LIMIT = 4.0
 """An answering robot is never silent longer than 2.5 s (PROTOCOL 5.4), s."""
 
 
-class RobotLink(Ledger, ABC):
+class RobotLink(StateLog, ABC):
     """One link to one robot.
 
     Args:
@@ -45,13 +45,13 @@ class RobotLink(Ledger, ABC):
         watch: what the robot's lines tell.
     """
 
-    def __init__(self, gate: Gate) -> None:
+    def __init__(self, gate: WriteGate) -> None:
         super().__init__()
         self.device: str | None = None
-        self.watch = Watch(0.0)
+        self.watch = TelemetryMonitor(0.0)
         self._gate = gate
-        self._stop = StopWay(self, gate)
-        self._opening = Opening(0.0)
+        self._stop = StopProcedure(self, gate)
+        self._handshake = Handshake(0.0)
         self._reader = LineReader()
         self._hung_up = False
         self._clearing = False
@@ -69,11 +69,11 @@ class RobotLink(Ledger, ABC):
     def opened(self, device: str, now: float) -> None:
         """A line was opened."""
         self.device = device
-        self._opening = Opening(now)
+        self._handshake = Handshake(now)
         self._stop.restart(now)
         self._hung_up = False
         self._reader = LineReader()
-        self.watch = Watch(now)
+        self.watch = TelemetryMonitor(now)
         self.become(now, f"{device} was opened.", CONNECTING, link=LinkState.CONNECTING)
 
     def refused(self, device: str, reason: str) -> None:
@@ -123,14 +123,14 @@ class RobotLink(Ledger, ABC):
         if self.link is LinkState.CONNECTING or self._hung_up:
             return
         self._fault(RESTARTED, now)
-        self._opening.restart(now)
+        self._handshake.restart(now)
         self.become(now, "The board restarted.", self.sentence, link=LinkState.CONNECTING)
 
     def _open_up(self, line: Line, now: float) -> None:
-        if self._opening.settled(now, self.watch):
+        if self._handshake.normalise(now, self.watch):
             self._become_ready(now)
-        elif self._opening.flush_due(line, self.watch):
-            self._opening.flushed(now, self.watch)
+        elif self._handshake.flush_due(line, self.watch):
+            self._handshake.flushed(now, self.watch)
             try:
                 self._gate.flush()
             except RobotError as error:
@@ -150,8 +150,8 @@ class RobotLink(Ledger, ABC):
         silence = now - self.watch.last_byte
         if self.link is LinkState.READY and silence > SILENCE_LIMIT:
             self._lose(silent_sentence(silence, SILENCE_LIMIT, self._place), now)
-        elif self.link is LinkState.CONNECTING and self._opening.overdue(now):
-            if self._opening.flushed_at is None:
+        elif self.link is LinkState.CONNECTING and self._handshake.overdue(now):
+            if self._handshake.flushed_at is None:
                 sentence = stranger_sentence(self.device, START_LIMIT, talks=self.watch.talks)
             else:
                 sentence = restless_sentence(self.device, START_LIMIT)

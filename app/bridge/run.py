@@ -74,7 +74,7 @@ def plan_moves(plan: RunPlan, measured_mm: tuple[float, ...]) -> list[Move]:
             waypoints.strokes, waypoints.durations.tolist(), plan.hold_ok, strict=True
         )
     ]
-    streamed = [encoded[i] for i in plan.course.order(waypoints.count)]
+    streamed = [encoded[i] for i in plan.run_range.order(waypoints.count)]
     return [*_start_moves(measured_mm, streamed[0], longest_start_move(waypoints) * 1000.0), *streamed]
 
 
@@ -107,8 +107,8 @@ class Run:
         self, plan: RunPlan, measured_mm: tuple[float, ...], run_id: str, by: str, now: float
     ) -> None:
         self._moves = plan_moves(plan, measured_mm)
-        self._order = plan.course.order(plan.waypoints.count)
-        self._course = plan.course
+        self._order = plan.run_range.order(plan.waypoints.count)
+        self._run_range = plan.run_range
         self._start_count = len(self._moves) - len(self._order)
         self._plan_count = plan.waypoints.count
         self._sent = 0
@@ -134,8 +134,12 @@ class Run:
         if self._sent <= self._start_count:
             return "on the way to the start pose"
         sent = self._sent - self._start_count
-        course = self._course
-        again = f", iteration {self._iteration(sent)} of {course.iterations}" if course.iterations > 1 else ""
+        run_range = self._run_range
+        again = (
+            f", iteration {self._iteration(sent)} of {run_range.iterations}"
+            if run_range.iterations > 1
+            else ""
+        )
         return f"at waypoint {self._waypoint(sent) + 1} of {self._plan_count}{again}"
 
     def require_in_place(self, measured_mm: tuple[float, ...]) -> None:
@@ -183,7 +187,7 @@ class Run:
             waypoint_sent=self._waypoint(sent),
             waypoint_reached=self._waypoint(reached),
             iteration=self._iteration(sent),
-            iterations=self._course.iterations,
+            iterations=self._run_range.iterations,
         )
 
     def _waypoint(self, done: int) -> int:
@@ -191,4 +195,4 @@ class Run:
         return self._order[max(done - 1, 0)]
 
     def _iteration(self, done: int) -> int:
-        return 1 + (max(done - 1, 0) + self._course.first) // self._plan_count
+        return 1 + (max(done - 1, 0) + self._run_range.first) // self._plan_count

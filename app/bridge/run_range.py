@@ -16,7 +16,7 @@ MOST_ITERATIONS = 100
 
 
 @dataclass(frozen=True)
-class Course:
+class RunRange:
     """A run's choice among the approved waypoints.
 
     Args:
@@ -60,7 +60,7 @@ class Course:
             raise InputError(reason, "iterations")
 
 
-WHOLE = Course()
+WHOLE = RunRange()
 """Every waypoint once."""
 
 

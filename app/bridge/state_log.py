@@ -14,7 +14,7 @@ logger = logging.getLogger(__name__)
 KEPT_TRANSITIONS = 1000
 
 
-class Ledger:
+class StateLog:
     """The two states, the sentence that goes with them, and their history.
 
     Attributes:

@@ -26,7 +26,7 @@ from app.bridge.messages import NOT_SENT, SENTENCES, clearing_sentence
 from app.bridge.run import Move, Run
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPhase, RunPlan
 from app.bridge.telemetry import STALE_TIME
-from app.bridge.write_gate import Gate, Kind
+from app.bridge.write_gate import Kind, WriteGate
 from core.errors import RobotError, StateError
 from core.wire.lines import Line
 from core.wire.messages import (
@@ -40,14 +40,14 @@ from core.wire.messages import (
 )
 
 
-class RobotSession(RobotLink):
+class RobotStateMachine(RobotLink):
     """One robot on one link.
 
     Args:
         gate: the way out.
     """
 
-    def __init__(self, gate: Gate) -> None:
+    def __init__(self, gate: WriteGate) -> None:
         super().__init__(gate)
         self._run: Run | None = None
         self._jog: Jog | None = None

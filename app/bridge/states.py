@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from app.bridge.run_range import WHOLE, Course
+from app.bridge.run_range import WHOLE, RunRange
 from core.errors import InputError
 from core.findings import Approval
 from core.wire.waypoints import Waypoints
@@ -61,13 +61,13 @@ class RunPlan:
         waypoints: strokes to reach one after the other.
         approval: must be of exactly these waypoints.
         hold_ok: for each waypoint whether all feet are down there, so that a pause may end at it.
-        course: from which waypoint on they are sent, and how many times over.
+        run_range: from which waypoint on they are sent, and how many times over.
     """
 
     waypoints: Waypoints
     approval: Approval
     hold_ok: tuple[bool, ...]
-    course: Course = WHOLE
+    run_range: RunRange = WHOLE
 
     def __post_init__(self) -> None:
         if len(self.hold_ok) != self.waypoints.count:
@@ -75,7 +75,7 @@ class RunPlan:
                 f"{len(self.hold_ok)} hold marks for {self.waypoints.count} waypoints; give one for each.",
                 "hold_ok",
             )
-        self.course.require_fit(self.waypoints, self.hold_ok)
+        self.run_range.require_fit(self.waypoints, self.hold_ok)
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ OVERDUE_REPEAT = 2.0
 STOP_PAYLOAD = payload_of(encode_stop())
 
 
-class Stopping:
+class StopConfirmation:
     """Follows a stop.
 
     Args:

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from app.bridge.messages import NOT_STOPPED, SENTENCES
-from app.bridge.state_log import Ledger
+from app.bridge.state_log import StateLog
 from app.bridge.states import RobotState
-from app.bridge.stop_confirmation import STOP_LIMIT, Stopping
-from app.bridge.write_gate import Gate
+from app.bridge.stop_confirmation import STOP_LIMIT, StopConfirmation
+from app.bridge.write_gate import WriteGate
 from core.errors import StateError
 from core.wire.lines import Line
 
 
-class StopWay:
+class StopProcedure:
     """The stop that stands, a person's or a fault's.
 
     Args:
@@ -19,10 +19,10 @@ class StopWay:
         gate: the way out.
     """
 
-    def __init__(self, ledger: Ledger, gate: Gate) -> None:
+    def __init__(self, ledger: StateLog, gate: WriteGate) -> None:
         self._ledger = ledger
         self._gate = gate
-        self._stop: Stopping | None = None
+        self._stop: StopConfirmation | None = None
 
     @property
     def stands(self) -> bool:
@@ -46,7 +46,7 @@ class StopWay:
 
     def begin(self, now: float, *, text: str | None = None, cause: str = "") -> None:
         """A stop was asked for by a person (`text`) or a fault (`cause`)."""
-        self._stop = Stopping(now, text, cause)
+        self._stop = StopConfirmation(now, text, cause)
 
     def restart(self, now: float) -> None:
         """Has a stop that is not confirmed begin anew on a new line."""

@@ -25,7 +25,7 @@ STALE_TIME = 1.0
 """A robot that idles tells its strokes every 32 ms at least; older ones are not where it stands, s."""
 
 
-class Watch:
+class TelemetryMonitor:
     """Follows the lines of one connection.
 
     Args:

@@ -51,7 +51,7 @@ class Outlet(Protocol):
         """
 
 
-class Gate:
+class WriteGate:
     """Writes messages, each with a permit that any stop revokes.
 
     A stop holds no lock but the one around a single write, so it waits for one message at most.

@@ -22,7 +22,7 @@ from app.cameras.worker import (
 )
 from app.vision.recorder import Recorded, RecordOrder
 from core.errors import RobotError, StateError
-from solver_jobs import WorkerEndedError, WorkerHandle
+from solver_jobs import WorkerEndedError, WorkerProcess
 
 _log = logging.getLogger(__name__)
 
@@ -37,7 +37,7 @@ class CameraError(RobotError):
     """A camera gives no pictures."""
 
 
-class CameraLink:
+class CameraProcess:
     """A camera that is looked at or stands by to record; every method may be called from any thread.
 
     Args:
@@ -55,7 +55,7 @@ class CameraLink:
         self.standing: Standing | None = None
         self.is_kept = False
         self._changed = changed
-        self._worker = WorkerHandle(address, run_camera, f"footfall camera {address.id}")
+        self._worker = WorkerProcess(address, run_camera, f"footfall camera {address.id}")
         self._numbers = itertools.count(1)
         self._lock = threading.Lock()
         self._waiting: dict[int, Future[Any]] = {}

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from app.cameras.address import DEVICE, CameraAddress
-from app.cameras.process import CameraLink
-from app.cameras.setup_service import SetupDesk
-from app.store.camera_setup_store import SetupLog
+from app.cameras.process import CameraProcess
+from app.cameras.setup_service import CameraSetupService
+from app.store.camera_setup_store import CameraSetupStore
 from app.store.database import Database
 from core.errors import InputError, NotFoundError
 
@@ -26,7 +26,7 @@ UNDER, SIDE = "under", "side"
 Content = dict[str, Any]
 
 
-class CameraDesk:
+class CameraService:
     """The cameras; every method may be called from any thread.
 
     Args:
@@ -42,16 +42,16 @@ class CameraDesk:
     def __init__(
         self,
         database: Database,
-        setups: SetupDesk,
+        setups: CameraSetupService,
         files: Sequence[CameraAddress] = (),
         changed: Callable[[], None] = lambda: None,
     ) -> None:
-        self._log = SetupLog(database)
+        self._log = CameraSetupStore(database)
         self._setups = setups
         self._files = {one.id: one for one in files}
         self.tell = changed
         self._lock = threading.Lock()
-        self._links: dict[str, CameraLink] = {}
+        self._links: dict[str, CameraProcess] = {}
         self._is_closed = False
 
     def stand_by(self) -> None:
@@ -119,7 +119,7 @@ class CameraDesk:
         """The cameras that are to record with the run, also unplugged ones."""
         return [view for view in self.views() if view["records"]]
 
-    def link(self, camera: str) -> CameraLink:
+    def link(self, camera: str) -> CameraProcess:
         """A camera's process, started where it does not go on.
 
         Raises:
@@ -135,7 +135,7 @@ class CameraDesk:
         for link in links:
             link.close()
 
-    def _live(self, camera: str) -> CameraLink:
+    def _live(self, camera: str) -> CameraProcess:
         """A camera's process, started where it does not go on."""
         address = self._addresses().get(camera)
         if address is None:
@@ -146,7 +146,7 @@ class CameraDesk:
             if link is None or not link.is_open:
                 if self._is_closed:
                     raise InputError("The studio is closing.", "camera")
-                link = self._links[camera] = CameraLink(address, self.tell)
+                link = self._links[camera] = CameraProcess(address, self.tell)
             link.is_kept = records
         return link
 
@@ -175,7 +175,7 @@ class CameraDesk:
         return NotFoundError(f"There is no camera {camera}. Plug it in and look again.", "camera")
 
 
-def _state(link: CameraLink | None) -> tuple[str, str, list[int] | None, float | None]:
+def _state(link: CameraProcess | None) -> tuple[str, str, list[int] | None, float | None]:
     if link is None or not link.is_open:
         return "idle", "", None, None
     standing = link.standing

@@ -11,9 +11,9 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from core.errors import InputError
 from core.vision.camera import (
     FOOT_COLOURS,
+    BlobLimits,
     ColourRange,
     Lens,
-    SpotLimits,
 )
 from core.vision.setup import FEET, SPOTS, CameraSetup
 
@@ -69,9 +69,9 @@ class LimitsDocument(_Document):
     most_area: Number = SPOTS.most_area
     least_fill: Number = SPOTS.least_fill
 
-    def limits(self) -> SpotLimits:
+    def limits(self) -> BlobLimits:
         """The limits."""
-        return SpotLimits(self.least_area, self.most_area, self.least_fill)
+        return BlobLimits(self.least_area, self.most_area, self.least_fill)
 
 
 def _usual_colours() -> list[ColourDocument]:

@@ -12,13 +12,13 @@ import numpy as np
 
 from app.cameras.setup_schema import SetupDocument
 from app.common.json_values import finite
-from app.store.camera_setup_store import SetupLog, SetupRow
+from app.store.camera_setup_store import CameraSetupRow, CameraSetupStore
 from app.store.database import Database
 from core.errors import NotFoundError, StateError
 from core.vision.setup import CameraSetup
 
 
-class SetupDesk:
+class CameraSetupService:
     """How cameras see the platform; every method may be called from any thread.
 
     Args:
@@ -27,7 +27,7 @@ class SetupDesk:
     """
 
     def __init__(self, database: Database, changed: Callable[[], None] = lambda: None) -> None:
-        self._log = SetupLog(database)
+        self._log = CameraSetupStore(database)
         self._changed = changed
 
     def views(self, *, is_deleted: bool = False) -> list[dict[str, Any]]:
@@ -44,7 +44,7 @@ class SetupDesk:
         Raises:
             InputError: a value that no setup can have.
         """
-        return _view(SetupRow("", 0, 0.0, document.model_dump(mode="json"), False))
+        return _view(CameraSetupRow("", 0, 0.0, document.model_dump(mode="json"), False))
 
     def add(self, document: SetupDocument) -> dict[str, Any]:
         """Keeps a new setup."""
@@ -61,7 +61,7 @@ class SetupDesk:
         return self._keep(setup, revision + 1, document)
 
     def _keep(self, setup: str, revision: int, document: SetupDocument) -> dict[str, Any]:
-        row = SetupRow(setup, revision, time.time(), document.model_dump(mode="json"), False)
+        row = CameraSetupRow(setup, revision, time.time(), document.model_dump(mode="json"), False)
         view = _view(row)
         try:
             self._log.add(setup, revision, row.made, row.content)
@@ -102,7 +102,7 @@ class SetupDesk:
         made.tracking()
         return made, row.revision
 
-    def _known(self, setup: str, revision: int | None = None) -> SetupRow:
+    def _known(self, setup: str, revision: int | None = None) -> CameraSetupRow:
         row = self._log.get(setup, revision)
         if row is None:
             which = "" if revision is None else f" of revision {revision}"
@@ -110,7 +110,7 @@ class SetupDesk:
         return row
 
 
-def _view(row: SetupRow) -> dict[str, Any]:
+def _view(row: CameraSetupRow) -> dict[str, Any]:
     setup = SetupDocument.model_validate(row.content).setup()
     return {
         "id": row.id,

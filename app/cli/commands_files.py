@@ -107,11 +107,11 @@ def _planned(stem: str, gait: Gait, method: Method) -> Exportable:
 def _plan(gait: Gait, method: Method) -> Plan:
     result = None
     if gait.segment_table is None and gait.recorded is None and method is Method.NLP:
-        judged = optimise(gait)
-        if judged.status is SolveStatus.SOLVED:
-            result = {**judged.content, "trajectory": trajectory_content(judged.trajectory)}
+        verified = optimise(gait)
+        if verified.status is SolveStatus.SOLVED:
+            result = {**verified.content, "trajectory": trajectory_content(verified.trajectory)}
         else:
-            note(" ".join(judged.explanation) or "The exact tier found no motion.")
+            note(" ".join(verified.explanation) or "The exact tier found no motion.")
     return make_plan(gait, result, solve_live)
 
 

@@ -15,12 +15,12 @@ from app.cli.methods import SOLVERS, Method
 from app.cli.output import end_on_sigterm, note, show
 from app.documents.gait_json import gait_schema
 from app.export.trajectory_files import write_trajectory
-from app.plans.verified_result import Judgement, judge
+from app.plans.verified_result import VerifiedResult, verify
 from app.store.gait_files import GaitFiles, default_data_folder
 from core.errors import InputError
 from core.gait.gait import Gait, heading_step, motion_problem
 from core.gait.manual_motion import manual_motion
-from core.gait.motion_source import making
+from core.gait.motion_source import motion_source
 from core.library.library import library, manual_entry
 from core.library.new_gait import with_robot
 from core.robot.model import load_robot
@@ -64,7 +64,7 @@ def _listed(gait_id: str, gait: Gait, kind: str) -> dict[str, Any]:
         "orientation": gait.orientation.value,
         "order": list(gait.order),
         "kind": kind,
-        "made": making(gait).value,
+        "made": motion_source(gait).value,
     }
 
 
@@ -141,32 +141,32 @@ def _written(path: Path | None) -> list[str]:
     return [] if path is None else [f"Wrote {path}."]
 
 
-def optimise(gait: Gait, method: Method = Method.NLP) -> Judgement:
+def optimise(gait: Gait, method: Method = Method.NLP) -> VerifiedResult:
     """Solves a gait in this process and holds the result to the independent checker."""
     problem = motion_problem(gait, load_robot(gait.robot))
-    return judge(problem, SOLVERS[method](problem))
+    return verify(problem, SOLVERS[method](problem))
 
 
 def run_optimise(options: Namespace) -> int:
     """Optimises a gait and writes its trajectory."""
     end_on_sigterm()
     gait = asked_gait(options)
-    judged = optimise(gait, options.method)
-    output = options.output if judged.status is SolveStatus.SOLVED else None
+    verified = optimise(gait, options.method)
+    output = options.output if verified.status is SolveStatus.SOLVED else None
     if output is not None:
-        write_trajectory(output, judged.trajectory)
+        write_trajectory(output, verified.trajectory)
     content: dict[str, Any] = {
         "gait": options.gait,
         "method": options.method.value,
         "knots": gait.timeline.sample_count,
         "knot_time": gait.timeline.sample_time,
         "robot": gait.robot,
-        **judged.content,
-        "evidence": None if judged.result.evidence is None else judged.result.evidence.value,
+        **verified.content,
+        "evidence": None if verified.result.evidence is None else verified.result.evidence.value,
         "trajectory": _path(output),
     }
     show(options, content, [*_optimise_lines(content), *_written(output)])
-    return EXIT_OF_STATUS[judged.status]
+    return EXIT_OF_STATUS[verified.status]
 
 
 def _optimise_lines(content: dict[str, Any]) -> list[str]:

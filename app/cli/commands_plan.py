@@ -110,11 +110,11 @@ def trajectory_of(gait: Gait) -> Trajectory:
         return gait_trajectory(gait, gait.recorded, load_robot(gait.robot))
     if gait.segment_table is not None:
         return manual_motion(gait, load_robot(gait.robot)).trajectory
-    judged = optimise(gait)
-    if judged.status is SolveStatus.SOLVED:
-        return judged.trajectory
-    sentence = " ".join(judged.explanation) or "The optimiser found no motion."
-    if judged.status is SolveStatus.INFEASIBLE:
+    verified = optimise(gait)
+    if verified.status is SolveStatus.SOLVED:
+        return verified.trajectory
+    sentence = " ".join(verified.explanation) or "The optimiser found no motion."
+    if verified.status is SolveStatus.INFEASIBLE:
         raise InfeasibleError(sentence, gait.name)
     raise CheckError(sentence, gait.name)
 

@@ -21,7 +21,7 @@ from app.cli.output import (
 )
 from app.documents.gait_json import parse_gait
 from app.export.trajectory_files import read_text, read_trajectory
-from app.learning.parameter_sets import LearnedSets
+from app.learning.parameter_sets import ParameterSets
 from app.simulation.problem import report_figures, way_problem
 from app.simulation.view import variations_content
 from app.store.database import DATABASE, Database
@@ -110,7 +110,7 @@ def _physics(options: Namespace, model: RobotModel) -> PhysicsSet:
             "--physics",
         )
     with closing(Database(path)) as database:
-        return LearnedSets(database).chosen(model, options.physics)
+        return ParameterSets(database).chosen(model, options.physics)
 
 
 def _input(options: Namespace) -> tuple[RobotModel, Trajectory, Gait | None]:

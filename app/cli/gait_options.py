@@ -21,7 +21,7 @@ from core.gait.gait import (
 )
 from core.library.library import library, optimised_entry
 from core.library.new_gait import with_robot
-from core.motion.heading_profile import Turning
+from core.motion.heading_profile import HeadingProfile
 from core.problem.motion_problem import Boundary
 from core.robot.model import load_robot
 
@@ -118,6 +118,6 @@ def _step(gait: Gait, options: Namespace) -> tuple[float, float, float]:
 
 def returns_anew(gait: Gait, options: Namespace) -> bool:
     """Whether the closing stance is as long as the turn back takes: nobody has set it, on file or here."""
-    if gait.options.turning is not Turning.RETURN or options.closing_knots is not None:
+    if gait.options.turning is not HeadingProfile.RETURN or options.closing_knots is not None:
         return False
     return gait.timeline == with_return(gait, load_robot(gait.robot)).timeline

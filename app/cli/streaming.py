@@ -19,7 +19,7 @@ from app.bridge.states import IN_RUN, LinkState, RobotSnapshot, RobotState, RunP
 from app.bridge.stop_confirmation import STOP_LIMIT
 from app.cli.output import Interrupted, ignore_interrupts, note
 from app.emulator.emulated_robot import start_emulator
-from app.robot.recorded_bridge import KeptRun, KeptRuns
+from app.robot.recorded_bridge import RecordedBridge, RecordedRun
 from app.robot.views import EMULATOR, RunOrigin
 from app.runs.plan_json import file_plan_content
 from app.store.database import Database
@@ -64,9 +64,9 @@ def stream(model: RobotModel, plan: RunPlan, file: Path, device: str, data: Path
     """
     require_folder(data)
     with closing(Database(data / "studio.sqlite3")) as database, _robot(device) as line:
-        kept = KeptRuns(database, lambda: note(kept.trouble or "The record of the run has caught up."))
+        kept = RecordedBridge(database, lambda: note(kept.trouble or "The record of the run has caught up."))
         with closing(kept):
-            sending = Sending(kept, plan, KeptRun(_origin(plan, file), file_plan_content(model, plan)))
+            sending = Sending(kept, plan, RecordedRun(_origin(plan, file), file_plan_content(model, plan)))
             try:
                 return Streamed(sending.run(line), is_interrupted=False)
             except (KeyboardInterrupt, Interrupted):
@@ -97,7 +97,7 @@ class Sending:
         run: what is kept of it, but for its id.
     """
 
-    def __init__(self, kept: KeptRuns, plan: RunPlan, run: KeptRun) -> None:
+    def __init__(self, kept: RecordedBridge, plan: RunPlan, run: RecordedRun) -> None:
         self._kept = kept
         self._plan = plan
         self._run = run

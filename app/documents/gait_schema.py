@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from core.gait.gait import GaitOptions, Orientation
 from core.gait.recording import RecordingForm
-from core.motion.heading_profile import Turning
+from core.motion.heading_profile import HeadingProfile
 from core.problem.motion_problem import Boundary, Cost, Workspace
 
 SCHEMA_DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -95,7 +95,7 @@ class OptionsModel(_Model):
         "limit of each motor's acceleration, m/s²; null: none", default=None
     )
     boundary: Boundary = _field("from rest to rest, or a cycle", default=GaitOptions.boundary)
-    turning: Turning = _field("when a gait with yaw turns the body", default=GaitOptions.turning)
+    turning: HeadingProfile = _field("when a gait with yaw turns the body", default=GaitOptions.turning)
     merge: float = _field(
         "waypoints are left out within this distance of the motors' path, m; 0: one waypoint a knot is sent",
         default=GaitOptions.merge,

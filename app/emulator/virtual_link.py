@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from app.bridge.state_machine import RobotSession
+from app.bridge.state_machine import RobotStateMachine
 from app.bridge.states import Direction, RobotSnapshot
-from app.bridge.write_gate import Gate
+from app.bridge.write_gate import WriteGate
 from app.emulator.faults import Troubles
 from app.emulator.firmware import Firmware
 from app.emulator.profiles import PROFILES, ProfileName
@@ -16,7 +16,7 @@ from core.wire.messages import MOTORS, RESET_MM
 DEVICE = "virtual"
 
 
-class VirtualBridge:
+class VirtualLink:
     """A session on an emulated robot; each step is one step of the robot's program.
 
     Args:
@@ -43,8 +43,8 @@ class VirtualBridge:
         self.heard: list[bytes] = []
         self.to_robot: Callable[[bytes], bytes] = bytes
         self.from_robot: Callable[[bytes], bytes] = bytes
-        self.gate = Gate(lambda way, data, _: self.log.append((way, data)), lambda: self.now)
-        self.session = RobotSession(self.gate)
+        self.gate = WriteGate(lambda way, data, _: self.log.append((way, data)), lambda: self.now)
+        self.session = RobotStateMachine(self.gate)
         self.troubles = Troubles(self.firmware, self._pull, seed)
         self._plugged = True
         self._program = self.firmware.run()

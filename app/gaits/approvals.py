@@ -9,7 +9,7 @@ from typing import Any
 from app.documents.gait_json import parse_gait
 from app.gaits.open_gait import OpenGait, VerdictOf, approval_of
 from app.plans.plan import Plan
-from app.store.gait_store import GaitLog
+from app.store.gait_store import GaitStore
 from core.errors import FootfallError, NotFoundError, StateError
 from core.findings import Approval, Verdict, approve
 from core.gait.gait import Gait
@@ -38,7 +38,7 @@ class ApprovalRecord:
 
 
 @dataclass(frozen=True)
-class Word:
+class ApprovalRequest:
     """What a person says of a verdict.
 
     Args:
@@ -52,14 +52,16 @@ class Word:
     accept_warnings: bool = False
 
 
-def approved(open_gait: OpenGait, plan: Plan, verdict_of: VerdictOf, word: Word) -> tuple[Approval, Verdict]:
+def approved(
+    open_gait: OpenGait, plan: Plan, verdict_of: VerdictOf, request: ApprovalRequest
+) -> tuple[Approval, Verdict]:
     """A person's approval of the verdict that they saw, if it is the verdict of today.
 
     Args:
         open_gait: the gait with the verdict that it was given.
         plan: what it amounts to.
         verdict_of: checks it as everything stands now, which may have changed without an edit.
-        word: what the person says.
+        request: what the person says.
 
     Raises:
         StateError: there is no verdict, another one stands by now, an error stands, a warning is not
@@ -70,7 +72,7 @@ def approved(open_gait: OpenGait, plan: Plan, verdict_of: VerdictOf, word: Word)
             "Check this gait first: it changed since the last check, or was never checked.", "check"
         )
     seen, now = open_gait.verdict.content_hash, verdict_of(plan, open_gait.gait)
-    if word.verdict_hash not in (None, seen):
+    if request.verdict_hash not in (None, seen):
         raise StateError("Another verdict stands by now; look at it and approve again.", "verdict_hash")
     if now.content_hash != seen:
         raise StateError(
@@ -78,7 +80,7 @@ def approved(open_gait: OpenGait, plan: Plan, verdict_of: VerdictOf, word: Word)
             "this gait again.",
             "check",
         )
-    return approve(now, word.by, datetime.now(UTC), accept_warnings=word.accept_warnings), now
+    return approve(now, request.by, datetime.now(UTC), accept_warnings=request.accept_warnings), now
 
 
 def is_confirmed(open_gait: OpenGait, plan: Plan, verdict_of: VerdictOf) -> bool:
@@ -116,7 +118,7 @@ class Approvals:
         log: where they and the versions of documents are kept.
     """
 
-    def __init__(self, log: GaitLog) -> None:
+    def __init__(self, log: GaitStore) -> None:
         self._log = log
 
     def all(self, gait_id: str) -> tuple[ApprovalRecord, ...]:

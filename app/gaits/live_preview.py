@@ -15,7 +15,7 @@ from functools import partial
 from typing import Any, Protocol, TypeVar
 
 from app.documents.gait_json import gait_content, gait_from_content, motion_hash
-from app.gaits.normalise import settled
+from app.gaits.normalise import normalise
 from app.gaits.views import plan_view
 from app.plans.plan import Plan, Solve
 from app.plans.sequence_plan import plan_of
@@ -56,7 +56,7 @@ class _Failure:
     until: float
 
 
-class LiveDesk:
+class LivePreview:
     """Asks the live tier, and remembers its last answers.
 
     Args:
@@ -143,7 +143,7 @@ class LiveDesk:
             InputError: the document cannot be read, or makes no motion.
             StateError: a locked cell would change.
         """
-        gait = before if document is None else settled(before, gait_from_content(document, "document"))[0]
+        gait = before if document is None else normalise(before, gait_from_content(document, "document"))[0]
         plan = self.plan(gait)
         if plan.trajectory is None and plan.refusal is not None:
             raise plan.refusal

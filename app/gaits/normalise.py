@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.gaits.sequence_documents import settled_sequence
-from app.gaits.settling_held import settle_held
-from app.gaits.settling_results import settle_results
+from app.gaits.sequence_documents import normalise_sequence
+from app.gaits.settling_held import normalise_held_feet
+from app.gaits.settling_results import normalise_results
 from core.arrays import Bools
 from core.errors import StateError
 from core.gait.gait import Gait, with_iterations
@@ -18,7 +18,7 @@ from core.motion.contact_timeline import ContactTimeline
 from core.segments.from_timeline_edit import carried
 
 
-def settled(before: Gait, after: Gait) -> tuple[Gait, str | None]:
+def normalise(before: Gait, after: Gait) -> tuple[Gait, str | None]:
     """What an edit makes of a gait: locks held, timeline and segment table in agreement.
 
     Args:
@@ -33,11 +33,11 @@ def settled(before: Gait, after: Gait) -> tuple[Gait, str | None]:
         InputError: the edit says that a foot is held up which stands.
     """
     if before.sequence or after.sequence:
-        return settled_sequence(before, after), None
+        return normalise_sequence(before, after), None
     require_locks(before, after)
-    tabled = settle_table(before, settle_drawing(before, after))
-    changed, notice = settle_held(*tabled, is_said=before.held != after.held)
-    return settle_results(before, changed, notice)
+    tabled = normalise_table(before, normalise_drawing(before, after))
+    changed, notice = normalise_held_feet(*tabled, is_said=before.held != after.held)
+    return normalise_results(before, changed, notice)
 
 
 def require_locks(before: Gait, after: Gait) -> None:
@@ -62,7 +62,7 @@ def _require_held(changed: Bools) -> None:
         )
 
 
-def settle_drawing(before: Gait, after: Gait) -> Gait:
+def normalise_drawing(before: Gait, after: Gait) -> Gait:
     """Repeats a drawn gait's timeline for other iterations, and turns it for another direction.
 
     A timeline that was drawn differently in the same edit says itself what is meant and stays.
@@ -85,7 +85,7 @@ def settle_drawing(before: Gait, after: Gait) -> Gait:
     return replace(turned, held=_held(before, after)) if after.held == before.held else turned
 
 
-def in_agreement(gait: Gait) -> tuple[Gait, str | None]:
+def normalise_imported(gait: Gait) -> tuple[Gait, str | None]:
     """A gait from elsewhere whose timeline follows its segment table, which is what moves the robot.
 
     Returns:
@@ -124,7 +124,7 @@ def _held(before: Gait, after: Gait) -> HeldFeet:
     return after.held.turned(_shift(before, after, legs), legs)
 
 
-def settle_table(before: Gait, after: Gait) -> tuple[Gait, str | None]:
+def normalise_table(before: Gait, after: Gait) -> tuple[Gait, str | None]:
     """Brings segment table and timeline of an edited gait into agreement.
 
     Where only the table, direction or iterations changed, the timeline follows. Where the timeline was

@@ -9,9 +9,9 @@ from functools import partial
 from typing import Generic, TypeVar
 
 from app.gaits.plan_cache import AskedPlan
-from app.gaits.service import GaitDesk
+from app.gaits.service import GaitService
 from app.plans.plan import Plan
-from app.session.command_queue import Session
+from app.session.command_queue import CommandQueue
 
 Result = TypeVar("Result")
 
@@ -28,17 +28,17 @@ class _Waiting(Generic[Result]):
     future: Future[Result]
 
 
-class PlanSettling:
+class Planner:
     """Makes the plan that a command needs, and then lets the session do the command.
 
     Args:
-        session: whose thread owns the desk.
-        desk: the gaits.
+        commands: whose thread owns the desk.
+        service: the gaits.
     """
 
-    def __init__(self, session: Session, desk: GaitDesk) -> None:
-        self._session = session
-        self._desk = desk
+    def __init__(self, commands: CommandQueue, service: GaitService) -> None:
+        self._commands = commands
+        self._service = service
         self._makers = ThreadPoolExecutor(max_workers=THREADS, thread_name_prefix="plans")
 
     def close(self) -> None:
@@ -59,13 +59,13 @@ class PlanSettling:
             The future with what the action returns, or with what it or the gait's opening raises.
         """
         waiting = _Waiting(gait_id, action, Future() if future is None else future)
-        self._session.tell(partial(self._go_on, waiting, retry=True))
+        self._commands.tell(partial(self._go_on, waiting, retry=True))
         return waiting.future
 
     def _go_on(self, waiting: _Waiting[Result], *, retry: bool) -> None:
         """On the session's thread: the action, or its plan first."""
         try:
-            asked = self._desk.unplanned(waiting.gait, retry=retry)
+            asked = self._service.unplanned(waiting.gait, retry=retry)
             if asked is None:
                 waiting.future.set_result(waiting.action())
             else:
@@ -76,12 +76,12 @@ class PlanSettling:
     def _make(self, asked: AskedPlan, waiting: _Waiting[Result]) -> None:
         """On a thread of its own: the plan, which the session then takes over."""
         try:
-            plan = self._desk.planned(asked.open_gait.gait)
+            plan = self._service.planned(asked.open_gait.gait)
         except BaseException as error:  # it belongs to whoever waits for the result
             waiting.future.set_exception(error)
             return
-        self._session.tell(partial(self._take, asked, plan, waiting))
+        self._commands.tell(partial(self._take, asked, plan, waiting))
 
     def _take(self, asked: AskedPlan, plan: Plan, waiting: _Waiting[Result]) -> None:
-        self._desk.take_plan(asked, plan)
+        self._service.on_plan(asked, plan)
         self._go_on(waiting, retry=False)

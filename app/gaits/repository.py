@@ -13,14 +13,14 @@ from app.documents.gait_json import parse_gait
 from app.gaits.open_gait import OpenGait, fresh_gait, gait_of
 from app.gaits.trash import ROUTE, DeletedGait, deleted_gaits
 from app.store.gait_files import GaitFiles, free_id
-from app.store.gait_store import EditingRow, GaitLog, VersionRow
+from app.store.gait_store import EditingRow, GaitStore, VersionRow
 from app.undo.history import History
 from core.errors import NotFoundError
 from core.gait.gait import Gait
 from core.library.library import library
 
 
-class GaitShelf:
+class GaitRepository:
     """The gaits that are kept.
 
     Args:
@@ -28,7 +28,7 @@ class GaitShelf:
         log: what is edited of any.
     """
 
-    def __init__(self, files: GaitFiles, log: GaitLog) -> None:
+    def __init__(self, files: GaitFiles, log: GaitStore) -> None:
         self._files = files
         self._log = log
         self._logged: dict[str, History] = {}

@@ -56,7 +56,7 @@ def made_sequence(name: str, asked: Iterable[AskedPart], gait_of: GaitOf, notes:
     return made
 
 
-def settled_sequence(before: Gait, after: Gait) -> Gait:
+def normalise_sequence(before: Gait, after: Gait) -> Gait:
     """What an edit makes of a sequence: its parts as they were given, all else as it follows from them.
 
     Raises:
@@ -64,16 +64,16 @@ def settled_sequence(before: Gait, after: Gait) -> Gait:
     """
     if not after.sequence:
         raise InputError("A sequence has at least one part; delete the sequence instead.", "sequence")
-    settled = derived(after)
+    normalise = derived(after)
     for field in DERIVED:
         asked = getattr(after, field)
-        if before.sequence and asked not in (getattr(before, field), getattr(settled, field)):
+        if before.sequence and asked not in (getattr(before, field), getattr(normalise, field)):
             raise InputError(
                 f"The {field.replace('_', ' ')} of a sequence follows from its parts. Edit the gait that a "
                 "part comes from, and take it over again.",
                 field,
             )
-    return settled
+    return normalise
 
 
 def source_states(gait: Gait, gait_of: GaitOf) -> tuple[SourceState, ...]:

@@ -12,16 +12,16 @@ from typing import Any
 
 from app.documents.gait_json import parse_gait
 from app.gaits.approvals import (
+    ApprovalRequest,
     Approvals,
-    Word,
     approval_record,
     approved,
     is_confirmed,
 )
-from app.gaits.normalise import in_agreement, settled
+from app.gaits.normalise import normalise, normalise_imported
 from app.gaits.open_gait import OpenGait, gait_text
 from app.gaits.plan_cache import AskedPlan, PlanCache
-from app.gaits.repository import GaitShelf
+from app.gaits.repository import GaitRepository
 from app.gaits.trash import DeletedGait
 from app.gaits.undo import merged_gait
 from app.gaits.versions import VersionKind, Versions, is_said_already
@@ -30,7 +30,7 @@ from app.plans.provenance import with_result
 from app.plans.sequence_plan import run_motions
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
-from app.store.gait_store import GaitLog, VersionRow
+from app.store.gait_store import GaitStore, VersionRow
 from app.undo.history import Author, Step
 from core.checks.simulation import Simulated
 from core.errors import StateError
@@ -42,7 +42,7 @@ from core.library.sequence import derived
 _SCRIPT = Author()
 
 
-class GaitDesk:
+class GaitService:
     """The open gaits.
 
     Args:
@@ -67,15 +67,15 @@ class GaitDesk:
         self._simulated_for = simulated_for
         self._plans = PlanCache(database, solve_for, self._verdict_of)
         self._connected = connected
-        log = GaitLog(database)
+        log = GaitStore(database)
         self.versions = Versions(log, clock)
         self.approvals = Approvals(log)
-        self._shelf = GaitShelf(files, log)
+        self._repository = GaitRepository(files, log)
         self._open: dict[str, OpenGait] = {}
 
     def marks(self) -> dict[str, tuple[object, ...]]:
         """Built-in gaits first, then saved ones; each with what changes whenever its line in a list may."""
-        stamps = self._shelf.stamps()
+        stamps = self._repository.stamps()
         ids = dict.fromkeys((*stamps, *self._open))
         # A result's provenance is saved with the gait and is no edit, so that it makes no revision.
         return {
@@ -88,7 +88,7 @@ class GaitDesk:
         open_gait = self._open.get(gait_id)
         if open_gait is not None:
             return open_gait.gait, open_gait.builtin, open_gait.edited
-        return self._shelf.glance(gait_id)
+        return self._repository.glance(gait_id)
 
     def open_gait(self, gait_id: str) -> OpenGait:
         """The gait's present state.
@@ -97,7 +97,7 @@ class GaitDesk:
             NotFoundError: there is none of that id.
         """
         if gait_id not in self._open:
-            self._open[gait_id] = self._shelf.gait(gait_id)
+            self._open[gait_id] = self._repository.gait(gait_id)
         return self._open[gait_id]
 
     def touched_by(self, page: str) -> tuple[OpenGait, ...]:
@@ -145,7 +145,7 @@ class GaitDesk:
             self._plan_of(open_gait)
         return asked
 
-    def take_plan(self, asked: AskedPlan, plan: Plan) -> None:
+    def on_plan(self, asked: AskedPlan, plan: Plan) -> None:
         """Takes over a plan that was made elsewhere, unless the gait or its results changed meanwhile."""
         now = self._open.get(asked.open_gait.id)
         if now is not None:
@@ -156,7 +156,7 @@ class GaitDesk:
         self.plan(gait_id)
         asked = self.unplanned(gait_id, retry=True)
         if asked is not None:
-            self.take_plan(asked, self.planned(asked.open_gait.gait))
+            self.on_plan(asked, self.planned(asked.open_gait.gait))
 
     def edit(
         self, gait_id: str, gait: Gait, label: str, revision: int | None, author: Author = _SCRIPT
@@ -179,7 +179,7 @@ class GaitDesk:
                 f"“{open_gait.gait.name}” was changed elsewhere; look at its new state and edit again.",
                 "revision",
             )
-        changed, notice = settled(open_gait.gait, gait)
+        changed, notice = normalise(open_gait.gait, gait)
         if changed == open_gait.gait:
             return open_gait
         return self._edited(open_gait, changed, label or "Edit", author, notice)
@@ -234,7 +234,7 @@ class GaitDesk:
         plan = self._plans.known(open_gait)
         if plan is not None and plan.provenance is not None:
             open_gait = self._restated(open_gait, replace(open_gait.gait, provenance=plan.provenance))
-        self._open[gait_id] = self._shelf.write(open_gait)
+        self._open[gait_id] = self._repository.write(open_gait)
         self.versions.keep(open_gait, VersionKind.SAVED, author)
         return self._open[gait_id]
 
@@ -253,8 +253,8 @@ class GaitDesk:
 
     def create(self, gait: Gait) -> OpenGait:
         """Adds a gait under a new id made from its name, and saves it."""
-        gait, notice = in_agreement(derived(gait) if gait.sequence else gait)
-        created = replace(self._shelf.add(gait, frozenset(self._open)), notice=notice)
+        gait, notice = normalise_imported(derived(gait) if gait.sequence else gait)
+        created = replace(self._repository.add(gait, frozenset(self._open)), notice=notice)
         self.versions.keep(created, VersionKind.SAVED)
         self._open[created.id] = created
         return created
@@ -276,17 +276,17 @@ class GaitDesk:
                 gait_id,
             )
         self.versions.keep(open_gait, VersionKind.BEFORE_DELETE)
-        self._shelf.remove(gait_id)
+        self._repository.remove(gait_id)
         self._close(gait_id)
         return self._return(gait_id, "Delete what was saved") if open_gait.builtin else None
 
     def deleted(self) -> tuple[DeletedGait, ...]:
         """What `restore` can bring back, the last deleted first."""
-        return self._shelf.deleted()
+        return self._repository.deleted()
 
     def restore(self, gait_id: str) -> OpenGait:
         """Brings a deleted gait back as it was, unsaved edits and what can be undone included."""
-        self._shelf.restore(gait_id)
+        self._repository.restore(gait_id)
         self._close(gait_id)
         return (
             self._return(gait_id, "Bring back what was saved")
@@ -323,22 +323,22 @@ class GaitDesk:
     def _verdict_of(self, plan: Plan, gait: Gait) -> Verdict:
         return verdict_of(plan, gait, self._simulated_for(plan))
 
-    def approve(self, gait_id: str, word: Word) -> OpenGait:
+    def approve(self, gait_id: str, request: ApprovalRequest) -> OpenGait:
         """Records a person's approval of the present verdict; see `app.gaits.approvals.approved`."""
         plan, open_gait = self.plan(gait_id), self.open_gait(gait_id)
-        approval, verdict = approved(open_gait, plan, self._verdict_of, word)
-        version = self.versions.made(open_gait, VersionKind.APPROVED, Author(name=word.by))
+        approval, verdict = approved(open_gait, plan, self._verdict_of, request)
+        version = self.versions.made(open_gait, VersionKind.APPROVED, Author(name=request.by))
         number = self.versions.newest_number(gait_id) if version is None else version.number
         record = approval_record(approval, number, plan, verdict)
         return self._put(replace(open_gait, approval=approval, revoked=None), version, record)
 
-    def take_simulation(self, waypoints_hash: str) -> tuple[OpenGait, ...]:
+    def on_simulated(self, waypoints_hash: str) -> tuple[OpenGait, ...]:
         """Takes verdict and approval from the open gaits whose waypoints were simulated since; gives them."""
         checked = tuple(self._open.values())
         touched = [g for g in checked if g.verdict and g.verdict.waypoints_hash == waypoints_hash]
         return tuple(self._put(gait.unapproved("It was simulated since")) for gait in touched)
 
-    def take_result(self, motion: str, content: dict[str, Any]) -> tuple[OpenGait, ...]:
+    def on_result(self, motion: str, content: dict[str, Any]) -> tuple[OpenGait, ...]:
         """Stores a checked result and gives back the open gaits whose plan it becomes."""
         self._database.put_result(motion, content)
         touched = []
@@ -361,6 +361,6 @@ class GaitDesk:
         self, open_gait: OpenGait, version: VersionRow | None = None, record: dict[str, Any] | None = None
     ) -> OpenGait:
         """Keeps a changed gait open and on the shelf, with version and approval record."""
-        self._shelf.put(open_gait, version, record)
+        self._repository.put(open_gait, version, record)
         self._open[open_gait.id] = open_gait
         return open_gait

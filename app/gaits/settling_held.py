@@ -9,7 +9,7 @@ from core.gait.held_feet import HeldFeet, feet_words
 from core.gait.held_rules import require_swinging, standing_of
 
 
-def settle_held(gait: Gait, notice: str | None, *, is_said: bool) -> tuple[Gait, str | None]:
+def normalise_held_feet(gait: Gait, notice: str | None, *, is_said: bool) -> tuple[Gait, str | None]:
     """Takes back that feet are held up which an edit of the timeline has put down there.
 
     Args:

@@ -10,7 +10,7 @@ from core.gait.gait import Gait
 SET_ASIDE = "The recorded motion of {file} was set aside; the motion is computed now. Undo brings it back."
 
 
-def settle_results(before: Gait, after: Gait, notice: str | None = None) -> tuple[Gait, str | None]:
+def normalise_results(before: Gait, after: Gait, notice: str | None = None) -> tuple[Gait, str | None]:
     """Sets a recorded motion aside where the edit asks for another one, and keeps the right provenance.
 
     Args:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from app.gaits.service import GaitDesk
+from app.gaits.service import GaitService
 from app.gaits.views import line_view
 from core.errors import FootfallError
 
@@ -15,20 +15,20 @@ Mark = tuple[object, ...]
 """Changes whenever a gait's line may."""
 
 
-class GaitList:
+class GaitSummaries:
     """The lines, kept by gait.
 
     Args:
-        desk: the gaits.
+        service: the gaits.
     """
 
-    def __init__(self, desk: GaitDesk) -> None:
-        self._desk = desk
+    def __init__(self, service: GaitService) -> None:
+        self._service = service
         self._kept: dict[str, tuple[Mark, Line | None]] = {}
 
     def lines(self) -> list[Line]:
         """A line of every gait that can be opened; one whose file is damaged is left out."""
-        marks = self._desk.marks()
+        marks = self._service.marks()
         self._kept = {gait_id: self._line(gait_id, mark) for gait_id, mark in marks.items()}
         return [line for _, line in self._kept.values() if line is not None]
 
@@ -41,7 +41,7 @@ class GaitList:
         if kept is not None and kept[0] == mark:
             return kept
         try:
-            gait, builtin, edited = self._desk.glance(gait_id)
+            gait, builtin, edited = self._service.glance(gait_id)
         except FootfallError:
             return mark, None
         return mark, line_view(gait_id, gait, builtin, edited)

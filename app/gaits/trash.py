@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from app.documents.gait_json import parse_gait
 from app.store.gait_files import GaitFiles
-from app.store.gait_store import GaitLog
+from app.store.gait_store import GaitStore
 from core.errors import FootfallError
 from core.library.library import library
 
@@ -30,7 +30,7 @@ class DeletedGait:
     when: float
 
 
-def deleted_gaits(files: GaitFiles, log: GaitLog) -> tuple[DeletedGait, ...]:
+def deleted_gaits(files: GaitFiles, log: GaitStore) -> tuple[DeletedGait, ...]:
     """What can be brought back, the last deleted first.
 
     A damaged file cannot, nor one whose id is in use again.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from app.documents.gait_json import gait_from_content
-from app.gaits.normalise import require_locks, settled
+from app.gaits.normalise import normalise, require_locks
 from app.gaits.settling_results import asks_anew
 from app.undo.history import Step
 from core.errors import FootfallError, StateError
@@ -28,7 +28,7 @@ def merged_gait(present: Gait, step: Step) -> Gait:
                 return derived(gait)
             require_locks(present, gait)
             _require_recorded(present, gait, step)
-            whole, notice = settled(present, gait)
+            whole, notice = normalise(present, gait)
             if notice is not None or replace(whole, provenance=gait.provenance) != gait:
                 raise StateError(
                     "The timeline would no longer agree with the segment table or the feet held up.",

@@ -15,13 +15,13 @@ from app.gaits.open_gait import OpenGait
 from app.plans.plan import Plan
 from app.plans.provenance import provenance_view
 from app.plans.reach_outline_view import reach_rings
-from app.plans.verified_result import Judgement
+from app.plans.verified_result import VerifiedResult
 from core.arrays import Floats
 from core.checks.coupling import real_heights
 from core.findings import Approval, Verdict
 from core.gait.gait import Gait
 from core.gait.mirroring import mirror_of
-from core.gait.motion_source import making
+from core.gait.motion_source import motion_source
 from core.library.library import library
 from core.motion.speeds import foot_speeds, motor_speeds
 from core.motion.trajectory import Trajectory
@@ -47,7 +47,7 @@ def line_view(gait_id: str, gait: Gait, builtin: bool, edited: bool) -> dict[str
         "kind": "builtin" if builtin else "saved",
         "group": library()[gait_id].group.value if builtin else "Saved",
         "robot": load_robot(gait.robot).title,
-        "source": making(gait).value,
+        "source": motion_source(gait).value,
         "orientation": gait.orientation.value,
         "order": list(gait.order),
         "step": list(gait.step),
@@ -172,7 +172,7 @@ def _motor_speeds_mm_s(model: RobotModel, trajectory: Trajectory) -> Floats:
     return np.round(speeds * 1000, 2)
 
 
-def live_view(answer: Judgement) -> dict[str, Any]:
+def live_view(answer: VerifiedResult) -> dict[str, Any]:
     """The live tier's answer as the checker sees it; indices count from 0."""
     result, check = answer.result, answer.check
     figures = {

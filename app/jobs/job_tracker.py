@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from typing import Any, Protocol
 
-from app.jobs.repository import ENDED, JobBook
+from app.jobs.repository import ENDED, JobRepository
 
 Content = dict[str, Any]
 
@@ -21,11 +21,11 @@ class JobHandle(Protocol):
         """Ends it."""
 
 
-class RunningJobs:
+class JobTracker:
     """Jobs that are on. Only the session's thread calls this, but for what says otherwise.
 
     Args:
-        book: the list of jobs.
+        job_repository: the list of jobs.
         later: does something on the session's thread.
         shown: told of each job that changed, on the session's thread.
         sentence: what a job says of itself while it is at work.
@@ -33,12 +33,12 @@ class RunningJobs:
 
     def __init__(
         self,
-        book: JobBook,
+        job_repository: JobRepository,
         later: Callable[[Callable[[], None]], object],
         shown: Callable[[Content], object],
         sentence: str,
     ) -> None:
-        self._book = book
+        self._job_repository = job_repository
         self._later = later
         self._shown = shown
         self._sentence = sentence
@@ -50,7 +50,7 @@ class RunningJobs:
 
     def contents(self) -> list[Content]:
         """The jobs that are on, as JSON content."""
-        return [self._book.content(job_id) for job_id in self._on]
+        return [self._job_repository.content(job_id) for job_id in self._on]
 
     def teller(self, job_id: str) -> Callable[[float], None]:
         """What any thread tells the share that is done; it passes on what is not too soon after the last."""
@@ -67,7 +67,7 @@ class RunningJobs:
 
     def cancel(self, job_id: str) -> Content:
         """Asks a job to end; one that ended already stays as it is."""
-        job, handle = self._book.content(job_id), self._on.get(job_id)
+        job, handle = self._job_repository.content(job_id), self._on.get(job_id)
         if handle is not None and job["state"] not in ENDED:
             job |= {"state": "cancelling", "sentence": "It ends in a moment."}
             handle.cancel()
@@ -85,7 +85,7 @@ class RunningJobs:
     def _progressed(self, job_id: str, share: float) -> None:
         if job_id not in self._on:
             return
-        job = self._book.content(job_id)
+        job = self._job_repository.content(job_id)
         if job["state"] in ("queued", "running"):
             started = job["started"] or time.time()
             job |= {"state": "running", "started": started, "share": share, "sentence": self._sentence}
@@ -93,9 +93,9 @@ class RunningJobs:
 
     def _ended(self, job_id: str, end: Content) -> None:
         del self._on[job_id]
-        job = self._book.content(job_id)
+        job = self._job_repository.content(job_id)
         if job["state"] == "cancelling" and end["state"] != "done":
             end = {"state": "cancelled", "sentence": "Cancelled."}
         job |= {**end, "ended": time.time()}
-        self._book.keep(job)
+        self._job_repository.keep(job)
         self._shown(job)

@@ -13,18 +13,18 @@ from typing import Any
 from app.documents.gait_json import asked_hash
 from app.documents.trajectory_json import trajectory_content
 from app.gaits.open_gait import OpenGait
-from app.jobs.repository import ENDED, JobBook
+from app.jobs.repository import ENDED, JobRepository
 from app.jobs.timing_view import timed_gait, timing_content, timing_problem
 from app.plans.plan import Plan, iterate_plan
 from app.plans.provenance import result_provenance
-from app.plans.verified_result import Judgement, judge
+from app.plans.verified_result import VerifiedResult, verify
 from core.errors import InputError, StateError
 from core.gait.gait import Gait, motion_problem
 from core.gait.provenance import Provenance
 from core.motion.trajectory import Trajectory
 from core.problem.motion_problem import MotionProblem
 from core.robot.model import load_robot
-from solver_jobs import Job, JobKind, JobRunner, JobState, MotionResult, SolveStatus, TimingResult
+from solver_jobs import Job, JobKind, JobQueue, JobState, MotionResult, SolveStatus, TimingResult
 
 MOST_COURSES = 4
 """Jobs whose every iteration can still be looked at."""
@@ -44,26 +44,26 @@ class JobOrigin:
     problem: MotionProblem
 
 
-class JobDesk:
+class OptimisationService:
     """The optimisations in the list of jobs.
 
     Args:
-        book: the list of jobs.
+        job_repository: the list of jobs.
         runner: the worker processes.
-        take_result: told of a checked result: motion hash and content to keep.
+        on_result: told of a checked result: motion hash and content to keep.
     """
 
     def __init__(
         self,
-        book: JobBook,
-        runner: JobRunner,
-        take_result: Callable[[str, dict[str, Any]], None],
+        job_repository: JobRepository,
+        runner: JobQueue,
+        on_result: Callable[[str, dict[str, Any]], None],
     ) -> None:
-        self._book = book
+        self._job_repository = job_repository
         self._runner = runner
-        self._take_result = take_result
+        self._take_result = on_result
         self._origins: dict[str, JobOrigin] = {}
-        self._courses: OrderedDict[str, tuple[Trajectory, ...]] = OrderedDict()
+        self._iterate_motions: OrderedDict[str, tuple[Trajectory, ...]] = OrderedDict()
 
     def submit(self, open_gait: OpenGait, kind: JobKind = JobKind.MOTION) -> dict[str, Any]:
         """Starts the optimisation of a gait as it is now, or the search for its fastest timing.
@@ -86,11 +86,11 @@ class JobDesk:
         origin = JobOrigin(open_gait.id, gait, asked_hash(gait), problem)
         job_id = self._runner.submit(problem, gait.name, kind)
         self._origins[job_id] = origin
-        return self._book.begin(job_id, KIND_WORDS[kind], origin.gait_id, gait.name, origin.motion)
+        return self._job_repository.begin(job_id, KIND_WORDS[kind], origin.gait_id, gait.name, origin.motion)
 
     def cancel(self, job_id: str) -> dict[str, Any]:
         """Asks a job to end; one that ended already stays as it is."""
-        content = self._book.content(job_id)
+        content = self._job_repository.content(job_id)
         if content["state"] not in ENDED:
             self._runner.cancel(job_id)
         return content
@@ -100,7 +100,7 @@ class JobDesk:
         origin = self._origins.get(job.id)
         if origin is None:
             return None
-        content = self._book.content(job.id)
+        content = self._job_repository.content(job.id)
         content |= {
             "state": job.state.value,
             "sentence": job.sentence,
@@ -114,18 +114,18 @@ class JobDesk:
             if provenance is not None:
                 content["result"]["usable"]["document"]["provenance"] = asdict(provenance)
         elif job.result is not None:
-            self._keep_course(content, job.result.course)
+            self._keep_iterates(content, job.result.iterate_motions)
             self._judge(content, origin, job.result)
-        self._book.keep(content)
+        self._job_repository.keep(content)
         return content
 
-    def _keep_course(self, content: dict[str, Any], course: tuple[Trajectory, ...]) -> None:
+    def _keep_iterates(self, content: dict[str, Any], iterate_motions: tuple[Trajectory, ...]) -> None:
         """Keeps the motions of a job's iterations in memory, in place of those of the oldest job."""
-        self._courses[content["id"]] = course
-        content["course"] = len(course)
-        while len(self._courses) > MOST_COURSES:
-            oldest, _ = self._courses.popitem(last=False)
-            self._book.content(oldest)["course"] = 0
+        self._iterate_motions[content["id"]] = iterate_motions
+        content["course"] = len(iterate_motions)
+        while len(self._iterate_motions) > MOST_COURSES:
+            oldest, _ = self._iterate_motions.popitem(last=False)
+            self._job_repository.content(oldest)["course"] = 0
 
     def iterate(self, job_id: str, number: int) -> Plan:
         """The motion at an iteration, to be looked at.
@@ -135,20 +135,24 @@ class JobDesk:
             StateError: its iterations are no longer kept.
             InputError: it has no iteration of that number.
         """
-        content = self._book.content(job_id)
-        course = self._courses.get(job_id, ())
-        if not course:
+        content = self._job_repository.content(job_id)
+        iterate_motions = self._iterate_motions.get(job_id, ())
+        if not iterate_motions:
             raise StateError(
                 f"The iterations of this job are not kept any more; those of the last {MOST_COURSES} jobs "
                 "are, until the studio ends. Optimise again to look at them.",
                 "course",
             )
-        if not 0 <= number < len(course):
+        if not 0 <= number < len(iterate_motions):
             raise InputError(
-                f"This job has iterations 0 to {len(course) - 1}, and none of number {number}.", "course"
+                f"This job has iterations 0 to {len(iterate_motions) - 1}, and none of number {number}.",
+                "course",
             )
         return iterate_plan(
-            self._origins[content["id"]].problem.model, course[number], number, len(course) - 1
+            self._origins[content["id"]].problem.model,
+            iterate_motions[number],
+            number,
+            len(iterate_motions) - 1,
         )
 
     def _keep_timed_motion(self, gait: Gait, result: TimingResult) -> Provenance | None:
@@ -156,24 +160,24 @@ class JobDesk:
         timed = timed_gait(gait, result)
         if timed is None or result.usable is None:
             return None
-        judged = judge(motion_problem(timed, load_robot(timed.robot)), result.usable)
-        return self._keep(asked_hash(timed), judged) if judged.status is SolveStatus.SOLVED else None
+        verified = verify(motion_problem(timed, load_robot(timed.robot)), result.usable)
+        return self._keep(asked_hash(timed), verified) if verified.status is SolveStatus.SOLVED else None
 
-    def _keep(self, motion: str, judged: Judgement) -> Provenance:
+    def _keep(self, motion: str, verified: VerifiedResult) -> Provenance:
         """Hands a checked result on with its provenance."""
-        result = {**judged.content, "trajectory": trajectory_content(judged.trajectory)}
+        result = {**verified.content, "trajectory": trajectory_content(verified.trajectory)}
         provenance = result_provenance(motion, result)
         self._take_result(motion, {**result, "provenance": asdict(provenance)})
         return provenance
 
     def _judge(self, content: dict[str, Any], origin: JobOrigin, result: MotionResult) -> None:
         """Believes a solved result only if the independent checker confirms it."""
-        judged = judge(origin.problem, result)
-        content["result"] = judged.content
-        if judged.status is SolveStatus.SOLVED:
-            self._keep(origin.motion, judged)
+        verified = verify(origin.problem, result)
+        content["result"] = verified.content
+        if verified.status is SolveStatus.SOLVED:
+            self._keep(origin.motion, verified)
         elif content["state"] == JobState.DONE.value:
-            content |= {"state": JobState.FAILED.value, "sentence": judged.explanation[0]}
+            content |= {"state": JobState.FAILED.value, "sentence": verified.explanation[0]}
 
 
 def _iterate_content(iterate: Any) -> dict[str, Any]:

@@ -19,7 +19,7 @@ AGAIN = {"simulate": "Simulate again.", "track": "Track the video again."}
 """What to do about a job that was interrupted, by kind."""
 
 
-class JobBook:
+class JobRepository:
     """The jobs.
 
     Args:

@@ -8,7 +8,7 @@ from typing import Any
 
 from app.simulation.problem import fitting_sets, physics_content, physics_from_content
 from app.store.database import Database
-from app.store.learning_store import LearningLog
+from app.store.learning_store import LearningStore
 from core.errors import InputError, NotFoundError
 from core.physics.masses import default_physics
 from core.physics.parameters import PhysicsSet, physics_sets
@@ -16,7 +16,7 @@ from core.robot.model import RobotModel
 
 
 @dataclass(frozen=True)
-class LearnedSet:
+class ParameterSet:
     """A set of parameters that a person named.
 
     Args:
@@ -47,7 +47,7 @@ class LearnedSet:
         return {**words, "key": self.physics.name, "title": self.physics.title, "physics": parameters}
 
 
-class LearnedSets:
+class ParameterSets:
     """The sets.
 
     Args:
@@ -55,9 +55,9 @@ class LearnedSets:
     """
 
     def __init__(self, database: Database) -> None:
-        self._log = LearningLog(database)
+        self._log = LearningStore(database)
 
-    def found(self, *, deleted: bool = False) -> tuple[LearnedSet, ...]:
+    def found(self, *, deleted: bool = False) -> tuple[ParameterSet, ...]:
         """All sets, or the deleted ones, the newest first."""
         return tuple(_set(content) for content in self._log.sets(deleted=deleted))
 
@@ -88,7 +88,7 @@ class LearnedSets:
 
     def save(
         self, name: str, by: str, robot: str, physics: PhysicsSet, learning: str, note: str
-    ) -> LearnedSet:
+    ) -> ParameterSet:
         """Keeps parameters as the next version of a name.
 
         Args:
@@ -125,7 +125,7 @@ class LearnedSets:
         """
         self._put(name, version, time.time())
 
-    def restore(self, name: str, version: int) -> LearnedSet:
+    def restore(self, name: str, version: int) -> ParameterSet:
         """Brings a deleted set back.
 
         Raises:
@@ -139,8 +139,8 @@ class LearnedSets:
             raise NotFoundError(f"There is no set “{name}”, version {version}.", "name")
 
 
-def _set(content: dict[str, Any]) -> LearnedSet:
+def _set(content: dict[str, Any]) -> ParameterSet:
     key = f"{content['name']}, version {content['version']}"
     named = {**content["physics"], "name": key, "title": f"{key} ({content['note']})"}
     physics = physics_from_content(named)
-    return LearnedSet(**{**content, "physics": physics})
+    return ParameterSet(**{**content, "physics": physics})

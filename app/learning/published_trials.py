@@ -21,7 +21,7 @@ from core.physics.parameters import PhysicsSet
 from core.physics.problem import SimulationProblem
 from core.robot.kinematics import free_strokes
 from core.robot.model import RobotModel
-from core.trials.travel import MeasuredWalk, Travel
+from core.trials.travel import Displacement, MeasuredWalk
 from core.wire.trajectory_csv import parse_trajectory_csv
 from core.wire.waypoint_merging import plan_of_knots
 from core.wire.waypoints import Waypoints
@@ -86,9 +86,9 @@ def _walk(
     heading = heading_of(feet, name)
     wanted = iterations * float(np.hypot(*(feet[-1] - feet[0]).mean(axis=0)))
     dx, dy, distance = (_number(row, column, label) for column in COLUMNS)
-    travel = Travel(distance / CM, math.atan2(dy, dx))
+    displacement = Displacement(distance / CM, math.atan2(dy, dx))
     step_cm = wanted * CM / iterations
-    measured = MeasuredWalk(f"{kind}, {step_cm:.1f} cm", kind, wanted, travel, TRIALS)
+    measured = MeasuredWalk(f"{kind}, {step_cm:.1f} cm", kind, wanted, displacement, TRIALS)
     return Walk(measured, problem, iterations, heading, cut)
 
 

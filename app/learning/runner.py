@@ -9,23 +9,23 @@ from typing import Protocol
 from core.errors import SimulationCancelledError
 from core.identification.learning import Task, Walk
 from core.physics.parameters import PhysicsSet
-from core.trials.travel import Travel
+from core.trials.travel import Displacement
 
 
-class TravelHandle(Protocol):
-    """Simulations under way; `solver_jobs.TravelQuestion` in the studio."""
+class BatchHandle(Protocol):
+    """Simulations under way; `solver_jobs.BatchSimulation` in the studio."""
 
-    def result(self) -> tuple[Travel | None, ...]:
+    def result(self) -> tuple[Displacement | None, ...]:
         """Waits for their answer."""
 
     def cancel(self) -> None:
         """Ends them."""
 
 
-class TravelTier(Protocol):
-    """What simulates gaits, one after the other; `solver_jobs.TravelSimulator` in the studio."""
+class BatchTier(Protocol):
+    """What simulates gaits, one after the other; `solver_jobs.BatchSimulator` in the studio."""
 
-    def submit(self, walk: Walk, sets: Sequence[PhysicsSet]) -> TravelHandle:
+    def submit(self, walk: Walk, sets: Sequence[PhysicsSet]) -> BatchHandle:
         """Begins some simulations of a gait."""
 
 
@@ -39,7 +39,7 @@ class WalkRunner:
     """
 
     def __init__(
-        self, tiers: Sequence[TravelTier], walks: Sequence[Walk], told: Callable[[int], object]
+        self, tiers: Sequence[BatchTier], walks: Sequence[Walk], told: Callable[[int], object]
     ) -> None:
         self._tiers = tiers
         self._walks = walks
@@ -47,7 +47,7 @@ class WalkRunner:
         self._lock = threading.Lock()
         self._done = 0
         self._is_cancelled = False
-        self._on: set[TravelHandle] = set()
+        self._on: set[BatchHandle] = set()
 
     def cancel(self) -> None:
         """Ends what is on and what would follow; any thread may call."""
@@ -56,18 +56,18 @@ class WalkRunner:
             for handle in self._on:
                 handle.cancel()
 
-    def __call__(self, tasks: Sequence[Task]) -> list[Travel | None]:
+    def __call__(self, tasks: Sequence[Task]) -> list[Displacement | None]:
         """Simulates, in any order, and answers in the order of the tasks.
 
         Raises:
             SimulationCancelledError: it was cancelled.
             FootfallError: a simulation was refused.
         """
-        answers: list[Travel | None] = [None] * len(tasks)
+        answers: list[Displacement | None] = [None] * len(tasks)
         failures: list[Exception] = []
         waiting = iter(range(len(tasks)))
 
-        def work(tier: TravelTier) -> None:
+        def work(tier: BatchTier) -> None:
             try:
                 while not failures and (number := self._next(waiting)) is not None:
                     gait, physics = tasks[number]
@@ -88,14 +88,14 @@ class WalkRunner:
         with self._lock:
             return next(waiting, None)
 
-    def _one(self, tier: TravelTier, walk: Walk, physics: PhysicsSet) -> Travel | None:
+    def _one(self, tier: BatchTier, walk: Walk, physics: PhysicsSet) -> Displacement | None:
         with self._lock:
             if self._is_cancelled:
                 raise SimulationCancelledError("Learning was cancelled.")
             handle = tier.submit(walk, (physics,))
             self._on.add(handle)
         try:
-            (travel,) = handle.result()
+            (displacement,) = handle.result()
         finally:
             with self._lock:
                 self._on.discard(handle)
@@ -103,4 +103,4 @@ class WalkRunner:
             self._done += 1
             done = self._done
         self._told(done)
-        return travel
+        return displacement

@@ -10,12 +10,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from app.learning.parameter_sets import LearnedSet, LearnedSets
-from app.learning.runner import TravelTier, WalkRunner
+from app.learning.parameter_sets import ParameterSet, ParameterSets
+from app.learning.runner import BatchTier, WalkRunner
 from app.learning.views import learned_content, learned_sentence
 from app.simulation.problem import physics_from_content
 from app.store.database import Database
-from app.store.learning_store import LearningLog
+from app.store.learning_store import LearningStore
 from core.errors import FootfallError, NotFoundError, StateError
 from core.identification.learning import (
     POINTS,
@@ -47,7 +47,7 @@ class _Work:
     runner: WalkRunner
 
 
-class LearningDesk:
+class LearningService:
     """What is learned from trials, one course after the other.
 
     Args:
@@ -56,9 +56,9 @@ class LearningDesk:
         points: sets of parameters at which every gait is simulated.
     """
 
-    def __init__(self, database: Database, tiers: Sequence[TravelTier], points: int = POINTS) -> None:
-        self.sets = LearnedSets(database)
-        self._log = LearningLog(database)
+    def __init__(self, database: Database, tiers: Sequence[BatchTier], points: int = POINTS) -> None:
+        self.sets = ParameterSets(database)
+        self._log = LearningStore(database)
         self._tiers = tiers
         self._points = points
         self._lock = threading.Lock()
@@ -150,7 +150,7 @@ class LearningDesk:
                 work.runner.cancel()
         return self.content(learning)
 
-    def save(self, learning: str, name: str, by: str) -> LearnedSet:
+    def save(self, learning: str, name: str, by: str) -> ParameterSet:
         """Keeps what a course has learned as the next version of a name.
 
         Raises:

@@ -8,7 +8,7 @@ from typing import Any
 
 from app.common.json_values import finite
 from app.simulation.problem import physics_content
-from core.identification.learning import Foretold, Learned
+from core.identification.learning import Learned, Prediction
 from core.identification.parameters import FitParameter
 
 CM = 100.0
@@ -43,7 +43,7 @@ def learned_content(learned: Learned, cuts: Sequence[float]) -> dict[str, Any]:
             "simulations": learned.simulations,
             "parameters": [_parameter(learned, place) for place in range(len(learned.parameters))],
             "gaits": [_gait(learned, gait, cut) for gait, cut in enumerate(cuts)],
-            "foretold": [_foretold(learned, way) for way in learned.foretold],
+            "foretold": [_prediction(learned, way) for way in learned.predicted],
             "physics": physics_content(learned.physics),
         }
     )
@@ -83,21 +83,21 @@ def _gait(learned: Learned, gait: int, cut: float) -> dict[str, Any]:
         "name": walk.name,
         "kind": walk.kind,
         "wanted_cm": walk.wanted * CM,
-        "distance_cm": walk.travel.distance * CM,
-        "angle_deg": math.degrees(walk.travel.angle),
+        "distance_cm": walk.displacement.distance * CM,
+        "angle_deg": math.degrees(walk.displacement.angle),
         "trials": walk.trials,
         "surface_cm": float(learned.misfit[gait]) * CM,
         "cut_mm": cut * 1000.0,
     }
 
 
-def _foretold(learned: Learned, way: Foretold) -> dict[str, Any]:
+def _prediction(learned: Learned, way: Prediction) -> dict[str, Any]:
     distance, angle = learned.errors(way)
     return {
         "name": way.name,
         "title": WAYS[way.name],
-        "distances_cm": [travel.distance * CM for travel in way.travels],
-        "angles_deg": [math.degrees(travel.angle) for travel in way.travels],
+        "distances_cm": [displacement.distance * CM for displacement in way.displacements],
+        "angles_deg": [math.degrees(displacement.angle) for displacement in way.displacements],
         "error_cm": distance * CM,
         "error_deg": math.degrees(angle),
         "angles": way.angles,

@@ -14,7 +14,7 @@ from core.arrays import Floats
 from core.errors import InputError
 from core.identification.learning import Walk
 from core.physics.problem import SimulationProblem
-from core.trials.travel import Travel, track_travel, walk_of_trials
+from core.trials.travel import Displacement, track_displacement, walk_of_trials
 
 LEAST_WAY = 0.003
 """A plan whose feet go no further has no direction, m."""
@@ -95,11 +95,11 @@ def _walk(group: Sequence[SentTrial], problem: SimulationProblem, laps: int, tak
         free_name(f"{kind}, {step_cm:.2g} cm", taken),
         kind,
         group[0].record.expected,
-        [_travel(trial.record, heading) for trial in group],
+        [_displacement(trial.record, heading) for trial in group],
     )
     return Walk(measured, problem, laps, heading)
 
 
-def _travel(record: TrialRecord, heading: float) -> Travel:
+def _displacement(record: TrialRecord, heading: float) -> Displacement:
     """The track's, whose frame the plan lies in as its first frame says."""
-    return track_travel(record.track, heading + record.alignment.turn, record.expected)
+    return track_displacement(record.track, heading + record.alignment.turn, record.expected)

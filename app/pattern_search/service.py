@@ -69,7 +69,7 @@ class PatternTier(Protocol):
 
 
 @dataclass(frozen=True)
-class PatternQuestion:
+class PatternRequest:
     """What is asked.
 
     Args:
@@ -114,7 +114,7 @@ class Search:
         return {"id": self.id, "state": "running", "progress": self.progress}
 
 
-class PatternDesk:
+class PatternSearchService:
     """The searches.
 
     Args:
@@ -131,7 +131,7 @@ class PatternDesk:
         self._searches: OrderedDict[int, Search] = OrderedDict()
         self._newest: dict[str, Search] = {}
 
-    def ask(self, page: str, question: PatternQuestion) -> Search:
+    def ask(self, page: str, question: PatternRequest) -> Search:
         """Begins a search in the place of the page's last one.
 
         Args:
@@ -203,7 +203,7 @@ class PatternDesk:
         search.is_superseded = True
         _end(search)
 
-    def _work(self, search: Search, question: PatternQuestion, problem: PatternProblem) -> None:
+    def _work(self, search: Search, question: PatternRequest, problem: PatternProblem) -> None:
         with self._lock:
             which = self._loads.index(min(self._loads))
             self._loads[which] += 1
@@ -223,7 +223,7 @@ class PatternDesk:
         self._finish(search, content)
 
     def _searched(
-        self, tier: PatternTier, search: Search, question: PatternQuestion, problem: PatternProblem
+        self, tier: PatternTier, search: Search, question: PatternRequest, problem: PatternProblem
     ) -> tuple[PatternProblem, PatternResult]:
         """The answer of the first length that works, or of the last one; cancelled where time runs out."""
         deadline = time.monotonic() + question.seconds

@@ -13,7 +13,7 @@ import numpy as np
 from app.documents.gait_json import sent_hash
 from app.documents.trajectory_json import content_sha256, trajectory_from_content
 from app.plans.planned_part import PlannedPart
-from app.plans.verified_result import Judgement, judge
+from app.plans.verified_result import VerifiedResult, verify
 from core.arrays import Floats
 from core.checks.checked_plan import checked_plan
 from core.checks.coupling import coupling_note
@@ -34,7 +34,7 @@ from core.gait.recording import Recording, RecordingForm
 from core.motion.balance import balance_margins
 from core.motion.support_polygon import stability_margins
 from core.motion.trajectory import Trajectory
-from core.problem.initial_guess import initial_motion
+from core.problem.initial_guess import initial_guess
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import MotionProblem, missing_support
 from core.recorded.recorded_motion import gait_trajectory
@@ -93,7 +93,7 @@ class Plan:
     way: WaypointPlan | None
     refusal: FootfallError | None
     slip: Floats | None = None
-    live: Judgement | None = None
+    live: VerifiedResult | None = None
     seconds: float | None = None
     result: str | None = None
     provenance: Provenance | None = None
@@ -172,7 +172,7 @@ def make_plan(gait: Gait, result: dict[str, Any] | None, solve: Solve) -> Plan:
             note = " ".join(filter(None, (_optimised_note(result), _held_note(gait, model))))
             plan = Plan(PlanSource.OPTIMISED, note, model, stored, None, None)
             return with_waypoints(_with_origin(plan, result), gait.options)
-        plan = _live_plan(problem, judge(problem, solve(problem)))
+        plan = _live_plan(problem, verify(problem, solve(problem)))
         if plan.source is PlanSource.LIVE:
             plan = replace(plan, note=" ".join(filter(None, (plan.note, _held_note(gait, model)))))
         return with_waypoints(plan, gait.options)
@@ -217,13 +217,13 @@ def _recorded_plan(gait: Gait, recording: Recording, model: RobotModel) -> Plan:
     return Plan(PlanSource.RECORDED, note, model, trajectory, None, None, slip)
 
 
-def _live_plan(problem: MotionProblem, answer: Judgement) -> Plan:
+def _live_plan(problem: MotionProblem, answer: VerifiedResult) -> Plan:
     """The live tier's motion where it is confirmed, its nearest one where there is none, else a drawing."""
     model, seconds = problem.model, answer.result.solve_seconds
     if answer.status is SolveStatus.SOLVED:
         note = _live_note(answer)
         return Plan(PlanSource.LIVE, note, model, answer.trajectory, None, None, None, answer, seconds)
-    nearest = answer.trajectory if answer.status is SolveStatus.INFEASIBLE else initial_motion(problem)
+    nearest = answer.trajectory if answer.status is SolveStatus.INFEASIBLE else initial_guess(problem)
     note = missing_support(problem.timeline, problem.limits.margin) or " ".join(answer.explanation)
     return Plan(PlanSource.DRAFT, note, model, nearest, None, None, None, answer, seconds)
 
@@ -261,7 +261,7 @@ def _manual_note(slip: float) -> str:
     return f"Made by hand from its segment table; standing feet slide up to {slip * 1000:.1f} mm."
 
 
-def _live_note(answer: Judgement) -> str:
+def _live_note(answer: VerifiedResult) -> str:
     return (
         f"Solved by the live tier in {answer.result.solve_seconds * 1000:.0f} ms; every constraint is "
         f"confirmed, largest violation {answer.check.max_violation:.1e}."

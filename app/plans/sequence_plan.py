@@ -19,7 +19,7 @@ from app.plans.plan import (
     with_waypoints,
 )
 from app.plans.sequence_parts import placed_parts, unplaced_parts
-from app.plans.verified_result import judge
+from app.plans.verified_result import verify
 from core.errors import CheckError, FootfallError, InfeasibleError, InputError
 from core.gait.chain import Chain, Piece
 from core.gait.gait import Gait, motion_problem
@@ -32,7 +32,7 @@ from core.library.sequence import (
     run_of,
 )
 from core.motion.trajectory import Trajectory
-from core.problem.initial_guess import initial_motion
+from core.problem.initial_guess import initial_guess
 from core.problem.motion_problem import MotionProblem
 from core.problem.start_footholds import SAME_PLACE
 from core.robot.model import load_robot
@@ -143,7 +143,7 @@ def _drawn_plan(gait: Gait, plans: Sequence[Plan], refusal: FootfallError) -> Pl
 def _shown_motion(run: Gait, plan: Plan) -> Trajectory:
     if plan.trajectory is not None and plan.source is not PlanSource.DRAFT:
         return plan.trajectory
-    return initial_motion(motion_problem(run, plan.model))
+    return initial_guess(motion_problem(run, plan.model))
 
 
 def steps_between(solve: Solve, before: Piece, piece: Piece, problem: MotionProblem) -> Trajectory:
@@ -159,17 +159,17 @@ def steps_between(solve: Solve, before: Piece, piece: Piece, problem: MotionProb
         InfeasibleError: there is none, naming the feet and how far each has to go.
         CheckError: the solver gave no answer that is confirmed.
     """
-    judged = judge(problem, solve(problem))
-    if judged.status is SolveStatus.SOLVED:
-        return judged.trajectory
+    verified = verify(problem, solve(problem))
+    if verified.status is SolveStatus.SOLVED:
+        return verified.trajectory
     ways = np.linalg.norm(problem.goal.feet_world - problem.start.feet_world, axis=1)
     feet = ", ".join(f"foot {f + 1} by {way * 1000:.1f} mm" for f, way in enumerate(ways) if way > SAME_PLACE)
-    why = judged.explanation[0] if judged.explanation else "the live tier gave no answer."
+    why = verified.explanation[0] if verified.explanation else "the live tier gave no answer."
     sentence = (
         f"Between {before.name} and {piece.name} feet have to step: {feet}. There is no motion for that: "
         f"{why} Let the one end where the other begins, or put a gait between them."
     )
-    kind = InfeasibleError if judged.status is SolveStatus.INFEASIBLE else CheckError
+    kind = InfeasibleError if verified.status is SolveStatus.INFEASIBLE else CheckError
     raise kind(sentence, "sequence")
 
 

@@ -13,7 +13,7 @@ from solver_jobs import MotionResult, SolveStatus
 
 
 @dataclass(frozen=True, eq=False)
-class Judgement:
+class VerifiedResult:
     """A solver's result as the checker sees it.
 
     Args:
@@ -54,7 +54,7 @@ class Judgement:
         return content
 
 
-def judge(problem: MotionProblem, result: MotionResult) -> Judgement:
+def verify(problem: MotionProblem, result: MotionResult) -> VerifiedResult:
     """Holds a result to the independent checker.
 
     Args:
@@ -69,4 +69,4 @@ def judge(problem: MotionProblem, result: MotionResult) -> Judgement:
             f"The solver says it is solved, but the checker found {check.worst_family} violated by "
             f"{check.max_violation:.1e}; the result is not used.",
         )
-    return Judgement(status, explanation, check, result, problem)
+    return VerifiedResult(status, explanation, check, result, problem)

@@ -58,7 +58,7 @@ class JogLook:
 
 
 @dataclass(frozen=True, eq=False)
-class JogWish:
+class JogRequest:
     """Steps by hand on a robot.
 
     Args:
@@ -74,7 +74,7 @@ class JogWish:
     look: JogLook | None = None
 
 
-class JogDesk:
+class JogService:
     """Previews of steps by hand, and the steps themselves.
 
     Args:
@@ -84,7 +84,7 @@ class JogDesk:
     def __init__(self, bridge: RobotBridge) -> None:
         self._bridge = bridge
 
-    def preview(self, wish: JogWish) -> dict[str, Any]:
+    def preview(self, wish: JogRequest) -> dict[str, Any]:
         """Where the steps would lead, and what is to be said of it, as JSON content; nothing moves."""
         snapshot = self._bridge.snapshot
         begin, measured = _beginning(wish, snapshot)
@@ -107,7 +107,7 @@ class JogDesk:
             "handles": [] if wish.look is None else _handles(wish, wish.look, answer),
         }
 
-    def move(self, wish: JogWish, by: str, seen_mm: Sequence[float] | None = None) -> None:
+    def move(self, wish: JogRequest, by: str, seen_mm: Sequence[float] | None = None) -> None:
         """Lets the robot make the steps, which are judged anew from where it stands now.
 
         Args:
@@ -131,7 +131,7 @@ class JogDesk:
         _require_seen(answer, seen_mm)
         self._bridge.jog(JogPlan(jog_text(wish.steps), measured, answer.way), by)
 
-    def ghost(self, wish: JogWish, place: tuple[float, float, float]) -> Trajectory:
+    def ghost(self, wish: JogRequest, place: tuple[float, float, float]) -> Trajectory:
         """The robot at the target, standing still.
 
         Args:
@@ -188,7 +188,7 @@ def _title(part: JogPart, foot: int | None, motor: int | None, axis: Axis | None
     return f"{what} along {axis}"
 
 
-def _beginning(wish: JogWish, snapshot: RobotSnapshot) -> tuple[JogFrom, Floats]:
+def _beginning(wish: JogRequest, snapshot: RobotSnapshot) -> tuple[JogFrom, Floats]:
     """Where steps begin, and the strokes there."""
     shape = (wish.model.leg_count, 3)
     if wish.given is not None:
@@ -198,7 +198,7 @@ def _beginning(wish: JogWish, snapshot: RobotSnapshot) -> tuple[JogFrom, Floats]
     return JogFrom.STANDING, np.full(shape, STANDING_STROKE)
 
 
-def _why_not_now(wish: JogWish, begin: JogFrom, snapshot: RobotSnapshot) -> str | None:
+def _why_not_now(wish: JogRequest, begin: JogFrom, snapshot: RobotSnapshot) -> str | None:
     """Why no step at all can be made now; None where one can."""
     if not wish.model.wired:
         return f"{wish.model.title}: no cable leads to such a robot; its steps are shown in the preview only."
@@ -211,7 +211,7 @@ def _why_not_now(wish: JogWish, begin: JogFrom, snapshot: RobotSnapshot) -> str 
     return None
 
 
-def _hindrance(wish: JogWish, begin: JogFrom, answer: JogAnswer, snapshot: RobotSnapshot) -> str | None:
+def _hindrance(wish: JogRequest, begin: JogFrom, answer: JogAnswer, snapshot: RobotSnapshot) -> str | None:
     """Why these steps cannot be made now; None where they can."""
     if (reason := _why_not_now(wish, begin, snapshot)) is not None:
         return reason
@@ -236,7 +236,7 @@ def _moves(answer: JogAnswer) -> list[float]:
     return [float(np.abs(b - a).max()) for a, b in pairwise(places)]
 
 
-def _handles(wish: JogWish, look: JogLook, answer: JogAnswer) -> list[dict[str, Any]]:
+def _handles(wish: JogRequest, look: JogLook, answer: JogAnswer) -> list[dict[str, Any]]:
     """Present place, target and range of what can be stepped, mm, in the order x, y, z or of the motors.
 
     A foot's x and y are from its module's centre and its z from the deepest foot as they stand; the body's
@@ -254,7 +254,7 @@ def _motor_handle(model: RobotModel, answer: JogAnswer, foot: int, motor: int) -
     return {"motor": motor + 1, "axis": None} | _row_mm(start, target, least, most)
 
 
-def _place_handle(wish: JogWish, look: JogLook, answer: JogAnswer, axis: Axis) -> dict[str, Any]:
+def _place_handle(wish: JogRequest, look: JogLook, answer: JogAnswer, axis: Axis) -> dict[str, Any]:
     model, along = wish.model, list(Axis).index(axis)
     foot = None if look.part is JogPart.BODY else look.foot
     step = JogStep(look.part, 0.0, foot, None, axis)

@@ -23,7 +23,7 @@ BEAT_SECONDS = 2.0
 TellPage = Callable[[str, dict[str, Any]], None]
 
 
-class LeaseDesk:
+class OperatorLease:
     """Who holds the robot, for the rest of the program; every method may be called from any thread.
 
     Args:

@@ -18,7 +18,7 @@ from core.errors import FootfallError, StateError
 
 
 @dataclass(frozen=True)
-class KeptRun:
+class RecordedRun:
     """What is kept of a run from its beginning on.
 
     Args:
@@ -30,7 +30,7 @@ class KeptRun:
     plan: dict[str, Any] | None
 
 
-class KeptRuns:
+class RecordedBridge:
     """A bridge whose runs are kept.
 
     Args:
@@ -64,7 +64,7 @@ class KeptRuns:
         self.bridge.close()
         self._recorder.close()
 
-    def send(self, run_plan: RunPlan, kept: KeptRun, by: str) -> None:
+    def send(self, run_plan: RunPlan, kept: RecordedRun, by: str) -> None:
         """Sends a run whose record begins before the first byte goes out.
 
         Raises:
@@ -78,16 +78,16 @@ class KeptRuns:
                 raise StateError("A run is on. Let it end, or stop it, then send again.", "send")
             self._begin(run_plan, kept, by)
 
-    def _begin(self, run_plan: RunPlan, kept: KeptRun, by: str) -> None:
-        origin, course, before = kept.origin, run_plan.course, self.origin
+    def _begin(self, run_plan: RunPlan, kept: RecordedRun, by: str) -> None:
+        origin, run_range, before = kept.origin, run_plan.run_range, self.origin
         record = {
             "id": origin.run_id,
             "gait": origin.gait,
             "gait_name": origin.gait_name,
             "waypoints_hash": origin.waypoints.content_hash,
             "by": by,
-            "from": course.first,
-            "iterations": course.iterations,
+            "from": run_range.first,
+            "iterations": run_range.iterations,
             "started": time.time(),
             "started_monotonic": time.monotonic(),
             "ended": None,

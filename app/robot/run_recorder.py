@@ -13,7 +13,7 @@ from typing import Any
 from app.bridge.states import Direction, Transition
 from app.store.database import Database
 from app.store.run_journal import Entry, EntryKind, RunJournal
-from app.store.run_store import RunLog
+from app.store.run_store import RunStore
 from app.store.run_writer import RunWriter
 from core.errors import StateError
 
@@ -58,7 +58,7 @@ class RunRecorder:
         changed: Callable[[], None] = lambda: None,
         writer: RunWriter | None = None,
     ) -> None:
-        self._runs = RunLog(database)
+        self._runs = RunStore(database)
         self._data = database.path.parent
         self._writer = writer or RunWriter(database.path)
         self._changed = changed

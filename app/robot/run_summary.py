@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from app.bridge.run import start_targets
-from app.bridge.run_range import Course, beginnings, why_not_repeated
+from app.bridge.run_range import RunRange, beginnings, why_not_repeated
 from app.bridge.states import RobotSnapshot
 from app.plans.plan import Plan
 from app.robot.views import stop_seconds
@@ -18,12 +18,14 @@ from core.wire.waypoint_path import estimate_seconds
 from core.wire.waypoints import Waypoints
 
 
-def run_summary(plan: Plan, course: Course, snapshot: RobotSnapshot, reason: str | None) -> dict[str, Any]:
+def run_summary(
+    plan: Plan, run_range: RunRange, snapshot: RobotSnapshot, reason: str | None
+) -> dict[str, Any]:
     """The run as JSON content.
 
     Args:
         plan: of the gait.
-        course: from which waypoint on it is sent, and how many times over.
+        run_range: from which waypoint on it is sent, and how many times over.
         snapshot: where the robot stands.
         reason: why it cannot be sent now; None where it can.
 
@@ -36,14 +38,14 @@ def run_summary(plan: Plan, course: Course, snapshot: RobotSnapshot, reason: str
         raise StateError(
             "This gait has no waypoints." if plan.refusal is None else plan.refusal.sentence, "plan"
         )
-    course.require_fit(way.waypoints, way.hold_ok)
-    sent = sent_waypoints(way.waypoints, course)
+    run_range.require_fit(way.waypoints, way.hold_ok)
+    sent = sent_waypoints(way.waypoints, run_range)
     distance_mm, moves = _start(sent, snapshot, longest_start_move(way.waypoints) * 1000.0)
     return {
         "waypoints": sent.count,
         "waypoints_hash": way.waypoints.content_hash,
-        "from": course.first,
-        "iterations": course.iterations,
+        "from": run_range.first,
+        "iterations": run_range.iterations,
         "beginnings": _beginnings(way),
         "why_not_repeated": why_not_repeated(way.waypoints),
         "start_distance_mm": distance_mm,
@@ -59,14 +61,14 @@ def run_summary(plan: Plan, course: Course, snapshot: RobotSnapshot, reason: str
     }
 
 
-def sent_waypoints(waypoints: Waypoints, course: Course) -> Waypoints:
+def sent_waypoints(waypoints: Waypoints, run_range: RunRange) -> Waypoints:
     """The waypoints in the order in which a run sends them.
 
     Args:
         waypoints: the approved ones.
-        course: which of them are sent.
+        run_range: which of them are sent.
     """
-    order = np.array(course.order(waypoints.count))
+    order = np.array(run_range.order(waypoints.count))
     return Waypoints(waypoints.strokes[order], waypoints.durations[order])
 
 

@@ -8,15 +8,15 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from app.bridge.run_range import WHOLE, Course
+from app.bridge.run_range import WHOLE, RunRange
 from app.bridge.states import LinkState, RobotSnapshot, RunPlan
 from app.emulator.emulated_robot import EmulatedRobot, start_emulator
 from app.emulator.faults import Fault
 from app.gaits.open_gait import OpenGait
 from app.plans.plan import Plan
-from app.robot.operator_lease import LeaseDesk, TellPage
+from app.robot.operator_lease import OperatorLease, TellPage
 from app.robot.ports import RobotPorts
-from app.robot.recorded_bridge import KeptRun, KeptRuns
+from app.robot.recorded_bridge import RecordedBridge, RecordedRun
 from app.robot.run_summary import run_summary, unwired
 from app.robot.views import (
     EMULATOR,
@@ -32,7 +32,7 @@ MOST_SHOWN = 200
 """Changes of state that a page shows."""
 
 
-class RobotDesk:
+class RobotService:
     """Verbs on the robot, and what is shown of it.
 
     Args:
@@ -58,11 +58,11 @@ class RobotDesk:
         self._device = device
         self._emulator: EmulatedRobot | None = None
         self._connecting = threading.Lock()
-        self._runs = KeptRuns(database, self._show)
+        self._runs = RecordedBridge(database, self._show)
         self.bridge = self._runs.bridge
         self._changed = changed
         self.ports = ports
-        self.lease = LeaseDesk(self.bridge, self._show, tell_page)
+        self.lease = OperatorLease(self.bridge, self._show, tell_page)
         self.bridge.subscribe(lambda snapshot: self._changed(self.view(snapshot)))
 
     def close(self) -> None:
@@ -129,7 +129,7 @@ class RobotDesk:
         plan: Plan,
         waypoints_hash: str | None,
         by: str,
-        course: Course = WHOLE,
+        run_range: RunRange = WHOLE,
     ) -> None:
         """Sends a gait's approved waypoints.
 
@@ -150,16 +150,16 @@ class RobotDesk:
             )
         if (reason := unwired(plan)) is not None:
             raise StateError(reason, "robot")
-        run_plan = RunPlan(waypoints, approval, way.hold_ok, course)
+        run_plan = RunPlan(waypoints, approval, way.hold_ok, run_range)
         content = run_plan_content(plan, way, approval)
         origin = RunOrigin(secrets.token_hex(6), open_gait.id, open_gait.gait.name, waypoints, way.times)
-        self._runs.send(run_plan, KeptRun(origin, content), by)
+        self._runs.send(run_plan, RecordedRun(origin, content), by)
 
-    def run_summary(self, open_gait: OpenGait, plan: Plan, course: Course = WHOLE) -> dict[str, Any]:
+    def run_summary(self, open_gait: OpenGait, plan: Plan, run_range: RunRange = WHOLE) -> dict[str, Any]:
         """What a person should know before they press Send; see `app.robot.run_summary`."""
         snapshot = self.bridge.snapshot
         reason = unwired(plan) or self._send_hindrance(open_gait, snapshot)
-        return run_summary(plan, course, snapshot, reason)
+        return run_summary(plan, run_range, snapshot, reason)
 
     def _send_hindrance(self, open_gait: OpenGait, snapshot: RobotSnapshot) -> str | None:
         if open_gait.approval is None:

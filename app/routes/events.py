@@ -12,7 +12,7 @@ from starlette.websockets import WebSocketDisconnect
 from app.routes.robot.robot import send_stop
 from app.session.event_hub import Subscriber
 from app.studio.studio import Studio
-from app.web.dependencies import is_page, on_session
+from app.web.dependencies import is_page, on_command_thread
 
 router = APIRouter()
 
@@ -32,8 +32,8 @@ async def events(socket: WebSocket) -> None:
     subscriber = studio.hub.subscribe(page if is_page(page) else "")
     listening = asyncio.create_task(_drain(socket, studio, subscriber.page))
     try:
-        await socket.send_text(json.dumps(await on_session(studio, studio.hello), allow_nan=False))
-        studio.session.tell(lambda: studio.page_came_or_went(subscriber.page))
+        await socket.send_text(json.dumps(await on_command_thread(studio, studio.hello), allow_nan=False))
+        studio.commands.tell(lambda: studio.page_came_or_went(subscriber.page))
         while (event := await _next_or_gone(subscriber, listening)) is not None:
             await socket.send_text(event)
         await socket.close()
@@ -41,7 +41,7 @@ async def events(socket: WebSocket) -> None:
         pass  # the page is gone
     finally:
         studio.hub.unsubscribe(subscriber)
-        studio.session.tell(lambda: studio.page_came_or_went(subscriber.page))
+        studio.commands.tell(lambda: studio.page_came_or_went(subscriber.page))
         listening.cancel()
         with contextlib.suppress(asyncio.CancelledError, WebSocketDisconnect, RuntimeError):
             await listening

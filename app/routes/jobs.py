@@ -12,8 +12,8 @@ from app.gaits.views import plan_view
 from app.studio.studio import Studio
 from app.web.dependencies import (
     TheAuthor,
+    on_command_thread,
     on_planned,
-    on_session,
     studio_of,
 )
 from solver_jobs import JobKind
@@ -50,30 +50,34 @@ async def submit(job: JobRequest, studio: TheStudio, author: TheAuthor) -> dict[
         )
         return {"id": content["id"]}
     kind = JobKind.TIMING if job.kind == "timing" else JobKind.MOTION
-    content = await on_session(studio, lambda: studio.submit_job(job.gait, kind, author))
+    content = await on_command_thread(studio, lambda: studio.submit_job(job.gait, kind, author))
     return {"id": content["id"]}
 
 
 @router.get("")
 async def list_jobs(studio: TheStudio) -> dict[str, Any]:
     """The newest jobs, newest first."""
-    return {"jobs": await on_session(studio, lambda: [studio.job_view(c) for c in studio.book.contents()])}
+    return {
+        "jobs": await on_command_thread(
+            studio, lambda: [studio.job_view(c) for c in studio.job_repository.contents()]
+        )
+    }
 
 
 @router.get("/{job_id}")
 async def read_job(job_id: str, studio: TheStudio) -> dict[str, Any]:
     """A job with its course so far."""
-    return await on_session(studio, lambda: studio.job_view(studio.book.content(job_id)))
+    return await on_command_thread(studio, lambda: studio.job_view(studio.job_repository.content(job_id)))
 
 
 @router.delete("/{job_id}")
 async def cancel(job_id: str, studio: TheStudio) -> dict[str, Any]:
     """Cancels a job; one that has ended stays as it is."""
-    return await on_session(studio, lambda: studio.cancel_job(job_id))
+    return await on_command_thread(studio, lambda: studio.cancel_job(job_id))
 
 
 @router.get("/{job_id}/course/{number}")
 async def iterate(job_id: str, number: int, studio: TheStudio) -> dict[str, Any]:
     """The motion at one of a job's iterations, as a plan to look at; 0 is the start."""
-    plan = await on_session(studio, lambda: studio.jobs.iterate(job_id, number))
+    plan = await on_command_thread(studio, lambda: studio.jobs.iterate(job_id, number))
     return await run_in_threadpool(lambda: plan_view(studio.live.keep(plan)))

@@ -12,7 +12,7 @@ from app.plans.plan import Plan
 from app.scene.ghost import ghost_blob
 from app.scene.reach import reach_table
 from app.studio.studio import Studio
-from app.web.dependencies import on_planned, on_session, studio_of
+from app.web.dependencies import on_command_thread, on_planned, studio_of
 from core.errors import StateError
 from core.motion.trajectory import Trajectory
 from core.problem.motion_problem import Workspace
@@ -51,7 +51,7 @@ async def reach(gait_id: str, plan: str, workspace: Workspace, studio: TheStudio
 async def _version(studio: Studio, gait_id: str, of: Version) -> Plan:
     if of is Version.PRESENT:
         return await on_planned(studio, gait_id, lambda: studio.gaits.plan(gait_id))
-    open_gait = await on_session(studio, lambda: studio.gaits.open_gait(gait_id))
+    open_gait = await on_command_thread(studio, lambda: studio.gaits.open_gait(gait_id))
     gait = open_gait.before if of is Version.BEFORE else open_gait.saved
     if gait is None:
         reason = "was not changed yet" if of is Version.BEFORE else "was never saved"

@@ -9,7 +9,7 @@ import numpy as np
 
 from app.bridge.states import Direction
 from app.runs.plan_json import ran_plan
-from app.store.run_store import RunLog, RunRow
+from app.store.run_store import RunRow, RunStore
 from core.arrays import Floats
 from core.errors import NotFoundError, StateError
 from core.runs.analysis import move_begins, plan_times
@@ -83,7 +83,7 @@ class RunRecord:
         return heights
 
 
-def read_record(log: RunLog, run: str) -> RunRecord:
+def read_record(log: RunStore, run: str) -> RunRecord:
     """Reads a run.
 
     Raises:
@@ -110,7 +110,7 @@ def read_record(log: RunLog, run: str) -> RunRecord:
     return RunRecord(row, plan, pieces, states, series)
 
 
-def known_row(log: RunLog, run: str) -> RunRow:
+def known_row(log: RunStore, run: str) -> RunRow:
     """A run as it is listed.
 
     Raises:

@@ -7,14 +7,14 @@ import json
 from app.store.database import Database
 from app.store.run_journal import Entry, EntryKind, abandoned_journal
 from app.store.run_rows import add_bytes, add_states, byte_row, put_run, state_row
-from app.store.run_store import RunLog
+from app.store.run_store import RunStore
 
 ABANDONED = "The program that sent this run ended while it was on; nothing resumes by itself."
 
 
 def end_abandoned(database: Database) -> None:
     """Calls runs interrupted whose program is gone; those of another program that lives go on."""
-    log = RunLog(database)
+    log = RunStore(database)
     for content in log.running():
         run = content["id"]
         with abandoned_journal(database.path.parent, run) as entries:
@@ -28,7 +28,7 @@ def _complete(database: Database, run: str, content: dict[str, object], entries:
     states = [entry for entry in entries if entry.kind is EntryKind.STATE]
     ends = [json.loads(entry.data) for entry in entries if entry.kind is EntryKind.END]
     end = ends[-1] if ends else content | {"state": "interrupted", "sentence": ABANDONED}
-    known = RunLog(database).counts(run)
+    known = RunStore(database).counts(run)
     with database.writing() as connection:
         add_bytes(connection, [byte_row(run, entry) for entry in pieces[known.pieces :]])
         add_states(connection, [state_row(run, entry) for entry in states[known.states :]])

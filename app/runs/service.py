@@ -12,7 +12,7 @@ from app.common.json_values import finite
 from app.runs.record import RunRecord, known_row, read_record
 from app.runs.recovery import end_abandoned
 from app.store.database import Database
-from app.store.run_store import RunFilter, RunLog, RunRow
+from app.store.run_store import RunFilter, RunRow, RunStore
 from core.arrays import Floats
 from core.errors import FootfallError
 from core.runs.analysis import run_errors
@@ -21,7 +21,7 @@ FIGURES_VERSION = 2
 """Figures that another version computed are computed again."""
 
 
-class RunDesk:
+class RunService:
     """What there is to see of runs; every method may be called from any thread.
 
     Args:
@@ -30,7 +30,7 @@ class RunDesk:
 
     def __init__(self, database: Database) -> None:
         self._database = database
-        self._log = RunLog(database)
+        self._log = RunStore(database)
 
     def found(self, wanted: RunFilter, offset: int, most: int) -> dict[str, Any]:
         """Some of the runs that a filter leaves, the newest first, and what can be filtered by."""

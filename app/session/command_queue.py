@@ -27,7 +27,7 @@ class Command:
     future: Future[Any]
 
 
-class Session:
+class CommandQueue:
     """The thread and its queue."""
 
     def __init__(self) -> None:

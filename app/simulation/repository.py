@@ -7,14 +7,14 @@ from typing import Any
 
 from app.plans.plan import Plan
 from app.simulation.problem import report_from_content, simulation_key, simulation_problem
-from app.store.simulation_store import SimulationLog, SimulationRow
+from app.store.simulation_store import SimulationRow, SimulationStore
 from core.checks.simulation import Simulated
 from core.errors import NotFoundError
 from core.physics.masses import default_physics
 from core.physics.parameters import PhysicsSet, physics_sets
 
 
-class KeptSimulations:
+class SimulationRepository:
     """The simulations.
 
     Args:
@@ -25,7 +25,7 @@ class KeptSimulations:
 
     def __init__(
         self,
-        log: SimulationLog,
+        log: SimulationStore,
         told: Callable[[str], None] = lambda waypoints: None,
         sets: Callable[[], Iterable[PhysicsSet]] = lambda: physics_sets().values(),
     ) -> None:

@@ -16,8 +16,8 @@ from typing import Any, Protocol
 from app.common.json_values import finite
 from app.common.version import VERSION
 from app.gaits.open_gait import OpenGait
-from app.jobs.job_tracker import RunningJobs
-from app.jobs.repository import JobBook
+from app.jobs.job_tracker import JobTracker
+from app.jobs.repository import JobRepository
 from app.plans.plan import Plan
 from app.simulation.problem import (
     physics_content,
@@ -27,7 +27,7 @@ from app.simulation.problem import (
     simulation_key,
     simulation_problem,
 )
-from app.simulation.repository import KeptSimulations
+from app.simulation.repository import SimulationRepository
 from app.simulation.view import motion_content, report_sentence, variations_content
 from app.store.simulation_store import SimulationRow
 from core.errors import FootfallError, StateError
@@ -94,12 +94,12 @@ class _Work:
     handle: SimulationHandle
 
 
-class SimulationDesk:
+class SimulationService:
     """The simulations in the list of jobs.
 
     Args:
         tier: what simulates.
-        book: the list of jobs.
+        job_repository: the list of jobs.
         kept: where simulations are kept.
         later: does something on the session's thread.
         shown: told of each job that changed, on the session's thread.
@@ -108,15 +108,15 @@ class SimulationDesk:
     def __init__(
         self,
         tier: SimulationTier,
-        book: JobBook,
-        kept: KeptSimulations,
+        job_repository: JobRepository,
+        kept: SimulationRepository,
         later: Callable[[Callable[[], None]], object],
         shown: Callable[[Content], None],
     ) -> None:
         self._tier = tier
-        self._book = book
+        self._job_repository = job_repository
         self._kept = kept
-        self._running = RunningJobs(book, later, shown, "The physics is at it.")
+        self._running = JobTracker(job_repository, later, shown, "The physics is at it.")
         self._waiting: list[threading.Thread] = []
 
     def submit(self, open_gait: OpenGait, plan: Plan, physics: PhysicsSet, variations: int = 0) -> Content:
@@ -140,7 +140,7 @@ class SimulationDesk:
         job_id = uuid.uuid4().hex[:12]
         handle = self._tier.submit(problem, variations, progress=self._running.teller(job_id))
         more = {"share": 0.0, "physics": physics.name, "variations": variations}
-        job = self._book.begin(job_id, KIND, open_gait.id, open_gait.gait.name, key, **more)
+        job = self._job_repository.begin(job_id, KIND, open_gait.id, open_gait.gait.name, key, **more)
         row = SimulationRow(open_gait.id, key, problem.waypoints.content_hash, physics.name, time.time())
         work = _Work(job, row, plan.hash, physics, problem, handle)
         self._running.begin(job_id, handle)

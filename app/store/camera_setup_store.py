@@ -16,7 +16,7 @@ LEFT JOIN camera_setup_deleted d ON d.id = s.id
 
 
 @dataclass(frozen=True)
-class SetupRow:
+class CameraSetupRow:
     """A revision of a setup as it is kept."""
 
     id: str
@@ -26,7 +26,7 @@ class SetupRow:
     is_deleted: bool
 
 
-class SetupLog:
+class CameraSetupStore:
     """Every revision of every setup, and the cameras' settings.
 
     Args:
@@ -36,12 +36,12 @@ class SetupLog:
     def __init__(self, database: Database) -> None:
         self._database = database
 
-    def found(self, *, is_deleted: bool = False) -> tuple[SetupRow, ...]:
+    def found(self, *, is_deleted: bool = False) -> tuple[CameraSetupRow, ...]:
         """The newest revision of each setup, the last changed first."""
         rows = (_row(*row) for row in self._database.rows(_NEWEST + "ORDER BY s.made DESC, s.id"))
         return tuple(row for row in rows if row.is_deleted == is_deleted)
 
-    def get(self, setup: str, revision: int | None = None) -> SetupRow | None:
+    def get(self, setup: str, revision: int | None = None) -> CameraSetupRow | None:
         """A setup, also a deleted one, at a revision or its newest; None where there is none."""
         if revision is None:
             rows = self._database.rows(_NEWEST + "WHERE s.id=?", setup)
@@ -85,5 +85,5 @@ class SetupLog:
             connection.execute("INSERT OR REPLACE INTO camera VALUES(?,?)", (camera, json.dumps(content)))
 
 
-def _row(setup: str, revision: int, made: float, content: str, deleted: float | None) -> SetupRow:
-    return SetupRow(setup, revision, made, json.loads(content), deleted is not None)
+def _row(setup: str, revision: int, made: float, content: str, deleted: float | None) -> CameraSetupRow:
+    return CameraSetupRow(setup, revision, made, json.loads(content), deleted is not None)

@@ -12,8 +12,8 @@ from typing import Any
 
 from app.store.database import Database
 from app.undo.history import (
+    Action,
     Author,
-    Deed,
     History,
     LogEntry,
 )
@@ -59,7 +59,7 @@ class VersionRow:
     document: str
 
 
-class GaitLog:
+class GaitStore:
     """Histories and versions.
 
     Args:
@@ -81,7 +81,7 @@ class GaitLog:
             "SELECT position, label, document, page, name FROM history WHERE gait=?", gait
         )
         entries = {at: LogEntry(label, text, Author(page, name)) for at, label, text, page, name in found}
-        history = History(entries, last, _deeds(done), _deeds(undone))
+        history = History(entries, last, _actions(done), _actions(undone))
         return EditingRow(revision, history, notice, approval)
 
     def ids(self) -> frozenset[str]:
@@ -135,8 +135,8 @@ class GaitLog:
                     gait,
                     row.revision,
                     history.last,
-                    json.dumps([astuple(deed) for deed in history.done]),
-                    json.dumps([astuple(deed) for deed in history.undone]),
+                    json.dumps([astuple(action) for action in history.done]),
+                    json.dumps([astuple(action) for action in history.undone]),
                     row.notice,
                     row.approval,
                 ),
@@ -181,8 +181,8 @@ class GaitLog:
             _insert_version(connection, gait, version)
 
 
-def _deeds(text: str) -> tuple[Deed, ...]:
-    return tuple(Deed(*deed) for deed in json.loads(text))
+def _actions(text: str) -> tuple[Action, ...]:
+    return tuple(Action(*action) for action in json.loads(text))
 
 
 def _insert_version(connection: sqlite3.Connection, gait: str, version: VersionRow) -> None:

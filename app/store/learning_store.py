@@ -10,7 +10,7 @@ from app.store.database import Database
 Content = dict[str, Any]
 
 
-class LearningLog:
+class LearningStore:
     """Everything that is kept of learning; any thread may ask.
 
     Args:

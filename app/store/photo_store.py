@@ -10,7 +10,7 @@ from app.store.database import Database
 Content = dict[str, Any]
 
 
-class PhotoLog:
+class PhotoStore:
     """What is kept of photos; any thread may ask.
 
     Args:

@@ -59,7 +59,7 @@ class RunFilter:
         return " AND ".join(["deleted IS NULL", *given]), tuple(given.values())
 
 
-class RunLog:
+class RunStore:
     """Everything that is kept of runs.
 
     Args:

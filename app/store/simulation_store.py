@@ -31,7 +31,7 @@ class SimulationRow:
     made: float
 
 
-class SimulationLog:
+class SimulationStore:
     """Everything that is kept of simulations; any thread may ask.
 
     Args:

@@ -8,7 +8,7 @@ from typing import Any
 from app.store.database import Database
 
 
-class TrialBesideLog:
+class TrialReferenceStore:
     """Everything that is kept beside trials but photos; any thread may ask.
 
     Args:

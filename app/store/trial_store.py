@@ -18,7 +18,7 @@ class TrialRow:
     is_deleted: bool
 
 
-class TrialLog:
+class TrialStore:
     """Everything that is kept of trials.
 
     Args:

@@ -8,7 +8,7 @@ from typing import Any
 from app.store.database import Database
 
 
-class VideoLog:
+class VideoStore:
     """What is known of each video.
 
     Args:

@@ -13,39 +13,39 @@ from typing import Any
 from app.cameras.address import CameraAddress
 from app.common.version import VERSION
 from app.documents.gait_json import asked_hash
-from app.gaits.live_preview import LiveDesk
+from app.gaits.live_preview import LivePreview
 from app.gaits.open_gait import OpenGait
-from app.gaits.planner import PlanSettling
+from app.gaits.planner import Planner
 from app.gaits.sequence_documents import source_states
-from app.gaits.service import GaitDesk
-from app.gaits.summaries import GaitList
+from app.gaits.service import GaitService
+from app.gaits.summaries import GaitSummaries
 from app.gaits.views import gait_view, steps_view
-from app.jobs.optimisation_service import JobDesk
-from app.jobs.repository import JobBook
-from app.learning.service import LearningDesk
-from app.pattern_search.service import PatternDesk
+from app.jobs.optimisation_service import OptimisationService
+from app.jobs.repository import JobRepository
+from app.learning.service import LearningService
+from app.pattern_search.service import PatternSearchService
 from app.plans.sequence_plan import run_motions, runs_without_result
-from app.robot.jog_service import JogDesk
+from app.robot.jog_service import JogService
 from app.robot.ports import RobotPorts
-from app.robot.service import RobotDesk
+from app.robot.service import RobotService
 from app.robot.views import RUNNING
-from app.runs.service import RunDesk
-from app.session.command_queue import Result, Session, log_failure
+from app.runs.service import RunService
+from app.session.command_queue import CommandQueue, Result, log_failure
 from app.session.event_hub import EventHub
-from app.simulation.repository import KeptSimulations
+from app.simulation.repository import SimulationRepository
 from app.simulation.service import KIND as SIMULATE
-from app.simulation.service import SimulationDesk
+from app.simulation.service import SimulationService
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
-from app.store.simulation_store import SimulationLog
-from app.store.trial_reference_store import TrialBesideLog
-from app.trials.comparison import TrialsBeside
+from app.store.simulation_store import SimulationStore
+from app.store.trial_reference_store import TrialReferenceStore
+from app.trials.comparison import TrialComparison
 from app.trials.photos import TrialPhotos
-from app.trials.report.service import TrialReports
-from app.trials.service import TrialDesk
+from app.trials.report.service import TrialReportService
+from app.trials.service import TrialService
 from app.trials.simulated_feet import TrialSimulations
 from app.undo.history import Author
-from app.videos.lab import Seeing
+from app.videos.lab import Lab
 from app.videos.tracking_service import KIND as TRACK
 from app.videos.tracking_service import TrackOrder
 from core.errors import FootfallError, StateError
@@ -53,7 +53,7 @@ from core.gait.gait import Gait, motion_problem
 from core.library.library import library
 from core.problem.motion_problem import MotionProblem
 from core.robot.model import load_robot
-from solver_jobs import Job, JobKind, JobRunner, LiveSolver, PatternSolver, Simulator, TravelSimulator
+from solver_jobs import BatchSimulator, Job, JobKind, JobQueue, LiveSolver, PatternSolver, Simulator
 
 _SCRIPT = Author()
 
@@ -76,59 +76,59 @@ class Studio:
         self.hub = EventHub()
         self._files = GaitFiles(data)
         self._database = Database(data / "studio.sqlite3")
-        self.session = Session()
+        self.commands = CommandQueue()
         self._solver = LiveSolver(_likely_problem())
         self._solver.start()
-        self.live = LiveDesk(self._solver)
+        self.live = LivePreview(self._solver)
         self._pattern_solvers = tuple(PatternSolver() for _ in range(PATTERN_PROCESSES))
-        self.patterns = PatternDesk(self._pattern_solvers, self._tell_page)
-        self._travellers = tuple(TravelSimulator() for _ in range(LEARNING_PROCESSES))
-        self.learning = LearningDesk(self._database, self._travellers)
-        self.simulations = KeptSimulations(
-            SimulationLog(self._database), self._simulated, self.learning.sets.physics
+        self.patterns = PatternSearchService(self._pattern_solvers, self._tell_page)
+        self._travellers = tuple(BatchSimulator() for _ in range(LEARNING_PROCESSES))
+        self.learning = LearningService(self._database, self._travellers)
+        self.simulations = SimulationRepository(
+            SimulationStore(self._database), self._simulated, self.learning.sets.physics
         )
-        self.gaits = GaitDesk(
+        self.gaits = GaitService(
             self._files,
             self._database,
             self.live.solve_for,
             self.hub.pages,
             simulated_for=self.simulations.simulated,
         )
-        self._plans = PlanSettling(self.session, self.gaits)
-        self._list = GaitList(self.gaits)
-        self.session.tell(self.summaries)
-        self._runner = JobRunner(self._job_changed, warm_up=_likely_problem())
-        self.book = JobBook(self._database)
-        self.jobs = JobDesk(self.book, self._runner, self._take_result)
+        self._plans = Planner(self.commands, self.gaits)
+        self._list = GaitSummaries(self.gaits)
+        self.commands.tell(self.summaries)
+        self._runner = JobQueue(self._job_changed, warm_up=_likely_problem())
+        self.job_repository = JobRepository(self._database)
+        self.jobs = OptimisationService(self.job_repository, self._runner, self._take_result)
         self._simulator = Simulator()
-        self._simulating = SimulationDesk(
-            self._simulator, self.book, self.simulations, self.session.tell, self._show_simulation
+        self._simulating = SimulationService(
+            self._simulator, self.job_repository, self.simulations, self.commands.tell, self._show_simulation
         )
         self._simulated_as: dict[str, frozenset[str]] = {}
-        self.robot = RobotDesk(
+        self.robot = RobotService(
             self._database, device, self._robot_changed, RobotPorts(data / "robot.json"), self._tell_page
         )
-        self.jog = JogDesk(self.robot.bridge)
-        self.runs = RunDesk(self._database)
-        self.trials = TrialDesk(
+        self.jog = JogService(self.robot.bridge)
+        self.runs = RunService(self._database)
+        self.trials = TrialService(
             self._database, lambda change: self.hub.publish({"type": "trial", "trial": change})
         )
-        self._trial_simulations = TrialSimulations(TrialBesideLog(self._database), self._simulator)
-        self.beside = TrialsBeside(self.trials, self._trial_simulations)
-        self.seeing = Seeing(
+        self._trial_simulations = TrialSimulations(TrialReferenceStore(self._database), self._simulator)
+        self.comparison = TrialComparison(self.trials, self._trial_simulations)
+        self.lab = Lab(
             data,
             self._database,
-            self.book,
+            self.job_repository,
             self.trials,
             self.runs,
             cameras,
-            self.session.tell,
+            self.commands.tell,
             self._show_tracking,
             self.hub.publish,
         )
-        self.photos = TrialPhotos(self.trials, self._database, data, self.seeing.eyes)
-        self.reports = TrialReports(self.trials, self.beside, self.photos, self.runs)
-        self.robot.bridge.subscribe(self.seeing.recordings.follow)
+        self.photos = TrialPhotos(self.trials, self._database, data, self.lab.vision)
+        self.reports = TrialReportService(self.trials, self.comparison, self.photos, self.runs)
+        self.robot.bridge.subscribe(self.lab.recordings.follow)
         self._told_sources: dict[str, tuple[int, list[str]]] = {}
         self.stop_lane = ThreadPoolExecutor(max_workers=2, thread_name_prefix="stop")
         self._closed = threading.Event()
@@ -148,10 +148,10 @@ class Studio:
         self.learning.close()
         for traveller in self._travellers:
             traveller.close()
-        self.seeing.close()
+        self.lab.close()
         self._trial_simulations.close()
         self._plans.close()
-        self.session.close()
+        self.commands.close()
         self.hub.close()
         self.stop_lane.shutdown()
         self._database.close()
@@ -163,10 +163,10 @@ class Studio:
 
     def call(self, action: Callable[[], Result]) -> Future[Result]:
         """Does something on the session's thread."""
-        return self.session.submit(action)
+        return self.commands.submit(action)
 
     def call_planned(self, gait_id: str, action: Callable[[], Result]) -> Future[Result]:
-        """Does something on the session's thread that finds the plan of a gait made; see `PlanSettling`."""
+        """Does something on the session's thread that finds the plan of a gait made; see `Planner`."""
         return self._plans.after(gait_id, action)
 
     def change(self, action: Callable[[], OpenGait]) -> Future[dict[str, Any]]:
@@ -176,7 +176,7 @@ class Studio:
             A future with the gait's view.
         """
         shown: Future[dict[str, Any]] = Future()
-        self.session.tell(partial(self._change, action, shown))
+        self.commands.tell(partial(self._change, action, shown))
         return shown
 
     def _change(self, action: Callable[[], OpenGait], shown: Future[dict[str, Any]]) -> None:
@@ -198,7 +198,7 @@ class Studio:
             "type": "hello",
             "version": VERSION,
             "gaits": self.summaries(),
-            "jobs": [self.job_view(content) for content in self.book.contents()],
+            "jobs": [self.job_view(content) for content in self.job_repository.contents()],
             "robot": self.robot.view(),
         }
 
@@ -257,7 +257,7 @@ class Studio:
         return view
 
     def _publish_jobs(self, gait_id: str) -> None:
-        for content in self.book.contents():
+        for content in self.job_repository.contents():
             if content["gait"] == gait_id:
                 self.hub.publish({"type": "job", "job": self.job_view(content)})
 
@@ -321,14 +321,16 @@ class Studio:
 
     def cancel_job(self, job_id: str) -> dict[str, Any]:
         """Asks a job to end; one that ended already stays as it is."""
-        cancels = {SIMULATE: self._simulating.cancel, TRACK: self.seeing.tracks.cancel}
-        view = self.job_view(cancels.get(self.book.content(job_id)["kind"], self.jobs.cancel)(job_id))
+        cancels = {SIMULATE: self._simulating.cancel, TRACK: self.lab.tracks.cancel}
+        view = self.job_view(
+            cancels.get(self.job_repository.content(job_id)["kind"], self.jobs.cancel)(job_id)
+        )
         self.hub.publish({"type": "job", "job": view})
         return view
 
     def submit_tracking(self, order: TrackOrder) -> dict[str, Any]:
         """Starts following the feet in a video."""
-        view = self.job_view(self.seeing.tracks.submit(order))
+        view = self.job_view(self.lab.tracks.submit(order))
         self._show_tracking(view)
         return view
 
@@ -360,7 +362,7 @@ class Studio:
         return views
 
     def _job_changed(self, job: Job) -> None:
-        self.session.tell(lambda: self._show_job(job))
+        self.commands.tell(lambda: self._show_job(job))
 
     def _show_job(self, job: Job) -> None:
         content = self.jobs.changed(job)
@@ -368,17 +370,17 @@ class Studio:
             self.hub.publish({"type": "job", "job": self.job_view(content)})
 
     def _take_result(self, motion: str, content: dict[str, Any]) -> None:
-        for open_gait in self.gaits.take_result(motion, content):
+        for open_gait in self.gaits.on_result(motion, content):
             self.publish_soon(open_gait.id)
 
     def _simulated(self, waypoints_hash: str) -> None:
         """Takes back what was found of waypoints before they were simulated; any thread may call."""
 
         def take() -> None:
-            for open_gait in self.gaits.take_simulation(waypoints_hash):
+            for open_gait in self.gaits.on_simulated(waypoints_hash):
                 self.publish_soon(open_gait.id)
 
-        self.session.tell(take)
+        self.commands.tell(take)
 
     def _robot_changed(self, view: dict[str, Any]) -> None:
         self.hub.publish({"type": "robot", "robot": view})

@@ -11,7 +11,7 @@ import numpy as np
 from app.trials.bands import band_content
 from app.trials.figures import movement_content, path_content
 from app.trials.record import ROBOT, TrialRecord
-from app.trials.service import MOST_PLACES, TrialDesk
+from app.trials.service import MOST_PLACES, TrialService
 from app.trials.simulated_feet import TrialSimulations
 from core.errors import InputError
 from core.robot.model import load_robot
@@ -25,21 +25,21 @@ MOST_TOGETHER = 20
 """Trials that are laid over each other."""
 
 
-class TrialsBeside:
+class TrialComparison:
     """What stands beside trials; every method may be called from any thread.
 
     Args:
-        desk: the trials.
+        service: the trials.
         simulations: of what their robots were sent.
     """
 
-    def __init__(self, desk: TrialDesk, simulations: TrialSimulations) -> None:
-        self._desk = desk
+    def __init__(self, service: TrialService, simulations: TrialSimulations) -> None:
+        self._service = service
         self._simulations = simulations
 
     def figures(self, trial: str) -> dict[str, Any]:
         """How the trial's simulation stands, a row of figures a source, and physics' feet for a plot."""
-        record = self._desk.record(trial)
+        record = self._service.record(trial)
         simulated, remark = self._simulated(record)
         rows = [_row(source, record, motion) for source, motion in self.sources(record).items()]
         return {
@@ -57,7 +57,7 @@ class TrialsBeside:
 
     def simulate(self, trial: str) -> dict[str, Any]:
         """Starts a trial's simulation where there is none; tells how it stands."""
-        self._desk.record(trial)
+        self._service.record(trial)
         return self._simulations.begin(trial)
 
     def _simulated(self, record: TrialRecord) -> tuple[FootTrack | None, str]:
@@ -75,7 +75,7 @@ class TrialsBeside:
         Raises:
             InputError: there is no such lap.
         """
-        record = self._desk.record(trial)
+        record = self._service.record(trial)
         track = track_of_motion(record.track, record.alignment_of_lap(lap))
         kept = _thinned(track.times.size, SCENE_PLACES)
         shares = np.interp(kept, [0, *record.ends], np.linspace(0.0, 1.0, len(record.ends) + 1))
@@ -102,7 +102,7 @@ class TrialsBeside:
         """
         if not 1 <= len(set(trials)) == len(trials) <= MOST_TOGETHER:
             raise InputError(f"Choose 1 to {MOST_TOGETHER} different trials.", "trial")
-        records = [self._desk.record(trial) for trial in trials]
+        records = [self._service.record(trial) for trial in trials]
         return band_content(records)
 
 

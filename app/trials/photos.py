@@ -10,9 +10,9 @@ from typing import Any
 
 from app.store.database import Database
 from app.store.gait_files import require_folder, write_atomically
-from app.store.photo_store import Content, PhotoLog
-from app.trials.service import TrialDesk
-from app.vision.services import Eyes, seen
+from app.store.photo_store import Content, PhotoStore
+from app.trials.service import TrialService
+from app.vision.services import VisionServices, seen
 from app.vision.worker import PhotoFiles, PhotoOf, Source
 from core.errors import InputError, NotFoundError
 
@@ -30,22 +30,22 @@ class TrialPhotos:
     """The photos of trials; every method may be called from any thread.
 
     Args:
-        desk: the trials.
+        service: the trials.
         database: where is kept what is known of photos.
         data: the data folder; pictures lie in its folder `trial-photos`.
-        eyes: what reads pictures.
+        vision: what reads pictures.
     """
 
-    def __init__(self, desk: TrialDesk, database: Database, data: Path, eyes: Eyes) -> None:
-        self._desk = desk
-        self._log = PhotoLog(database)
+    def __init__(self, service: TrialService, database: Database, data: Path, vision: VisionServices) -> None:
+        self._service = service
+        self._log = PhotoStore(database)
         self._folder = data / "trial-photos"
-        self._eyes = eyes
+        self._vision = vision
         self._lock = threading.Lock()
 
     def photos(self, trial: str) -> list[Content]:
         """A trial's photos, in the order in which they came."""
-        self._desk.record(trial)
+        self._service.record(trial)
         return self._log.of_trial(trial)
 
     def add(self, trial: str, content: bytes, name: str, by: str) -> Content:
@@ -61,10 +61,10 @@ class TrialPhotos:
             InputError: it is no such picture, too large, or one too many.
             StateError: the trial is deleted.
         """
-        self._desk.require_listed(trial)
+        self._service.require_listed(trial)
         check_bytes(len(content), name)
         task = PhotoOf(Source(file=content, name=name), KEPT_WIDTH, SMALL_WIDTH)
-        made: PhotoFiles = seen(self._eyes.near, task, LOOK_SECONDS)
+        made: PhotoFiles = seen(self._vision.near, task, LOOK_SECONDS)
         photo: Content = {
             "id": uuid.uuid4().hex[:12],
             "trial": trial,
@@ -88,20 +88,20 @@ class TrialPhotos:
 
     def caption(self, trial: str, photo: str, caption: str) -> Content:
         """Keeps what a person says of a photo."""
-        self._desk.require_listed(trial)
+        self._service.require_listed(trial)
         content = {**self._known(trial, photo), "caption": caption}
         self._log.change(content)
         return content
 
     def delete(self, trial: str, photo: str) -> None:
         """Takes a photo away; `restore` brings it back."""
-        self._desk.require_listed(trial)
+        self._service.require_listed(trial)
         self._known(trial, photo)
         self._log.put_deleted(photo, time.time())
 
     def restore(self, trial: str, photo: str) -> Content:
         """Brings a deleted photo back."""
-        self._desk.require_listed(trial)
+        self._service.require_listed(trial)
         content = self._known(trial, photo)
         self._log.put_deleted(photo, None)
         return content

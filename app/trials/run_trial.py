@@ -9,7 +9,7 @@ import numpy as np
 
 from app.runs.record import RunRecord
 from app.trials.planned import PlannedFeet, planned_of_run
-from app.trials.service import TrialWords
+from app.trials.service import TrialDescription
 from app.vision.tracking import VideoTrack
 from core.arrays import Floats, interpolated
 from core.errors import InputError, StateError
@@ -35,7 +35,7 @@ class RunTrial:
     """
 
     found: VideoTrack
-    words: TrialWords
+    words: TrialDescription
     planned: PlannedFeet
     ends: tuple[int, ...] | None
     remarks: tuple[str, ...]
@@ -70,7 +70,7 @@ def run_trial(record: RunRecord, found: VideoTrack) -> RunTrial:
             remarks += (f"{len(ends)} of {len(done)} iterations were seen.",)
     content = record.content
     when = datetime.fromtimestamp(content["started"]).astimezone()
-    words = TrialWords(
+    words = TrialDescription(
         f"{content['gait_name']}, {when:%d %b %H:%M}",
         content["by"],
         expected * 100.0,

@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 
 from app.store.database import Database
-from app.store.trial_reference_store import TrialBesideLog
-from app.store.trial_store import TrialLog, TrialRow
+from app.store.trial_reference_store import TrialReferenceStore
+from app.store.trial_store import TrialRow, TrialStore
 from app.trials.figures import path_content, plan_content, track_content
 from app.trials.planned import PlannedFeet
 from app.trials.record import ROBOT, TrialRecord, kept_track, told_ends, trial_record
-from app.trials.track_source import Sight, astray_content, fit_content
+from app.trials.track_source import TrackRecord, astray_content, fit_content
 from core.arrays import Floats
 from core.errors import InputError, NotFoundError, StateError
 from core.robot.model import load_robot
@@ -30,7 +30,7 @@ MOST_PLACES = 600
 
 
 @dataclass(frozen=True)
-class TrialWords:
+class TrialDescription:
     """What a person says of a trial.
 
     Args:
@@ -54,7 +54,7 @@ class TrialWords:
     run: str = ""
 
 
-class TrialDesk:
+class TrialService:
     """What there is to see of trials; every method may be called from any thread.
 
     Args:
@@ -66,12 +66,16 @@ class TrialDesk:
         self, database: Database, changed: Callable[[dict[str, Any]], None] = lambda change: None
     ) -> None:
         self._changed = changed
-        self._log = TrialLog(database)
-        self._beside = TrialBesideLog(database)
+        self._log = TrialStore(database)
+        self._beside = TrialReferenceStore(database)
         self._lines: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {}
 
     def add(
-        self, track: FootTrack, words: TrialWords, planned: PlannedFeet | None, sight: Sight | None = None
+        self,
+        track: FootTrack,
+        words: TrialDescription,
+        planned: PlannedFeet | None,
+        sight: TrackRecord | None = None,
     ) -> dict[str, Any]:
         """Keeps a new trial and tells its figures.
 

@@ -19,7 +19,7 @@ from app.common.version import VERSION
 from app.simulation.problem import FORM, physics_content
 from app.simulation.service import SimulationHandle, SimulationTier
 from app.simulation.view import shown_samples
-from app.store.trial_reference_store import TrialBesideLog
+from app.store.trial_reference_store import TrialReferenceStore
 from app.trials.planned import sent_problem
 from core.arrays import Floats
 from core.errors import FootfallError
@@ -80,7 +80,7 @@ class TrialSimulations:
         tier: what simulates.
     """
 
-    def __init__(self, log: TrialBesideLog, tier: SimulationTier) -> None:
+    def __init__(self, log: TrialReferenceStore, tier: SimulationTier) -> None:
         self._log = log
         self._tier = tier
         self._lock = threading.Lock()

@@ -22,7 +22,7 @@ LEAST_WAY_CM = 0.3
 
 
 @dataclass(frozen=True)
-class SightSource:
+class TrackSource:
     """Where a track was seen.
 
     Args:
@@ -41,7 +41,7 @@ class SightSource:
 
 
 @dataclass(frozen=True, eq=False)
-class Sight:
+class TrackRecord:
     """A track as it was seen.
 
     Args:
@@ -52,7 +52,7 @@ class Sight:
     """
 
     found: VideoTrack
-    source: SightSource
+    source: TrackSource
     remarks: tuple[str, ...] = ()
     run_ends: tuple[int, ...] | None = None
 

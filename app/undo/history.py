@@ -58,7 +58,7 @@ class LogEntry:
 
 
 @dataclass(frozen=True)
-class Deed:
+class Action:
     """That an edit was done or undone.
 
     Args:
@@ -106,8 +106,8 @@ class History:
 
     entries: Mapping[int, LogEntry]
     last: int
-    done: tuple[Deed, ...] = ()
-    undone: tuple[Deed, ...] = ()
+    done: tuple[Action, ...] = ()
+    undone: tuple[Action, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "entries", MappingProxyType(dict(self.entries)))
@@ -136,9 +136,9 @@ class History:
             author: whose it is.
             others: the other pages that are connected.
         """
-        undone = tuple(deed for deed in self.undone if deed.page in others)
+        undone = tuple(action for action in self.undone if action.page in others)
         added = self._added(LogEntry(label, document, author))
-        done = (*self.done, Deed(added.last, added.last, author.page))
+        done = (*self.done, Action(added.last, added.last, author.page))
         return replace(added, done=done[-MOST_STEPS:], undone=undone)
 
     def restated(self, document: str) -> History:
@@ -146,17 +146,17 @@ class History:
         entry = replace(self.present, document=document)
         return replace(self, entries={**self.entries, self.last: entry})
 
-    def undoable(self, others: frozenset[str]) -> Deed | None:
+    def undoable(self, others: frozenset[str]) -> Action | None:
         """What undo takes back: the newest edit that is of none of the other pages."""
-        return next((deed for deed in reversed(self.done) if deed.page not in others), None)
+        return next((action for action in reversed(self.done) if action.page not in others), None)
 
-    def redoable(self, others: frozenset[str]) -> Deed | None:
+    def redoable(self, others: frozenset[str]) -> Action | None:
         """What redo does again."""
-        return next((deed for deed in reversed(self.undone) if deed.page not in others), None)
+        return next((action for action in reversed(self.undone) if action.page not in others), None)
 
-    def label_of(self, deed: Deed | None) -> str | None:
+    def label_of(self, action: Action | None) -> str | None:
         """What an edit is called."""
-        return None if deed is None else self.entries[deed.position].label
+        return None if action is None else self.entries[action.position].label
 
     def undo(self, author: Author, others: frozenset[str]) -> Step:
         """What taking the author's newest edit back comes to.
@@ -164,10 +164,10 @@ class History:
         Raises:
             StateError: there is none, or somebody else changed the same since.
         """
-        deed = self.undoable(others)
-        if deed is None:
+        action = self.undoable(others)
+        if action is None:
             raise StateError("There is nothing to undo.", "undo")
-        return self._step(deed, author, others, again=False)
+        return self._step(action, author, others, again=False)
 
     def redo(self, author: Author, others: frozenset[str]) -> Step:
         """What doing the author's newest undone edit again comes to.
@@ -175,35 +175,35 @@ class History:
         Raises:
             StateError: there is none, or somebody else changed the same since.
         """
-        deed = self.redoable(others)
-        if deed is None:
+        action = self.redoable(others)
+        if action is None:
             raise StateError("There is nothing to redo.", "redo")
-        return self._step(deed, author, others, again=True)
+        return self._step(action, author, others, again=True)
 
-    def _step(self, deed: Deed, author: Author, others: frozenset[str], *, again: bool) -> Step:
-        before, after = deed.position - 1, deed.position
+    def _step(self, action: Action, author: Author, others: frozenset[str], *, again: bool) -> Step:
+        before, after = action.position - 1, action.position
         base, want = (before, after) if again else (after, before)
         old, new, present = (self.entries[at].content for at in (base, want, self.last))
         merged = merge(old, new, present)
         touched = tuple(dict.fromkeys((*merged.conflicts, *merged.changed, *merged.spans)))
-        claims = self._claims(deed, touched, others)
-        label = self.entries[deed.position].label
+        claims = self._claims(action, touched, others)
+        label = self.entries[action.position].label
         places = merged.conflicts or tuple(place for place in touched if place in claims)
         if places:
-            who = claims.get(places[0]) or self._changer(places[0], deed.position, others)
+            who = claims.get(places[0]) or self._changer(places[0], action.position, others)
             raise StateError(
                 f"“{label}” cannot be {'done again' if again else 'undone'}: {_called(who, author)} changed "
                 f"{place_words(places)} since. Change it by hand, or restore an earlier version.",
                 "history",
             )
         exact = say_the_same(present, old)
-        return Step(deed.position, label, again, new if exact else merged.content, new, exact)
+        return Step(action.position, label, again, new if exact else merged.content, new, exact)
 
-    def _claims(self, deed: Deed, places: tuple[Path, ...], others: frozenset[str]) -> dict[Path, Author]:
+    def _claims(self, action: Action, places: tuple[Path, ...], others: frozenset[str]) -> dict[Path, Author]:
         """Places that others changed after an edit, and who did; also where they changed them back."""
         claims: dict[Path, Author] = {}
         for later in self.done:
-            if later.since <= deed.position or later.page not in others:
+            if later.since <= action.position or later.page not in others:
                 continue
             entry, before = self.entries[later.position], self.entries[later.position - 1]
             claims |= {
@@ -233,11 +233,11 @@ class History:
         """
         word = "Redo" if step.again else "Undo"
         added = self._added(LogEntry(f"{word}: {step.label}", document, author))
-        deed = Deed(step.position, added.last, author.page)
-        done, undone = (_without(deeds, step.position) for deeds in (self.done, self.undone))
+        action = Action(step.position, added.last, author.page)
+        done, undone = (_without(actions, step.position) for actions in (self.done, self.undone))
         if step.again:
-            return replace(added, done=(*done, deed), undone=undone)
-        return replace(added, done=done, undone=(*undone, deed))
+            return replace(added, done=(*done, action), undone=undone)
+        return replace(added, done=done, undone=(*undone, action))
 
     def _added(self, entry: LogEntry) -> History:
         entries = {**self.entries, self.last + 1: entry}
@@ -252,14 +252,14 @@ class History:
         if len(self.entries) <= MOST_ENTRIES and size <= MOST_CHARACTERS:
             return self
         done = self.done if size <= MOST_CHARACTERS else self.done[-LEAST_STEPS:]
-        edits = {self.last, *(deed.position for deed in (*done, *self.undone))}
+        edits = {self.last, *(action.position for action in (*done, *self.undone))}
         needed = {at for edit in edits for at in (edit - 1, edit)}
         entries = {at: entry for at, entry in self.entries.items() if at in needed}
         return replace(self, entries=entries, done=done)
 
 
-def _without(deeds: tuple[Deed, ...], position: int) -> tuple[Deed, ...]:
-    return tuple(deed for deed in deeds if deed.position != position)
+def _without(actions: tuple[Action, ...], position: int) -> tuple[Action, ...]:
+    return tuple(action for action in actions if action.position != position)
 
 
 def _called(other: Author | None, author: Author) -> str:

@@ -8,27 +8,27 @@ from pathlib import Path
 from typing import Any
 
 from app.cameras.address import CameraAddress
-from app.cameras.service import CameraDesk
-from app.cameras.setup_service import SetupDesk
-from app.jobs.repository import JobBook
-from app.runs.service import RunDesk
+from app.cameras.service import CameraService
+from app.cameras.setup_service import CameraSetupService
+from app.jobs.repository import JobRepository
+from app.runs.service import RunService
 from app.store.database import Database
-from app.trials.service import TrialDesk
+from app.trials.service import TrialService
 from app.videos.run_recording import RunRecordings
-from app.videos.service import VideoDesk
-from app.videos.tracking_service import TrackDesk
-from app.vision.services import open_eyes
+from app.videos.service import VideoService
+from app.videos.tracking_service import TrackingService
+from app.vision.services import open_vision_services
 
 Content = dict[str, Any]
 
 
-class Seeing:
+class Lab:
     """Setups, videos and their tracking.
 
     Args:
         data: the data folder.
         database: where is kept what is known of them.
-        book: the list of jobs.
+        job_repository: the list of jobs.
         trials: where tracks go.
         runs: the records of runs.
         files: video files that are played as cameras.
@@ -37,7 +37,7 @@ class Seeing:
         publish: tells every page.
 
     Attributes:
-        eyes: the processes that look at pictures.
+        vision: the processes that look at pictures.
         setups: how cameras see the platform.
         videos: uploads and recordings.
         tracks: videos that are tracked; for the session's thread.
@@ -49,27 +49,27 @@ class Seeing:
         self,
         data: Path,
         database: Database,
-        book: JobBook,
-        trials: TrialDesk,
-        runs: RunDesk,
+        job_repository: JobRepository,
+        trials: TrialService,
+        runs: RunService,
         files: Sequence[CameraAddress],
         later: Callable[[Callable[[], object]], None],
         show_job: Callable[[Content], object],
         publish: Callable[[Content], None],
     ) -> None:
         self._publish, self._show_job = publish, show_job
-        self.eyes = open_eyes()
-        self.setups = SetupDesk(database, self._tell_setups)
-        self.videos = VideoDesk(
-            data, database, self.eyes, lambda view: publish({"type": "video", "video": view})
+        self.vision = open_vision_services()
+        self.setups = CameraSetupService(database, self._tell_setups)
+        self.videos = VideoService(
+            data, database, self.vision, lambda view: publish({"type": "video", "video": view})
         )
         self.videos.tidy()
-        self.tracks = TrackDesk(
-            self.eyes, book, self.videos, self.setups, trials, runs, later, self._show_tracking
+        self.tracks = TrackingService(
+            self.vision, job_repository, self.videos, self.setups, trials, runs, later, self._show_tracking
         )
 
         self._is_telling = threading.Lock()
-        self.cameras = CameraDesk(database, self.setups, files, self._tell_cameras)
+        self.cameras = CameraService(database, self.setups, files, self._tell_cameras)
         self.cameras.stand_by()
         self.recordings = RunRecordings(
             database, self.cameras, self.setups, self.videos, runs, trials, self.tell_trial
@@ -79,7 +79,7 @@ class Seeing:
         """Ends recordings and processes."""
         self.recordings.close()
         self.cameras.close()
-        self.eyes.close()
+        self.vision.close()
 
     def tell_trial(self, trial: str) -> None:
         """Tells every page of a new trial."""

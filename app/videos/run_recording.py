@@ -16,17 +16,17 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from app.bridge.states import LinkState, RobotSnapshot
-from app.cameras.process import CameraError, CameraLink
-from app.cameras.service import UNDER, CameraDesk
-from app.cameras.setup_service import SetupDesk
+from app.cameras.process import CameraError, CameraProcess
+from app.cameras.service import UNDER, CameraService
+from app.cameras.setup_service import CameraSetupService
 from app.robot.views import RUNNING
-from app.runs.service import RunDesk
+from app.runs.service import RunService
 from app.store.database import Database
-from app.store.run_store import RunLog
+from app.store.run_store import RunStore
 from app.trials.run_trial import run_trial
-from app.trials.service import TrialDesk
-from app.trials.track_source import Sight, SightSource
-from app.videos.service import VideoDesk
+from app.trials.service import TrialService
+from app.trials.track_source import TrackRecord, TrackSource
+from app.videos.service import VideoService
 from app.vision.recorder import Recorded, RecordOrder
 from app.vision.tracking import missing_remarks
 from core.errors import FootfallError, StateError
@@ -60,10 +60,10 @@ class _Recording:
     """A recording that is on, or was."""
 
     video: str
-    link: CameraLink
+    link: CameraProcess
     camera: str
     setup: CameraSetup | None
-    source: SightSource
+    source: TrackSource
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,14 +91,14 @@ class RunRecordings:
     def __init__(
         self,
         database: Database,
-        cameras: CameraDesk,
-        setups: SetupDesk,
-        videos: VideoDesk,
-        runs: RunDesk,
-        trials: TrialDesk,
+        cameras: CameraService,
+        setups: CameraSetupService,
+        videos: VideoService,
+        runs: RunService,
+        trials: TrialService,
         told: Callable[[str], None],
     ) -> None:
-        self._log = RunLog(database)
+        self._log = RunStore(database)
         self._cameras, self._setups, self._videos = cameras, setups, videos
         self._runs, self._trials, self._told = runs, trials, told
         self._turns: queue.SimpleQueue[_Turn | None] = queue.SimpleQueue()
@@ -176,10 +176,10 @@ class RunRecordings:
         self._videos.make_room()
         self._videos.files.require_room(0)
         link = self._cameras.link(view["id"])
-        setup, source = None, SightSource("", view["id"], "", "", 0)
+        setup, source = None, TrackSource("", view["id"], "", "", 0)
         if view["use"] == UNDER:
             setup, revision = self._setups.complete(view["setup"])
-            source = SightSource("", view["id"], view["setup"], setup.name, revision)
+            source = TrackSource("", view["id"], view["setup"], setup.name, revision)
         tracking = None if setup is None else setup.tracking()
         folder = self._videos.files.path(video)
         link.record(RecordOrder(folder, run["started_monotonic"], tracking, view["name"]))
@@ -242,7 +242,7 @@ class RunRecordings:
             self._await_record(run)
             made = run_trial(self._runs.record(run), recorded.found)
             source = replace(one.source, video=one.video)
-            sight = Sight(
+            sight = TrackRecord(
                 made.found, source, (*remarks, *missing_remarks(made.found), *made.remarks), made.ends
             )
             trial = self._trials.add(made.found.track, made.words, made.planned, sight)

@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from app.store.database import Database
-from app.store.video_store import VideoLog
+from app.store.video_store import VideoStore
 from app.videos.files import MOST_RECORDED, Upload, VideoFiles
 from app.vision.footage import PICTURES, Facts
-from app.vision.services import Eyes, Look, seen
+from app.vision.services import VisionServices, VisionTask, seen
 from app.vision.worker import FactsOf, PictureOf, Source
 from core.errors import FootfallError, InputError, NotFoundError, StateError
 
@@ -29,13 +29,13 @@ MOST_DELETED = 30 * 86_400.0
 Content = dict[str, Any]
 
 
-class VideoDesk:
+class VideoService:
     """Videos in the data folder; every method may be called from any thread.
 
     Args:
         data: the data folder.
         database: where is kept what is known of them.
-        eyes: what reads pictures.
+        vision: what reads pictures.
         changed: told of a video that is new or another.
     """
 
@@ -43,12 +43,12 @@ class VideoDesk:
         self,
         data: Path,
         database: Database,
-        eyes: Eyes,
+        vision: VisionServices,
         changed: Callable[[Content], None] = lambda view: None,
     ) -> None:
         self.files = VideoFiles(data)
-        self._log = VideoLog(database)
-        self._eyes = eyes
+        self._log = VideoStore(database)
+        self._vision = vision
         self._changed = changed
         self._lock = threading.Lock()
 
@@ -120,7 +120,7 @@ class VideoDesk:
 
     def _facts(self, path: Path, name: str) -> Facts:
         try:
-            facts: Facts = seen(self._eyes.boards, FactsOf(path), FACTS_SECONDS)
+            facts: Facts = seen(self._vision.boards, FactsOf(path), FACTS_SECONDS)
         except InputError as refusal:
             raise InputError(refusal.sentence.replace(path.name, name), "file") from None
         return facts
@@ -181,7 +181,7 @@ class VideoDesk:
         def failed(error: FootfallError) -> None:
             self.change(video, state="removed", sentence=f"{sentence} {error.sentence}")
 
-        self._eyes.boards.ask(Look(FactsOf(path), done=done, failed=failed))
+        self._vision.boards.ask(VisionTask(FactsOf(path), done=done, failed=failed))
 
     def make_room(self) -> None:
         """Takes the oldest recordings' pictures away where all together are too many; trials stay."""
@@ -244,7 +244,7 @@ class VideoDesk:
 
     def picture(self, source: Source, most: int | None) -> bytes:
         """A picture as a JPEG file, no wider than so many pixels."""
-        file: bytes = seen(self._eyes.near, PictureOf(source, most), LOOK_SECONDS)
+        file: bytes = seen(self._vision.near, PictureOf(source, most), LOOK_SECONDS)
         return file
 
     def _known(self, video: str) -> Content:

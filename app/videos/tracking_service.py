@@ -10,16 +10,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from app.cameras.setup_service import SetupDesk
-from app.jobs.job_tracker import RunningJobs
-from app.jobs.repository import JobBook
-from app.runs.service import RunDesk
+from app.cameras.setup_service import CameraSetupService
+from app.jobs.job_tracker import JobTracker
+from app.jobs.repository import JobRepository
+from app.runs.service import RunService
 from app.trials.planned import PlannedFeet
 from app.trials.run_trial import run_trial
-from app.trials.service import TrialDesk, TrialWords
-from app.trials.track_source import Sight, SightSource
-from app.videos.service import VideoDesk
-from app.vision.services import Eyes, Look
+from app.trials.service import TrialDescription, TrialService
+from app.trials.track_source import TrackRecord, TrackSource
+from app.videos.service import VideoService
+from app.vision.services import VisionServices, VisionTask
 from app.vision.tracking import VideoTrack, missing_remarks
 from app.vision.worker import TrackIn
 from core.errors import FootfallError
@@ -43,16 +43,16 @@ class TrackOrder:
 
     video: str
     setup: str
-    words: TrialWords
+    words: TrialDescription
     planned: PlannedFeet | None
 
 
-class TrackDesk:
+class TrackingService:
     """Videos that are tracked.
 
     Args:
-        eyes: what looks at pictures.
-        book: the list of jobs.
+        vision: what looks at pictures.
+        job_repository: the list of jobs.
         videos: which videos there are.
         setups: which setups there are.
         trials: where tracks go.
@@ -63,18 +63,18 @@ class TrackDesk:
 
     def __init__(
         self,
-        eyes: Eyes,
-        book: JobBook,
-        videos: VideoDesk,
-        setups: SetupDesk,
-        trials: TrialDesk,
-        runs: RunDesk,
+        vision: VisionServices,
+        job_repository: JobRepository,
+        videos: VideoService,
+        setups: CameraSetupService,
+        trials: TrialService,
+        runs: RunService,
         later: Callable[[Callable[[], None]], object],
         shown: Callable[[Content], object],
     ) -> None:
-        self._eyes, self._book = eyes, book
+        self._vision, self._job_repository = vision, job_repository
         self._videos, self._setups, self._trials, self._runs = videos, setups, trials, runs
-        self._running = RunningJobs(book, later, shown, "Follows the feet.")
+        self._running = JobTracker(job_repository, later, shown, "Follows the feet.")
 
     def submit(self, order: TrackOrder) -> Content:
         """Starts tracking.
@@ -88,26 +88,28 @@ class TrackDesk:
         setup, revision = self._setups.complete(order.setup)
         tracking = setup.tracking()
         tracking.require_size((video["size"][0], video["size"][1]))
-        source = SightSource(order.video, video["camera"], order.setup, setup.name, revision)
+        source = TrackSource(order.video, video["camera"], order.setup, setup.name, revision)
         job_id = uuid.uuid4().hex[:12]
         words = order.words
         seen = {"video": order.video, "video_name": video["name"], "share": 0.0}
-        job = self._book.begin(job_id, KIND, words.gait, words.gait_name or video["name"], "", **seen)
-        look = Look(
+        job = self._job_repository.begin(
+            job_id, KIND, words.gait, words.gait_name or video["name"], "", **seen
+        )
+        look = VisionTask(
             TrackIn(path, tracking),
             self._running.teller(job_id),
             lambda found: self._tracked(job_id, order, source, found),
             lambda error: self._running.end(job_id, {"state": "failed", "sentence": error.sentence}),
         )
         self._running.begin(job_id, look)
-        self._eyes.tracker.ask(look)
+        self._vision.tracker.ask(look)
         return job
 
     def cancel(self, job_id: str) -> Content:
         """Asks a job to end; one that ended already stays as it is."""
         return self._running.cancel(job_id)
 
-    def _tracked(self, job_id: str, order: TrackOrder, source: SightSource, found: VideoTrack | None) -> None:
+    def _tracked(self, job_id: str, order: TrackOrder, source: TrackSource, found: VideoTrack | None) -> None:
         """Keeps a track as a trial; on the tracker's thread."""
         if found is None:
             self._running.end(job_id, {"state": "cancelled", "sentence": "Cancelled."})
@@ -122,14 +124,14 @@ class TrackDesk:
             job_id, {"state": "done", "sentence": track_sentence(found), "share": 1.0, "result": result}
         )
 
-    def _kept(self, order: TrackOrder, source: SightSource, found: VideoTrack) -> Content:
+    def _kept(self, order: TrackOrder, source: TrackSource, found: VideoTrack) -> Content:
         """The trial; that of a recorded run counts from the run's first waypoint, as the run's log tells."""
         words, video = order.words, self._videos.view(order.video)
         if video["kind"] != "recording" or words.run != video["run"]:
-            sight = Sight(found, source, missing_remarks(found))
+            sight = TrackRecord(found, source, missing_remarks(found))
             return self._trials.add(found.track, words, order.planned, sight)
         made = run_trial(self._runs.record(words.run), found)
-        sight = Sight(made.found, source, (*missing_remarks(made.found), *made.remarks), made.ends)
+        sight = TrackRecord(made.found, source, (*missing_remarks(made.found), *made.remarks), made.ends)
         return self._trials.add(made.found.track, words, made.planned, sight)
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from app.vision.opencv import cv2
 from app.vision.video_io import Picture, scaled
 from core.arrays import Floats
-from core.vision.camera import ColourRange, SpotLimits
+from core.vision.camera import BlobLimits, ColourRange
 
 Mask = NDArray[np.uint8]
 """(height, width), 255 where something is, else 0."""
@@ -27,7 +27,7 @@ RING = (255, 255, 255)
 
 
 @dataclass(frozen=True)
-class Spot:
+class Blob:
     """A spot of a foot's colour.
 
     Args:
@@ -59,13 +59,13 @@ def mask_of(hsv: Picture, colour: ColourRange) -> Mask:
     return np.asarray(masks[0] if len(masks) == 1 else cv2.bitwise_or(*masks), dtype=np.uint8)
 
 
-def find_feet(frame: Picture, colours: tuple[ColourRange, ...], limits: SpotLimits) -> Floats:
+def find_feet(frame: Picture, colours: tuple[ColourRange, ...], limits: BlobLimits) -> Floats:
     """(feet, 2) pixel of each foot in one picture, nan where no spot is fit; the largest counts."""
     hsv = in_colours(frame)
     return np.array([_largest(mask_of(hsv, colour), limits) for colour in colours])
 
 
-def _largest(mask: Mask, limits: SpotLimits) -> tuple[float, float]:
+def _largest(mask: Mask, limits: BlobLimits) -> tuple[float, float]:
     for contour, area in _contours(mask):
         if area < limits.least_area:
             break
@@ -76,7 +76,7 @@ def _largest(mask: Mask, limits: SpotLimits) -> tuple[float, float]:
     return (math.nan, math.nan)
 
 
-def spots_of(mask: Mask, limits: SpotLimits) -> tuple[tuple[Spot, ...], int]:
+def blobs_of(mask: Mask, limits: BlobLimits) -> tuple[tuple[Blob, ...], int]:
     """The largest spots of a mask, and how many smaller ones there are."""
     found = _contours(mask)
     return tuple(_spot(*one, limits) for one in found[:MOST_SPOTS]), max(len(found) - MOST_SPOTS, 0)
@@ -89,16 +89,16 @@ def _contours(mask: Mask) -> list[tuple[NDArray[np.int32], float]]:
     return sorted(found, key=lambda one: -one[1])
 
 
-def _spot(contour: NDArray[np.int32], area: float, limits: SpotLimits) -> Spot:
+def _spot(contour: NDArray[np.int32], area: float, limits: BlobLimits) -> Blob:
     middle, radius = cv2.minEnclosingCircle(contour)
     fill = area / (math.pi * max(radius, 0.5) ** 2)
     sums = cv2.moments(contour)
     if sums["m00"] > 0:
         middle = (sums["m10"] / sums["m00"], sums["m01"] / sums["m00"])
-    return Spot((float(middle[0]), float(middle[1])), area, radius, fill, limits.refusal(area, fill))
+    return Blob((float(middle[0]), float(middle[1])), area, radius, fill, limits.refusal(area, fill))
 
 
-def shown_mask(picture: Picture, mask: Mask, spots: tuple[Spot, ...], most: int | None) -> Picture:
+def shown_mask(picture: Picture, mask: Mask, spots: tuple[Blob, ...], most: int | None) -> Picture:
     """A picture where only what has a foot's colour stays in colour, and what may be the foot is ringed.
 
     Args:

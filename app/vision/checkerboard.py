@@ -24,7 +24,7 @@ Corners = NDArray[np.float32]
 
 
 @dataclass(frozen=True, eq=False)
-class FoundLens:
+class CalibratedLens:
     """A lens and how well it explains the pictures.
 
     Args:
@@ -45,7 +45,9 @@ def board_corners(picture: Picture, corners: tuple[int, int]) -> Corners | None:
     return np.asarray(points, dtype=np.float32) if there else None
 
 
-def lens_of_corners(boards: Sequence[Corners], size: tuple[int, int], corners: tuple[int, int]) -> FoundLens:
+def lens_of_corners(
+    boards: Sequence[Corners], size: tuple[int, int], corners: tuple[int, int]
+) -> CalibratedLens:
     """A camera's lens from where it saw a board's corners.
 
     Args:
@@ -79,7 +81,7 @@ def lens_of_corners(boards: Sequence[Corners], size: tuple[int, int], corners: t
         off = np.asarray(seen).reshape(-1, 2) - board.reshape(-1, 2)
         each.append(float(np.sqrt((off**2).sum(axis=1).mean())))
     lens = Lens(np.asarray(matrix, dtype=np.float64), np.asarray(distortion, dtype=np.float64).ravel()[:5])
-    return FoundLens(lens, float(unexplained), tuple(each))
+    return CalibratedLens(lens, float(unexplained), tuple(each))
 
 
 def straightened(picture: Picture, lens: Lens) -> Picture:

@@ -30,7 +30,7 @@ class Facts:
         return self.count / self.rate
 
 
-class Footage(Protocol):
+class FrameSource(Protocol):
     """Pictures with their times; for one thread."""
 
     facts: Facts

@@ -7,14 +7,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from app.vision.worker import Task, run_picture_worker
+from app.vision.worker import VisionRequest, run_picture_worker
 from core.errors import FootfallError, StateError
-from solver_jobs import Question, QuestionService
+from solver_jobs import Task, TaskService
 
 _log = logging.getLogger(__name__)
 
 
-class Look(Question[Task, float, Any]):
+class VisionTask(Task[VisionRequest, float, Any]):
     """A question about pictures.
 
     Args:
@@ -26,7 +26,7 @@ class Look(Question[Task, float, Any]):
 
     def __init__(
         self,
-        task: Task,
+        task: VisionRequest,
         progress: Callable[[float], object] = lambda share: None,
         done: Callable[[Any], object] = lambda answer: None,
         failed: Callable[[FootfallError], object] = lambda error: None,
@@ -54,15 +54,15 @@ class Look(Question[Task, float, Any]):
 
 
 @dataclass(frozen=True)
-class Eyes:
+class VisionServices:
     """The processes: a process each for looks that a person waits for, for checkerboards, and for tracking.
 
     Each is started by its first question.
     """
 
-    near: QuestionService[Look]
-    boards: QuestionService[Look]
-    tracker: QuestionService[Look]
+    near: TaskService[VisionTask]
+    boards: TaskService[VisionTask]
+    tracker: TaskService[VisionTask]
 
     def close(self) -> None:
         """Ends the processes and whatever waits for them."""
@@ -70,7 +70,7 @@ class Eyes:
             service.close()
 
 
-def seen(service: QuestionService[Look], task: Task, seconds: float) -> Any:
+def seen(service: TaskService[VisionTask], task: VisionRequest, seconds: float) -> Any:
     """The answer to a question about pictures.
 
     Args:
@@ -82,7 +82,7 @@ def seen(service: QuestionService[Look], task: Task, seconds: float) -> Any:
         FootfallError: it was refused.
         StateError: the answer does not come in time; the question is ended.
     """
-    look = service.ask(Look(task))
+    look = service.ask(VisionTask(task))
     try:
         return look.result(seconds)
     except TimeoutError:
@@ -93,10 +93,10 @@ def seen(service: QuestionService[Look], task: Task, seconds: float) -> Any:
         ) from None
 
 
-def open_eyes() -> Eyes:
+def open_vision_services() -> VisionServices:
     """The processes, none started yet."""
-    return Eyes(
-        QuestionService("picture reader", run_picture_worker),
-        QuestionService("checkerboard finder", run_picture_worker),
-        QuestionService("video tracker", run_picture_worker),
+    return VisionServices(
+        TaskService("picture reader", run_picture_worker),
+        TaskService("checkerboard finder", run_picture_worker),
+        TaskService("video tracker", run_picture_worker),
     )

@@ -11,12 +11,12 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from app.vision.blobs import find_feet
-from app.vision.footage import Footage
+from app.vision.footage import FrameSource
 from app.vision.recording_file import Recording
 from app.vision.video_io import VideoFile
 from core.arrays import Bools, Floats
 from core.errors import InputError
-from core.vision.outliers import false_sights
+from core.vision.outliers import find_outliers
 from core.vision.setup import TrackingSetup
 from core.vision.track import FootTrack, filled_track
 
@@ -52,7 +52,7 @@ class VideoTrack:
     missing: Bools
 
 
-def open_footage(path: Path) -> Footage:
+def open_frames(path: Path) -> FrameSource:
     """A recording's folder or a video file.
 
     Raises:
@@ -77,7 +77,7 @@ def track_video(
     Raises:
         InputError: it is no video, of another size than the setup's, or a foot is never seen.
     """
-    footage = open_footage(path)
+    footage = open_frames(path)
     times: list[float] = []
     pixels: list[Floats] = []
     try:
@@ -114,7 +114,7 @@ def track_of_pixels(times: Floats, pixels: Floats, setup: TrackingSetup, name: s
     feet = setup.places(seen)
     unseen = np.asarray(np.isnan(feet).any(axis=2))
     missing = np.asarray(unseen.all(axis=1))
-    false = false_sights(every, feet)
+    false = find_outliers(every, feet)
     feet[false] = math.nan
     rate = float(1.0 / np.median(np.diff(times)))
     return VideoTrack(filled_track(every, feet, name), unseen & ~missing[:, None], false, rate, missing)

@@ -13,17 +13,17 @@ from typing import Any, Protocol
 import numpy as np
 
 from app.vision.blobs import (
+    Blob,
     Mask,
-    Spot,
+    blobs_of,
     find_feet,
     in_colours,
     mask_of,
     shown_mask,
-    spots_of,
 )
 from app.vision.checkerboard import board_corners, lens_of_corners, straightened
-from app.vision.footage import Facts, Footage
-from app.vision.tracking import VideoTrack, open_footage, track_video
+from app.vision.footage import Facts, FrameSource
+from app.vision.tracking import VideoTrack, open_frames, track_video
 from app.vision.video_io import (
     Picture,
     jpeg,
@@ -33,26 +33,26 @@ from app.vision.video_io import (
 )
 from core.arrays import Floats
 from core.errors import InputError
-from core.vision.camera import ColourRange, Lens, SpotLimits
+from core.vision.camera import BlobLimits, ColourRange, Lens
 from core.vision.image_header import picture_size, require_readable
 from core.vision.setup import TrackingSetup
-from solver_jobs import Report, answer_questions
+from solver_jobs import Report, run_tasks
 
 MOST_OPEN = 3
 """Videos that are kept open to be looked at."""
 
 
-class Shelf:
+class FrameSourceCache:
     """The videos that were looked at last, open, each with its last picture."""
 
     def __init__(self) -> None:
-        self._open: OrderedDict[Path, Footage] = OrderedDict()
+        self._open: OrderedDict[Path, FrameSource] = OrderedDict()
         self._last: tuple[Path, int, Picture] | None = None
 
-    def footage(self, path: Path) -> Footage:
+    def footage(self, path: Path) -> FrameSource:
         """A video, opened where it is not."""
         if path not in self._open:
-            self._open[path] = open_footage(path)
+            self._open[path] = open_frames(path)
             if len(self._open) > MOST_OPEN:
                 self._open.popitem(last=False)[1].close()
         self._open.move_to_end(path)
@@ -65,10 +65,10 @@ class Shelf:
         return self._last[2]
 
 
-class Task(Protocol):
+class VisionRequest(Protocol):
     """Something to do with pictures."""
 
-    def answer(self, shelf: Shelf, report: Report) -> Any:
+    def answer(self, repository: FrameSourceCache, report: Report) -> Any:
         """Does it."""
 
 
@@ -78,10 +78,10 @@ class FactsOf:
 
     path: Path
 
-    def answer(self, shelf: Shelf, report: Report) -> Facts:
+    def answer(self, repository: FrameSourceCache, report: Report) -> Facts:
         """Reads them."""
-        del shelf
-        footage = open_footage(self.path)
+        del repository
+        footage = open_frames(self.path)
         try:
             for number in range(2):
                 try:
@@ -111,7 +111,7 @@ class Source:
     file: bytes = b""
     name: str = "picture"
 
-    def picture(self, shelf: Shelf) -> Picture:
+    def picture(self, repository: FrameSourceCache) -> Picture:
         """The picture.
 
         Raises:
@@ -121,7 +121,7 @@ class Source:
             size = picture_size(self.file, self.name)
             require_readable(size.width, size.height, self.name)
             return read_picture(self.file, self.name)
-        return shelf.picture(self.path, self.number)
+        return repository.picture(self.path, self.number)
 
 
 @dataclass(frozen=True)
@@ -131,10 +131,10 @@ class PictureOf:
     source: Source
     most: int | None
 
-    def answer(self, shelf: Shelf, report: Report) -> bytes:
+    def answer(self, repository: FrameSourceCache, report: Report) -> bytes:
         """Writes it."""
         del report
-        return jpeg(scaled(self.source.picture(shelf), self.most))
+        return jpeg(scaled(self.source.picture(repository), self.most))
 
 
 @dataclass(frozen=True)
@@ -160,10 +160,10 @@ class PhotoOf:
     most: int
     most_small: int
 
-    def answer(self, shelf: Shelf, report: Report) -> PhotoFiles:
+    def answer(self, repository: FrameSourceCache, report: Report) -> PhotoFiles:
         """Writes them."""
         del report
-        picture = scaled(self.source.picture(shelf), self.most)
+        picture = scaled(self.source.picture(repository), self.most)
         size = (picture.shape[1], picture.shape[0])
         return PhotoFiles(size, jpeg(picture), jpeg(scaled(picture, self.most_small)))
 
@@ -185,15 +185,15 @@ class LookAt:
     source: Source
     foot: int | None
     colours: tuple[ColourRange, ...]
-    limits: SpotLimits
+    limits: BlobLimits
     setup: TrackingSetup | None
     shows_mask: bool
     most: int | None
 
-    def answer(self, shelf: Shelf, report: Report) -> dict[str, Any]:
+    def answer(self, repository: FrameSourceCache, report: Report) -> dict[str, Any]:
         """Looks."""
         del report
-        picture = self.source.picture(shelf)
+        picture = self.source.picture(repository)
         height, width = picture.shape[:2]
         if self.setup is not None:
             self.setup.require_size((width, height))
@@ -202,7 +202,7 @@ class LookAt:
         if self.foot is None:
             return {**whole, "picture": self._shown(picture), "spots": [], "more": 0, "chosen": None}
         mask = mask_of(in_colours(picture), self.colours[self.foot])
-        spots, more = spots_of(mask, self.limits)
+        spots, more = blobs_of(mask, self.limits)
         fit = [index for index, spot in enumerate(spots) if spot.refusal is None]
         masked = (mask, spots) if self.shows_mask else None
         return {
@@ -213,7 +213,7 @@ class LookAt:
             "chosen": fit[0] if fit else None,
         }
 
-    def _shown(self, picture: Picture, masked: tuple[Mask, tuple[Spot, ...]] | None = None) -> str:
+    def _shown(self, picture: Picture, masked: tuple[Mask, tuple[Blob, ...]] | None = None) -> str:
         if self.most is None:
             return ""
         small = scaled(picture, self.most) if masked is None else shown_mask(picture, *masked, self.most)
@@ -253,10 +253,10 @@ class BoardIn:
     source: Source
     corners: tuple[int, int]
 
-    def answer(self, shelf: Shelf, report: Report) -> dict[str, Any]:
+    def answer(self, repository: FrameSourceCache, report: Report) -> dict[str, Any]:
         """Looks for them."""
         del report
-        picture = self.source.picture(shelf)
+        picture = self.source.picture(repository)
         found = board_corners(picture, self.corners)
         height, width = picture.shape[:2]
         return {
@@ -282,9 +282,9 @@ class LensOf:
     size: tuple[int, int]
     corners: tuple[int, int]
 
-    def answer(self, shelf: Shelf, report: Report) -> dict[str, Any]:
+    def answer(self, repository: FrameSourceCache, report: Report) -> dict[str, Any]:
         """Computes it."""
-        del shelf, report
+        del repository, report
         boards = [np.asarray(board, dtype=np.float32).reshape(-1, 1, 2) for board in self.boards]
         found = lens_of_corners(boards, self.size, self.corners)
         return {
@@ -302,10 +302,10 @@ class Straighten:
     source: Source
     lens: Lens
 
-    def answer(self, shelf: Shelf, report: Report) -> bytes:
+    def answer(self, repository: FrameSourceCache, report: Report) -> bytes:
         """Bends it."""
         del report
-        return jpeg(straightened(self.source.picture(shelf), self.lens))
+        return jpeg(straightened(self.source.picture(repository), self.lens))
 
 
 @dataclass(frozen=True, eq=False)
@@ -315,9 +315,9 @@ class TrackIn:
     path: Path
     setup: TrackingSetup
 
-    def answer(self, shelf: Shelf, report: Report) -> VideoTrack | None:
+    def answer(self, repository: FrameSourceCache, report: Report) -> VideoTrack | None:
         """Follows the feet."""
-        del shelf
+        del repository
         return track_video(self.path, self.setup, report)
 
 
@@ -330,9 +330,9 @@ def run_picture_worker(pipe: Connection, warm_up: None) -> None:
     """
     del warm_up
     use_one_thread()
-    shelf = Shelf()
+    repository = FrameSourceCache()
 
-    def work(task: Task, report: Report) -> Any:
-        return task.answer(shelf, report)
+    def work(task: VisionRequest, report: Report) -> Any:
+        return task.answer(repository, report)
 
-    answer_questions(pipe, work)
+    run_tasks(pipe, work)

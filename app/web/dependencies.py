@@ -81,7 +81,7 @@ TheAuthor = Annotated[Author, Depends(author_of)]
 """Who edits, for a route."""
 
 
-async def on_session(studio: Studio, action: Callable[[], Result]) -> Result:
+async def on_command_thread(studio: Studio, action: Callable[[], Result]) -> Result:
     """Does something on the session's thread and waits for it."""
     return await asyncio.wrap_future(studio.call(action))
 

@@ -44,7 +44,7 @@ class CheckedPlan:
         model: the robot.
         trajectory: the plan in the world frame.
         waypoints: what would be sent.
-        expected_travel: (2,) the body's displacement that the document asks for, m; None where unknown.
+        expected_displacement: (2,) the body's displacement that the document asks for, m; None where unknown.
         is_draft: whether the plan was only drawn, not computed by hand table or optimiser.
         way: how the waypoints were merged and cut; None where they are one a knot and the path between them
             is not looked at.
@@ -55,7 +55,7 @@ class CheckedPlan:
     model: RobotModel
     trajectory: Trajectory
     waypoints: Waypoints
-    expected_travel: Floats | None = None
+    expected_displacement: Floats | None = None
     is_draft: bool = False
     way: WaypointPlan | None = None
     asked: Asked = field(default_factory=Asked)

@@ -22,8 +22,8 @@ START_FEET = 3
 def check_document(plan: CheckedPlan) -> list[Outcome]:
     """Travel, turn, heights and start pose, each where the document says something of it."""
     outcomes = [check_start(plan)]
-    if plan.expected_travel is not None:
-        outcomes.append(check_travel(plan, plan.expected_travel))
+    if plan.expected_displacement is not None:
+        outcomes.append(check_travel(plan, plan.expected_displacement))
     if plan.asked.turn is not None:
         outcomes.append(check_turn(plan, plan.asked.turn))
     if plan.asked.heights is not None:

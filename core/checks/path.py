@@ -11,7 +11,7 @@ from core.arrays import Floats, stretches
 from core.findings import Outcome, RuleMargin, SendCost, Severity, found
 from core.motion.trajectory import Trajectory
 from core.robot.model import RobotModel
-from core.wire.executed_path import RobotPath, robot_path
+from core.wire.executed_path import ExecutedPath, executed_path
 from core.wire.timing import ARRIVAL_THRESHOLD, stop_time
 from core.wire.waypoint_merging import WaypointPlan, cut_plan, plan_of_knots
 from core.wire.waypoint_path import estimate_seconds
@@ -50,7 +50,7 @@ class _Worst:
     is_sure: bool = False
 
 
-_Rule = Callable[[RobotPath], _Worst | None]
+_Rule = Callable[[ExecutedPath], _Worst | None]
 
 
 def check_path(model: RobotModel, trajectory: Trajectory, plan: WaypointPlan) -> list[Outcome]:
@@ -67,7 +67,7 @@ def check_path(model: RobotModel, trajectory: Trajectory, plan: WaypointPlan) ->
     """
     if model.is_coupled or plan.waypoints.count < 2:
         return []
-    path, every = robot_path(model, plan), robot_path(model, _replanned(model, trajectory, plan, 0.0))
+    path, every = executed_path(model, plan), executed_path(model, _replanned(model, trajectory, plan, 0.0))
     return [_outcome(name, rule, path, every, (model, trajectory, plan)) for name, rule in _RULES.items()]
 
 
@@ -101,8 +101,8 @@ def _replanned(model: RobotModel, trajectory: Trajectory, plan: WaypointPlan, me
 def _outcome(
     name: str,
     rule: _Rule,
-    path: RobotPath,
-    every: RobotPath,
+    path: ExecutedPath,
+    every: ExecutedPath,
     asked: tuple[RobotModel, Trajectory, WaypointPlan],
 ) -> Outcome:
     worst = rule(path)
@@ -135,13 +135,13 @@ def _fitting(rule: _Rule, slack: float, asked: tuple[RobotModel, Trajectory, Way
     """The largest smaller tolerance with which a rule holds, m."""
     model, trajectory, plan = asked
     for share in SMALLER:
-        worst = rule(robot_path(model, _replanned(model, trajectory, plan, share * plan.merge)))
+        worst = rule(executed_path(model, _replanned(model, trajectory, plan, share * plan.merge)))
         if worst is None or worst.margin >= -slack:
             return share * plan.merge
     return 0.0
 
 
-def _balance(path: RobotPath) -> _Worst | None:
+def _balance(path: ExecutedPath) -> _Worst | None:
     tips = bool((path.propped_margins < -BALANCE_SLACK).any())
     margins = path.propped_margins if tips else path.margins
     place = int(margins.argmin())
@@ -156,7 +156,7 @@ def _balance(path: RobotPath) -> _Worst | None:
     return _Worst(value, int(path.moves[place]), None, words, is_sure=True)
 
 
-def _ground(path: RobotPath) -> _Worst | None:
+def _ground(path: ExecutedPath) -> _Worst | None:
     gaps = np.where(path.standing, np.abs(np.nan_to_num(path.heights)), 0.0)
     place, foot = (int(i) for i in np.unravel_index(int(gaps.argmax()), gaps.shape))
     gap = float(gaps[place, foot])
@@ -167,7 +167,7 @@ def _ground(path: RobotPath) -> _Worst | None:
     return _Worst(GROUND_LIMIT - gap, int(path.moves[place]), foot, words)
 
 
-def _clearance(path: RobotPath) -> _Worst | None:
+def _clearance(path: ExecutedPath) -> _Worst | None:
     """The swing that rises least, or that sinks deepest into the ground on its way."""
     found = []
     for foot in range(path.standing.shape[1]):
@@ -178,7 +178,7 @@ def _clearance(path: RobotPath) -> _Worst | None:
     return min(found, key=lambda worst: worst.margin, default=None)
 
 
-def _swing(heights: Floats, first: int, foot: int, path: RobotPath) -> list[_Worst]:
+def _swing(heights: Floats, first: int, foot: int, path: ExecutedPath) -> list[_Worst]:
     top, low = first + int(np.nanargmax(heights)), first + int(np.nanargmin(heights))
     rise, sink = float(np.nanmax(heights)), float(np.nanmin(heights))
     rises = f"foot {foot + 1} rises only {rise * 1000:.2f} mm, less than {RISE_LIMIT * 1000:.1f} mm"

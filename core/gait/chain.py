@@ -11,7 +11,7 @@ import numpy as np
 from core.arrays import Floats
 from core.errors import InfeasibleError, InputError
 from core.gait.gait import GaitOptions
-from core.gait.transition import crossing
+from core.gait.transition import feet_transition
 from core.motion.contact_timeline import SAME_INTERVAL
 from core.motion.trajectory import Trajectory
 from core.problem.body_move import BodyPlace, MoveLimits, body_move
@@ -105,7 +105,7 @@ def chain(model: RobotModel, pieces: Sequence[Piece], options: GaitOptions, cros
         if then.stays.all():
             between = _body_move(model, motions[-1], then.motion, options, f"{before.name} and {piece.name}")
         else:
-            way = crossing(model, motions[-1], then, options)
+            way = feet_transition(model, motions[-1], then, options)
             between = way.placement.motion(cross(before, piece, way.problem))
         for motion, is_transition in [(between, True), (then.motion, False)]:
             if motion is not None:

@@ -16,7 +16,7 @@ from core.gait.provenance import Provenance
 from core.gait.recording import Recording
 from core.gait.sequence_part import MOST_PARTS, SequencePart
 from core.motion.contact_timeline import ContactTimeline, timeline_from_order
-from core.motion.heading_profile import Turning, heading_profile, return_knots
+from core.motion.heading_profile import HeadingProfile, heading_profile, return_knots
 from core.motion.trajectory import quarter_turn
 from core.problem.motion_problem import (
     Boundary,
@@ -28,7 +28,7 @@ from core.problem.motion_problem import (
     maps_onto_itself,
     standing_pose,
 )
-from core.problem.resting_pose import leaning
+from core.problem.resting_pose import resting_body
 from core.robot.leg_names import ring_roles
 from core.robot.model import RobotModel
 from core.segments.segment_table import SegmentTable
@@ -104,7 +104,7 @@ class GaitOptions:
     motor_speed: float | None = None
     motor_acceleration: float | None = None
     boundary: Boundary = Boundary.REST
-    turning: Turning = Turning.STEADY
+    turning: HeadingProfile = HeadingProfile.STEADY
     merge: float = 0.001
     stop_bound: float | None = 1.0
 
@@ -285,7 +285,7 @@ def with_return(gait: Gait, model: RobotModel) -> Gait:
         model: its robot, for the motors' speed.
     """
     yaw = gait.step[2]
-    if gait.options.turning is not Turning.RETURN or yaw == 0.0:
+    if gait.options.turning is not HeadingProfile.RETURN or yaw == 0.0:
         return gait
     least, sample_time = GaitOptions.closing_knots, gait.timeline.sample_time
     knots = return_knots(model, yaw, gait.options.plane_height, sample_time, least)
@@ -339,8 +339,8 @@ def resting_poses(gait: Gait, model: RobotModel) -> tuple[RestPose, RestPose]:
     start = standing_pose(model, options.plane_height, (0.0, 0.0))
     goal = standing_pose(model, end_height, (float(dx), float(dy)), gait.step[2] * gait.iterations)
     return (
-        leaning(start.raised(held.start, held_height(options.clearance)), held.start, options.margin),
-        leaning(goal.raised(held.end, held_height(options.clearance)), held.end, options.margin),
+        resting_body(start.raised(held.start, held_height(options.clearance)), held.start, options.margin),
+        resting_body(goal.raised(held.end, held_height(options.clearance)), held.end, options.margin),
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from core.gait.gait import Gait, drawn_timeline
 
 
-class Making(StrEnum):
+class MotionSource(StrEnum):
     """What a gait's motion comes from."""
 
     RECORDED = "recorded"
@@ -24,13 +24,13 @@ class Making(StrEnum):
     """A timeline drawn by hand, for the optimiser too."""
 
 
-def making(gait: Gait) -> Making:
+def motion_source(gait: Gait) -> MotionSource:
     """What a gait's motion comes from."""
     if gait.sequence:
-        return Making.SEQUENCE
+        return MotionSource.SEQUENCE
     if gait.recorded is not None:
-        return Making.RECORDED
+        return MotionSource.RECORDED
     if gait.segment_table is not None:
-        return Making.MANUAL
+        return MotionSource.MANUAL
     is_drawn_from_order = np.array_equal(gait.timeline.stance, drawn_timeline(gait).stance)
-    return Making.OPTIMISED if is_drawn_from_order else Making.DRAWN
+    return MotionSource.OPTIMISED if is_drawn_from_order else MotionSource.DRAWN

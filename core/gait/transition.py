@@ -24,7 +24,7 @@ from core.robot.model import RobotModel
 
 
 @dataclass(frozen=True, eq=False)
-class Crossing:
+class FeetTransition:
     """Steps from where one motion ends to where the next begins.
 
     Args:
@@ -36,7 +36,9 @@ class Crossing:
     placement: Placement
 
 
-def crossing(model: RobotModel, standing: Trajectory, then: Placed, options: GaitOptions) -> Crossing:
+def feet_transition(
+    model: RobotModel, standing: Trajectory, then: Placed, options: GaitOptions
+) -> FeetTransition:
     """The feet that do not stand where the next motion begins step there, one after the other.
 
     Those that were held up and stand then come down first; those that are held up then are lifted last.
@@ -70,7 +72,7 @@ def crossing(model: RobotModel, standing: Trajectory, then: Placed, options: Gai
         cost=options.cost,
         heading_profile=turn * eased(np.linspace(0.0, 1.0, timeline.sample_count)),
     )
-    return Crossing(problem, Placement(angle, origin))
+    return FeetTransition(problem, Placement(angle, origin))
 
 
 def _timeline(

@@ -12,7 +12,7 @@ LEAST_RANGE = 1e-9
 """Foretold distances that differ by no more have no line through them, m."""
 
 
-def fitted_line(said: Floats, measured: Floats) -> tuple[float, float]:
+def linear_baseline(said: Floats, measured: Floats) -> tuple[float, float]:
     """Slope and offset of measured = a · said + b (least squares).
 
     Where all are said to be equally far, a is the mean of their shares and b is 0.
@@ -28,7 +28,7 @@ def fitted_line(said: Floats, measured: Floats) -> tuple[float, float]:
     return float(slope), float(offset)
 
 
-def ratio_left_out(wanted: Floats, measured: Floats, groups: Sequence[Sequence[int]]) -> Floats:
+def baseline_left_out(wanted: Floats, measured: Floats, groups: Sequence[Sequence[int]]) -> Floats:
     """Distances that a line through the others' over wanted ones foretells of gaits that were left out.
 
     Args:
@@ -42,6 +42,6 @@ def ratio_left_out(wanted: Floats, measured: Floats, groups: Sequence[Sequence[i
     said = np.empty_like(wanted)
     for group in groups:
         kept = np.setdiff1d(np.arange(len(wanted)), group)
-        slope, offset = fitted_line(wanted[kept], measured[kept])
+        slope, offset = linear_baseline(wanted[kept], measured[kept])
         said[group] = slope * wanted[group] + offset
     return said

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.arrays import Bools, Floats
-from core.identification.design import even_points
+from core.identification.design import space_filling_points
 from core.identification.parameters import FitParameter, box
-from core.identification.surrogate import Surfaces
+from core.identification.surrogate import Surrogate
 
 DRAWS = 16_000
 """Points drawn of what is thought before the trials."""
@@ -69,7 +69,7 @@ class Fit:
 
 
 def fit(
-    surfaces: Surfaces,
+    surrogate: Surrogate,
     measured: Measured,
     parameters: Sequence[FitParameter],
     left_out: frozenset[int] = frozenset(),
@@ -82,7 +82,7 @@ def fit(
     until all that are left are told.
 
     Args:
-        surfaces: of all figures.
+        surrogate: of all figures.
         measured: the same figures of the real robot.
         parameters: what is fitted.
         left_out: gaits that do not count.
@@ -90,13 +90,13 @@ def fit(
     """
     gaits = np.setdiff1d(np.arange(measured.gait_count), list(left_out)).astype(np.int64)
     draws = prior_draws(tuple(parameters))
-    effect = _effects(surfaces, measured, parameters, gaits)
+    effect = _effects(surrogate, measured, parameters, gaits)
     before = draws.std(axis=0)
-    _, spread = _moments(draws, _weights(draws, surfaces, measured, gaits)[0])
+    _, spread = _moments(draws, _weights(draws, surrogate, measured, gaits)[0])
     told = np.asarray(effect > LEAST_EFFECT)
     told = told if among is None else told & among
     while True:
-        weights, noise = _weights(np.where(told, draws, 0.0), surfaces, measured, gaits)
+        weights, noise = _weights(np.where(told, draws, 0.0), surrogate, measured, gaits)
         mean, after = _moments(draws, weights)
         left = np.where(told, after / before, 0.0)
         if left.max() < MOST_LEFT:
@@ -109,7 +109,7 @@ def prior_draws(parameters: tuple[FitParameter, ...]) -> Floats:
     """(DRAWS, parameters) points of the normal distribution within the parameters' box, evenly spread."""
     normal = NormalDist()
     low, high = box(parameters)
-    shares = even_points(DRAWS, len(parameters))
+    shares = space_filling_points(DRAWS, len(parameters))
     ends = [(normal.cdf(float(a)), normal.cdf(float(b))) for a, b in zip(low, high, strict=True)]
     columns = [
         [normal.inv_cdf(a + (b - a) * share) for share in column.tolist()]
@@ -119,7 +119,7 @@ def prior_draws(parameters: tuple[FitParameter, ...]) -> Floats:
 
 
 def _effects(
-    surfaces: Surfaces, measured: Measured, parameters: Sequence[FitParameter], gaits: NDArray[np.int64]
+    surrogate: Surrogate, measured: Measured, parameters: Sequence[FitParameter], gaits: NDArray[np.int64]
 ) -> Floats:
     """(parameters,) range of the figure that changes most, in spreads, the others at their defaults."""
     figures = np.concatenate([gaits, gaits + measured.gait_count])
@@ -127,22 +127,22 @@ def _effects(
     for column, parameter in enumerate(parameters):
         line = np.zeros((21, len(parameters)))
         line[:, column] = np.linspace(parameter.low, parameter.high, len(line))
-        ranges = np.ptp(surfaces.at(line), axis=0) / measured.spread
+        ranges = np.ptp(surrogate.at(line), axis=0) / measured.spread
         effects.append(float(ranges[figures].max()))
     return np.array(effects)
 
 
 def _weights(
-    draws: Floats, surfaces: Surfaces, measured: Measured, gaits: NDArray[np.int64]
+    draws: Floats, surrogate: Surrogate, measured: Measured, gaits: NDArray[np.int64]
 ) -> tuple[Floats, tuple[float, float]]:
     """(draws,) weights that sum to 1, and the factors on the trials' spread that are likeliest."""
-    off = (surfaces.at(draws) - measured.values) ** 2
+    off = (surrogate.at(draws) - measured.values) ** 2
 
     def likelihoods(figures: NDArray[np.int64]) -> list[Floats]:
         """(draws,) logarithms, one for each factor."""
         logs = []
         for factor in NOISES:
-            variance = (factor * measured.spread[figures]) ** 2 + surfaces.misfit[figures] ** 2
+            variance = (factor * measured.spread[figures]) ** 2 + surrogate.misfit[figures] ** 2
             logs.append(-0.5 * (off[:, figures] @ (1.0 / variance) + np.log(variance).sum()))
         return logs
 

@@ -7,7 +7,7 @@ import numpy as np
 from core.arrays import Floats
 
 
-def even_points(count: int, axes: int) -> Floats:
+def space_filling_points(count: int, axes: int) -> Floats:
     """Points of the additive recurrence x(k) = frac(1/2 + k / φ^j), which fill the unit box evenly.
 
     φ is the positive root of x^(axes + 1) = x + 1, the golden ratio where there is one axis. A larger count

@@ -11,19 +11,19 @@ import numpy as np
 
 from core.arrays import Floats
 from core.errors import InputError
-from core.identification.baseline import fitted_line, ratio_left_out
+from core.identification.baseline import baseline_left_out, linear_baseline
 from core.identification.bayes_fit import Fit, Measured, fit
-from core.identification.design import even_points
+from core.identification.design import space_filling_points
 from core.identification.parameters import (
     FIT_PARAMETERS,
     FitParameter,
     box,
     physics_at,
 )
-from core.identification.surrogate import Surfaces, fitted_surfaces
+from core.identification.surrogate import Surrogate, fit_surrogate
 from core.physics.parameters import PhysicsSet
 from core.physics.problem import SimulationProblem
-from core.trials.travel import MeasuredWalk, Travel, pooled_spread
+from core.trials.travel import Displacement, MeasuredWalk, pooled_spread
 
 POINTS = 40
 """Sets of parameters at which every gait is simulated; a quadratic surface of seven has 36 coefficients."""
@@ -32,14 +32,14 @@ LEAST_POINTS = 8
 PARTS = 4
 """So many times an equal part of the points is left out; a parameter must be told each time, since what is
 told with all of them alone hangs on where they happen to lie."""
-FALLEN = Travel(0.0, math.nan)
+FALLEN = Displacement(0.0, math.nan)
 """What a check foretells in whose simulation the robot falls: no angle, and no way, all of which is error."""
 USUAL_SPREAD = (0.0021, float(np.radians(3.8)))
 """Of one trial, m and rad, where none was repeated: that of the published trials."""
 
 Task = tuple[int, PhysicsSet]
 """Which gait is simulated, and with which parameters."""
-Simulate = Callable[[Sequence[Task]], list[Travel | None]]
+Simulate = Callable[[Sequence[Task]], list[Displacement | None]]
 """Simulates gaits; None of one whose robot falls or whose simulation cannot be trusted."""
 
 
@@ -71,23 +71,23 @@ class Named(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Foretold:
+class Prediction:
     """Travels of every gait by one way of foretelling.
 
     Args:
         name: of the way.
-        travels: a gait each; an angle is nan where the way says nothing of it, or the robot falls.
+        displacements: a gait each; an angle is nan where the way says nothing of it, or the robot falls.
         falls: how many simulations fell.
     """
 
     name: str
-    travels: tuple[Travel, ...]
+    displacements: tuple[Displacement, ...]
     falls: int = 0
 
     @property
     def angles(self) -> int:
         """Of how many gaits it tells an angle."""
-        return sum(not math.isnan(travel.angle) for travel in self.travels)
+        return sum(not math.isnan(displacement.angle) for displacement in self.displacements)
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +101,7 @@ class Learned:
         fit: of all gaits.
         measured: what the real robot did.
         spread: of one trial, m and rad.
-        foretold: every way of foretelling beside it.
+        predicted: every way of foretelling beside it.
         misfit: (2 · gaits,) of the response surfaces, m and rad.
         simulations: how many were run.
     """
@@ -112,13 +112,13 @@ class Learned:
     fit: Fit
     measured: tuple[MeasuredWalk, ...]
     spread: tuple[float, float]
-    foretold: tuple[Foretold, ...]
+    predicted: tuple[Prediction, ...]
     misfit: Floats
     simulations: int
 
-    def errors(self, way: Foretold) -> tuple[float, float]:
+    def errors(self, way: Prediction) -> tuple[float, float]:
         """Mean absolute error of a way's distances, m, and of the angles that it tells, rad."""
-        pairs = [(one, walk.travel) for one, walk in zip(way.travels, self.measured, strict=True)]
+        pairs = [(one, walk.displacement) for one, walk in zip(way.displacements, self.measured, strict=True)]
         distance = float(np.mean([abs(one.distance - real.distance) for one, real in pairs]))
         angles = [abs(one.angle - real.angle) for one, real in pairs if not math.isnan(one.angle)]
         return distance, float(np.mean(angles)) if angles else math.nan
@@ -176,26 +176,33 @@ def learn(
     require_gaits(walks)
     if points < LEAST_POINTS:
         raise InputError(f"{points} points are asked for; take at least {LEAST_POINTS}.", "points")
-    course = _Course(walks, physics, simulate, points, parameters)
+    identification = _Identification(walks, physics, simulate, points, parameters)
     gaits, kinds = [[gait] for gait in range(len(walks))], _kinds(walks)
-    ways = [course.as_planned(), course.at("default", physics), course.at("fitted", course.learned)]
-    ways += [*course.left_out("left out", gaits), course.ratio("ratio, left out", gaits)]
+    ways = [
+        identification.as_planned(),
+        identification.at("default", physics),
+        identification.at("fitted", identification.learned),
+    ]
+    ways += [*identification.left_out("left out", gaits), identification.ratio("ratio, left out", gaits)]
     if is_by_kind(len(walks), len(kinds)):
-        ways += [*course.left_out("kind left out", kinds), course.ratio("ratio, kind left out", kinds)]
+        ways += [
+            *identification.left_out("kind left out", kinds),
+            identification.ratio("ratio, kind left out", kinds),
+        ]
     return Learned(
-        physics=course.learned,
+        physics=identification.learned,
         defaults=physics,
         parameters=parameters,
-        fit=course.fit,
+        fit=identification.fit,
         measured=tuple(walk.measured for walk in walks),
-        spread=course.spread,
-        foretold=tuple(ways),
-        misfit=course.surfaces.misfit,
+        spread=identification.spread,
+        predicted=tuple(ways),
+        misfit=identification.surrogate.misfit,
         simulations=simulation_count(len(walks), len(kinds), points),
     )
 
 
-class _Course:
+class _Identification:
     """The surfaces and the fit of all gaits, and what is foretold with and without some.
 
     Args:
@@ -220,48 +227,52 @@ class _Course:
         self._parameters = parameters
         known = [walk.measured for walk in walks]
         self.spread = pooled_spread(known) or USUAL_SPREAD
-        values = [walk.travel.distance for walk in known] + [walk.travel.angle for walk in known]
+        values = [walk.displacement.distance for walk in known] + [walk.displacement.angle for walk in known]
         self._measured = Measured(np.array(values), np.repeat(self.spread, len(known)))
-        self.surfaces, *self._parts = self._surfaces(points)
+        self.surrogate, *self._parts = self._surrogate(points)
         self.fit = self._fit()
         self.learned = self._set(self.fit)
 
-    def _surfaces(self, points: int) -> list[Surfaces]:
+    def _surrogate(self, points: int) -> list[Surrogate]:
         """Those through all points, then those without each part of them."""
         low, high = box(self._parameters)
-        z = low + (high - low) * even_points(points, len(self._parameters))
+        z = low + (high - low) * space_filling_points(points, len(self._parameters))
         sets = [physics_at(self._physics, row, self._parameters) for row in z]
-        travels = self._simulate([(gait, one) for one in sets for gait in range(len(self._walks))])
-        figures = np.array([_row(travel) for travel in travels]).reshape(points, len(self._walks), 2)
+        displacements = self._simulate([(gait, one) for one in sets for gait in range(len(self._walks))])
+        figures = np.array([_row(displacement) for displacement in displacements]).reshape(
+            points, len(self._walks), 2
+        )
         values = np.concatenate([figures[..., 0], figures[..., 1]], axis=1)
         names = [walk.measured.name for walk in self._walks] * 2
         without = [np.arange(points) % PARTS != part for part in range(PARTS)]
         return [
-            fitted_surfaces(low, high, z[kept], values[kept], names)
+            fit_surrogate(low, high, z[kept], values[kept], names)
             for kept in (np.ones(points, dtype=np.bool_), *without)
         ]
 
     def _fit(self, left_out: frozenset[int] = frozenset()) -> Fit:
         """The fit of what is told with all points and without each part of them."""
         whole, *parts = (
-            fit(surfaces, self._measured, self._parameters, left_out)
-            for surfaces in (self.surfaces, *self._parts)
+            fit(surrogate, self._measured, self._parameters, left_out)
+            for surrogate in (self.surrogate, *self._parts)
         )
         told = np.all([one.is_identifiable for one in (whole, *parts)], axis=0)
-        return fit(self.surfaces, self._measured, self._parameters, left_out, told)
+        return fit(self.surrogate, self._measured, self._parameters, left_out, told)
 
     def _set(self, found: Fit) -> PhysicsSet:
         return physics_at(self._physics, found.z, self._parameters)
 
-    def as_planned(self) -> Foretold:
+    def as_planned(self) -> Prediction:
         """Every gait goes as far as wanted, in the wanted direction."""
-        return Foretold("as planned", tuple(Travel(walk.measured.wanted, 0.0) for walk in self._walks))
+        return Prediction(
+            "as planned", tuple(Displacement(walk.measured.wanted, 0.0) for walk in self._walks)
+        )
 
-    def at(self, name: str, physics: PhysicsSet) -> Foretold:
+    def at(self, name: str, physics: PhysicsSet) -> Prediction:
         """Every gait simulated with one set."""
-        return self._foretold(name, [physics] * len(self._walks))
+        return self._prediction(name, [physics] * len(self._walks))
 
-    def left_out(self, name: str, groups: Sequence[Sequence[int]]) -> tuple[Foretold, Foretold]:
+    def left_out(self, name: str, groups: Sequence[Sequence[int]]) -> tuple[Prediction, Prediction]:
         """Every gait simulated with what is fitted without the group that it is in, and with a line besides.
 
         The line goes through the others' measured distances over those of their surfaces.
@@ -271,27 +282,29 @@ class _Course:
         for group in groups:
             without = self._fit(frozenset(group))
             kept = np.setdiff1d(np.arange(count), group)
-            said = self.surfaces.at(without.z[None])[0]
+            said = self.surrogate.at(without.z[None])[0]
             for gait in group:
                 chosen[gait] = self._set(without)
-                lines[gait] = fitted_line(said[kept], self._measured.values[kept])
-        plain = self._foretold(name, chosen)
+                lines[gait] = linear_baseline(said[kept], self._measured.values[kept])
+        plain = self._prediction(name, chosen)
         moved = tuple(
-            travel if travel is FALLEN else Travel(slope * travel.distance + offset, travel.angle)
-            for travel, (slope, offset) in zip(plain.travels, lines, strict=True)
+            displacement
+            if displacement is FALLEN
+            else Displacement(slope * displacement.distance + offset, displacement.angle)
+            for displacement, (slope, offset) in zip(plain.displacements, lines, strict=True)
         )
-        return plain, Foretold(f"{name}, line", moved, plain.falls)
+        return plain, Prediction(f"{name}, line", moved, plain.falls)
 
-    def ratio(self, name: str, groups: Sequence[Sequence[int]]) -> Foretold:
+    def ratio(self, name: str, groups: Sequence[Sequence[int]]) -> Prediction:
         """Every gait by a line through the others' distances; of angles it says nothing."""
         wanted = np.array([walk.measured.wanted for walk in self._walks])
-        said = ratio_left_out(wanted, self._measured.values[: len(wanted)], groups)
-        return Foretold(name, tuple(Travel(float(distance), float("nan")) for distance in said))
+        said = baseline_left_out(wanted, self._measured.values[: len(wanted)], groups)
+        return Prediction(name, tuple(Displacement(float(distance), float("nan")) for distance in said))
 
-    def _foretold(self, name: str, chosen: Sequence[PhysicsSet]) -> Foretold:
-        travels = self._simulate(list(enumerate(chosen)))
-        falls = sum(travel is None for travel in travels)
-        return Foretold(name, tuple(travel or FALLEN for travel in travels), falls)
+    def _prediction(self, name: str, chosen: Sequence[PhysicsSet]) -> Prediction:
+        displacements = self._simulate(list(enumerate(chosen)))
+        falls = sum(displacement is None for displacement in displacements)
+        return Prediction(name, tuple(displacement or FALLEN for displacement in displacements), falls)
 
 
 def _kinds(walks: Sequence[Named]) -> list[list[int]]:
@@ -301,5 +314,7 @@ def _kinds(walks: Sequence[Named]) -> list[list[int]]:
     return list(kinds.values())
 
 
-def _row(travel: Travel | None) -> tuple[float, float]:
-    return (float("nan"), float("nan")) if travel is None else (travel.distance, travel.angle)
+def _row(displacement: Displacement | None) -> tuple[float, float]:
+    return (
+        (float("nan"), float("nan")) if displacement is None else (displacement.distance, displacement.angle)
+    )

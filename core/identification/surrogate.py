@@ -18,7 +18,7 @@ LEAST_SHARE = 0.6
 
 
 @dataclass(frozen=True, eq=False)
-class Surfaces:
+class Surrogate:
     """Quadratic response surfaces over a box, one a figure; x goes from −1 to 1 along each side of it.
 
     y_j(x) = c_j0 + Σ c_ja x_a + Σ c_jab x_a x_b for a < b + Σ c_jaa (x_a² − 1/3).
@@ -40,7 +40,7 @@ class Surfaces:
         return np.asarray(_terms(self.low, self.high, z) @ self.coefficients)
 
 
-def fitted_surfaces(low: Floats, high: Floats, z: Floats, values: Floats, gaits: Sequence[str]) -> Surfaces:
+def fit_surrogate(low: Floats, high: Floats, z: Floats, values: Floats, gaits: Sequence[str]) -> Surrogate:
     """The surfaces of least squares, with a little ridge on all but the constant term.
 
     Args:
@@ -66,7 +66,7 @@ def fitted_surfaces(low: Floats, high: Floats, z: Floats, values: Floats, gaits:
     columns = [_coefficients(terms, values[:, j], known[:, j], len(low)) for j in range(values.shape[1])]
     coefficients = np.stack(columns, axis=1)
     off = np.where(known, values - terms @ coefficients, np.nan)
-    return Surfaces(low, high, coefficients, np.sqrt(np.nanmean(off**2, axis=0)))
+    return Surrogate(low, high, coefficients, np.sqrt(np.nanmean(off**2, axis=0)))
 
 
 def _terms(low: Floats, high: Floats, z: Floats) -> Floats:

@@ -32,7 +32,7 @@ PLACE_DECIMALS, HEIGHT_DECIMALS = 3, 5
 
 
 @dataclass(frozen=True)
-class TakenPose:
+class PoseSegment:
     """A table with a pose at its end.
 
     Args:
@@ -56,7 +56,7 @@ class _FootPose:
     swing: bool
 
 
-def take_pose(gait: Gait, model: RobotModel, strokes: Floats) -> TakenPose:
+def pose_to_segment(gait: Gait, model: RobotModel, strokes: Floats) -> PoseSegment:
     """Adds a segment to a gait's table in which every foot goes to where strokes put it.
 
     A place is d·s/|s|² for a foot's displacement d from its module's centre and the step's s. Places,
@@ -91,7 +91,7 @@ def take_pose(gait: Gait, model: RobotModel, strokes: Floats) -> TakenPose:
     require_heights(z, model.stroke)
     vocabulary = SegmentVocabulary(xy, z, segments)
     longer = replace(table, rows=tuple(rows), vocabulary=vocabulary, repeat_to=table.last_repeated)
-    return TakenPose(longer, name, beside)
+    return PoseSegment(longer, name, beside)
 
 
 def _feet(gait: Gait, model: RobotModel, strokes: Floats) -> tuple[list[_FootPose], Floats]:

@@ -24,7 +24,7 @@ from core.gait.sequence_part import SequencePart
 from core.library.patterns import LibraryPattern, library_pattern
 from core.library.sequence import sequence_gait
 from core.motion.contact_timeline import ContactTimeline, timeline_from_order, timeline_from_rows
-from core.motion.heading_profile import Turning
+from core.motion.heading_profile import HeadingProfile
 from core.robot.model import load_robot
 from core.segments.segment_table import Segment, SegmentTable, SegmentVocabulary
 
@@ -183,7 +183,7 @@ def _options(item: dict[str, Any]) -> GaitOptions:
         margin=item.get("margin", GaitOptions.margin),
         plane_height=item.get("plane_height", GaitOptions.plane_height),
         motor_speed=item.get("motor_speed"),
-        turning=Turning(item.get("turning", Turning.STEADY)),
+        turning=HeadingProfile(item.get("turning", HeadingProfile.STEADY)),
     )
 
 

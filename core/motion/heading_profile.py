@@ -16,7 +16,7 @@ MOST_RETURN_KNOTS = 60
 """More knots than any return within reach needs."""
 
 
-class Turning(StrEnum):
+class HeadingProfile(StrEnum):
     """When a gait with yaw turns the body."""
 
     STEADY = "steady"
@@ -26,7 +26,9 @@ class Turning(StrEnum):
     throughout."""
 
 
-def heading_profile(timeline: ContactTimeline, yaw: float, iterations: int, turning: Turning) -> Floats:
+def heading_profile(
+    timeline: ContactTimeline, yaw: float, iterations: int, turning: HeadingProfile
+) -> Floats:
     """(n,) heading at each knot, rad.
 
     Args:
@@ -39,7 +41,7 @@ def heading_profile(timeline: ContactTimeline, yaw: float, iterations: int, turn
         InputError: no stance of all feet follows the last swing, in which the body could turn.
     """
     n = timeline.sample_count
-    if turning is Turning.STEADY:
+    if turning is HeadingProfile.STEADY:
         return yaw * iterations * eased(np.linspace(0.0, 1.0, n))
     heading = np.zeros(n)
     spans = _resting_spans(timeline, iterations)

@@ -17,7 +17,7 @@ MOST_NAMED = 3
 """Limbs of a state that are named one by one."""
 
 
-def clash_sentence(problem: PatternProblem, clauses: Sequence[Clause], reached: int | None) -> str:
+def conflict_sentence(problem: PatternProblem, clauses: Sequence[Clause], reached: int | None) -> str:
     """What clashes, such as "Limbs 1 and 4 are locked in swing: at samples 1–9 only two feet are down, …".
 
     Args:

@@ -116,9 +116,9 @@ def with_locked_cells(fixed: Cells, cells: Cells) -> Cells:
             f"limbs and {fixed.shape[1]} samples.",
             "locked",
         )
-    clash = np.argwhere((cells != FREE) & (fixed != FREE) & (cells != fixed))
-    if len(clash):
-        limb, sample = clash[0]
+    conflict = np.argwhere((cells != FREE) & (fixed != FREE) & (cells != fixed))
+    if len(conflict):
+        limb, sample = conflict[0]
         here, wanted = (("swing", "stance")[int(value[limb, sample])] for value in (fixed, cells))
         raise InputError(
             f"Limb {limb + 1} is locked in {wanted} at sample {sample + 1}, but the gaits fix it in {here}. "

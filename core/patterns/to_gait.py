@@ -16,7 +16,7 @@ from core.gait.gait import (
 )
 from core.gait.held_feet import HeldFeet
 from core.motion.contact_timeline import ContactTimeline
-from core.motion.heading_profile import Turning
+from core.motion.heading_profile import HeadingProfile
 from core.patterns.sides import PatternSide, require_alike
 from core.patterns.sources import require_own_timeline
 from core.problem.motion_problem import Boundary, Workspace
@@ -181,7 +181,7 @@ def shared_options(first: GaitOptions, second: GaitOptions) -> GaitOptions:
         motor_speed=stricter(first.motor_speed, second.motor_speed),
         motor_acceleration=stricter(first.motor_acceleration, second.motor_acceleration),
         boundary=Boundary.REST,
-        turning=Turning.STEADY,
+        turning=HeadingProfile.STEADY,
     )
 
 

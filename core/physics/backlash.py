@@ -7,7 +7,7 @@ import numpy as np
 from core.arrays import Floats
 
 
-def with_play(strokes: Floats, backlash: float) -> Floats:
+def with_backlash(strokes: Floats, backlash: float) -> Floats:
     """Where knees are whose motors have play, the play operator of hysteresis.
 
     y(k) = min(max(y(k − 1), x(k) − b / 2), x(k) + b / 2): the knee stays until its motor has crossed the

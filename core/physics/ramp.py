@@ -18,7 +18,7 @@ TURN = 0.01
 
 
 @dataclass(frozen=True, eq=False)
-class MotorCourse:
+class MotorTrajectory:
     """What the motors are told and what they do without load, a row a turn of the firmware's loop.
 
     Args:
@@ -37,7 +37,7 @@ class MotorCourse:
         return (len(self.targets) - 1) * TURN
 
 
-def motor_course(waypoints: Waypoints, speeds: Floats) -> MotorCourse:
+def motor_trajectory(waypoints: Waypoints, speeds: Floats) -> MotorTrajectory:
     """The motors' way over all waypoints, from the first one, where they stand.
 
     Each waypoint costs a message and an error scan. Where a motor is further than the firmware's threshold
@@ -55,7 +55,7 @@ def motor_course(waypoints: Waypoints, speeds: Floats) -> MotorCourse:
         builder.move_to(row)
         arrivals.append(builder.last_row)
     shape = (-1, *speeds.shape)
-    return MotorCourse(
+    return MotorTrajectory(
         np.concatenate(builder.targets).reshape(shape),
         np.concatenate(builder.strokes).reshape(shape),
         np.array(arrivals, dtype=np.int64),

@@ -28,7 +28,7 @@ INSET = 0.002
 SMOOTHING_ROUNDS = 25
 
 
-def initial_motion(problem: MotionProblem) -> Trajectory:
+def initial_guess(problem: MotionProblem) -> Trajectory:
     """Draws a motion: feet in arcs with the asked clearance, the body over the support polygons.
 
     The feet obey p(k+1) = p(k) + dt(k)·(v(k) + v(k+1))/2 exactly, stand still in stance, and share a

@@ -14,7 +14,7 @@ RESERVE = 0.001
 """A resting body stays this much further inside the support polygon than is asked, m."""
 
 
-def leaning(pose: RestPose, held: tuple[int, ...], margin: float) -> RestPose:
+def resting_body(pose: RestPose, held: tuple[int, ...], margin: float) -> RestPose:
     """A pose whose body and held feet are shifted, no further than needed, over the standing feet.
 
     Args:

@@ -16,7 +16,7 @@ from core.vision.track import FootTrack
 
 
 @dataclass(frozen=True)
-class Travel:
+class Displacement:
     """The travel of a whole walk, a mean over its feet.
 
     Args:
@@ -37,7 +37,7 @@ class MeasuredWalk:
         name: of the gait with its step.
         kind: of gait; walks of one kind are left out together in one of the tests.
         wanted: distance that was wanted, m.
-        travel: mean over the trials.
+        displacement: mean over the trials.
         trials: how many.
         spread: (distance in m, angle in rad) sample standard deviation of the trials; None of a single one.
     """
@@ -45,12 +45,12 @@ class MeasuredWalk:
     name: str
     kind: str
     wanted: float
-    travel: Travel
+    displacement: Displacement
     trials: int
     spread: tuple[float, float] | None = None
 
 
-def track_travel(track: FootTrack, heading: float, wanted: float) -> Travel:
+def track_displacement(track: FootTrack, heading: float, wanted: float) -> Displacement:
     """Travel of a recorded track.
 
     Args:
@@ -59,10 +59,12 @@ def track_travel(track: FootTrack, heading: float, wanted: float) -> Travel:
         wanted: distance that was wanted, m.
     """
     turned = FootTrack(track.times, turned_by(track.feet, -heading), track.filled)
-    return movement_travel(mean_movement(foot_movements(turned, wanted)))
+    return movement_displacement(mean_movement(foot_movements(turned, wanted)))
 
 
-def motion_travel(times: Floats, feet: Floats, laps: int, heading: float, wanted: float) -> Travel:
+def motion_displacement(
+    times: Floats, feet: Floats, laps: int, heading: float, wanted: float
+) -> Displacement:
     """Travel of a motion that is walked several times, each lap from where the one before has ended.
 
     Args:
@@ -74,27 +76,29 @@ def motion_travel(times: Floats, feet: Floats, laps: int, heading: float, wanted
     """
     every_time, every_place = repeated_motion(times, feet, laps)
     seen = np.zeros(every_place.shape[:2], dtype=np.bool_)
-    return track_travel(FootTrack(every_time, every_place, seen), heading, wanted)
+    return track_displacement(FootTrack(every_time, every_place, seen), heading, wanted)
 
 
-def movement_travel(movement: Movement) -> Travel:
+def movement_displacement(movement: Movement) -> Displacement:
     """Travel of a movement whose frame has the wanted direction on +x."""
-    return Travel(movement.distance, movement.net_angle)
+    return Displacement(movement.distance, movement.net_angle)
 
 
-def walk_of_trials(name: str, kind: str, wanted: float, travels: Sequence[Travel]) -> MeasuredWalk:
+def walk_of_trials(
+    name: str, kind: str, wanted: float, displacements: Sequence[Displacement]
+) -> MeasuredWalk:
     """The trials of one gait together.
 
     Raises:
         InputError: there is none.
     """
-    if not travels:
+    if not displacements:
         raise InputError(f"{name} has no trial; leave it out.", "trials")
-    both = np.array([[travel.distance, travel.angle] for travel in travels])
+    both = np.array([[displacement.distance, displacement.angle] for displacement in displacements])
     mean = both.mean(axis=0)
     spread = both.std(axis=0, ddof=1) if len(both) > 1 else None
     apart = None if spread is None else (float(spread[0]), float(spread[1]))
-    return MeasuredWalk(name, kind, wanted, Travel(float(mean[0]), float(mean[1])), len(both), apart)
+    return MeasuredWalk(name, kind, wanted, Displacement(float(mean[0]), float(mean[1])), len(both), apart)
 
 
 def pooled_spread(walks: Sequence[MeasuredWalk]) -> tuple[float, float] | None:

@@ -56,7 +56,7 @@ FOOT_COLOURS = (
 
 
 @dataclass(frozen=True)
-class SpotLimits:
+class BlobLimits:
     """Which spots of a foot's colour may be the foot.
 
     Args:

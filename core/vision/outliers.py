@@ -12,7 +12,7 @@ FARTHEST = 0.012
 """A detection farther from its neighbours' median is false, m; a foot at 15 mm/s moves 9 mm in that time."""
 
 
-def false_sights(times: Floats, feet: Floats) -> Bools:
+def find_outliers(times: Floats, feet: Floats) -> Bools:
     """(n, feet) detections too far from the median of their neighbours; gaps are none.
 
     Args:

@@ -11,14 +11,14 @@ from core.arrays import Floats, frozen_floats
 from core.errors import InputError
 from core.vision.camera import (
     FOOT_COLOURS,
+    BlobLimits,
     ColourRange,
     Lens,
     PlatformView,
-    SpotLimits,
     view_of_points,
 )
 
-SPOTS = SpotLimits()
+SPOTS = BlobLimits()
 """Limits where nothing else is said."""
 
 LEAST_POINTS = 4
@@ -71,7 +71,7 @@ class TrackingSetup:
     view: PlatformView
     lens: Lens | None = None
     colours: tuple[ColourRange, ...] = FOOT_COLOURS
-    limits: SpotLimits = SPOTS
+    limits: BlobLimits = SPOTS
     size: tuple[int, int] | None = None
 
     def require_size(self, size: tuple[int, int]) -> None:
@@ -113,7 +113,7 @@ class CameraSetup:
     pixels: Floats = field(default_factory=lambda: np.zeros((0, 2)))
     places: Floats = field(default_factory=lambda: np.zeros((0, 2)))
     colours: tuple[ColourRange, ...] = FOOT_COLOURS
-    limits: SpotLimits = SPOTS
+    limits: BlobLimits = SPOTS
     note: str = ""
 
     def __post_init__(self) -> None:

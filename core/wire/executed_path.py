@@ -20,7 +20,7 @@ NEAR = 0.001
 
 
 @dataclass(frozen=True, eq=False)
-class RobotPath:
+class ExecutedPath:
     """Where the feet are along the path, in order.
 
     Args:
@@ -39,7 +39,7 @@ class RobotPath:
     propped_margins: Floats
 
 
-def robot_path(model: RobotModel, plan: WaypointPlan) -> RobotPath:
+def executed_path(model: RobotModel, plan: WaypointPlan) -> ExecutedPath:
     """Follows the moves of a plan by forward kinematics.
 
     The motors share one ramp, so each move is straight in motor space (PROTOCOL.md 3). Feet, and the centre
@@ -62,7 +62,7 @@ def robot_path(model: RobotModel, plan: WaypointPlan) -> RobotPath:
     heights = heights_over_standing(feet, standing)
     hands_over = plan.contact[moves - 1] | plan.contact[moves]
     propped = standing | (hands_over & ~(heights > NEAR))
-    return RobotPath(
+    return ExecutedPath(
         moves=moves,
         standing=standing,
         heights=heights,

@@ -12,7 +12,7 @@ from core.arrays import Floats
 from solver_jobs.live.qp import (
     MOST_ELASTIC_ITERATIONS,
     Answer,
-    Programme,
+    QuadraticProgram,
     Solver,
     stacked,
 )
@@ -69,19 +69,19 @@ def nearest(
         farthest: how far any number of a motion may be from that of the nearest one, mm or mm/s.
     """
     size = len(cost[0])
-    programme, offsets = _elastic(cost, rows, interval)
-    answer = solver.solve(programme, MOST_ELASTIC_ITERATIONS)
+    qp, offsets = _elastic(cost, rows, interval)
+    answer = solver.solve(qp, MOST_ELASTIC_ITERATIONS)
     if not answer.solved:
         return None
     misses = np.maximum(answer.x[size:], 0.0)
     split = tuple(misses[first - size : last - size] for first, last in pairwise(offsets))
-    total = float(programme.gradient[size:] @ misses)
-    return Nearest(answer.x[:size], split, total, _bound(programme, answer, size, farthest), answer)
+    total = float(qp.gradient[size:] @ misses)
+    return Nearest(answer.x[:size], split, total, _bound(qp, answer, size, farthest), answer)
 
 
 def _elastic(
     cost: tuple[Floats, Floats], rows: Sequence[Rows], interval: float
-) -> tuple[Programme, list[int]]:
+) -> tuple[QuadraticProgram, list[int]]:
     """The programme with misses behind the unknowns, and where each family's misses begin and end."""
     size = len(cost[0])
     offsets = [size]
@@ -97,7 +97,7 @@ def _elastic(
     columns = np.concatenate(soft_column)
     soft = np.nonzero(columns >= 0)[0]
     weight = np.concatenate(weights)
-    programme = Programme(
+    qp = QuadraticProgram(
         np.concatenate([COST_WEIGHT * cost[0], np.full(len(weight), COST_WEIGHT)]),
         np.concatenate([COST_WEIGHT * cost[1], weight]),
         np.concatenate([row, soft]),
@@ -107,7 +107,7 @@ def _elastic(
         upper,
         np.concatenate([np.full(size, -np.inf), np.zeros(len(weight))]),
     )
-    return programme, offsets
+    return qp, offsets
 
 
 def _halves(one: Rows) -> list[Rows]:
@@ -141,18 +141,18 @@ def _group_count(one: Rows) -> int:
     return int(one.group.max()) + 1 if one.count and one.family is not Family.DYNAMICS else 0
 
 
-def _bound(programme: Programme, answer: Answer, size: int, farthest: float) -> float:
+def _bound(qp: QuadraticProgram, answer: Answer, size: int, farthest: float) -> float:
     """A lower bound of the total miss by weak duality, whatever the solver's accuracy.
 
     With multipliers y ≥ 0 of the upper bounds, scaled so that no group's sum exceeds its weight, and z of the
     equations, every motion has Σ w s ≥ −(bᵀy + fᵀz) + rᵀx, where r = Aᵀy + Eᵀz is nearly 0.
     """
-    equation = programme.lower == programme.upper
+    equation = qp.lower == qp.upper
     y = np.where(equation, answer.multipliers, np.maximum(answer.multipliers, 0.0))
-    sums = np.zeros(len(programme.gradient))
-    np.add.at(sums, programme.column, programme.value * y[programme.row])
+    sums = np.zeros(len(qp.gradient))
+    np.add.at(sums, qp.column, qp.value * y[qp.row])
     pressure = -sums[size:]
-    excess = float((pressure / programme.gradient[size:]).max(initial=1.0))
+    excess = float((pressure / qp.gradient[size:]).max(initial=1.0))
     remainder = np.abs(sums[:size]) @ (np.abs(answer.x[:size]) + farthest)
-    bounds = np.where(y != 0, programme.upper, 0.0)
+    bounds = np.where(y != 0, qp.upper, 0.0)
     return float((-(bounds @ y) - remainder) / max(excess, 1.0))

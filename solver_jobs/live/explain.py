@@ -11,7 +11,7 @@ from core.arrays import Bools, Floats
 from core.gait.held_feet import feet_words
 from core.problem.initial_guess import Indices, closed_contact, problem_swings
 from core.problem.motion_problem import MotionProblem
-from solver_jobs.live.linearisation import MM, Outline
+from solver_jobs.live.linearisation import MM, Linearisation
 from solver_jobs.live.rows import NOBODY, Rows
 from solver_jobs.nlp.constraint import Family
 from solver_jobs.nlp.diagnosis import knot_ranges
@@ -25,16 +25,18 @@ MOST_LACKS = 6
 """Sentences that a person reads."""
 
 
-def lacks_of(outline: Outline, rows: Sequence[Rows], misses: Sequence[Floats], x: Floats) -> tuple[Lack, ...]:
+def lacks_of(
+    linearisation: Linearisation, rows: Sequence[Rows], misses: Sequence[Floats], x: Floats
+) -> tuple[Lack, ...]:
     """The misses by family, phase and feet, the worst first; without sentences.
 
     Args:
-        outline: the known part.
+        linearisation: the known part.
         rows: every family.
         misses: of each family, a number a group.
         x: the unknowns of the nearest motion; the row of a group that it breaks most names foot or edge.
     """
-    first, last = phase_bounds(outline.contact)
+    first, last = phase_bounds(linearisation.contact)
     worst: dict[tuple[str, int, tuple[int, ...]], Lack] = {}
     for one, amounts in zip(rows, misses, strict=True):
         excess = one.excess(x)

@@ -31,7 +31,7 @@ RAMP_SHARE = 0.8
 
 
 @dataclass(frozen=True, eq=False)
-class Outline:
+class Linearisation:
     """The known part of a motion; point 0 is the body, points 1 to legs are the feet.
 
     Args:
@@ -66,7 +66,7 @@ class Outline:
         return np.asarray(lift + masses.sum() * GRAVITY * MM)
 
 
-def outline_of(problem: MotionProblem, level: float | None = None) -> Outline:
+def linearise(problem: MotionProblem, level: float | None = None) -> Linearisation:
     """Draws what is known.
 
     Args:
@@ -96,7 +96,7 @@ def outline_of(problem: MotionProblem, level: float | None = None) -> Outline:
     if problem.boundary is Boundary.PERIODIC:
         index[1, -1, 0] = index[1, 0, 0]
     known[np.broadcast_to(index >= 0, known.shape)] = 0.0
-    return Outline(problem, contact, swings, problem.intervals, height, climb, index, known, 2 * count)
+    return Linearisation(problem, contact, swings, problem.intervals, height, climb, index, known, 2 * count)
 
 
 def _lay_foot(

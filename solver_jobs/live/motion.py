@@ -11,47 +11,49 @@ from core.motion.support_polygon import GRAVITY
 from core.motion.trajectory import Trajectory
 from core.problem.initial_guess import Indices, standing_forces
 from core.problem.motion_problem import MotionProblem
-from solver_jobs.live.linearisation import MM, Outline
+from solver_jobs.live.linearisation import MM, Linearisation
 
 
-def trajectory_of(outline: Outline, x: Floats) -> Trajectory:
+def trajectory_of(linearisation: Linearisation, x: Floats) -> Trajectory:
     """The motion with forces: all forces of a knot are parallel, so that they turn nothing about the body.
 
     With the vertical shares λ_z of the feet that put the centre of pressure in its place,
     λ = λ_z · (Σ m a_xy / Σ m (g + a_z), 1) gives every row of (3.2) and (3.15).
 
     Args:
-        outline: the known part.
+        linearisation: the known part.
         x: the unknowns.
     """
-    problem = outline.problem
-    values = np.where(outline.index >= 0, x[np.maximum(outline.index, 0)], outline.known) / MM
-    position = np.concatenate([values[0], outline.height[..., None] / MM], axis=-1)
-    velocity = np.concatenate([values[1], outline.climb[..., None] / MM], axis=-1)
+    problem = linearisation.problem
+    values = (
+        np.where(linearisation.index >= 0, x[np.maximum(linearisation.index, 0)], linearisation.known) / MM
+    )
+    position = np.concatenate([values[0], linearisation.height[..., None] / MM], axis=-1)
+    velocity = np.concatenate([values[1], linearisation.climb[..., None] / MM], axis=-1)
     body, feet = position[:, 0], position[:, 1:]
     forces = np.zeros_like(feet)
-    forces[:-1] = _contact_forces(outline, body, feet, velocity)
-    forces[-1] = standing_forces(problem.model, body[-1:], feet[-1:], outline.contact[-1:])[0]
+    forces[:-1] = _contact_forces(linearisation, body, feet, velocity)
+    forces[-1] = standing_forces(problem.model, body[-1:], feet[-1:], linearisation.contact[-1:])[0]
     return Trajectory(
         times=problem.times,
         body_world=body,
         heading=problem.heading,
         feet_world=feet,
-        contact=outline.contact,
+        contact=linearisation.contact,
         body_velocity=velocity[:, 0],
         feet_velocity=velocity[:, 1:],
         contact_forces=forces,
     )
 
 
-def _contact_forces(outline: Outline, body: Floats, feet: Floats, velocity: Floats) -> Floats:
+def _contact_forces(linearisation: Linearisation, body: Floats, feet: Floats, velocity: Floats) -> Floats:
     """(n − 1, legs, 3) N."""
-    model = outline.problem.model
+    model = linearisation.problem.model
     masses = np.array([model.masses.body] + [model.masses.foot] * model.leg_count)
-    change = np.einsum("p,kpa->ka", masses, np.diff(velocity, axis=0)) / outline.intervals[:, None]
+    change = np.einsum("p,kpa->ka", masses, np.diff(velocity, axis=0)) / linearisation.intervals[:, None]
     upward = change[:, 2] + masses.sum() * GRAVITY
     pressure = body[:-1, :2] - body[:-1, 2:] * change[:, :2] / upward[:, None]
-    shares = vertical_shares(feet[:-1, :, :2], outline.contact[:-1], pressure)
+    shares = vertical_shares(feet[:-1, :, :2], linearisation.contact[:-1], pressure)
     resultant = np.concatenate([change[:, :2], upward[:, None]], axis=1)
     return np.asarray(shares[..., None] * resultant[:, None])
 

@@ -9,7 +9,7 @@ from core.motion.trajectory import Trajectory
 from core.problem.initial_guess import Indices
 from core.robot.kinematics import actuator_plane_pose, feet_in_modules
 from core.robot.leg import squared_offsets, vertex_directions
-from solver_jobs.live.linearisation import MM, Outline
+from solver_jobs.live.linearisation import MM, Linearisation
 from solver_jobs.live.rows import NOBODY, Rows, Term, make_rows
 from solver_jobs.nlp.constraint import Family
 
@@ -17,21 +17,21 @@ INSIDE = 0.995
 """Share of a motor's limit that the rows allow, so that what they leave out of second order has room."""
 
 
-def motor_rows(outline: Outline, about: Trajectory) -> list[Rows]:
+def motor_rows(linearisation: Linearisation, about: Trajectory) -> list[Rows]:
     """Rows for the limits that are asked for.
 
     ḣ_i = j_i · (v_foot − v_body − ω × (p_foot − p_body)) − (ż_foot − ż_body), with j_i = ∂h_i/∂(x, y) and the
     arm p_foot − p_body of the given motion.
 
     Args:
-        outline: the known part.
+        linearisation: the known part.
         about: a motion near the one sought, with velocities.
     """
-    limits = outline.problem.limits
-    slope = _slopes(outline, about)
+    limits = linearisation.problem.limits
+    slope = _slopes(linearisation, about)
     arm = (about.feet_world - about.body_world[:, None])[..., :2] * MM
-    swept = np.stack([arm[..., 1], -arm[..., 0]], axis=-1) * outline.problem.heading_rate[:, None, None]
-    rising = outline.climb[:, 1:] - outline.climb[:, :1]
+    swept = np.stack([arm[..., 1], -arm[..., 0]], axis=-1) * linearisation.problem.heading_rate[:, None, None]
+    rising = linearisation.climb[:, 1:] - linearisation.climb[:, :1]
     rest = np.einsum("nlia,nla->nli", slope, swept) - rising[..., None]
     found = []
     knot, foot, motor = (index.reshape(-1) for index in np.indices(rest.shape))
@@ -39,18 +39,18 @@ def motor_rows(outline: Outline, about: Trajectory) -> list[Rows]:
     if limits.motor_speed is not None:
         most = limits.motor_speed * MM * INSIDE
         offset = rest[knot, foot, motor]
-        terms = _rate(outline, slope, knot, foot, motor, 0.0 * offset + 1.0)
+        terms = _rate(linearisation, slope, knot, foot, motor, 0.0 * offset + 1.0)
         found.append(
             make_rows(Family.MOTOR_SPEED, "mm/s", terms, (-most - offset, most - offset), knot, feet)
         )
     if limits.motor_acceleration is not None:
-        inner = knot < outline.problem.knot_count - 1
+        inner = knot < linearisation.problem.knot_count - 1
         knot, foot, motor, feet = knot[inner], foot[inner], motor[inner], feet[inner]
-        most = limits.motor_acceleration * MM * INSIDE * outline.intervals[knot]
+        most = limits.motor_acceleration * MM * INSIDE * linearisation.intervals[knot]
         offset = rest[knot + 1, foot, motor] - rest[knot, foot, motor]
         one = np.ones(len(knot))
-        terms = _rate(outline, slope, knot + 1, foot, motor, one) + _rate(
-            outline, slope, knot, foot, motor, -one
+        terms = _rate(linearisation, slope, knot + 1, foot, motor, one) + _rate(
+            linearisation, slope, knot, foot, motor, -one
         )
         found.append(
             make_rows(Family.MOTOR_ACCELERATION, "mm/s", terms, (-most - offset, most - offset), knot, feet)
@@ -58,9 +58,9 @@ def motor_rows(outline: Outline, about: Trajectory) -> list[Rows]:
     return found
 
 
-def _slopes(outline: Outline, about: Trajectory) -> Floats:
+def _slopes(linearisation: Linearisation, about: Trajectory) -> Floats:
     """(n, legs, 3, 2) ∂h/∂(x, y) in the world's axes."""
-    model = outline.problem.model
+    model = linearisation.problem.model
     pose = actuator_plane_pose(model, about.body_world, about.heading)
     module = feet_in_modules(model, about.feet_world, pose)
     arms = module[..., None, :2] - model.leg.reach_radius * vertex_directions()
@@ -73,12 +73,14 @@ def _slopes(outline: Outline, about: Trajectory) -> Floats:
 
 
 def _rate(
-    outline: Outline, slope: Floats, knot: Indices, foot: Indices, motor: Indices, factor: Floats
+    linearisation: Linearisation, slope: Floats, knot: Indices, foot: Indices, motor: Indices, factor: Floats
 ) -> list[Term]:
     """The part of a motor's rate that the unknowns make, times a factor."""
     terms: list[Term] = []
     for axis in (0, 1):
         part = slope[knot, foot, motor, axis] * factor
-        terms.append((outline.index[1, knot, foot + 1, axis], outline.known[1, knot, foot + 1, axis], part))
-        terms.append((outline.index[1, knot, 0, axis], outline.known[1, knot, 0, axis], -part))
+        terms.append(
+            (linearisation.index[1, knot, foot + 1, axis], linearisation.known[1, knot, foot + 1, axis], part)
+        )
+        terms.append((linearisation.index[1, knot, 0, axis], linearisation.known[1, knot, 0, axis], -part))
     return terms

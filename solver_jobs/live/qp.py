@@ -30,7 +30,7 @@ CACHE = 24
 
 
 @dataclass(frozen=True, eq=False)
-class Programme:
+class QuadraticProgram:
     """min ½ xᵀ diag(curvature) x + gradientᵀ x subject to lower ≤ A x ≤ upper and x ≥ least.
 
     Args:
@@ -91,22 +91,22 @@ class Solver:
     def __init__(self) -> None:
         self._known: OrderedDict[tuple[int, bytes], tuple[Function, Sparsity]] = OrderedDict()
 
-    def solve(self, programme: Programme, most_iterations: int = MOST_ITERATIONS) -> Answer:
+    def solve(self, qp: QuadraticProgram, most_iterations: int = MOST_ITERATIONS) -> Answer:
         """Solves one programme."""
-        size, count = len(programme.gradient), len(programme.lower)
+        size, count = len(qp.gradient), len(qp.lower)
         # CasADi holds matrices a column after the other.
-        order = np.lexsort((programme.row, programme.column))
-        row = programme.row[order]
-        ends = np.searchsorted(programme.column[order], np.arange(size + 1))
+        order = np.lexsort((qp.row, qp.column))
+        row = qp.row[order]
+        ends = np.searchsorted(qp.column[order], np.arange(size + 1))
         function, pattern = self._function(size, count, ends, row, most_iterations)
         begin = time.perf_counter()
         found = function(
-            h=DM(Sparsity.diag(size), programme.curvature),
-            g=programme.gradient,
-            a=DM(pattern, programme.value[order]),
-            lba=programme.lower,
-            uba=programme.upper,
-            lbx=programme.least,
+            h=DM(Sparsity.diag(size), qp.curvature),
+            g=qp.gradient,
+            a=DM(pattern, qp.value[order]),
+            lba=qp.lower,
+            uba=qp.upper,
+            lbx=qp.least,
             ubx=np.inf,
         )
         seconds = time.perf_counter() - begin

@@ -9,7 +9,7 @@ import numpy as np
 
 from core.arrays import Floats
 from core.problem.initial_guess import Indices
-from solver_jobs.live.linearisation import MM, Outline
+from solver_jobs.live.linearisation import MM, Linearisation
 from solver_jobs.nlp.constraint import Family
 
 NOBODY = -1
@@ -115,24 +115,26 @@ def make_rows(
     )
 
 
-def dot_terms(outline: Outline, kind: int, knot: Indices, point: Indices | int, factor: Floats) -> list[Term]:
+def dot_terms(
+    linearisation: Linearisation, kind: int, knot: Indices, point: Indices | int, factor: Floats
+) -> list[Term]:
     """The dot product of a factor (m, 2) with the position (0) or velocity (1) of a point at knots."""
-    index, known = outline.index[kind, knot, point], outline.known[kind, knot, point]
+    index, known = linearisation.index[kind, knot, point], linearisation.known[kind, knot, point]
     return [(index[:, axis], known[:, axis], factor[:, axis]) for axis in (0, 1)]
 
 
-def integration(outline: Outline) -> Rows:
+def integration(linearisation: Linearisation) -> Rows:
     """p(k+1) = p(k) + dt(k)·(v(k) + v(k+1))/2 wherever something moves."""
-    index = outline.index
+    index = linearisation.index
     touched = (index[:, :-1] >= 0).any(axis=(0, -1)) | (index[:, 1:] >= 0).any(axis=(0, -1))
     # A row for x and one for y.
     knot, point = (np.repeat(found, 2) for found in np.nonzero(touched))
     axis = np.tile([0, 1], len(knot) // 2)
-    half = outline.intervals[knot] / 2
+    half = linearisation.intervals[knot] / 2
     one = np.ones(len(knot))
 
     def term(kind: int, at: Indices, coefficient: Floats) -> Term:
-        return index[kind, at, point, axis], outline.known[kind, at, point, axis], coefficient
+        return index[kind, at, point, axis], linearisation.known[kind, at, point, axis], coefficient
 
     terms = [term(0, knot + 1, one), term(0, knot, -one), term(1, knot, -half), term(1, knot + 1, -half)]
     return make_rows(Family.DYNAMICS, "mm", terms, (0.0, 0.0), knot)
@@ -165,21 +167,25 @@ class DiscPolygon:
         return float(np.cos(np.pi / self.sides)) if self.inner else 1.0
 
 
-def body_speed(outline: Outline, disc: DiscPolygon) -> Rows:
+def body_speed(linearisation: Linearisation, disc: DiscPolygon) -> Rows:
     """The body's ground speed in a polygon of what its climb leaves of the limit."""
-    knots = np.arange(outline.problem.knot_count)
-    moving = (outline.index[1, :, 0] >= 0).any(axis=-1)
-    return _speed(outline, knots[moving], 0, outline.problem.limits.body_speed, Family.BODY_SPEED, disc)
+    knots = np.arange(linearisation.problem.knot_count)
+    moving = (linearisation.index[1, :, 0] >= 0).any(axis=-1)
+    return _speed(
+        linearisation, knots[moving], 0, linearisation.problem.limits.body_speed, Family.BODY_SPEED, disc
+    )
 
 
-def foot_speed(outline: Outline, disc: DiscPolygon) -> Rows:
+def foot_speed(linearisation: Linearisation, disc: DiscPolygon) -> Rows:
     """The same for feet in the air."""
-    knot, foot = np.nonzero((outline.index[1, :, 1:] >= 0).any(axis=-1))
-    return _speed(outline, knot, foot + 1, outline.problem.limits.foot_speed, Family.FOOT_SPEED, disc)
+    knot, foot = np.nonzero((linearisation.index[1, :, 1:] >= 0).any(axis=-1))
+    return _speed(
+        linearisation, knot, foot + 1, linearisation.problem.limits.foot_speed, Family.FOOT_SPEED, disc
+    )
 
 
 def _speed(
-    outline: Outline,
+    linearisation: Linearisation,
     knot: Indices,
     point: Indices | int,
     limit: float,
@@ -188,19 +194,19 @@ def _speed(
 ) -> Rows:
     normal = np.tile(disc.normals, (len(knot), 1))
     group = np.repeat(np.arange(len(knot)), disc.sides)
-    left = (limit * MM) ** 2 - outline.climb[knot, point] ** 2
+    left = (limit * MM) ** 2 - linearisation.climb[knot, point] ** 2
     radius = np.sign(left) * np.sqrt(np.abs(left)) * disc.apothem
     point = np.broadcast_to(point, knot.shape)
     feet = np.stack([point[group] - 1, np.full(len(group), NOBODY)], axis=-1)
-    terms = dot_terms(outline, 1, knot[group], point[group], normal)
+    terms = dot_terms(linearisation, 1, knot[group], point[group], normal)
     return make_rows(family, "mm/s", terms, (-np.inf, radius[group]), knot[group], feet, group)
 
 
-def balance(outline: Outline) -> Rows:
+def balance(linearisation: Linearisation) -> Rows:
     """Centre of pressure inside every edge of the support polygon by the margin (DOMAIN.md 12)."""
-    model, margin = outline.problem.model, outline.problem.limits.margin * MM
-    knot, start, end, alone = _edges(outline)
-    corners = outline.known[0, knot, 1:]
+    model, margin = linearisation.problem.model, linearisation.problem.limits.margin * MM
+    knot, start, end, alone = _edges(linearisation)
+    corners = linearisation.known[0, knot, 1:]
     rows = np.arange(len(knot))
     a, b = corners[rows, start], corners[rows, end]
     along = (b - a) / np.maximum(np.linalg.norm(b - a, axis=-1, keepdims=True), 1e-9)
@@ -213,25 +219,27 @@ def balance(outline: Outline) -> Rows:
     exact = np.isin(alone, (LINE, POINT, POINT_Y))
     least = (inward * a).sum(axis=-1) + np.where(exact, 0.0, margin)
     most = np.where(exact, least, np.inf)
-    pull = outline.height[knot, 0] / (outline.weight[knot] * outline.intervals[knot])
-    terms = dot_terms(outline, 0, knot, 0, inward)
+    pull = linearisation.height[knot, 0] / (linearisation.weight[knot] * linearisation.intervals[knot])
+    terms = dot_terms(linearisation, 0, knot, 0, inward)
     masses = [model.masses.body] + [model.masses.foot] * model.leg_count
     for point, mass in enumerate(masses):
         factor = inward * (mass * pull)[:, None]
-        terms += dot_terms(outline, 1, knot, point, factor) + dot_terms(outline, 1, knot + 1, point, -factor)
+        terms += dot_terms(linearisation, 1, knot, point, factor) + dot_terms(
+            linearisation, 1, knot + 1, point, -factor
+        )
     group = np.unique(knot, return_inverse=True)[1]
     return make_rows(
         Family.BODY_TORQUE, "mm", terms, (least, most), knot, np.stack([start, end], axis=-1), group
     )
 
 
-def _edges(outline: Outline) -> tuple[Indices, Indices, Indices, Indices]:
+def _edges(linearisation: Linearisation) -> tuple[Indices, Indices, Indices, Indices]:
     """Knots and feet of every edge of every support polygon, counter-clockwise.
 
     The last array says what each row is: AREA, LINE, ENDS, POINT or POINT_Y.
     """
-    contact = outline.contact[:-1]
-    corners = outline.known[0, :-1, 1:]
+    contact = linearisation.contact[:-1]
+    corners = linearisation.known[0, :-1, 1:]
     legs = contact.shape[1]
     start, end = (index[~np.eye(legs, dtype=np.bool_)] for index in np.indices((legs, legs)))
     a, edge = corners[:, start], corners[:, end] - corners[:, start]
@@ -257,23 +265,25 @@ def _edges(outline: Outline) -> tuple[Indices, Indices, Indices, Indices]:
     return knots, starts, ends_, kinds
 
 
-def friction(outline: Outline, disc: DiscPolygon) -> list[Rows]:
+def friction(linearisation: Linearisation, disc: DiscPolygon) -> list[Rows]:
     """Sideways force within the cone of the vertical one, ‖Σ m a_xy‖ ≤ μ Σ m (g + a_z), where it is asked."""
-    limit = outline.problem.limits.friction
+    limit = linearisation.problem.limits.friction
     if limit is None:
         return []
-    model = outline.problem.model
-    count = outline.problem.knot_count - 1
+    model = linearisation.problem.model
+    count = linearisation.problem.knot_count - 1
     group = np.repeat(np.arange(count), disc.sides)
     normal = np.tile(disc.normals, (count, 1))
     terms: list[Term] = []
     for point, mass in enumerate([model.masses.body] + [model.masses.foot] * model.leg_count):
         factor = (
-            normal * (mass / (outline.intervals * outline.weight))[group, None] * outline.height[group, :1]
+            normal
+            * (mass / (linearisation.intervals * linearisation.weight))[group, None]
+            * linearisation.height[group, :1]
         )
-        terms += dot_terms(outline, 1, group + 1, point, factor) + dot_terms(
-            outline, 1, group, point, -factor
+        terms += dot_terms(linearisation, 1, group + 1, point, factor) + dot_terms(
+            linearisation, 1, group, point, -factor
         )
     # As a distance of the centre of pressure from the body's ground point, mm, like balance.
-    most = limit * disc.apothem * outline.height[group, 0]
+    most = limit * disc.apothem * linearisation.height[group, 0]
     return [make_rows(Family.FRICTION, "mm", terms, (-np.inf, most), group, None, group)]

@@ -9,17 +9,17 @@ import numpy as np
 
 from core.arrays import Floats
 from core.motion.trajectory import Trajectory, turn_trajectory
-from core.problem.initial_guess import initial_motion
+from core.problem.initial_guess import initial_guess
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import MotionProblem
 from solver_jobs.live.elastic import FARTHEST, PROOF_MM, Nearest, nearest
 from solver_jobs.live.explain import lacks_of, low_lacks, sentences
-from solver_jobs.live.linearisation import MM, Outline, outline_of
+from solver_jobs.live.linearisation import MM, Linearisation, linearise
 from solver_jobs.live.motion import motion_cost, trajectory_of
 from solver_jobs.live.motors import motor_rows
 from solver_jobs.live.qp import (
     Answer,
-    Programme,
+    QuadraticProgram,
     Solver,
     stacked,
 )
@@ -27,7 +27,7 @@ from solver_jobs.live.reach import height_reach, reach_of, standing_reach, swing
 from solver_jobs.live.rows import DiscPolygon, Rows, balance, body_speed, foot_speed, friction, integration
 from solver_jobs.nlp.assembly import box_of
 from solver_jobs.nlp.constraint import situation_of
-from solver_jobs.nlp.presolve import obstacles
+from solver_jobs.nlp.presolve import presolve
 from solver_jobs.results.motion import Evidence, MotionResult, SolveStatus
 
 COARSE, FINE, AROUND = 16, 64, 32
@@ -61,8 +61,8 @@ class _Search:
     problem: MotionProblem
     seconds: float = 0.0
 
-    def solve(self, programme: Programme) -> Answer:
-        answer = _solver.solve(programme)
+    def solve(self, qp: QuadraticProgram) -> Answer:
+        answer = _solver.solve(qp)
         self.seconds += answer.seconds
         return answer
 
@@ -79,7 +79,7 @@ def solve_live(problem: MotionProblem) -> MotionResult:
     """
     begin = time.perf_counter()
     situation = situation_of(problem)
-    blocking = obstacles(situation, box_of(situation))
+    blocking = presolve(situation, box_of(situation))
     search = _Search(problem.turned(-problem.quarter_turns))
     result = _blocked(search, problem, blocking) if blocking else _turned(_solve(search), problem)
     return replace(result, build_seconds=max(time.perf_counter() - begin - result.solve_seconds, 0.0))
@@ -89,8 +89,8 @@ def _blocked(search: _Search, problem: MotionProblem, sentences: tuple[str, ...]
     """What bounds alone rule out; where it happens is looked for in the nearest motion."""
     told = (*sentences, "This is proven: no motion of the model can do it.")
     if not problem.timeline.contact[:-1].any(axis=1).all():
-        return _result(SolveStatus.INFEASIBLE, initial_motion(problem), 0.0, told, Evidence.PROVEN)
-    found = _turned(_unsolved(search, natural_outline(search.problem)), problem)
+        return _result(SolveStatus.INFEASIBLE, initial_guess(problem), 0.0, told, Evidence.PROVEN)
+    found = _turned(_unsolved(search, natural_linearisation(search.problem)), problem)
     lacks = (*low_lacks(problem), *found.lacks)
     return replace(
         found, status=SolveStatus.INFEASIBLE, explanation=told, evidence=Evidence.PROVEN, lacks=lacks
@@ -100,16 +100,16 @@ def _blocked(search: _Search, problem: MotionProblem, sentences: tuple[str, ...]
 def quick_motion(problem: MotionProblem, sides: int = COARSE) -> Trajectory | None:
     """A motion with the body at its natural height and polygons of so many edges; None if there is none."""
     situation = situation_of(problem)
-    if obstacles(situation, box_of(situation)):
+    if presolve(situation, box_of(situation)):
         return None
     turns = problem.quarter_turns
     search = _Search(problem.turned(-turns))
-    motion = _attempt(search, natural_outline(search.problem), sides)
+    motion = _attempt(search, natural_linearisation(search.problem), sides)
     return None if motion is None else turn_trajectory(motion, turns)
 
 
 def _solve(search: _Search) -> MotionResult:
-    natural = natural_outline(search.problem)
+    natural = natural_linearisation(search.problem)
     if (motion := _attempt(search, natural, COARSE)) is not None:
         return _solved(search, motion)
     close = _nearest(search, natural, inner_rows(natural, COARSE))
@@ -120,12 +120,12 @@ def _solve(search: _Search) -> MotionResult:
     for level in LEVELS:
         if not lowest <= level <= highest:
             continue
-        if (motion := _attempt(search, outline_of(search.problem, level), COARSE)) is not None:
+        if (motion := _attempt(search, linearise(search.problem, level), COARSE)) is not None:
             return _solved(search, motion)
     return _unsolved(search, natural)
 
 
-def natural_outline(problem: MotionProblem) -> Outline:
+def natural_linearisation(problem: MotionProblem) -> Linearisation:
     """The body straight from start to goal, or higher between them where feet need room to rise.
 
     A leg fully drawn in holds its foot at most `link_length + lower stroke` under the plane, and the cylinder
@@ -136,81 +136,81 @@ def natural_outline(problem: MotionProblem) -> Outline:
     room = model.leg.link_length + model.stroke.lower + max(problem.limits.clearance, held)
     ends = [pose.body_world[2] - model.com_height for pose in (problem.start, problem.goal)]
     level = room if min(ends) < room - SETTLED_MM / MM and problem.timeline.swings() else None
-    return outline_of(problem, None if level is None else min(level, problem.limits.plane_height[1]))
+    return linearise(problem, None if level is None else min(level, problem.limits.plane_height[1]))
 
 
-def inner_rows(outline: Outline, sides: int) -> list[Rows]:
+def inner_rows(linearisation: Linearisation, sides: int) -> list[Rows]:
     """Every demand with polygons inside the discs: what keeps them is a motion."""
-    return _rows(outline, DiscPolygon(sides, inner=True))
+    return _rows(linearisation, DiscPolygon(sides, inner=True))
 
 
-def outer_rows(outline: Outline, sides: int) -> list[Rows]:
+def outer_rows(linearisation: Linearisation, sides: int) -> list[Rows]:
     """Every demand with polygons around the discs: where these cannot be kept, no motion exists."""
-    return _rows(outline, DiscPolygon(sides, inner=False))
+    return _rows(linearisation, DiscPolygon(sides, inner=False))
 
 
-def _rows(outline: Outline, disc: DiscPolygon) -> list[Rows]:
-    reach = reach_of(outline, disc)
+def _rows(linearisation: Linearisation, disc: DiscPolygon) -> list[Rows]:
+    reach = reach_of(linearisation, disc)
     return [
-        integration(outline),
-        balance(outline),
-        body_speed(outline, disc),
-        foot_speed(outline, disc),
-        standing_reach(outline, reach),
-        swinging_reach(outline, reach),
-        *height_reach(outline, reach),
-        *friction(outline, disc),
+        integration(linearisation),
+        balance(linearisation),
+        body_speed(linearisation, disc),
+        foot_speed(linearisation, disc),
+        standing_reach(linearisation, reach),
+        swinging_reach(linearisation, reach),
+        *height_reach(linearisation, reach),
+        *friction(linearisation, disc),
     ]
 
 
-def goal_cost(outline: Outline) -> tuple[Floats, Floats]:
+def goal_cost(linearisation: Linearisation) -> tuple[Floats, Floats]:
     """Curvature and gradient of (3.4), ½ Σ ‖x − x_g‖², in the unknowns."""
-    problem = outline.problem
+    problem = linearisation.problem
     goal = np.concatenate([problem.goal.body_world[None], problem.goal.feet_world])[:, :2] * MM
-    curvature, gradient = np.zeros(outline.size), np.zeros(outline.size)
-    for index, wanted in zip(outline.index, (goal, np.zeros_like(goal)), strict=True):
+    curvature, gradient = np.zeros(linearisation.size), np.zeros(linearisation.size)
+    for index, wanted in zip(linearisation.index, (goal, np.zeros_like(goal)), strict=True):
         free = index >= 0
         np.add.at(curvature, index[free], 1.0)
         np.add.at(gradient, index[free], -np.broadcast_to(wanted, index.shape)[free])
     return curvature, gradient
 
 
-def _attempt(search: _Search, outline: Outline, sides: int) -> Trajectory | None:
+def _attempt(search: _Search, linearisation: Linearisation, sides: int) -> Trajectory | None:
     """A motion within the polygons; None where the solver finds none."""
-    rows = inner_rows(outline, sides)
-    motion = _motion(search, outline, rows)
+    rows = inner_rows(linearisation, sides)
+    motion = _motion(search, linearisation, rows)
     limits = search.problem.limits
     if motion is None or (limits.motor_speed is None and limits.motor_acceleration is None):
         return motion
     for _ in range(ROUNDS):
-        motion = _motion(search, outline, rows + motor_rows(outline, motion))
+        motion = _motion(search, linearisation, rows + motor_rows(linearisation, motion))
         if motion is None or check_motion(search.problem, motion).confirmed:
             return motion
     return None
 
 
-def _motion(search: _Search, outline: Outline, rows: list[Rows]) -> Trajectory | None:
+def _motion(search: _Search, linearisation: Linearisation, rows: list[Rows]) -> Trajectory | None:
     split = [one.split() for one in rows]
     if max(miss for _, miss in split) > SETTLED_MM:
         return None
-    curvature, gradient = goal_cost(outline)
+    curvature, gradient = goal_cost(linearisation)
     row, column, value, lower, upper = stacked([kept for kept, _ in split])
-    least = np.full(outline.size, -np.inf)
-    answer = search.solve(Programme(curvature, gradient, row, column, value, lower, upper, least))
-    return trajectory_of(outline, answer.x) if answer.solved else None
+    least = np.full(linearisation.size, -np.inf)
+    answer = search.solve(QuadraticProgram(curvature, gradient, row, column, value, lower, upper, least))
+    return trajectory_of(linearisation, answer.x) if answer.solved else None
 
 
-def _nearest(search: _Search, outline: Outline, rows: list[Rows]) -> Nearest | None:
-    interval = float(outline.intervals.mean())
-    limits = outline.problem.limits
+def _nearest(search: _Search, linearisation: Linearisation, rows: list[Rows]) -> Nearest | None:
+    interval = float(linearisation.intervals.mean())
+    limits = linearisation.problem.limits
     farthest = max(FARTHEST, 2 * MM * max(limits.body_speed, limits.foot_speed))
-    found = nearest(_solver, goal_cost(outline), rows, interval, farthest)
+    found = nearest(_solver, goal_cost(linearisation), rows, interval, farthest)
     if found is not None:
         search.seconds += found.answer.seconds
     return found
 
 
-def _unsolved(search: _Search, natural: Outline) -> MotionResult:
+def _unsolved(search: _Search, natural: Linearisation) -> MotionResult:
     """Why there is none: from the polygons around the discs where that is proof, else from those inside."""
     rows = outer_rows(natural, AROUND)
     found, evidence = _nearest(search, natural, rows), Evidence.PROVEN
@@ -219,7 +219,7 @@ def _unsolved(search: _Search, natural: Outline) -> MotionResult:
         found = _nearest(search, natural, rows)
     if found is None:
         words = ("The convex solver found neither a motion nor what is missing.",)
-        motion = initial_motion(search.problem)
+        motion = initial_guess(search.problem)
         return _result(SolveStatus.FAILED, motion, search.seconds, words, Evidence.DIAGNOSED)
     motion = trajectory_of(natural, found.x)
     lacks = lacks_of(natural, rows, found.misses, found.x)

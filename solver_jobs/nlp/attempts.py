@@ -11,7 +11,7 @@ import numpy as np
 from core.arrays import Floats
 from core.motion.trajectory import Trajectory
 from solver_jobs.nlp.assembly import asked_families
-from solver_jobs.nlp.compiled_problem import Ipopt, Structure
+from solver_jobs.nlp.compiled_problem import CompiledProblem, Ipopt
 from solver_jobs.nlp.constraint import Box, Family, Situation
 from solver_jobs.nlp.costs import COST_SCALE
 from solver_jobs.nlp.diagnosis import Shortfall, shortfalls
@@ -63,7 +63,7 @@ class Attempt:
     missed: tuple[Shortfall, ...]
 
 
-class Search:
+class Attempts:
     """Runs IPOPT on one problem, once or several times, and keeps the course.
 
     Args:
@@ -99,30 +99,30 @@ class Search:
         packed = (slopes_of_forces(vector) if self._slopes else vector).packed()
         return Point(np.clip(packed, self.lower, self.upper))
 
-    def broken_constants(self, structure: Structure) -> tuple[Shortfall, ...]:
+    def broken_constants(self, compiled: CompiledProblem) -> tuple[Shortfall, ...]:
         """What the fixed unknowns alone decide, and break."""
-        values = self._rows(structure, self.drawing.vector)
-        constant = structure.constant_rows(self.upper > self.lower)
-        lower, upper = structure.row_bounds(self._situation)
+        values = self._rows(compiled, self.drawing.vector)
+        constant = compiled.constant_rows(self.upper > self.lower)
+        lower, upper = compiled.row_bounds(self._situation)
         values = np.where(constant, values, np.clip(values, lower, upper))
-        return shortfalls(structure, self._situation, values, self._shift)
+        return shortfalls(compiled, self._situation, values, self._shift)
 
-    def attempt(self, structure: Structure, start: Point, solver: Ipopt | None = None) -> Attempt:
+    def attempt(self, compiled: CompiledProblem, start: Point, solver: Ipopt | None = None) -> Attempt:
         """Runs IPOPT from a start.
 
         Args:
-            structure: the problem's shape.
+            compiled: the problem's shape.
             start: with multipliers for a solver that goes on from them.
             solver: another one than the structure's own.
         """
-        function, monitor = solver or structure.solver
-        row_lower, row_upper = structure.row_bounds(self._situation)
+        function, monitor = solver or compiled.solver
+        row_lower, row_upper = compiled.row_bounds(self._situation)
         vector = np.clip(start.vector, self.lower, self.upper)
-        misses = structure.misses_of(self._rows(structure, vector), row_lower, row_upper)
+        misses = compiled.misses_of(self._rows(compiled, vector), row_lower, row_upper)
         none = np.zeros_like(misses)
         known = {"lam_x0": start.bound_multipliers, "lam_g0": start.row_multipliers}
         monitor.error = None
-        monitor.listener = lambda now, figures: self._note(structure, now, figures)
+        monitor.listener = lambda now, figures: self._note(compiled, now, figures)
         begin = time.perf_counter()
         try:
             answer = function(
@@ -141,9 +141,9 @@ class Search:
             raise monitor.error
         found, bounds, rows = (np.array(answer[name]).reshape(-1) for name in ("x", "lam_x", "lam_g"))
         end = Point(found[: len(vector)], bounds[: len(vector)], rows)
-        missed = shortfalls(structure, self._situation, self._rows(structure, end.vector), self._shift)
+        missed = shortfalls(compiled, self._situation, self._rows(compiled, end.vector), self._shift)
         word = str(function.stats()["return_status"])
-        return Attempt(word, replace(start, vector=vector), end, self._cost(structure, end.vector), missed)
+        return Attempt(word, replace(start, vector=vector), end, self._cost(compiled, end.vector), missed)
 
     def trajectory(self, vector: Floats) -> Trajectory:
         """The motion of these unknowns."""
@@ -151,15 +151,15 @@ class Search:
         motion = unpacked(vector, problem.knot_count, problem.model.leg_count)
         return trajectory_of_vector(forces_of_slopes(motion) if self._slopes else motion, self._initial)
 
-    def course(self) -> tuple[Trajectory, ...]:
+    def iterate_motions(self) -> tuple[Trajectory, ...]:
         """The motion at each of `iterates`."""
         return tuple(self.trajectory(vector) for vector in self._vectors)
 
-    def _note(self, structure: Structure, vector: Floats, figures: dict[str, float]) -> bool:
+    def _note(self, compiled: CompiledProblem, vector: Floats, figures: dict[str, float]) -> bool:
         motion = vector[: len(self.drawing.vector)]
         iterate = Iterate(
             number=len(self.iterates),
-            objective=self._cost(structure, motion),
+            objective=self._cost(compiled, motion),
             primal_infeasibility=figures["inf_pr"],
             dual_infeasibility=figures["inf_du"],
             step=figures["alpha_pr"],
@@ -168,8 +168,8 @@ class Search:
         self._vectors.append(motion)
         return self._progress(iterate)
 
-    def _cost(self, structure: Structure, vector: Floats) -> float:
-        return float(structure.cost(vector, self.parameters)) / COST_SCALE
+    def _cost(self, compiled: CompiledProblem, vector: Floats) -> float:
+        return float(compiled.cost(vector, self.parameters)) / COST_SCALE
 
-    def _rows(self, structure: Structure, vector: Floats) -> Floats:
-        return np.array(structure.rows(vector, self.parameters)).reshape(-1)
+    def _rows(self, compiled: CompiledProblem, vector: Floats) -> Floats:
+        return np.array(compiled.rows(vector, self.parameters)).reshape(-1)

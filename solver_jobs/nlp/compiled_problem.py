@@ -110,7 +110,7 @@ class Ipopt(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Structure:
+class CompiledProblem:
     """A problem's shape with its solver.
 
     Args:
@@ -175,7 +175,7 @@ def bounds_of(blocks: Sequence[RowBlock], situation: Situation) -> tuple[Floats,
     return np.concatenate(lower), np.concatenate(upper)
 
 
-def build_structure(model: RobotModel, shape: Shape) -> Structure:
+def compile_problem(model: RobotModel, shape: Shape) -> CompiledProblem:
     """Builds the solver of a shape (0.1 s at 45 knots, 0.4 s with motor limits)."""
     symbols = make_symbols(model.leg_count, shape.knots, slopes=Family.FRICTION in shape.asked)
     vector, parameters = symbols.vector, symbols.parameters
@@ -199,7 +199,7 @@ def build_structure(model: RobotModel, shape: Shape) -> Structure:
         "jac_g": Function("nlp_jac_g", given, [nlp["g"], slope]),
         "hess_lag": Function("nlp_hess_l", [*given, weight, multipliers], [curvature]),
     }
-    return Structure(
+    return CompiledProblem(
         solver=ipopt(nlp, {**IPOPT_OPTIONS, **(ELASTIC_OPTIONS if shape.elastic else {}), **derivatives}),
         problem=nlp,
         cost=Function("cost", [vector, parameters], [cost]),
@@ -251,14 +251,14 @@ def ipopt(nlp: dict[str, SX], options: dict[str, Any]) -> Ipopt:
     return Ipopt(function, monitor)
 
 
-class StructureCache:
+class CompiledProblemCache:
     """The structures of the shapes used last. Not for several threads at once."""
 
     def __init__(self, capacity: int = 8) -> None:
         self._capacity = capacity
-        self._known: OrderedDict[Hashable, Structure] = OrderedDict()
+        self._known: OrderedDict[Hashable, CompiledProblem] = OrderedDict()
 
-    def get(self, problem: MotionProblem, *, elastic: bool = False) -> tuple[Structure, float]:
+    def get(self, problem: MotionProblem, *, elastic: bool = False) -> tuple[CompiledProblem, float]:
         """The structure of a problem's shape and the seconds it took to build, 0 where it was at hand."""
         shape = shape_of(problem, elastic=elastic)
         key = (shape, fingerprint(problem.model))
@@ -266,11 +266,11 @@ class StructureCache:
             self._known.move_to_end(key)
             return self._known[key], 0.0
         begin = time.perf_counter()
-        structure = build_structure(problem.model, shape)
-        self._known[key] = structure
+        compiled = compile_problem(problem.model, shape)
+        self._known[key] = compiled
         if len(self._known) > self._capacity:
             self._known.popitem(last=False)
-        return structure, time.perf_counter() - begin
+        return compiled, time.perf_counter() - begin
 
 
 def shape_of(problem: MotionProblem, *, elastic: bool = False) -> Shape:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Floats
-from solver_jobs.nlp.compiled_problem import Structure
+from solver_jobs.nlp.compiled_problem import CompiledProblem
 from solver_jobs.nlp.constraint import Family, RowConstraint, Situation
 from solver_jobs.nlp.messages import FAMILY_WORDS, REMEDIES
 from solver_jobs.results.motion import Lack
@@ -62,19 +62,19 @@ def _of_feet(feet: tuple[int, ...]) -> str:
 
 
 def shortfalls(
-    structure: Structure, situation: Situation, rows: Floats, shift: int = 0
+    compiled: CompiledProblem, situation: Situation, rows: Floats, shift: int = 0
 ) -> tuple[Shortfall, ...]:
     """Everything that is missed notably, the worst first.
 
     Args:
-        structure: the problem's shape.
+        compiled: the problem's shape.
         situation: the problem.
         rows: value of every row.
         shift: by how many feet the problem was handed back to stand in direction 1.
     """
-    lower, upper = structure.row_bounds(situation)
+    lower, upper = compiled.row_bounds(situation)
     found = []
-    for block in structure.blocks:
+    for block in compiled.blocks:
         excess = block.constraint.excess(block.of(rows), block.of(lower), block.of(upper))
         amount = float(excess.max())
         if amount > NOTABLE:

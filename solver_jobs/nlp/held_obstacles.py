@@ -30,7 +30,7 @@ LEAST_NAMED = 5e-6
 """Shortfalls are given to 0.01 mm; a smaller one is left to the search."""
 
 
-def held_obstacles(problem: MotionProblem) -> list[str]:
+def presolve_held_feet(problem: MotionProblem) -> list[str]:
     """Sentences on feet held out of reach, on ends without balance, and on lifts that are too short."""
     ends = (
         ("first", problem.start, problem.held_start, problem.heading[0]),

@@ -60,8 +60,8 @@ class Monitor(Callback):
         if self.listener is None or self.solver is None:
             return [0]
         try:
-            course = self.solver.stats()["iterations"]
-            figures = {name: float(values[-1]) for name, values in course.items()}
+            iterate_motions = self.solver.stats()["iterations"]
+            figures = {name: float(values[-1]) for name, values in iterate_motions.items()}
             return [0 if self.listener(np.array(arg[0]).reshape(-1), figures) else 1]
         except Exception as error:
             self.error = error

@@ -6,11 +6,11 @@ from dataclasses import replace
 
 from core.errors import InputError
 from core.motion.trajectory import Trajectory, turn_trajectory
-from core.problem.initial_guess import initial_motion
+from core.problem.initial_guess import initial_guess
 from core.problem.motion_problem import MotionProblem
 from solver_jobs.nlp.assembly import box_of
-from solver_jobs.nlp.attempts import Attempt, Progress, Search
-from solver_jobs.nlp.compiled_problem import Structure, StructureCache
+from solver_jobs.nlp.attempts import Attempt, Attempts, Progress
+from solver_jobs.nlp.compiled_problem import CompiledProblem, CompiledProblemCache
 from solver_jobs.nlp.constraint import situation_of
 from solver_jobs.nlp.diagnosis import (
     Shortfall,
@@ -19,8 +19,8 @@ from solver_jobs.nlp.diagnosis import (
     lacks,
     nearest_motion,
 )
-from solver_jobs.nlp.presolve import obstacles
-from solver_jobs.nlp.warm_starts import Memory
+from solver_jobs.nlp.presolve import presolve
+from solver_jobs.nlp.warm_starts import WarmStarts
 from solver_jobs.results.motion import Evidence, MotionResult, SolveStatus
 
 SUCCEEDED = "Solve_Succeeded"
@@ -32,8 +32,8 @@ NEARLY = 0.05
 """Where the nearest motion misses less than this (mm, mm/s, N), the price may have been too low for one that
 misses nothing, and IPOPT starts there once more."""
 
-_structures = StructureCache()
-_memory = Memory()
+_structures = CompiledProblemCache()
+_memory = WarmStarts()
 
 
 def solve_motion(
@@ -67,10 +67,10 @@ def solve_motion(
     if start is not None:
         _require_start(problem, start)
     situation = situation_of(problem)
-    blocking = obstacles(situation, box_of(situation))
+    blocking = presolve(situation, box_of(situation))
     if blocking:
         # Feet are named here, so this looks at the problem in its own direction.
-        return _ruled_out(blocking, initial_motion(problem), 0.0)
+        return _ruled_out(blocking, initial_guess(problem), 0.0)
     turns = problem.quarter_turns
     given = None if start is None else turn_trajectory(start, -turns)
     result = _Solve(problem.turned(-turns), progress, given, turns).run(resume, doubtful)
@@ -78,7 +78,7 @@ def solve_motion(
         result,
         trajectory=turn_trajectory(result.trajectory, turns),
         initial=turn_trajectory(result.initial, turns),
-        course=tuple(turn_trajectory(motion, turns) for motion in result.course),
+        iterate_motions=tuple(turn_trajectory(motion, turns) for motion in result.iterate_motions),
     )
 
 
@@ -99,54 +99,54 @@ class _Solve:
         situation = situation_of(problem)
         self._problem = problem
         self._given = given
-        self._initial = initial_motion(problem)
+        self._initial = initial_guess(problem)
         shift = (turns % 4) * problem.model.leg_count // 4
-        self._search = Search(situation, self._initial, box_of(situation), progress, shift)
+        self._search = Attempts(situation, self._initial, box_of(situation), progress, shift)
         self._build_seconds = 0.0
 
     def run(self, resume: bool, doubtful: bool) -> MotionResult:
         """Attempts from every start, then the search for the nearest motion."""
-        structure = self._structure()
-        broken = self._search.broken_constants(structure)
+        compiled = self._structure()
+        broken = self._search.broken_constants(compiled)
         if broken:
             sentences = tuple(broken_pose(one) for one in broken)
             return _ruled_out(sentences, self._initial, self._build_seconds, broken)
         if doubtful and (missing := self._missing(self._elastic())) is not None:
             return missing
-        attempt = self._attempt(structure, resume)
+        attempt = self._attempt(compiled, resume)
         if attempt.word not in (SUCCEEDED, STOPPED):
-            return self._nearest(structure, attempt)
+            return self._nearest(compiled, attempt)
         if attempt.word == SUCCEEDED and resume:
-            _memory.keep(structure, self._problem, attempt.end)
+            _memory.keep(compiled, self._problem, attempt.end)
         return self._ended(attempt)
 
-    def _structure(self, *, elastic: bool = False) -> Structure:
-        structure, seconds = _structures.get(self._problem, elastic=elastic)
+    def _structure(self, *, elastic: bool = False) -> CompiledProblem:
+        compiled, seconds = _structures.get(self._problem, elastic=elastic)
         self._build_seconds += seconds
-        return structure
+        return compiled
 
-    def _attempt(self, structure: Structure, resume: bool) -> Attempt:
+    def _attempt(self, compiled: CompiledProblem, resume: bool) -> Attempt:
         """From one start after the other, until one of them ends in a motion or is cancelled."""
         search = self._search
-        last = _memory.near(structure, self._problem) if resume else None
+        last = _memory.near(compiled, self._problem) if resume else None
         if last is not None:
-            attempt = search.attempt(structure, last, structure.warm_solver)
+            attempt = search.attempt(compiled, last, compiled.warm_solver)
             if attempt.word in (SUCCEEDED, STOPPED):
                 return attempt
         if self._given is not None:
-            attempt = search.attempt(structure, search.point(self._given))
+            attempt = search.attempt(compiled, search.point(self._given))
             if attempt.word in (SUCCEEDED, STOPPED):
                 return attempt
-        return search.attempt(structure, search.drawing)
+        return search.attempt(compiled, search.drawing)
 
-    def _nearest(self, structure: Structure, attempt: Attempt) -> MotionResult:
+    def _nearest(self, compiled: CompiledProblem, attempt: Attempt) -> MotionResult:
         """What the search for the nearest motion says after IPOPT has found none."""
         nearest = self._elastic()
         if (missing := self._missing(nearest)) is not None:
             return missing
         if nearest.word != SUCCEEDED:
             return self._ended(attempt)
-        again = self._search.attempt(structure, nearest.end)
+        again = self._search.attempt(compiled, nearest.end)
         if again.word in (SUCCEEDED, STOPPED) or not nearest.missed:
             return self._ended(again)
         return self._infeasible(nearest)
@@ -197,7 +197,7 @@ class _Solve:
             trajectory=search.trajectory(attempt.end.vector),
             initial=search.trajectory(attempt.begin.vector),
             lacks=lacks(attempt.missed) if unsolved else (),
-            course=search.course(),
+            iterate_motions=search.iterate_motions(),
         )
 
 

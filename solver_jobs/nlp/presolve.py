@@ -12,7 +12,7 @@ from core.problem.motion_problem import Boundary, MotionProblem, missing_support
 from core.problem.swing_height import is_held
 from solver_jobs.nlp.constraint import Box, Situation
 from solver_jobs.nlp.diagnosis import knot_ranges
-from solver_jobs.nlp.held_obstacles import held_obstacles
+from solver_jobs.nlp.held_obstacles import presolve_held_feet
 from solver_jobs.nlp.messages import FAMILY_WORDS, REMEDIES
 from solver_jobs.nlp.variables import MM
 
@@ -20,7 +20,7 @@ SLACK = 1e-9
 """Numbers may differ by this much, m, before something is called impossible."""
 
 
-def obstacles(situation: Situation, box: Box) -> tuple[str, ...]:
+def presolve(situation: Situation, box: Box) -> tuple[str, ...]:
     """Sentences for everything that no motion can get round; empty where nothing is in the way."""
     if (falling := _falling(situation)) is not None:
         return (falling,)
@@ -28,7 +28,7 @@ def obstacles(situation: Situation, box: Box) -> tuple[str, ...]:
         _no_area(situation),
         _contradictions(situation, box),
         _short_swings(situation),
-        held_obstacles(situation.problem),
+        presolve_held_feet(situation.problem),
         _far_feet(situation),
         _far_body(situation),
     )

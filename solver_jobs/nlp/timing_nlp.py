@@ -15,7 +15,7 @@ from core.motion.trajectory import Trajectory
 from core.problem.motion_problem import MotionProblem
 from core.robot.model import RobotModel
 from solver_jobs.nlp.assembly import box_of
-from solver_jobs.nlp.attempts import Search
+from solver_jobs.nlp.attempts import Attempts
 from solver_jobs.nlp.block_jacobian import RowBlock
 from solver_jobs.nlp.compiled_problem import (
     IPOPT_OPTIONS,
@@ -124,7 +124,7 @@ class StretchSearch:
         """The shortest motion, from one that keeps every limit."""
         drawn = np.array([problem.intervals[a : b + 1].sum() for a, b in self._spans])
         situation = situation_of(problem)
-        search = Search(situation, start, box_of(situation), self._progress)
+        search = Attempts(situation, start, box_of(situation), self._progress)
         phases = _phase_of_interval(self._spans, problem.knot_count)
         solver, blocks = _structure(problem, phases)
         row_lower, row_upper = bounds_of(blocks, situation)

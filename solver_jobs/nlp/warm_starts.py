@@ -10,7 +10,7 @@ import numpy as np
 from core.arrays import Floats
 from core.problem.motion_problem import MotionProblem, RestPose
 from solver_jobs.nlp.attempts import Point
-from solver_jobs.nlp.compiled_problem import Structure
+from solver_jobs.nlp.compiled_problem import CompiledProblem
 
 MOST_CELLS_PER_FOOT = 4
 """An edit changes at most so many cells of the timeline a foot, on average."""
@@ -31,19 +31,19 @@ class _Solved:
     point: Point
 
 
-class Memory:
+class WarmStarts:
     """The last solution of each structure that is still kept."""
 
     def __init__(self) -> None:
-        self._solved: WeakKeyDictionary[Structure, _Solved] = WeakKeyDictionary()
+        self._solved: WeakKeyDictionary[CompiledProblem, _Solved] = WeakKeyDictionary()
 
-    def keep(self, structure: Structure, problem: MotionProblem, point: Point) -> None:
+    def keep(self, compiled: CompiledProblem, problem: MotionProblem, point: Point) -> None:
         """Remembers a solution."""
-        self._solved[structure] = _Solved(problem, point)
+        self._solved[compiled] = _Solved(problem, point)
 
-    def near(self, structure: Structure, problem: MotionProblem) -> Point | None:
+    def near(self, compiled: CompiledProblem, problem: MotionProblem) -> Point | None:
         """The last solution of this shape, where its problem differs only a little."""
-        solved = self._solved.get(structure)
+        solved = self._solved.get(compiled)
         return solved.point if solved is not None and differ_little(solved.problem, problem) else None
 
 

@@ -19,7 +19,7 @@ SEED = 5
 """One worker with this seed answers the same way each time."""
 
 
-class Watch:
+class SearchMonitor:
     """Runs solvers one after the other under one listener and one time limit.
 
     Args:
@@ -42,7 +42,7 @@ class Watch:
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._tell, name="pattern-progress", daemon=True)
 
-    def __enter__(self) -> Watch:
+    def __enter__(self) -> SearchMonitor:
         self._thread.start()
         return self
 

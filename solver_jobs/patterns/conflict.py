@@ -31,7 +31,7 @@ PLAIN_FIRST = (
 
 
 @dataclass(frozen=True)
-class Clash:
+class Conflict:
     """A smallest set of clauses that cannot hold together.
 
     Args:
@@ -43,7 +43,7 @@ class Clash:
     reached: int | None
 
 
-def find_clash(problem: PatternProblem, probe: Probe) -> Clash:
+def find_conflict(problem: PatternProblem, probe: Probe) -> Conflict:
     """A smallest set of clauses that clash.
 
     Args:
@@ -57,7 +57,7 @@ def find_clash(problem: PatternProblem, probe: Probe) -> Clash:
         others = [clause for other in (*groups[:place], *groups[place + 1 :]) for clause in other]
         groups[place] = _narrowed(problem, probe, group, others)
     clauses = tuple(clause for group in groups for clause in group)
-    return Clash(clauses, _reached(problem, probe, clauses))
+    return Conflict(clauses, _reached(problem, probe, clauses))
 
 
 def _rule_clauses(problem: PatternProblem) -> list[Clause]:
@@ -94,12 +94,12 @@ def _rules_that_clash(
 ) -> list[Clause]:
     """The plainest rule that clashes with what is fixed, or rules none of which can be left out."""
     for rule in rules:
-        if probe.clash(problem, [rule, *fixed]):
+        if probe.conflict(problem, [rule, *fixed]):
             return [rule]
     kept = list(rules)
     for rule in reversed(rules):
         fewer = [other for other in kept if other is not rule]
-        if probe.clash(problem, [*fewer, *fixed]):
+        if probe.conflict(problem, [*fewer, *fixed]):
             kept = fewer
     return kept
 
@@ -111,7 +111,7 @@ def _dropped(
     kept = list(fixed)
     for clause in reversed(fixed):
         fewer = [other for other in kept if other is not clause]
-        if probe.clash(problem, [*rules, *fewer]):
+        if probe.conflict(problem, [*rules, *fewer]):
             kept = fewer
     return [[clause] for clause in kept]
 
@@ -137,13 +137,13 @@ def _fewer_limbs(problem: PatternProblem, probe: Probe, clause: Clause, others: 
     """
     needed: list[Clause] = []
     candidates = [replace(clause, limbs=(limb,)) for limb in clause.limbs]
-    while not probe.clash(problem, [*others, *needed]):
+    while not probe.conflict(problem, [*others, *needed]):
         if len(needed) == MOST_NAMED or not candidates:
             return [clause]
         low, high = 1, len(candidates)
         while low < high:
             middle = (low + high) // 2
-            if probe.clash(problem, [*others, *needed, *candidates[:middle]]):
+            if probe.conflict(problem, [*others, *needed, *candidates[:middle]]):
                 high = middle
             else:
                 low = middle + 1
@@ -155,17 +155,17 @@ def _fewer_limbs(problem: PatternProblem, probe: Probe, clause: Clause, others: 
 def _shorter(problem: PatternProblem, probe: Probe, clause: Clause, others: list[Clause]) -> Clause:
     """The clause over a window of samples neither end of which can be left out, unless that is long."""
 
-    def clashes(first: int, last: int) -> bool:
-        return probe.clash(problem, [*others, replace(clause, first=first, last=last)])
+    def conflicts(first: int, last: int) -> bool:
+        return probe.conflict(problem, [*others, replace(clause, first=first, last=last)])
 
     first, low, high = clause.first, clause.first, clause.last
     while low < high:
         middle = (low + high) // 2
-        low, high = (low, middle) if clashes(first, middle) else (middle + 1, high)
+        low, high = (low, middle) if conflicts(first, middle) else (middle + 1, high)
     last, low, high = high, clause.first, high
     while low < high:
         middle = (low + high + 1) // 2
-        low, high = (middle, high) if clashes(middle, last) else (low, middle - 1)
+        low, high = (middle, high) if conflicts(middle, last) else (low, middle - 1)
     long = 2 * (last - low + 1) > clause.last - clause.first + 1
     return clause if long else replace(clause, first=low, last=last)
 
@@ -175,7 +175,7 @@ def _reached(problem: PatternProblem, probe: Probe, clauses: Sequence[Clause]) -
     for rule in (Rule.FEET_DOWN, Rule.FEET_DOWN_EACH_SIDE):
         if any(clause.rule is rule for clause in clauses):
             number = int(getattr(problem.rules, rule.value)) - 1
-            while number > 0 and probe.clash(with_rule(problem, rule, number), clauses):
+            while number > 0 and probe.conflict(with_rule(problem, rule, number), clauses):
                 number -= 1
             return number
     return None

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 
 from core.patterns.clause import Clause
 from core.patterns.problem import PatternProblem, PatternResult, PatternStatus, Relaxation
-from core.patterns.sentences import clash_sentence, explanation
-from solver_jobs.patterns.conflict import find_clash
+from core.patterns.sentences import conflict_sentence, explanation
+from solver_jobs.patterns.conflict import find_conflict
 from solver_jobs.patterns.probe import Probe
 from solver_jobs.patterns.relax import find_relaxations
 
@@ -33,10 +33,10 @@ def explain(problem: PatternProblem) -> Explanation:
     Args:
         problem: an infeasible one.
     """
-    clash = find_clash(problem, Probe())
-    relaxations = find_relaxations(problem, clash.clauses, Probe())
-    sentence = clash_sentence(problem, clash.clauses, clash.reached)
-    return Explanation(clash.clauses, explanation(problem, sentence, relaxations), relaxations)
+    conflict = find_conflict(problem, Probe())
+    relaxations = find_relaxations(problem, conflict.clauses, Probe())
+    sentence = conflict_sentence(problem, conflict.clauses, conflict.reached)
+    return Explanation(conflict.clauses, explanation(problem, sentence, relaxations), relaxations)
 
 
 def explained(problem: PatternProblem, result: PatternResult) -> PatternResult:

@@ -46,7 +46,7 @@ class Probe:
     work: float = ALL_WORK
     asked: int = 0
 
-    def clash(self, problem: PatternProblem, clauses: Sequence[Clause]) -> bool:
+    def conflict(self, problem: PatternProblem, clauses: Sequence[Clause]) -> bool:
         """Whether it is proven that these clauses cannot hold together."""
         if problem.rules.balance is not None and all(clause.rule is not Rule.BALANCE for clause in clauses):
             # Places of the body cost more than all else, also where nothing is asked of them.

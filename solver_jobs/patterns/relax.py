@@ -9,7 +9,7 @@ from core.patterns.clause import Clause
 from core.patterns.problem import FREE, MOST_SAMPLES, PatternKind, PatternProblem, Relaxation, Rule
 from core.patterns.relaxation import has_fixed_cells, relaxed, with_rule
 from core.patterns.sentences import failing_samples, relaxation_words
-from solver_jobs.patterns.conflict import find_clash
+from solver_jobs.patterns.conflict import find_conflict
 from solver_jobs.patterns.probe import Answer, Probe
 
 MOST_OFFERED = 6
@@ -62,9 +62,9 @@ def _double_changes(problem: PatternProblem, clauses: Sequence[Clause], probe: P
     """A rule of the clash loosened, with a change of what clashes then; the first rule that gets so far."""
     for rule in _rules_of(clauses):
         without = with_rule(problem, rule, None if rule is Rule.BALANCE else _mildest(problem, rule))
-        clash = find_clash(without, probe)
+        conflict = find_conflict(without, probe)
         found = []
-        for steps, second in _single_changes(without, clash.clauses, probe):
+        for steps, second in _single_changes(without, conflict.clauses, probe):
             first = _rule_change(relaxed(problem, second), rule, probe)
             if first is not None:
                 found.append((steps + first[0], replace(first[1], also=(second,))))

@@ -19,7 +19,7 @@ from core.patterns.problem import (
     PatternStatus,
 )
 from solver_jobs.patterns.bounds import event_counts, floor_of, row_floors
-from solver_jobs.patterns.callbacks import Watch
+from solver_jobs.patterns.callbacks import SearchMonitor
 from solver_jobs.patterns.event_rules import ruled_model
 from solver_jobs.patterns.events import EventModel, forbid
 from solver_jobs.patterns.explain import explained
@@ -69,8 +69,8 @@ def best_patterns(
         raise InputError(f"{count} patterns were asked for; ask for 1 to {MOST_PATTERNS}.", "count")
     if not 0.001 <= seconds <= 3600:
         raise InputError(f"The time limit is {seconds:g} s; it must lie between 0.001 and 3600 s.", "seconds")
-    with Watch(problem, seconds, progress) as watch:
-        return _Search(problem, watch).run(count)
+    with SearchMonitor(problem, seconds, progress) as monitor:
+        return _Search(problem, monitor).run(count)
 
 
 @dataclass(order=True)
@@ -87,9 +87,9 @@ class _Entry:
 class _Search:
     """Best first: a number of events waits under its lower bound until it is worth a proof."""
 
-    def __init__(self, problem: PatternProblem, watch: Watch) -> None:
+    def __init__(self, problem: PatternProblem, monitor: SearchMonitor) -> None:
         self._problem = problem
-        self._watch = watch
+        self._monitor = monitor
         self._floors = row_floors(problem)
         self._heap = [
             _Entry(floor_of(problem, events, self._floors), True, events) for events in event_counts(problem)
@@ -101,10 +101,10 @@ class _Search:
     def run(self, count: int) -> PatternResult:
         """The `count` best patterns, or as many as there are."""
         found = self._found
-        while self._heap and len(found) < count and not self._watch.is_over:
+        while self._heap and len(found) < count and not self._monitor.is_over:
             entry = heapq.heappop(self._heap)
             if not found:
-                self._watch.bound = entry.cost
+                self._monitor.bound = entry.cost
             if entry.pattern is not None and entry.model is not None:
                 found.append(entry.pattern)
                 if len(found) < count:
@@ -131,9 +131,9 @@ class _Search:
             return True
         simple = replace(problem, drawing=None, rules=replace(problem.rules, balance=None))
         built = ruled_model(simple, events, row_floors(simple))
-        status, solver = self._watch.solve(built.model)
+        status, solver = self._monitor.solve(built.model)
         if status == OPTIMAL and problem.rules.balance is None:
-            self._watch.offer(scored(problem, read_pattern(built, solver.value).stance))
+            self._monitor.offer(scored(problem, read_pattern(built, solver.value).stance))
         return bool(status != INFEASIBLE)
 
     def _push(self, built: EventModel, entry: _Entry | None = None) -> None:
@@ -142,14 +142,14 @@ class _Search:
 
         def bounded(bound: float) -> None:
             if not self._found:
-                self._watch.bound = max(self._watch.bound, min(bound, others))
+                self._monitor.bound = max(self._monitor.bound, min(bound, others))
 
-        status, solver = self._watch.solve(
-            built.model, _Listener(built, self._watch), linear=_linear(self._problem), bounded=bounded
+        status, solver = self._monitor.solve(
+            built.model, _Listener(built, self._monitor), linear=_linear(self._problem), bounded=bounded
         )
         if status == OPTIMAL:
             pattern = read_pattern(built, solver.value)
-            self._watch.offer(pattern)
+            self._monitor.offer(pattern)
             cost = weighted_sum(self._problem, pattern)
             heapq.heappush(self._heap, _Entry(cost, False, built.events, built, pattern))
         elif status == INFEASIBLE:
@@ -161,21 +161,21 @@ class _Search:
         """Whether any pattern at all keeps the rules: one proof instead of one for each number of events."""
         self._fruitless += 1
         built = build_model(self._problem)
-        status, solver = self._watch.solve(built.model, linear=0)
+        status, solver = self._monitor.solve(built.model, linear=0)
         if status == OPTIMAL:
-            self._watch.offer(read_samples(built, solver.value))
+            self._monitor.offer(read_samples(built, solver.value))
         return bool(status != INFEASIBLE)
 
     def _result(self, found: list[Pattern]) -> PatternResult:
-        watch, best = self._watch, self._watch.best
+        monitor, best = self._monitor, self._monitor.best
         if found:
             bound = float(weighted_sum(self._problem, found[0]))
-            return PatternResult(PatternStatus.OPTIMAL, tuple(found), bound, watch.elapsed)
-        if not watch.is_over:
-            return PatternResult(PatternStatus.INFEASIBLE, (), None, watch.elapsed)
+            return PatternResult(PatternStatus.OPTIMAL, tuple(found), bound, monitor.elapsed)
+        if not monitor.is_over:
+            return PatternResult(PatternStatus.INFEASIBLE, (), None, monitor.elapsed)
         if best is not None:
-            return PatternResult(PatternStatus.FEASIBLE, (best,), watch.bound, watch.elapsed)
-        return PatternResult(PatternStatus.CANCELLED, (), watch.bound, watch.elapsed)
+            return PatternResult(PatternStatus.FEASIBLE, (best,), monitor.bound, monitor.elapsed)
+        return PatternResult(PatternStatus.CANCELLED, (), monitor.bound, monitor.elapsed)
 
 
 def _linear(problem: PatternProblem) -> int:
@@ -188,11 +188,11 @@ def _linear(problem: PatternProblem) -> int:
 class _Listener(CpSolverSolutionCallback):
     """Offers each better pattern to the watch."""
 
-    def __init__(self, built: EventModel, watch: Watch) -> None:
+    def __init__(self, built: EventModel, monitor: SearchMonitor) -> None:
         super().__init__()
         self._built = built
-        self._watch = watch
+        self._monitor = monitor
 
     def on_solution_callback(self) -> None:
         """Called by the solver."""
-        self._watch.offer(read_pattern(self._built, self.value))
+        self._monitor.offer(read_pattern(self._built, self.value))

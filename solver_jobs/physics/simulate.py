@@ -113,5 +113,5 @@ def simulate_variations(
 
 def _motion(run: SimulatedRun, seconds: float) -> SimulatedMotion:
     return simulated_motion(
-        run.problem, run.course_done, run.layout, run.recorded, run.loop_error, seconds, run.ended_early
+        run.problem, run.trajectory_done, run.layout, run.recorded, run.loop_error, seconds, run.ended_early
     )

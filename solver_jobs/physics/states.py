@@ -11,7 +11,7 @@ from core.arrays import Floats
 from core.physics.metrics import rotations
 from core.physics.motion import SimulatedMotion
 from core.physics.problem import Rig, SimulationProblem
-from core.physics.ramp import TURN, MotorCourse
+from core.physics.ramp import TURN, MotorTrajectory
 from core.robot.closed_chain import foot_joints, motor_joint
 from solver_jobs.physics.mjcf import ground_sensor, rest_height
 
@@ -36,7 +36,7 @@ class Layout:
 
 def simulated_motion(
     problem: SimulationProblem,
-    course: MotorCourse,
+    driven: MotorTrajectory,
     layout: Layout,
     recorded: tuple[Floats, Floats],
     loop_error: float,
@@ -47,7 +47,7 @@ def simulated_motion(
 
     Args:
         problem: what was asked.
-        course: of the motors, as far as the run came.
+        driven: of the motors, as far as the run came.
         layout: of the engine's values.
         recorded: positions and sensors, a row a turn.
         loop_error: m.
@@ -71,11 +71,11 @@ def simulated_motion(
         attitude=move.attitudes(attitude),
         feet_world=move.points(feet),
         strokes=positions[:, layout.motors] + forces / layout.stiffness,
-        targets=course.targets,
+        targets=driven.targets,
         motor_forces=forces,
         ground_forces=move.vectors(ground),
         centre_world=move.points(sensors[:, -3:]),
-        arrivals=course.arrivals,
+        arrivals=driven.arrivals,
         loop_error=loop_error,
         seconds=seconds,
         ended_early=ended_early,

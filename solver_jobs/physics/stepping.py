@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from core.arrays import Floats
 from core.errors import CheckError, InfeasibleError
-from core.physics.backlash import with_play
+from core.physics.backlash import with_backlash
 from core.physics.metrics import FALL_TILT, rotations, tilts
 from core.physics.motors import motor_speeds
 from core.physics.problem import Rig, SimulationProblem
-from core.physics.ramp import TURN, MotorCourse, motor_course
+from core.physics.ramp import TURN, MotorTrajectory, motor_trajectory
 from core.robot.kinematics import BodyPose
 from core.wire.waypoint_merging import robot_feet
 from solver_jobs.physics.mjcf import LINK_RELAXATION, mjcf_text, rest_height
@@ -49,7 +49,7 @@ class SimulatedRun:
 
     def __init__(self, problem: SimulationProblem, time_step: float) -> None:
         self.problem = problem
-        self.course = motor_course(problem.waypoints, motor_speeds(problem.model, problem.physics))
+        self.driven = motor_trajectory(problem.waypoints, motor_speeds(problem.model, problem.physics))
         pose, feet_robot = _start(problem)
         text = mjcf_text(problem.model, problem.physics, problem.rig, pose, time_step)
         self.model = mujoco.MjModel.from_xml_string(text)
@@ -59,9 +59,9 @@ class SimulatedRun:
         self.loop_error = 0.0
         self.ended_early = ""
         self._steps = round(TURN / time_step)
-        still = np.repeat(self.course.strokes[:1], SETTLING + 1, 0)
-        rows = np.concatenate([still, self.course.strokes[1:]]).reshape(-1, problem.model.motor_count)
-        self._strokes = with_play(rows, problem.physics.backlash)
+        still = np.repeat(self.driven.strokes[:1], SETTLING + 1, 0)
+        rows = np.concatenate([still, self.driven.strokes[1:]]).reshape(-1, problem.model.motor_count)
+        self._strokes = with_backlash(rows, problem.physics.backlash)
         self._row = 0
         self._state = self._first_state(pose, feet_robot)
         self._positions: list[Floats] = []
@@ -87,14 +87,14 @@ class SimulatedRun:
         return np.concatenate(self._positions)[first:], np.concatenate(self._sensors)[first:]
 
     @property
-    def course_done(self) -> MotorCourse:
+    def trajectory_done(self) -> MotorTrajectory:
         """The motors' course as far as it came."""
         rows = len(self.recorded[0])
         if self._row < SETTLING:
-            still = np.repeat(self.course.targets[:1], rows, 0)
-            return MotorCourse(still, still, np.zeros(1, dtype=np.int64))
-        arrivals = self.course.arrivals[self.course.arrivals < rows]
-        return MotorCourse(self.course.targets[:rows], self.course.strokes[:rows], arrivals)
+            still = np.repeat(self.driven.targets[:1], rows, 0)
+            return MotorTrajectory(still, still, np.zeros(1, dtype=np.int64))
+        arrivals = self.driven.arrivals[self.driven.arrivals < rows]
+        return MotorTrajectory(self.driven.targets[:rows], self.driven.strokes[:rows], arrivals)
 
     def state(self) -> Floats:
         """The engine's state from which the next chunk starts."""

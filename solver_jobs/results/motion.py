@@ -85,7 +85,7 @@ class MotionResult:
             constraints only where the status is solved.
         initial: what the solver started from.
         lacks: what the nearest motion misses, the worst first, where it is infeasible.
-        course: the motion at each of the iterations, the start included; empty where it was not kept.
+        iterate_motions: the motion at each of the iterations, the start included; empty if not kept.
     """
 
     status: SolveStatus
@@ -99,7 +99,7 @@ class MotionResult:
     trajectory: Trajectory
     initial: Trajectory
     lacks: tuple[Lack, ...] = ()
-    course: tuple[Trajectory, ...] = ()
+    iterate_motions: tuple[Trajectory, ...] = ()
 
     @property
     def iteration_count(self) -> int:

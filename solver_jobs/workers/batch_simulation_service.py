@@ -7,16 +7,16 @@ from collections.abc import Callable, Sequence
 from core.errors import SimulationCancelledError, StateError
 from core.identification.learning import Walk
 from core.physics.parameters import PhysicsSet
-from core.trials.travel import Travel
-from solver_jobs.workers.batch_simulation_worker import Travels, run_travel_worker
+from core.trials.travel import Displacement
+from solver_jobs.workers.batch_simulation_worker import BatchTask, run_batch_simulation_worker
 from solver_jobs.workers.spawning import BACKGROUND_NICENESS
-from solver_jobs.workers.task_service import Question, QuestionService
+from solver_jobs.workers.task_service import Task, TaskService
 
 
-class TravelQuestion(Question[Travels, float, tuple[Travel | None, ...]]):
+class BatchSimulation(Task[BatchTask, float, tuple[Displacement | None, ...]]):
     """Some simulations of a gait; what is ended has no answer."""
 
-    def unanswered(self, seconds: float) -> tuple[Travel | None, ...]:
+    def unanswered(self, seconds: float) -> tuple[Displacement | None, ...]:
         """Nothing comes of it.
 
         Raises:
@@ -28,18 +28,18 @@ class TravelQuestion(Question[Travels, float, tuple[Travel | None, ...]]):
         raise StateError("The simulator of gaits hangs and was ended. Try again.")
 
 
-class TravelSimulator(QuestionService[TravelQuestion]):
+class BatchSimulator(TaskService[BatchSimulation]):
     """Travels of gaits under sets of parameters, one question after the other."""
 
     def __init__(self) -> None:
-        super().__init__("simulator of gaits", run_travel_worker, niceness=BACKGROUND_NICENESS)
+        super().__init__("simulator of gaits", run_batch_simulation_worker, niceness=BACKGROUND_NICENESS)
 
     def submit(
         self,
         walk: Walk,
         sets: Sequence[PhysicsSet],
         progress: Callable[[float], object] = lambda share: None,
-    ) -> TravelQuestion:
+    ) -> BatchSimulation:
         """Begins some simulations of a gait, after those that were asked for before.
 
         Args:
@@ -47,4 +47,4 @@ class TravelSimulator(QuestionService[TravelQuestion]):
             sets: parameters, one simulation each.
             progress: told the share of the present simulation, from a thread of the service's.
         """
-        return self.ask(TravelQuestion(Travels(walk, tuple(sets)), progress))
+        return self.ask(BatchSimulation(BatchTask(walk, tuple(sets)), progress))

@@ -8,12 +8,12 @@ from multiprocessing.connection import Connection
 from core.errors import CheckError
 from core.identification.learning import Walk
 from core.physics.parameters import PhysicsSet
-from core.trials.travel import Travel, motion_travel
-from solver_jobs.workers.task_worker import Report, answer_questions
+from core.trials.travel import Displacement, motion_displacement
+from solver_jobs.workers.task_worker import Report, run_tasks
 
 
 @dataclass(frozen=True, eq=False)
-class Travels:
+class BatchTask:
     """What is simulated.
 
     Args:
@@ -25,21 +25,21 @@ class Travels:
     sets: tuple[PhysicsSet, ...]
 
 
-def run_travel_worker(pipe: Connection, warm_up: None) -> None:
+def run_batch_simulation_worker(pipe: Connection, warm_up: None) -> None:
     """Body of the process.
 
     Args:
         pipe: the worker's end.
         warm_up: nothing.
     """
-    answer_questions(pipe, _travels)
+    run_tasks(pipe, _displacements)
 
 
-def _travels(asked: Travels, report: Report) -> tuple[Travel | None, ...]:
+def _displacements(asked: BatchTask, report: Report) -> tuple[Displacement | None, ...]:
     return tuple(walked(asked.walk, physics, report) for physics in asked.sets)
 
 
-def walked(walk: Walk, physics: PhysicsSet, report: Report = lambda share: True) -> Travel | None:
+def walked(walk: Walk, physics: PhysicsSet, report: Report = lambda share: True) -> Displacement | None:
     """How far a simulated robot goes; None where it falls, or its simulation cannot be trusted.
 
     One lap is simulated, at the time step of variations; each further one begins where the one before ended.
@@ -62,4 +62,4 @@ def walked(walk: Walk, physics: PhysicsSet, report: Report = lambda share: True)
     if motion.ended_early:
         return None
     feet = motion.feet_world[..., :2]
-    return motion_travel(motion.times, feet, walk.laps, walk.heading, walk.measured.wanted)
+    return motion_displacement(motion.times, feet, walk.laps, walk.heading, walk.measured.wanted)

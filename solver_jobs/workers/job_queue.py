@@ -15,9 +15,9 @@ from types import TracebackType
 from core.errors import InputError, StateError
 from core.problem.motion_problem import MotionProblem
 from solver_jobs.workers.job import Job, JobKind, JobState
-from solver_jobs.workers.job_thread import JobService
+from solver_jobs.workers.job_thread import JobThread
 from solver_jobs.workers.spawning import BACKGROUND_NICENESS
-from solver_jobs.workers.worker_process import WorkerHandle
+from solver_jobs.workers.worker_process import WorkerProcess
 
 OnChange = Callable[[Job], None]
 """Told of every change with a snapshot, in order, from one thread of the runner's."""
@@ -29,7 +29,7 @@ HISTORY_LIMIT = 100
 _log = logging.getLogger(__name__)
 
 
-class JobRunner:
+class JobQueue:
     """Runs jobs in worker processes that stand by warm.
 
     Starting costs the caller nothing: processes are started, and the solver imported, in the background.
@@ -60,14 +60,14 @@ class JobRunner:
         self._news: queue.SimpleQueue[Job | None] = queue.SimpleQueue()
         self._notifier = threading.Thread(target=self._notify, name="footfall-jobs-news", daemon=True)
         self._services = [
-            JobService(self, WorkerHandle(warm_up, niceness=BACKGROUND_NICENESS), time_limit)
+            JobThread(self, WorkerProcess(warm_up, niceness=BACKGROUND_NICENESS), time_limit)
             for _ in range(workers)
         ]
         self._notifier.start()
         for service in self._services:
             service.start()
 
-    def __enter__(self) -> JobRunner:
+    def __enter__(self) -> JobQueue:
         return self
 
     def __exit__(

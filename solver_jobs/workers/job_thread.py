@@ -24,7 +24,7 @@ from solver_jobs.workers.nlp_worker import (
     Stop,
     Work,
 )
-from solver_jobs.workers.worker_process import WorkerEndedError, WorkerHandle
+from solver_jobs.workers.worker_process import WorkerEndedError, WorkerProcess
 
 GRACE_SECONDS = 1.0
 """How long a worker may take to stop when asked; then it is ended."""
@@ -38,7 +38,7 @@ POLL_SECONDS = 0.02
 _log = logging.getLogger(__name__)
 
 
-class JobBoard(Protocol):
+class JobSource(Protocol):
     """Where the service finds work and writes what became of it."""
 
     @property
@@ -59,7 +59,7 @@ class JobBoard(Protocol):
 
 
 @dataclass(eq=False)
-class _Course:
+class _RunningJob:
     """What the service knows of the job it is at."""
 
     job: str
@@ -71,7 +71,7 @@ class _Course:
     timed_out: bool = False
 
 
-class JobService:
+class JobThread:
     """One worker process and the thread that feeds it.
 
     Args:
@@ -80,7 +80,7 @@ class JobService:
         time_limit: longest a job may run, s.
     """
 
-    def __init__(self, board: JobBoard, worker: WorkerHandle, time_limit: float) -> None:
+    def __init__(self, board: JobSource, worker: WorkerProcess, time_limit: float) -> None:
         self.worker = worker
         self._board = board
         self._time_limit = time_limit
@@ -110,85 +110,85 @@ class JobService:
             _log.exception("The solver's process does not start")
 
     def _attend(self, job: Job) -> None:
-        course = _Course(job.id, time.monotonic() + self._time_limit)
+        running = _RunningJob(job.id, time.monotonic() + self._time_limit)
         try:
             try:
-                self._serve(job, course)
+                self._serve(job, running)
             except WorkerEndedError:
-                if course.heard or self._board.closing:
+                if running.heard or self._board.closing:
                     raise
                 # The process had ended while it stood by; the job deserves a living one.
-                self._serve(job, course)
+                self._serve(job, running)
         except WorkerEndedError as ended:
             self._end(
-                course,
+                running,
                 JobState.FAILED,
                 f"The solver's process ended unexpectedly ({ended}). A new one starts; try again.",
             )
             self._start_worker()
         except Exception as error:
             _log.exception("Job %s failed in its service", job.id)
-            self._end(course, JobState.FAILED, f"The job could not be run: {error}.")
+            self._end(running, JobState.FAILED, f"The job could not be run: {error}.")
 
-    def _serve(self, job: Job, course: _Course) -> None:
+    def _serve(self, job: Job, running: _RunningJob) -> None:
         self.worker.ensure_started()
         self.worker.send(Work(job.id, job.problem, job.kind))
-        while not self._board.closing and not self._advance(course):
+        while not self._board.closing and not self._advance(running):
             pass
 
-    def _advance(self, course: _Course) -> bool:
+    def _advance(self, running: _RunningJob) -> bool:
         """Handles the next message or limit; true when the job has ended."""
         message = self.worker.receive(POLL_SECONDS)
-        course.heard = course.heard or message is not None
-        if isinstance(message, Progressed) and message.job == course.job:
-            course.iterates.append(message.iterate)
-        elif isinstance(message, Finished) and message.job == course.job:
-            self._finish(course, message.result)
+        running.heard = running.heard or message is not None
+        if isinstance(message, Progressed) and message.job == running.job:
+            running.iterates.append(message.iterate)
+        elif isinstance(message, Finished) and message.job == running.job:
+            self._finish(running, message.result)
             return True
-        elif isinstance(message, Broke) and message.job == course.job:
-            _log.error("Job %s: %s", course.job, message.details)
-            self._end(course, JobState.FAILED, f"The solver broke off ({message.error}); this is a bug.")
+        elif isinstance(message, Broke) and message.job == running.job:
+            _log.error("Job %s: %s", running.job, message.details)
+            self._end(running, JobState.FAILED, f"The solver broke off ({message.error}); this is a bug.")
             return True
         now = time.monotonic()
-        if now - course.published >= PUBLISH_SECONDS:
-            self._publish(course, now)
-        return self._stop_where_due(course, now)
+        if now - running.published >= PUBLISH_SECONDS:
+            self._publish(running, now)
+        return self._stop_where_due(running, now)
 
-    def _publish(self, course: _Course, now: float) -> None:
-        if len(self._board.job(course.job).progress) != len(course.iterates):
-            course.published = now
-            self._board.update(course.job, lambda job: replace(job, progress=tuple(course.iterates)))
+    def _publish(self, running: _RunningJob, now: float) -> None:
+        if len(self._board.job(running.job).progress) != len(running.iterates):
+            running.published = now
+            self._board.update(running.job, lambda job: replace(job, progress=tuple(running.iterates)))
 
-    def _stop_where_due(self, course: _Course, now: float) -> bool:
-        if course.stop_sent is None:
-            course.timed_out = now > course.deadline
-            if course.timed_out or self._board.job(course.job).state is JobState.CANCELLING:
-                course.stop_sent = now
-                self.worker.send(Stop(course.job))
+    def _stop_where_due(self, running: _RunningJob, now: float) -> bool:
+        if running.stop_sent is None:
+            running.timed_out = now > running.deadline
+            if running.timed_out or self._board.job(running.job).state is JobState.CANCELLING:
+                running.stop_sent = now
+                self.worker.send(Stop(running.job))
             return False
-        if now - course.stop_sent < GRACE_SECONDS:
+        if now - running.stop_sent < GRACE_SECONDS:
             return False
         self.worker.kill()
-        self._end(course, *self._stopped(course))
+        self._end(running, *self._stopped(running))
         self._start_worker()
         return True
 
-    def _stopped(self, course: _Course) -> tuple[JobState, str]:
-        count = len(course.iterates)
-        if course.timed_out:
+    def _stopped(self, running: _RunningJob) -> tuple[JobState, str]:
+        count = len(running.iterates)
+        if running.timed_out:
             return JobState.FAILED, (
                 f"Stopped after {count} iterations at the time limit of {self._time_limit:g} s. "
                 "Shorten the gait or start from a smaller step."
             )
         return JobState.CANCELLED, f"Cancelled after {count} iterations."
 
-    def _finish(self, course: _Course, result: MotionResult | TimingResult) -> None:
+    def _finish(self, running: _RunningJob, result: MotionResult | TimingResult) -> None:
         state, sentence = STATE_OF_STATUS[result.status], result_sentence(result)
         if state is JobState.CANCELLED:
-            state, sentence = self._stopped(course)
-        self._board.update(course.job, lambda job: replace(job, result=result))
-        self._end(course, state, sentence)
+            state, sentence = self._stopped(running)
+        self._board.update(running.job, lambda job: replace(job, result=result))
+        self._end(running, state, sentence)
 
-    def _end(self, course: _Course, state: JobState, sentence: str) -> None:
-        job = replace(self._board.job(course.job), progress=tuple(course.iterates))
+    def _end(self, running: _RunningJob, state: JobState, sentence: str) -> None:
+        job = replace(self._board.job(running.job), progress=tuple(running.iterates))
         self._board.end(job, state, sentence)

@@ -14,7 +14,7 @@ from multiprocessing.context import SpawnProcess
 from typing import Any
 
 from core.gait.gait import Gait
-from core.problem.initial_guess import initial_motion
+from core.problem.initial_guess import initial_guess
 from core.problem.motion_problem import MotionProblem
 from solver_jobs.results.motion import Evidence, MotionResult, SolveStatus
 from solver_jobs.tiers.remedies import RemedySearch
@@ -198,7 +198,7 @@ class LiveSolver:
 
 
 def _no_answer(problem: MotionProblem, sentence: str) -> MotionResult:
-    drawing = initial_motion(problem)
+    drawing = initial_guess(problem)
     return MotionResult(
         status=SolveStatus.FAILED,
         solver_word="",

@@ -6,13 +6,13 @@ from collections.abc import Callable
 
 from core.patterns.problem import PatternProblem, PatternProgress, PatternResult, PatternStatus
 from solver_jobs.workers.pattern_worker import Find, run_pattern_worker
-from solver_jobs.workers.task_service import Question, QuestionService
+from solver_jobs.workers.task_service import Task, TaskService
 
 EXPLAIN_SECONDS = 30.0
 """How much longer than its limit a search may take, since a clash is explained after it is proven."""
 
 
-class PatternSearch(Question[Find, PatternProgress, PatternResult]):
+class PatternSearch(Task[Find, PatternProgress, PatternResult]):
     """A search that was asked for; one that is ended answers with what was last known.
 
     Args:
@@ -58,7 +58,7 @@ class PatternSearch(Question[Find, PatternProgress, PatternResult]):
         return PatternResult(PatternStatus.FEASIBLE, (known.pattern,), bound, seconds)
 
 
-class PatternSolver(QuestionService[PatternSearch]):
+class PatternSolver(TaskService[PatternSearch]):
     """Searches in a process of their own, one after the other; it is started anew where it ends.
 
     Args:

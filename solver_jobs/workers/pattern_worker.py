@@ -11,7 +11,7 @@ from multiprocessing.connection import Connection
 import numpy as np
 
 from core.patterns.problem import PatternKind, PatternProblem, PatternResult, index_halves, transition_cells
-from solver_jobs.workers.task_worker import Report, answer_questions
+from solver_jobs.workers.task_worker import Report, run_tasks
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +42,7 @@ def run_pattern_worker(pipe: Connection, warm_up: PatternProblem | None) -> None
         return solve_pattern(find.problem, count=find.count, seconds=find.seconds, progress=report)
 
     solve_pattern(warm_up or small_problem())
-    answer_questions(pipe, found)
+    run_tasks(pipe, found)
 
 
 def small_problem() -> PatternProblem:

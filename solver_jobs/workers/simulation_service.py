@@ -9,10 +9,10 @@ from core.errors import SimulationCancelledError, StateError
 from core.physics.problem import SimulationProblem
 from solver_jobs.workers.simulation_worker import Simulate, Simulated, run_simulation_worker
 from solver_jobs.workers.spawning import BACKGROUND_NICENESS
-from solver_jobs.workers.task_service import Question, QuestionService
+from solver_jobs.workers.task_service import Task, TaskService
 
 
-class Simulation(Question[Simulate, float, Simulated]):
+class Simulation(Task[Simulate, float, Simulated]):
     """A simulation that was asked for; one that is ended has no answer."""
 
     grace: ClassVar[float] = 2.0
@@ -29,7 +29,7 @@ class Simulation(Question[Simulate, float, Simulated]):
         raise StateError("The simulator hangs and was ended. Try again.")
 
 
-class Simulator(QuestionService[Simulation]):
+class Simulator(TaskService[Simulation]):
     """Simulations in a process of their own, one after the other; it is started anew where it ends.
 
     Args:

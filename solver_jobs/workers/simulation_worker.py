@@ -8,7 +8,7 @@ from multiprocessing.connection import Connection
 from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
 from core.physics.variations import VariedRun
-from solver_jobs.workers.task_worker import Report, answer_questions
+from solver_jobs.workers.task_worker import Report, run_tasks
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +50,7 @@ def run_simulation_worker(pipe: Connection, warm_up: SimulationProblem | None) -
 
     if warm_up is not None:
         simulate(warm_up)
-    answer_questions(pipe, _simulated)
+    run_tasks(pipe, _simulated)
 
 
 def _simulated(asked: Simulate, report: Report) -> Simulated:

@@ -1,7 +1,7 @@
 """The parent's side of questions: one at a time, in a process that is started anew where it ends.
 
-Whoever has questions of a kind derives a `Question`, which says what comes of one that was ended, and a
-`QuestionService` over a process whose body calls `answer_questions`.
+Whoever has questions of a kind derives a `Task`, which says what comes of one that was ended, and a
+`TaskService` over a process whose body calls `run_tasks`.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from core.errors import FootfallError, StateError
 from solver_jobs.workers.spawning import NICENESS
 from solver_jobs.workers.task_worker import (
     Answer,
-    Ask,
-    Halt,
-    Told,
+    Cancel,
+    Progress,
+    Submit,
 )
-from solver_jobs.workers.worker_process import WorkerEndedError, WorkerHandle
+from solver_jobs.workers.worker_process import WorkerEndedError, WorkerProcess
 
 _log = logging.getLogger(__name__)
 
@@ -35,12 +35,12 @@ POLL_SECONDS = 0.02
 SILENCE_SECONDS = 120.0
 """A process that tells nothing for so long is stuck, where a question does not say otherwise."""
 
-Task = TypeVar("Task")
+Payload = TypeVar("Payload")
 Known = TypeVar("Known")
 Result = TypeVar("Result")
 
 
-class Question(ABC, Generic[Task, Known, Result]):
+class Task(ABC, Generic[Payload, Known, Result]):
     """A question that was asked; any thread may wait for its answer or end it.
 
     Args:
@@ -51,7 +51,7 @@ class Question(ABC, Generic[Task, Known, Result]):
     grace: ClassVar[float] = 1.0
     """How long the process may take to end when asked, s; then it is ended itself."""
 
-    def __init__(self, task: Task, progress: Callable[[Known], object]) -> None:
+    def __init__(self, task: Payload, progress: Callable[[Known], object]) -> None:
         self.task = task
         self.is_ending = False
         self._progress = progress
@@ -110,15 +110,15 @@ class Question(ABC, Generic[Task, Known, Result]):
         self._future.set_exception(error)
 
 
-Asked = TypeVar("Asked", bound=Question[Any, Any, Any])
+TaskT = TypeVar("TaskT", bound=Task[Any, Any, Any])
 
 
-class QuestionService(Generic[Asked]):
+class TaskService(Generic[TaskT]):
     """Answers questions in a process of their own, one after the other.
 
     Args:
         name: of what answers, as in a sentence: "pattern solver".
-        body: what the process runs, given its end of the pipe and `warm_up` (see `answer_questions`).
+        body: what the process runs, given its end of the pipe and `warm_up` (see `run_tasks`).
         warm_up: what it does ahead of questions; None for what `body` makes of that.
         niceness: how far it stands back where cores are scarce.
     """
@@ -131,9 +131,9 @@ class QuestionService(Generic[Asked]):
         niceness: int = NICENESS,
     ) -> None:
         self._name = name
-        self._worker = WorkerHandle(warm_up, body, f"footfall {name}", niceness)
+        self._worker = WorkerProcess(warm_up, body, f"footfall {name}", niceness)
         self._numbers = itertools.count(1)
-        self._waiting: queue.SimpleQueue[Asked | None] = queue.SimpleQueue()
+        self._waiting: queue.SimpleQueue[TaskT | None] = queue.SimpleQueue()
         self._lock = threading.Lock()
         self._thread: threading.Thread | None = None
         self._closed = False
@@ -150,7 +150,7 @@ class QuestionService(Generic[Asked]):
                 self._thread = threading.Thread(target=self._run, name=self._name, daemon=True)
                 self._thread.start()
 
-    def ask(self, question: Asked) -> Asked:
+    def ask(self, question: TaskT) -> TaskT:
         """Begins a question, after those that were asked before; the first one starts the process."""
         self.start()
         with self._lock:
@@ -184,7 +184,7 @@ class QuestionService(Generic[Asked]):
         except OSError:
             _log.exception("The %s's process does not start", self._name)
 
-    def _attend(self, question: Asked) -> None:
+    def _attend(self, question: TaskT) -> None:
         begun = time.monotonic()
         try:
             try:
@@ -204,7 +204,7 @@ class QuestionService(Generic[Asked]):
             self._worker.kill()
             question.fail(self._broke_off(repr(error)))
 
-    def _serve(self, question: Asked, begun: float) -> Any:
+    def _serve(self, question: TaskT, begun: float) -> Any:
         """One answer of a living process.
 
         Raises:
@@ -217,18 +217,18 @@ class QuestionService(Generic[Asked]):
             return question.unanswered(0.0)
         self._worker.ensure_started()
         number, heard, halted = next(self._numbers), time.monotonic(), False
-        self._worker.send(Ask(number, question.task))
+        self._worker.send(Submit(number, question.task))
         latest = question.latest(begun, heard)
         while not self._closed:
             message = self._worker.receive(POLL_SECONDS)
             now = time.monotonic()
             if isinstance(message, Answer) and message.number == number:
                 return self._result(message)
-            if isinstance(message, Told) and message.number == number:
+            if isinstance(message, Progress) and message.number == number:
                 question.tell(message.known)
                 latest = latest if halted else question.latest(begun, now)
             if question.is_ending and not halted:
-                self._worker.send(Halt(number))
+                self._worker.send(Cancel(number))
                 latest, halted = now + question.grace, True
             if now > latest:
                 self._worker.kill()

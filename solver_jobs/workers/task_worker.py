@@ -15,7 +15,7 @@ Report = Callable[[Any], bool]
 
 
 @dataclass(frozen=True, eq=False)
-class Ask:
+class Submit:
     """To the worker: answer this."""
 
     number: int
@@ -23,14 +23,14 @@ class Ask:
 
 
 @dataclass(frozen=True)
-class Halt:
+class Cancel:
     """To the worker: end this question, with what is known or as cancelled."""
 
     number: int
 
 
 @dataclass(frozen=True, eq=False)
-class Told:
+class Progress:
     """From the worker: what is known in the middle of a question."""
 
     number: int
@@ -47,7 +47,7 @@ class Answer:
     error: str = ""
 
 
-def answer_questions(pipe: Connection, work: Callable[[Any, Report], Any]) -> None:
+def run_tasks(pipe: Connection, work: Callable[[Any, Report], Any]) -> None:
     """Answers questions until the parent's end of the pipe closes.
 
     Args:
@@ -57,13 +57,13 @@ def answer_questions(pipe: Connection, work: Callable[[Any, Report], Any]) -> No
     try:
         while True:
             message = pipe.recv()
-            if isinstance(message, Ask):
+            if isinstance(message, Submit):
                 pipe.send(_answer(pipe, message, work))
     except (EOFError, ConnectionError):
         return
 
 
-def _answer(pipe: Connection, ask: Ask, work: Callable[[Any, Report], Any]) -> Answer:
+def _answer(pipe: Connection, ask: Submit, work: Callable[[Any, Report], Any]) -> Answer:
     try:
         return Answer(ask.number, work(ask.task, _reporter(pipe, ask.number)))
     except FootfallError as refusal:
@@ -78,10 +78,10 @@ def _reporter(pipe: Connection, number: int) -> Report:
 
     def report(known: Any) -> bool:
         try:
-            pipe.send(Told(number, known))
+            pipe.send(Progress(number, known))
             while pipe.poll():
                 message = pipe.recv()
-                if isinstance(message, Halt) and message.number == number:
+                if isinstance(message, Cancel) and message.number == number:
                     return False
         except (EOFError, OSError):
             return False

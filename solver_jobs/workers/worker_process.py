@@ -18,7 +18,7 @@ class WorkerEndedError(Exception):
     """The worker process is gone; the text says how it ended."""
 
 
-class WorkerHandle:
+class WorkerProcess:
     """Starts, feeds, reads and ends one worker. For one thread; only `kill` may come from another.
 
     Args:

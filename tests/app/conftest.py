@@ -9,7 +9,7 @@ import pytest
 
 from app.emulator.emulated_robot import EmulatedRobot
 from app.store.database import Database
-from app.vision.services import Eyes, open_eyes
+from app.vision.services import VisionServices, open_vision_services
 from tests.support.studio_process import StudioProcess, running_studio
 
 
@@ -29,8 +29,8 @@ def studio(tmp_path_factory: pytest.TempPathFactory, robot: EmulatedRobot) -> It
 
 
 @pytest.fixture(scope="module")
-def eyes() -> Iterator[Eyes]:
+def vision() -> Iterator[VisionServices]:
     """The processes that look at pictures."""
-    opened = open_eyes()
+    opened = open_vision_services()
     yield opened
     opened.close()

@@ -13,8 +13,8 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from app.gaits.live_preview import LiveDesk
-from app.gaits.service import GaitDesk
+from app.gaits.live_preview import LivePreview
+from app.gaits.service import GaitService
 from app.gaits.versions import VersionKind
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
@@ -25,11 +25,11 @@ from tests.support.live_tiers import FixedTier
 GAITS = ("walk", "amble", "walk-manual-0")
 
 
-def opened(folder: Path) -> tuple[GaitDesk, Database]:
+def opened(folder: Path) -> tuple[GaitService, Database]:
     """A desk on a folder."""
     database = Database(folder / "studio.sqlite3")
-    return GaitDesk(
-        GaitFiles(folder), database, LiveDesk(FixedTier(SolveStatus.INFEASIBLE)).solve_for
+    return GaitService(
+        GaitFiles(folder), database, LivePreview(FixedTier(SolveStatus.INFEASIBLE)).solve_for
     ), database
 
 
@@ -41,19 +41,21 @@ def number_of(name: str) -> int:
 def work(folder: Path, seed: int) -> None:
     """Changes gaits, each change with the next number, and tells of each once it is done."""
     dice = random.Random(seed)
-    desk, _ = opened(folder)
+    service, _ = opened(folder)
     while True:
         gait_id = dice.choice(GAITS)
-        gait = desk.open_gait(gait_id).gait
+        gait = service.open_gait(gait_id).gait
         number = number_of(gait.name)
         deed = dice.choice(("edit", "edit", "edit", "save", "version"))
         if deed == "edit":
             number += 1
-            desk.edit(gait_id, replace(gait, name=f"Number {number}"), "Name", None)
+            service.edit(gait_id, replace(gait, name=f"Number {number}"), "Name", None)
         elif deed == "save":
-            desk.save(gait_id)
+            service.save(gait_id)
         else:
-            number = desk.versions.keep(desk.open_gait(gait_id), VersionKind.NAMED, name=str(number)).number
+            number = service.versions.keep(
+                service.open_gait(gait_id), VersionKind.NAMED, name=str(number)
+            ).number
         os.write(1, f"{deed} {gait_id} {number}\n".encode())
 
 

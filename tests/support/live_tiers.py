@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from core.gait.gait import Gait
-from core.problem.initial_guess import initial_motion
+from core.problem.initial_guess import initial_guess
 from core.problem.motion_problem import MotionProblem
 from solver_jobs import Evidence, Lack, MotionResult, Remedy, RemedySearch, SolveStatus
 
@@ -14,7 +14,7 @@ LACK = Lack("workspace", 1.2, "mm", 5, 9, (2,), "Reach lacks 1.2 mm: foot 3 is o
 
 def result_of(problem: MotionProblem, status: SolveStatus) -> MotionResult:
     """A result with the drawn motion."""
-    drawn = initial_motion(problem)
+    drawn = initial_guess(problem)
     infeasible = status is SolveStatus.INFEASIBLE
     return MotionResult(
         status=status,

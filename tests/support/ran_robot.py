@@ -10,7 +10,7 @@ from app.bridge.states import Direction, RobotState, RunPlan, Transition
 from app.plans.plan import Plan, PlanSource
 from app.runs.plan_json import run_plan_content
 from app.store.database import Database
-from app.store.run_store import RunLog
+from app.store.run_store import RunStore
 from core.findings import Approval
 from core.gait.manual_motion import manual_motion
 from core.library.library import library
@@ -71,7 +71,7 @@ def ran() -> Ran:
 
 def keep_run(database: Database, by: str = "Ada", gait: str = "walk", day: int = 0) -> str:
     """Puts the run into a database; its id."""
-    done, run, log = ran(), secrets.token_hex(6), RunLog(database)
+    done, run, log = ran(), secrets.token_hex(6), RunStore(database)
     seconds = done.robot.now - done.began
     started = STARTED + day * 86400.0
     database.put_run(

@@ -14,7 +14,7 @@ from core.gait.provenance import Provenance
 from core.gait.recording import Recording, RecordingForm
 from core.gait.sequence_part import SequencePart
 from core.motion.contact_timeline import ContactTimeline
-from core.motion.heading_profile import Turning
+from core.motion.heading_profile import HeadingProfile
 from core.problem.motion_problem import Boundary, Cost, Workspace
 from core.robot.model import ROBOT_NAMES, load_robot
 from core.segments.segment_table import Segment, SegmentTable, SegmentVocabulary
@@ -55,7 +55,7 @@ def options() -> st.SearchStrategy[GaitOptions]:
         motor_speed=_or_none(st.floats(0.0005, 1.0)),
         motor_acceleration=_or_none(st.floats(0.0005, 10.0)),
         boundary=st.sampled_from(Boundary),
-        turning=st.sampled_from(Turning),
+        turning=st.sampled_from(HeadingProfile),
     )
 
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from app.bridge.states import Direction, LinkState, RobotSnapshot, RobotState, RunPlan
-from app.emulator.virtual_link import VirtualBridge
+from app.emulator.virtual_link import VirtualLink
 from core.findings import Approval
 from core.wire.waypoints import Waypoints
 
@@ -25,7 +25,7 @@ def random_plan(seed: int, count: int) -> RunPlan:
     return make_plan(np.random.default_rng(seed).uniform(0.5, 19.5, (count, 12)).tolist())
 
 
-class VirtualRobot(VirtualBridge):
+class VirtualRobot(VirtualLink):
     """A session on an emulated robot, with a person's usual ways."""
 
     @property

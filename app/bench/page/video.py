@@ -25,7 +25,7 @@ from app.bench.robot.processes import (
 from app.bench.robot.stop import stop_latencies
 from app.cameras.setup_schema import SetupDocument
 from app.vision.footage import PICTURES
-from app.vision.services import open_eyes, seen
+from app.vision.services import open_vision_services, seen
 from app.vision.tracking import track_video
 from app.vision.video_io import use_one_thread
 from app.vision.worker import LookAt, Source
@@ -87,7 +87,7 @@ def _tracking(film: Film) -> Row:
 
 def _looking(film: Film) -> Row:
     """From question to answer, the picture's file included, as the least saturation is moved."""
-    eyes = open_eyes()
+    vision = open_vision_services()
     setup = film.setup.tracking()
     try:
         waits = []
@@ -95,13 +95,13 @@ def _looking(film: Film) -> Row:
             begun = time.perf_counter()
             width = 1280
             look = LookAt(Source(film.folder, 40), 0, setup.colours, setup.limits, setup, True, width)
-            found = seen(eyes.near, look, 30.0)
+            found = seen(vision.near, look, 30.0)
             if found["chosen"] is None:
                 raise StateError("A foot was not found in the film.", "video")
             if number:  # the first starts the process
                 waits.append(time.perf_counter() - begun)
     finally:
-        eyes.close()
+        vision.close()
     return {
         "look": _words(film),
         "looks": LOOKS,

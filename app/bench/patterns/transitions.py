@@ -26,7 +26,7 @@ from enum import StrEnum
 import numpy as np
 
 from app.bench.common.measure import Row
-from app.plans.verified_result import Judgement, judge
+from app.plans.verified_result import VerifiedResult, verify
 from core.arrays import Floats
 from core.gait.gait import Gait, heading_angle, motion_problem
 from core.library.library import (
@@ -110,10 +110,10 @@ class Solvers:
         """The best pattern."""
         return self.patterns.solve(problem, seconds=SECONDS)
 
-    def motion(self, gait: Gait) -> Judgement:
+    def motion(self, gait: Gait) -> VerifiedResult:
         """The live optimiser's motion, as the checker sees it."""
         problem = motion_problem(gait, load_robot(gait.robot))
-        return judge(problem, self.live.solve(problem, SECONDS))
+        return verify(problem, self.live.solve(problem, SECONDS))
 
 
 @contextmanager
@@ -232,10 +232,10 @@ def _optimised(
     stance = result.patterns[0].stance
     speed = max(first.options.body_speed, second.options.body_speed)
     gait = transition_gait(first, at, second, to, stance).with_options(margin=margin, body_speed=speed)
-    judged = both.motion(gait)
-    if judged.result.status is not SolveStatus.SOLVED:
+    verified = both.motion(gait)
+    if verified.result.status is not SolveStatus.SOLVED:
         return None, False
-    t, columns = judged.trajectory, joined_columns(first, at, second, to, stance)
+    t, columns = verified.trajectory, joined_columns(first, at, second, to, stance)
     window = slice(columns.first, columns.last + 1)
     body = t.body_world[window, :2]
     feet = t.feet_world[window]
@@ -243,7 +243,7 @@ def _optimised(
     tilt = resting(feet - np.concatenate([body, np.zeros((len(body), 1))], axis=1)[:, None]).tilt
     heading = heading_angle(one.use.orientation)
     found = figures(body[-1] - body[0], margins, tilt, one.use.sample_time, heading)
-    return found, judged.status is SolveStatus.SOLVED
+    return found, verified.status is SolveStatus.SOLVED
 
 
 @dataclass(frozen=True, eq=False)
@@ -312,8 +312,8 @@ def share(robot: str, rules: RuleSet, count: int, seed: int, both: Solvers) -> R
         if result.patterns:
             feasible += 1
             stance = result.patterns[0].stance
-            judged = both.motion(transition_gait(draw.first, draw.at, draw.second, draw.to, stance))
-            walks += judged.status is SolveStatus.SOLVED
+            verified = both.motion(transition_gait(draw.first, draw.at, draw.second, draw.to, stance))
+            walks += verified.status is SolveStatus.SOLVED
     return {
         "robot": robot,
         "rules": rules.value,

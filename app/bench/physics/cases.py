@@ -10,7 +10,7 @@ from app.bench.common.cases import Case, all_cases
 from app.bench.common.published import Reference
 from app.export.trajectory_files import read_text
 from app.learning.published_trials import problem_within_range
-from app.plans.verified_result import judge
+from app.plans.verified_result import verify
 from app.simulation.problem import way_problem
 from core.arrays import Floats, interpolated
 from core.gait.gait import drawn_timeline, motion_problem
@@ -61,7 +61,7 @@ def solved_case(case: Case) -> tuple[float, Trajectory] | None:
         gait = replace(case.gait, options=replace(case.gait.options, margin=margin))
         gait = replace(gait, timeline=drawn_timeline(gait))
         problem = motion_problem(gait, walker())
-        found = judge(problem, solve_exact(problem))
+        found = verify(problem, solve_exact(problem))
         if found.status is SolveStatus.SOLVED:
             return margin, found.trajectory
     return None

@@ -17,7 +17,7 @@ from core.errors import InputError
 from core.identification.learning import POINTS, learn
 from core.physics.masses import default_physics
 from core.robot.model import load_robot
-from solver_jobs import TravelSimulator
+from solver_jobs import BatchSimulator
 
 PROCESSES = 2
 """In which gaits are simulated."""
@@ -45,7 +45,7 @@ def bench_learning(reference: Path | None = None, points: int = POINTS) -> list[
     folder = data.folder / "trajectories" / "direction1"
     trajectories = {path.name: read_text(path) for path in sorted(folder.glob("*.csv"))}
     walks = walks_of_table(read_text(table), trajectories, model)
-    tiers = [TravelSimulator() for _ in range(PROCESSES)]
+    tiers = [BatchSimulator() for _ in range(PROCESSES)]
     try:
         runner = WalkRunner(tiers, walks, lambda done: None)
         learned = learn(walks, default_physics(model), runner, points)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from app.bridge.delivery import ARRIVAL_MM
 from app.bridge.states import IN_RUN, LinkState, RunPlan
 from app.emulator.faults import NOISE_MM
-from app.emulator.virtual_link import VirtualBridge
+from app.emulator.virtual_link import VirtualLink
 from core.wire.lines import (
     CurrentPoint,
     Echo,
@@ -101,7 +101,7 @@ class Judge:
         findings: where it writes.
     """
 
-    def __init__(self, bridge: VirtualBridge, findings: Findings) -> None:
+    def __init__(self, bridge: VirtualLink, findings: Findings) -> None:
         self.findings = findings
         self.blind_motors: set[int] = set()
         self.clearing = False

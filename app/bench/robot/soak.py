@@ -14,7 +14,7 @@ from app.bridge.states import IN_RUN, LinkState, RobotState, RunPlan
 from app.bridge.stop_confirmation import STOP_LIMIT
 from app.emulator.faults import Fault
 from app.emulator.profiles import ProfileName
-from app.emulator.virtual_link import VirtualBridge
+from app.emulator.virtual_link import VirtualLink
 from core.arrays import Floats
 from core.errors import StateError
 from core.findings import Approval
@@ -92,7 +92,7 @@ class SoakRound:
         self._findings = findings
         profile = dice.choice(list(ProfileName))
         start_mm = [dice.uniform(LOWEST_MM, 3.0) for _ in range(MOTORS)]
-        self._bridge = VirtualBridge(profile, start_mm, dice.randrange(2**31))
+        self._bridge = VirtualLink(profile, start_mm, dice.randrange(2**31))
         self._judge = Judge(self._bridge, findings)
 
     def run(self) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from app.bench.common.measure import Row
 from app.bridge.states import IN_RUN, LinkState, RobotState, RunPlan
 from app.emulator.profiles import ProfileName
-from app.emulator.virtual_link import VirtualBridge
+from app.emulator.virtual_link import VirtualLink
 from core.findings import Approval
 from core.wire.messages import HIGHEST_MM, LOWEST_MM, MOTORS
 from core.wire.waypoint_path import cut_parts
@@ -48,7 +48,7 @@ def bench_still(stops: int = STOPS, seed: int = 0) -> list[Row]:
 
 def seconds_to_stand(bound: float, profile: ProfileName, dice: random.Random) -> float:
     """Time from a stop in a run to the last movement of any motor, s of the robot."""
-    bridge = VirtualBridge(profile)
+    bridge = VirtualLink(profile)
     bridge.boot()
     bridge.open()
     bridge.until(lambda s: s.link is LinkState.READY)

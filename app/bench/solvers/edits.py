@@ -7,7 +7,7 @@ from enum import StrEnum
 
 from app.bench.common.edited_gaits import EditedGait, edited_gait
 from app.bench.common.measure import Row
-from app.plans.verified_result import Judgement, judge
+from app.plans.verified_result import VerifiedResult, verify
 from core.errors import InputError
 from core.gait.gait import motion_problem
 from core.problem.motion_problem import Boundary, MotionProblem
@@ -59,21 +59,21 @@ def answers(edit: EditedGait) -> Answers:
         problem = motion_problem(edit.gait, load_robot(edit.gait.robot))
     except InputError as error:
         return Answers(edit, Outcome.REFUSED, Outcome.REFUSED, error.sentence)
-    live = judge(problem, solve_live(problem))
-    exact = judge(problem, solve_exact(problem))
+    live = verify(problem, solve_live(problem))
+    exact = verify(problem, solve_exact(problem))
     found = Answers(edit, outcome_of(live), outcome_of(exact), "")
     return replace(found, reason=_reason(found, live, exact))
 
 
-def outcome_of(judged: Judgement) -> Outcome:
+def outcome_of(verified: VerifiedResult) -> Outcome:
     """What a tier's answer is worth."""
-    if judged.status is SolveStatus.SOLVED:
+    if verified.status is SolveStatus.SOLVED:
         return Outcome.SOLVED
-    explained = judged.status is SolveStatus.INFEASIBLE and judged.explanation
+    explained = verified.status is SolveStatus.INFEASIBLE and verified.explanation
     return Outcome.INFEASIBLE if explained else Outcome.FAILED
 
 
-def _reason(found: Answers, live: Judgement, exact: Judgement) -> str:
+def _reason(found: Answers, live: VerifiedResult, exact: VerifiedResult) -> str:
     if Outcome.FAILED in (found.live, found.exact):
         return " ".join(live.explanation if found.live is Outcome.FAILED else exact.explanation)
     if not found.disagree:
@@ -83,7 +83,7 @@ def _reason(found: Answers, live: Judgement, exact: Judgement) -> str:
     return f"{live.explanation[0]} {_freedom(exact)}"
 
 
-def _freedom(exact: Judgement) -> str:
+def _freedom(exact: VerifiedResult) -> str:
     """Which freedom that the live tier does not have the exact one needed, found by taking it away."""
     problem = exact.problem
     plane = exact.trajectory.body_world[:, 2] - problem.model.com_height
@@ -104,7 +104,7 @@ def _at_given_height(problem: MotionProblem) -> MotionProblem:
 
 
 def _solves(problem: MotionProblem) -> bool:
-    return judge(problem, solve_exact(problem)).status is SolveStatus.SOLVED
+    return verify(problem, solve_exact(problem)).status is SolveStatus.SOLVED
 
 
 def bench_edits(count: int = COUNT, seed: int = SEED) -> list[Row]:

@@ -11,7 +11,7 @@ import numpy as np
 from app.bench.common.measure import Row, seconds_of
 from core.gait.gait import Gait
 from core.library.library import Group, group_ids, library
-from core.motion.heading_profile import Turning
+from core.motion.heading_profile import HeadingProfile
 from core.problem.motion_problem import Workspace
 from core.robot.model import load_robot
 from solver_jobs import Frontier, FrontierSearch
@@ -51,7 +51,7 @@ def _row(name: str, workspace: Workspace, margin: float, free: bool) -> Row:
 
 
 def _search(gait: Gait, free: bool) -> FrontierSearch:
-    returns = gait.options.turning is Turning.RETURN
+    returns = gait.options.turning is HeadingProfile.RETURN
     return FrontierSearch(gait, load_robot(gait.robot), free_phases=free, free_return=returns)
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.bench.common.measure import Row, milliseconds
-from app.plans.verified_result import judge
+from app.plans.verified_result import verify
 from core.gait.gait import (
     Gait,
     GaitOptions,
@@ -153,7 +153,7 @@ def _timed(gait: Gait, model: RobotModel, solver: LiveSolver) -> _Timed:
     asked = time.perf_counter()
     result = solver.solve(problem, SLOWEST)
     answered = time.perf_counter()
-    judged = judge(problem, result)
+    verified = verify(problem, result)
     end = time.perf_counter()
     return _Timed(
         whole=end - begin,
@@ -161,5 +161,5 @@ def _timed(gait: Gait, model: RobotModel, solver: LiveSolver) -> _Timed:
         solver=result.solve_seconds,
         around_solver=answered - asked - result.solve_seconds,
         check=end - answered,
-        solved=judged.status is SolveStatus.SOLVED,
+        solved=verified.status is SolveStatus.SOLVED,
     )

@@ -9,7 +9,7 @@ import numpy as np
 
 from app.bench.common.cases import Case, all_cases
 from app.bench.common.measure import Row, milliseconds
-from app.plans.verified_result import Judgement, judge
+from app.plans.verified_result import VerifiedResult, verify
 from core.gait.gait import Gait, drawn_timeline, motion_problem
 from core.motion.trajectory import Trajectory, turn_trajectory
 from core.robot.model import load_robot
@@ -23,8 +23,8 @@ class Solved:
     """Both tiers' answers to a case in one direction."""
 
     direction: int
-    live: Judgement
-    exact: Judgement
+    live: VerifiedResult
+    exact: VerifiedResult
 
 
 def bench_trajectories(cases: Iterable[Case] | None = None) -> list[Row]:
@@ -64,7 +64,7 @@ def _solve(gait: Gait, direction: int) -> Solved:
     turned = replace(gait, direction=direction)
     turned = replace(turned, timeline=drawn_timeline(turned))
     problem = motion_problem(turned, load_robot(gait.robot))
-    return Solved(direction, judge(problem, solve_live(problem)), judge(problem, solve_exact(problem)))
+    return Solved(direction, verify(problem, solve_live(problem)), verify(problem, solve_exact(problem)))
 
 
 def _evidence(solved: Solved) -> str | None:

@@ -17,8 +17,8 @@ from app.gaits.open_gait import OpenGait
 from app.studio.studio import Studio
 from app.web.dependencies import (
     changed,
+    on_command_thread,
     on_planned,
-    on_session,
     studio_of,
 )
 from core.errors import InputError
@@ -58,7 +58,9 @@ async def export_gait(gait_id: str, form: ExportFormat, studio: TheStudio) -> Re
             return Exportable(gait_id, gait, InputError("This form needs no motion.", "plan"))
         return exportable_plan(gait_id, gait, studio.gaits.plan(gait_id))
 
-    needed = on_session(studio, source) if form in NEED_NO_MOTION else on_planned(studio, gait_id, source)
+    needed = (
+        on_command_thread(studio, source) if form in NEED_NO_MOTION else on_planned(studio, gait_id, source)
+    )
     exportable = await needed
     file: ExportedFile = await run_in_threadpool(export, exportable, form)
     return Response(

@@ -11,9 +11,9 @@ from fastapi.responses import JSONResponse
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from starlette.concurrency import run_in_threadpool
 
-from app.bridge.run_range import Course
+from app.bridge.run_range import RunRange
 from app.documents.gait_json import MOST_BYTES, gait_content, parse_gait
-from app.gaits.approvals import Word
+from app.gaits.approvals import ApprovalRequest
 from app.gaits.open_gait import OpenGait
 from app.gaits.trash import ROUTE
 from app.gaits.views import approval_view, verdict_view
@@ -22,8 +22,8 @@ from app.studio.studio import Studio
 from app.web.dependencies import (
     TheAuthor,
     changed,
+    on_command_thread,
     on_planned,
-    on_session,
     studio_of,
 )
 from core.errors import InputError, StateError
@@ -76,13 +76,13 @@ async def _document(request: Request) -> bytes:
 @router.get("")
 async def list_gaits(studio: TheStudio) -> dict[str, Any]:
     """Built-in and saved gaits."""
-    return {"gaits": await on_session(studio, studio.summaries)}
+    return {"gaits": await on_command_thread(studio, studio.summaries)}
 
 
 @router.get(f"/{ROUTE}")
 async def list_deleted(studio: TheStudio) -> dict[str, Any]:
     """Deleted gaits that can be brought back, the last deleted first: id, name, when (s since the epoch)."""
-    deleted = await on_session(studio, studio.gaits.deleted)
+    deleted = await on_command_thread(studio, studio.gaits.deleted)
     return {"gaits": [asdict(gait) for gait in deleted]}
 
 
@@ -105,14 +105,14 @@ async def create_gait(
 
 def _copy(gait: Gait, name: str | None) -> Gait:
     """The gait under another name; its own with “copy” behind it where none is given."""
-    word = " copy"
-    return replace(gait, name=name or f"{gait.name[: MOST_NAME - len(word)]}{word}")
+    request = " copy"
+    return replace(gait, name=name or f"{gait.name[: MOST_NAME - len(request)]}{request}")
 
 
 @router.get("/{gait_id}")
 async def read_gait(gait_id: str, studio: TheStudio) -> dict[str, Any]:
     """The gait's document as it is on the desk."""
-    return await on_session(studio, lambda: gait_content(studio.gaits.open_gait(gait_id).gait))
+    return await on_command_thread(studio, lambda: gait_content(studio.gaits.open_gait(gait_id).gait))
 
 
 @router.get("/{gait_id}/view")
@@ -150,7 +150,7 @@ async def delete_gait(gait_id: str, studio: TheStudio) -> dict[str, Any]:
         studio.publish_list()
         return {"deleted": gait_id}
 
-    return await on_session(studio, delete)
+    return await on_command_thread(studio, delete)
 
 
 @router.post("/{gait_id}/redraw")
@@ -190,7 +190,7 @@ async def restore(gait_id: str, studio: TheStudio) -> dict[str, Any]:
 async def live(gait_id: str, request: Request, studio: TheStudio) -> JSONResponse:
     """What the gait, or a changed document of it, would amount to; the desk stays as it is."""
     asked = _asked(await _document(request))
-    gait = await on_session(studio, lambda: studio.gaits.open_gait(gait_id).gait)
+    gait = await on_command_thread(studio, lambda: studio.gaits.open_gait(gait_id).gait)
     # As a finished answer: the framework's own way through every number takes longer than all the rest.
     return await run_in_threadpool(
         lambda: JSONResponse(studio.live.answer(gait, asked.document, asked.remedies))
@@ -225,8 +225,8 @@ async def approve(gait_id: str, approval: Approve, studio: TheStudio) -> dict[st
     """Records a person's approval of the present verdict."""
 
     def approved() -> dict[str, Any]:
-        word = Word(approval.by, approval.verdict_hash, approval.accept_warnings)
-        open_gait = studio.gaits.approve(gait_id, word)
+        request = ApprovalRequest(approval.by, approval.verdict_hash, approval.accept_warnings)
+        open_gait = studio.gaits.approve(gait_id, request)
         studio.publish_gait(open_gait)
         if open_gait.approval is None:
             raise StateError("The approval was not recorded.", "approve")
@@ -256,6 +256,6 @@ async def run(
 
     def summary() -> dict[str, Any]:
         open_gait, plan = studio.gaits.open_gait(gait_id), studio.gaits.plan(gait_id)
-        return studio.robot.run_summary(open_gait, plan, Course(first, iterations))
+        return studio.robot.run_summary(open_gait, plan, RunRange(first, iterations))
 
     return await on_planned(studio, gait_id, summary)

@@ -12,7 +12,7 @@ from app.documents.gait_json import gait_content, gait_from_content
 from app.documents.gait_schema import SegmentTableModel
 from app.web.dependencies import MOST_MOTORS, strokes_from_mm
 from core.errors import InputError
-from core.jog.pose_to_segment import take_pose
+from core.jog.pose_to_segment import pose_to_segment
 from core.library.library import default_vocabulary
 from core.robot.coupled_strokes import real_strokes
 from core.robot.model import load_robot
@@ -75,7 +75,9 @@ def table_with_pose(take: Take) -> dict[str, Any]:
     """The segment table with one more segment, in which every foot goes to where the strokes put it."""
     gait = gait_from_content(take.document, "document")
     model = load_robot(gait.robot)
-    taken = take_pose(gait, model, real_strokes(model, strokes_from_mm(model, take.strokes_mm, "strokes_mm")))
+    taken = pose_to_segment(
+        gait, model, real_strokes(model, strokes_from_mm(model, take.strokes_mm, "strokes_mm"))
+    )
     beside_mm = taken.beside * 1000
     return {
         "table": gait_content(replace(gait, segment_table=taken.table))["segment_table"],

@@ -16,8 +16,8 @@ from app.studio.studio import Studio
 from app.web.dependencies import (
     TheAuthor,
     changed,
+    on_command_thread,
     on_planned,
-    on_session,
     studio_of,
 )
 from core.gait.gait import Gait
@@ -43,7 +43,7 @@ async def list_versions(gait_id: str, studio: TheStudio) -> dict[str, Any]:
         motion = motion_hash(open_gait.gait)
         return {"versions": [_line(row, open_gait, motion) for row in studio.gaits.versions.all(gait_id)]}
 
-    return await on_session(studio, versions)
+    return await on_command_thread(studio, versions)
 
 
 @router.post("", status_code=201)
@@ -69,7 +69,7 @@ async def read_version(gait_id: str, number: int, studio: TheStudio) -> dict[str
         line = _line(row, open_gait, motion_hash(open_gait.gait))
         return {**line, "document": gait_content(_gait(row))}
 
-    return await on_session(studio, version)
+    return await on_command_thread(studio, version)
 
 
 @router.get("/{number}/difference")
@@ -87,7 +87,7 @@ async def difference(gait_id: str, number: int, studio: TheStudio, to: int | Non
             "groups": [{"title": group.title, "sentences": list(group.sentences)} for group in found],
         }
 
-    return await on_session(studio, groups)
+    return await on_command_thread(studio, groups)
 
 
 @router.post("/{number}/restore")

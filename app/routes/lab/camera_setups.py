@@ -84,7 +84,7 @@ class Straightening(_Body):
 @router.get("/setups")
 async def list_setups(studio: TheStudio, deleted: bool = False) -> dict[str, Any]:
     """All setups, the last changed first, and what stands in a new one."""
-    views = await run_in_threadpool(lambda: studio.seeing.setups.views(is_deleted=deleted))
+    views = await run_in_threadpool(lambda: studio.lab.setups.views(is_deleted=deleted))
     defaults = SetupDocument(name="new").model_dump(mode="json", exclude={"name"})
     return {"setups": views, "defaults": defaults}
 
@@ -92,13 +92,13 @@ async def list_setups(studio: TheStudio, deleted: bool = False) -> dict[str, Any
 @router.post("/setups", status_code=201)
 async def add_setup(setup: SetupDocument, studio: TheStudio) -> dict[str, Any]:
     """Keeps a new setup."""
-    return await run_in_threadpool(lambda: studio.seeing.setups.add(setup))
+    return await run_in_threadpool(lambda: studio.lab.setups.add(setup))
 
 
 @router.post("/setups/check")
 async def check_setup(setup: SetupDocument, studio: TheStudio) -> dict[str, Any]:
     """What a setup would amount to; nothing is kept."""
-    return await run_in_threadpool(lambda: studio.seeing.setups.check(setup))
+    return await run_in_threadpool(lambda: studio.lab.setups.check(setup))
 
 
 @router.get("/setups/{setup}")
@@ -106,32 +106,32 @@ async def read_setup(
     setup: str, studio: TheStudio, revision: Annotated[int | None, Query(ge=1)] = None
 ) -> dict[str, Any]:
     """A setup, or an older revision of it."""
-    return await run_in_threadpool(lambda: studio.seeing.setups.view(setup, revision))
+    return await run_in_threadpool(lambda: studio.lab.setups.view(setup, revision))
 
 
 @router.put("/setups/{setup}")
 async def change_setup(setup: str, change: SetupChange, studio: TheStudio) -> dict[str, Any]:
     """Keeps a new revision; refused where somebody else changed it meanwhile."""
-    return await run_in_threadpool(lambda: studio.seeing.setups.change(setup, change.revision, change.setup))
+    return await run_in_threadpool(lambda: studio.lab.setups.change(setup, change.revision, change.setup))
 
 
 @router.delete("/setups/{setup}")
 async def delete_setup(setup: str, studio: TheStudio) -> dict[str, Any]:
     """Takes a setup out of the list; it can be restored."""
-    await run_in_threadpool(lambda: studio.seeing.setups.delete(setup))
+    await run_in_threadpool(lambda: studio.lab.setups.delete(setup))
     return {"id": setup, "deleted": True}
 
 
 @router.post("/setups/{setup}/restore")
 async def restore_setup(setup: str, studio: TheStudio) -> dict[str, Any]:
     """Brings a deleted setup back."""
-    return await run_in_threadpool(lambda: studio.seeing.setups.restore(setup))
+    return await run_in_threadpool(lambda: studio.lab.setups.restore(setup))
 
 
 @router.get("/setups/{setup}/export", response_class=Response)
 async def export_setup(setup: str, studio: TheStudio) -> Response:
     """The setup as a file for `footfall trial VIDEO --setup FILE`."""
-    view = await run_in_threadpool(lambda: studio.seeing.setups.view(setup))
+    view = await run_in_threadpool(lambda: studio.lab.setups.view(setup))
     text = SetupDocument.model_validate(view["setup"]).model_dump_json(indent=2) + "\n"
     headers = {"content-disposition": f'attachment; filename="setup-{setup}.json"'}
     return Response(text, media_type="application/json", headers=headers)
@@ -169,7 +169,7 @@ async def picture_in(request: Request) -> bytes:
 async def board_of(studio: Studio, task: BoardIn) -> dict[str, Any]:
     """Looks for a checkerboard."""
     found: dict[str, Any] = await run_in_threadpool(
-        lambda: seen(studio.seeing.eyes.boards, task, BOARD_SECONDS)
+        lambda: seen(studio.lab.vision.boards, task, BOARD_SECONDS)
     )
     return found
 
@@ -195,7 +195,7 @@ async def make_lens(lens: LensRequest, studio: TheStudio) -> dict[str, Any]:
             raise InputError(f"{board.name} has corners outside its picture. Look for it again.", "boards")
     task = LensOf(boards, size, (lens.columns, lens.rows))
     found: dict[str, Any] = await run_in_threadpool(
-        lambda: seen(studio.seeing.eyes.boards, task, BOARD_SECONDS)
+        lambda: seen(studio.lab.vision.boards, task, BOARD_SECONDS)
     )
     each = iter(found.pop("each"))
     return {
@@ -215,7 +215,7 @@ async def straighten(asked: Straightening, studio: TheStudio) -> dict[str, Any]:
 
     def straight() -> bytes:
         task = Straighten(Source(file=_content(asked.picture)), asked.lens.value())
-        file: bytes = seen(studio.seeing.eyes.near, task, BOARD_SECONDS)
+        file: bytes = seen(studio.lab.vision.near, task, BOARD_SECONDS)
         return file
 
     return {"picture": await run_in_threadpool(lambda: data_url(straight()))}

@@ -41,20 +41,20 @@ class CameraChanges(BaseModel):
 @router.get("")
 async def list_cameras(studio: TheStudio) -> dict[str, Any]:
     """Cameras that are plugged in, and those that are missed."""
-    return {"cameras": await run_in_threadpool(studio.seeing.cameras.views)}
+    return {"cameras": await run_in_threadpool(studio.lab.cameras.views)}
 
 
 @router.put("/{camera}")
 async def change_camera(camera: str, changes: CameraChanges, studio: TheStudio) -> dict[str, Any]:
     """Says what a camera is for, and whether it records with the run."""
     given = {key: value for key, value in changes.model_dump().items() if value is not None}
-    return await run_in_threadpool(studio.seeing.cameras.change, camera, given)
+    return await run_in_threadpool(studio.lab.cameras.change, camera, given)
 
 
 @router.get("/{camera}/picture.jpg", response_class=Response)
 async def picture_of_camera(camera: str, studio: TheStudio, most: Width = None) -> Response:
     """What the camera sees now."""
-    content = await run_in_threadpool(studio.seeing.cameras.picture, camera, most)
+    content = await run_in_threadpool(studio.lab.cameras.picture, camera, most)
     return Response(content, media_type="image/jpeg", headers={"cache-control": "no-store"})
 
 
@@ -66,7 +66,7 @@ async def stream_camera(
     most: Width = 960,
 ) -> StreamingResponse:
     """What the camera sees (multipart), until it is unplugged."""
-    first = await run_in_threadpool(studio.seeing.cameras.picture, camera, most)
+    first = await run_in_threadpool(studio.lab.cameras.picture, camera, most)
 
     async def parts() -> AsyncIterator[bytes]:
         yield part(first)
@@ -75,7 +75,7 @@ async def stream_camera(
             due = max(due + 1.0 / rate, time.monotonic())
             await asyncio.sleep(due - time.monotonic())
             try:
-                yield part(await run_in_threadpool(studio.seeing.cameras.picture, camera, most))
+                yield part(await run_in_threadpool(studio.lab.cameras.picture, camera, most))
             except FootfallError:
                 return
 
@@ -85,7 +85,7 @@ async def stream_camera(
 @router.post("/{camera}/look")
 async def look_at_camera(camera: str, look: LookRequest, studio: TheStudio) -> dict[str, Any]:
     """What the camera sees now, with what tracking would find in it."""
-    content = await run_in_threadpool(studio.seeing.cameras.picture, camera)
+    content = await run_in_threadpool(studio.lab.cameras.picture, camera)
     return await look_at(studio, Source(file=content, name=camera), look)
 
 
@@ -94,6 +94,6 @@ async def board_before_camera(
     camera: str, columns: CornersAsked, rows: CornersAsked, studio: TheStudio
 ) -> dict[str, Any]:
     """Where a checkerboard is in what the camera sees now; the picture comes with it."""
-    content = await run_in_threadpool(studio.seeing.cameras.picture, camera)
+    content = await run_in_threadpool(studio.lab.cameras.picture, camera)
     found = await board_of(studio, BoardIn(Source(file=content, name=camera), (columns, rows)))
     return {**found, "picture": data_url(content)}

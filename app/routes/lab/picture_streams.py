@@ -50,7 +50,7 @@ async def look_at(studio: Studio, source: Source, look: LookRequest) -> dict[str
         look.shows == "mask",
         look.most,
     )
-    found: dict[str, Any] = await run_in_threadpool(lambda: seen(studio.seeing.eyes.near, task, LOOK_SECONDS))
+    found: dict[str, Any] = await run_in_threadpool(lambda: seen(studio.lab.vision.near, task, LOOK_SECONDS))
     return found
 
 

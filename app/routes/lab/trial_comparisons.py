@@ -17,19 +17,19 @@ TheStudio = Annotated[Studio, Depends(studio_of)]
 @router.get("/band")
 async def read_band(trial: Annotated[list[str], Query()], studio: TheStudio) -> dict[str, Any]:
     """Trials over each other in the plan's frame, by iteration: mean, spread, each trial and the plan; cm."""
-    return await run_in_threadpool(studio.beside.band, trial)
+    return await run_in_threadpool(studio.comparison.band, trial)
 
 
 @router.get("/{trial}/beside")
 async def read_beside(trial: str, studio: TheStudio) -> dict[str, Any]:
     """Figures of planned, simulated and tracked feet; how the simulation stands; its ways for a plot, cm."""
-    return await run_in_threadpool(studio.beside.figures, trial)
+    return await run_in_threadpool(studio.comparison.figures, trial)
 
 
 @router.post("/{trial}/simulation", status_code=202)
 async def simulate_trial(trial: str, studio: TheStudio) -> dict[str, Any]:
     """Begins to simulate what the robot was sent, unless that is done or on; tells how it stands."""
-    return await run_in_threadpool(studio.beside.simulate, trial)
+    return await run_in_threadpool(studio.comparison.simulate, trial)
 
 
 @router.get("/{trial}/scene")
@@ -37,4 +37,4 @@ async def read_scene(
     trial: str, studio: TheStudio, lap: Annotated[int, Query(ge=1, le=1000)] = 1
 ) -> dict[str, Any]:
     """The track over a lap of the plan by shares of the whole walk, its gaps, and how the robot stood; m."""
-    return await run_in_threadpool(lambda: studio.beside.scene(trial, lap))
+    return await run_in_threadpool(lambda: studio.comparison.scene(trial, lap))

@@ -10,7 +10,7 @@ from starlette.concurrency import run_in_threadpool
 
 from app.studio.studio import Studio
 from app.trials.planned import PlannedFeet, planned_of_gait, planned_of_run
-from app.trials.service import TrialWords, compared
+from app.trials.service import TrialDescription, compared
 from app.trials.tables import table_csv, table_latex
 from app.web.dependencies import TheAuthor, on_planned, studio_of
 from core.vision.track_csv import FRAME_RATE, PixelScale, parse_track_csv
@@ -70,7 +70,7 @@ async def add_trial(trial: NewTrial, studio: TheStudio, author: TheAuthor) -> di
 
     track = await run_in_threadpool(read)
     gait, gait_name, planned = await planned_for(studio, trial.run, trial.gait, trial.iterations)
-    words = TrialWords(
+    words = TrialDescription(
         trial.name, author.name, trial.expected_cm, trial.iterations, trial.note, gait, gait_name, trial.run
     )
     return await run_in_threadpool(studio.trials.add, track, words, planned)

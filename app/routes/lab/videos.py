@@ -29,12 +29,12 @@ from app.routes.lab.trials import (
     planned_for,
 )
 from app.studio.studio import Studio
-from app.trials.service import TrialWords
+from app.trials.service import TrialDescription
 from app.videos.files import MOST_BYTES, Upload
 from app.videos.tracking_service import TrackOrder
 from app.vision.footage import PICTURES
 from app.vision.worker import BoardIn, Source
-from app.web.dependencies import TheAuthor, on_session, studio_of
+from app.web.dependencies import TheAuthor, on_command_thread, studio_of
 from core.errors import FootfallError
 
 router = APIRouter(prefix="/api/videos", tags=["videos"])
@@ -77,7 +77,7 @@ async def list_videos(
     studio: TheStudio, run: Annotated[str, Query(max_length=200)] = "", deleted: bool = False
 ) -> dict[str, Any]:
     """Videos, the newest first, of one run or all."""
-    views = await run_in_threadpool(studio.seeing.videos.views, run, is_deleted=deleted)
+    views = await run_in_threadpool(studio.lab.videos.views, run, is_deleted=deleted)
     return {"videos": views, "most_bytes": MOST_BYTES}
 
 
@@ -94,10 +94,10 @@ async def upload(
     """
     said = request.headers.get("content-length", "")
     size = int(said) if said.isdigit() else None
-    taken = await run_in_threadpool(studio.seeing.videos.begin, name, size)
+    taken = await run_in_threadpool(studio.lab.videos.begin, name, size)
     try:
         await _take(request, taken)
-        kept = await run_in_threadpool(studio.seeing.videos.keep, taken)
+        kept = await run_in_threadpool(studio.lab.videos.keep, taken)
         if kept["again"]:
             response.status_code = 200
         return kept
@@ -120,20 +120,20 @@ async def _take(request: Request, taken: Upload) -> None:
 @router.get("/{video}")
 async def read_video(video: str, studio: TheStudio) -> dict[str, Any]:
     """A video."""
-    return await run_in_threadpool(studio.seeing.videos.view, video)
+    return await run_in_threadpool(studio.lab.videos.view, video)
 
 
 @router.delete("/{video}")
 async def delete_video(video: str, studio: TheStudio) -> dict[str, Any]:
     """Takes a video out of the list; it can be restored."""
-    await run_in_threadpool(studio.seeing.videos.delete, video)
+    await run_in_threadpool(studio.lab.videos.delete, video)
     return {"id": video, "deleted": True}
 
 
 @router.post("/{video}/restore")
 async def restore_video(video: str, studio: TheStudio) -> dict[str, Any]:
     """Brings a deleted video back."""
-    return await run_in_threadpool(studio.seeing.videos.restore, video)
+    return await run_in_threadpool(studio.lab.videos.restore, video)
 
 
 @router.get("/{video}/picture.jpg", response_class=Response)
@@ -145,7 +145,7 @@ async def picture_of_video(
     most: Width = None,
 ) -> Response:
     """One picture, by its number or by the video's time."""
-    videos = studio.seeing.videos
+    videos = studio.lab.videos
     content = await run_in_threadpool(lambda: videos.picture(videos.source(video, frame, seconds), most))
     return Response(content, media_type="image/jpeg", headers={"cache-control": "no-cache"})
 
@@ -154,7 +154,7 @@ async def picture_of_video(
 async def file_of_video(video: str, studio: TheStudio) -> FileResponse:
     """The video as it is kept; a recording as JPEG pictures one after the other (MJPEG)."""
     path, view = await run_in_threadpool(
-        lambda: (studio.seeing.videos.path(video), studio.seeing.videos.view(video))
+        lambda: (studio.lab.videos.path(video), studio.lab.videos.view(video))
     )
     is_recording = path.is_dir()
     name = quote(f"{view['name']}.mjpeg" if is_recording else view["name"])
@@ -171,8 +171,8 @@ async def play_video(
     most: Width = 960,
 ) -> StreamingResponse:
     """The video's pictures in real time (multipart), to its end; late ones are left out."""
-    view = await run_in_threadpool(studio.seeing.videos.view, video)
-    first = await run_in_threadpool(studio.seeing.videos.source, video, from_frame)
+    view = await run_in_threadpool(studio.lab.videos.view, video)
+    first = await run_in_threadpool(studio.lab.videos.source, video, from_frame)
     pace = max(view["rate"], 1.0) * speed
 
     async def parts() -> AsyncIterator[bytes]:
@@ -180,7 +180,7 @@ async def play_video(
         while number < view["frames"] and not studio.hub.is_closed:
             source = Source(first.path, number, name=first.name)
             try:
-                yield part(await run_in_threadpool(studio.seeing.videos.picture, source, most))
+                yield part(await run_in_threadpool(studio.lab.videos.picture, source, most))
             except FootfallError:  # a file may hold fewer pictures than it says
                 return
             number = max(number + 1, from_frame + int((time.monotonic() - begun) * pace))
@@ -194,21 +194,21 @@ async def look_at_video(
     video: str, look: LookRequest, studio: TheStudio, frame: Frame = None
 ) -> dict[str, Any]:
     """A picture with what tracking would find in it."""
-    source = await run_in_threadpool(studio.seeing.videos.source, video, frame)
+    source = await run_in_threadpool(studio.lab.videos.source, video, frame)
     return await look_at(studio, source, look)
 
 
 @router.post("/{video}/boards")
 async def find_boards(video: str, asked: BoardsRequest, studio: TheStudio) -> dict[str, Any]:
     """Where a checkerboard is in some of a video's pictures."""
-    view = await run_in_threadpool(studio.seeing.videos.view, video)
+    view = await run_in_threadpool(studio.lab.videos.view, video)
     frames = asked.frames
     if frames is None:
         count = min(BOARD_FRAMES, max(view["frames"], 1))
         frames = [number * max(view["frames"] - 1, 0) // max(count - 1, 1) for number in range(count)]
     boards = []
     for frame in frames:
-        source = await run_in_threadpool(studio.seeing.videos.source, video, frame)
+        source = await run_in_threadpool(studio.lab.videos.source, video, frame)
         boards.append(await board_of(studio, BoardIn(source, (asked.columns, asked.rows))))
     return {"boards": boards}
 
@@ -217,7 +217,7 @@ async def find_boards(video: str, asked: BoardsRequest, studio: TheStudio) -> di
 async def track(video: str, asked: TrackRequest, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
     """Starts following the feet; the job's result names the trial."""
     gait, gait_name, planned = await planned_for(studio, asked.run, asked.gait, asked.iterations)
-    words = TrialWords(
+    words = TrialDescription(
         asked.name,
         author.name,
         asked.expected_cm,
@@ -228,5 +228,5 @@ async def track(video: str, asked: TrackRequest, studio: TheStudio, author: TheA
         asked.run,
     )
     order = TrackOrder(video, asked.setup, words, planned)
-    content = await on_session(studio, lambda: studio.submit_tracking(order))
+    content = await on_command_thread(studio, lambda: studio.submit_tracking(order))
     return {"id": content["id"]}

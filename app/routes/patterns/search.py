@@ -14,7 +14,7 @@ from app.common.names import free_name
 from app.documents.gait_json import gait_content
 from app.gaits.open_gait import OpenGait
 from app.gaits.views import plan_view
-from app.pattern_search.service import PatternQuestion, Search
+from app.pattern_search.service import PatternRequest, Search
 from app.routes.patterns.problems import AnyQuestion, Posed, posed
 from app.routes.patterns.schema import PatternUse, Question
 from app.studio.studio import Studio
@@ -22,7 +22,7 @@ from app.undo.history import SCRIPT, Author
 from app.web.dependencies import (
     TheAuthor,
     changed,
-    on_session,
+    on_command_thread,
     studio_of,
 )
 from core.gait.gait import Gait
@@ -35,7 +35,7 @@ WAIT_SECONDS = 0.2
 
 
 async def _posed(studio: Studio, question: AnyQuestion) -> Posed:
-    return await on_session(studio, lambda: posed(question, studio.gaits.document))
+    return await on_command_thread(studio, lambda: posed(question, studio.gaits.document))
 
 
 async def _answered(studio: Studio, search: Search) -> bool:
@@ -52,7 +52,7 @@ async def search(question: Annotated[Question, Body()], studio: TheStudio, autho
     events of type `pattern`, a script asks for it.
     """
     asked = await _posed(studio, question)
-    what = PatternQuestion(asked.problem, asked.lengths, question.count, question.seconds, asked.too_few)
+    what = PatternRequest(asked.problem, asked.lengths, question.count, question.seconds, asked.too_few)
     begun = await run_in_threadpool(studio.patterns.ask, _page(author), what)
     is_answered = await _answered(studio, begun)
     return JSONResponse(begun.content(), status_code=200 if is_answered else 202)

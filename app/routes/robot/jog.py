@@ -8,8 +8,8 @@ from fastapi import APIRouter, Depends, Response
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.concurrency import run_in_threadpool
 
-from app.robot.jog_service import JogLook, JogWish
-from app.routes.robot.robot import SOMEBODY, Deed, named
+from app.robot.jog_service import JogLook, JogRequest
+from app.routes.robot.robot import SOMEBODY, ActorBody, named
 from app.scene.ghost import ghost_blob
 from app.studio.studio import Studio
 from app.web.dependencies import (
@@ -65,7 +65,7 @@ class Target(BaseModel):
     from_mm: list[Millimetres] | None = Field(default=None, max_length=MOST_MOTORS)
     """Strokes to begin with, of previews only; the measured ones where none are given."""
 
-    def wish(self, look: Look | None = None) -> JogWish:
+    def wish(self, look: Look | None = None) -> JogRequest:
         """The steps for the desk.
 
         Raises:
@@ -73,10 +73,10 @@ class Target(BaseModel):
         """
         model = load_robot(self.robot)
         given = None if self.from_mm is None else strokes_from_mm(model, self.from_mm, "from_mm")
-        return JogWish(model, tuple(_step(one) for one in self.steps), given, _look(model, look))
+        return JogRequest(model, tuple(_step(one) for one in self.steps), given, _look(model, look))
 
 
-class Jog(Target, Deed):
+class Jog(Target, ActorBody):
     """Steps to look at (`preview`) or to make."""
 
     preview: bool = False
@@ -104,11 +104,11 @@ async def jog(studio: TheStudio, author: TheAuthor, wish: Jog) -> dict[str, Any]
     steps = wish.wish(wish.look)
     if wish.preview:
         return await run_in_threadpool(studio.jog.preview, steps)
-    doer = named(author, wish)
+    actor = named(author, wish)
 
     def moved() -> None:
-        with studio.robot.lease.held_by(doer):
-            studio.jog.move(steps, doer.name or SOMEBODY, wish.seen_mm)
+        with studio.robot.lease.held_by(actor):
+            studio.jog.move(steps, actor.name or SOMEBODY, wish.seen_mm)
 
     await run_in_threadpool(moved)
     return studio.robot.view()

@@ -12,7 +12,7 @@ from fastapi import APIRouter, Body, Depends
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.concurrency import run_in_threadpool
 
-from app.bridge.run_range import Course
+from app.bridge.run_range import RunRange
 from app.studio.studio import Studio
 from app.undo.history import Author
 from app.web.dependencies import TheAuthor, on_planned, studio_of
@@ -25,23 +25,23 @@ MOST_NAME = 80
 """Characters of a person's name."""
 
 
-class Deed(BaseModel):
+class ActorBody(BaseModel):
     """Who does it."""
 
     model_config = ConfigDict(extra="forbid")
     by: str = Field(default=SOMEBODY, max_length=MOST_NAME)
 
 
-TheDeed = Annotated[Deed | None, Body()]
+TheActor = Annotated[ActorBody | None, Body()]
 
 
-class Connect(Deed):
+class Connect(ActorBody):
     """Which robot to connect; the studio's own where none is named."""
 
     device: str | None = Field(default=None, max_length=200)
 
 
-class Send(Deed):
+class Send(ActorBody):
     """Which gait to send, the hash that the person saw, and which of its waypoints."""
 
     gait: str
@@ -54,26 +54,26 @@ class Send(Deed):
 async def _moved(
     studio: Studio,
     author: Author,
-    deed: Deed | None,
+    actor_body: ActorBody | None,
     action: Callable[[str], object],
     *,
     ends: bool = False,
 ) -> dict[str, Any]:
     """Does what needs the lease, in the name of who does it; where it `ends`, nobody holds the robot then."""
-    doer = named(author, deed)
+    actor = named(author, actor_body)
 
     def done() -> None:
-        with studio.robot.lease.held_by(doer, ends=ends):
-            action(doer.name or SOMEBODY)
+        with studio.robot.lease.held_by(actor, ends=ends):
+            action(actor.name or SOMEBODY)
 
     await run_in_threadpool(done)
     return studio.robot.view()
 
 
-def named(author: Author, deed: Deed | None) -> Author:
+def named(author: Author, actor_body: ActorBody | None) -> Author:
     """Who does it: the name in the body goes before that of the page."""
-    named = deed is not None and "by" in deed.model_fields_set and deed.by.strip()
-    return replace(author, name=deed.by) if deed is not None and named else author
+    named = actor_body is not None and "by" in actor_body.model_fields_set and actor_body.by.strip()
+    return replace(author, name=actor_body.by) if actor_body is not None and named else author
 
 
 @router.get("")
@@ -96,16 +96,18 @@ async def read_transitions(studio: TheStudio) -> dict[str, Any]:
 
 @router.post("/connect")
 async def connect(
-    studio: TheStudio, author: TheAuthor, deed: Annotated[Connect | None, Body()] = None
+    studio: TheStudio, author: TheAuthor, actor_body: Annotated[Connect | None, Body()] = None
 ) -> dict[str, Any]:
     """Opens the line. The board may reset, and its motors may move for about 8 s."""
-    return await _moved(studio, author, deed, lambda _: studio.robot.connect(deed.device if deed else None))
+    return await _moved(
+        studio, author, actor_body, lambda _: studio.robot.connect(actor_body.device if actor_body else None)
+    )
 
 
 @router.post("/disconnect")
-async def disconnect(studio: TheStudio, author: TheAuthor, deed: TheDeed = None) -> dict[str, Any]:
+async def disconnect(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> dict[str, Any]:
     """Stops a run and closes the line; nobody holds the robot then."""
-    return await _moved(studio, author, deed, lambda _: studio.robot.disconnect(), ends=True)
+    return await _moved(studio, author, actor_body, lambda _: studio.robot.disconnect(), ends=True)
 
 
 async def send_stop(studio: Studio, by: str) -> None:
@@ -136,45 +138,45 @@ async def stop(studio: TheStudio, by: str = SOMEBODY) -> dict[str, Any]:
 @router.post("/send")
 async def send(studio: TheStudio, author: TheAuthor, wish: Send) -> dict[str, Any]:
     """Sends a gait's approved waypoints, after the slow way to the start pose."""
-    doer, course = named(author, wish), Course(wish.first, wish.iterations)
+    actor, run_range = named(author, wish), RunRange(wish.first, wish.iterations)
 
     def sent() -> None:
-        with studio.robot.lease.held_by(doer):
+        with studio.robot.lease.held_by(actor):
             open_gait, plan = studio.gaits.confirmed(wish.gait), studio.gaits.plan(wish.gait)
-            studio.robot.send(open_gait, plan, wish.waypoints_hash, doer.name or SOMEBODY, course)
+            studio.robot.send(open_gait, plan, wish.waypoints_hash, actor.name or SOMEBODY, run_range)
 
     await on_planned(studio, wish.gait, sent)
     return studio.robot.view()
 
 
 @router.post("/arm")
-async def arm(studio: TheStudio, author: TheAuthor, deed: TheDeed = None) -> dict[str, Any]:
+async def arm(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> dict[str, Any]:
     """Lets the robot be moved."""
-    return await _moved(studio, author, deed, studio.robot.bridge.arm)
+    return await _moved(studio, author, actor_body, studio.robot.bridge.arm)
 
 
 @router.post("/pause")
-async def pause(studio: TheStudio, author: TheAuthor, deed: TheDeed = None) -> dict[str, Any]:
+async def pause(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> dict[str, Any]:
     """Waits at the next pose with all feet down."""
-    return await _moved(studio, author, deed, studio.robot.bridge.pause)
+    return await _moved(studio, author, actor_body, studio.robot.bridge.pause)
 
 
 @router.post("/resume")
-async def resume(studio: TheStudio, author: TheAuthor, deed: TheDeed = None) -> dict[str, Any]:
+async def resume(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> dict[str, Any]:
     """Goes on with a paused run."""
-    return await _moved(studio, author, deed, studio.robot.bridge.resume)
+    return await _moved(studio, author, actor_body, studio.robot.bridge.resume)
 
 
 @router.post("/clear")
-async def clear(studio: TheStudio, author: TheAuthor, deed: TheDeed = None) -> dict[str, Any]:
+async def clear(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> dict[str, Any]:
     """Lets a stopped robot go after replacing its target by where it stands."""
-    return await _moved(studio, author, deed, studio.robot.bridge.clear)
+    return await _moved(studio, author, actor_body, studio.robot.bridge.clear)
 
 
 @router.post("/reset")
-async def reset(studio: TheStudio, author: TheAuthor, deed: TheDeed = None) -> dict[str, Any]:
+async def reset(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> dict[str, Any]:
     """Sends every motor to 0.5 mm."""
-    return await _moved(studio, author, deed, studio.robot.bridge.reset)
+    return await _moved(studio, author, actor_body, studio.robot.bridge.reset)
 
 
 class HandOver(StrEnum):
@@ -194,10 +196,10 @@ class HandOver(StrEnum):
 
 @router.post("/lease/{act}")
 async def hand_over(
-    studio: TheStudio, author: TheAuthor, act: HandOver, deed: TheDeed = None
+    studio: TheStudio, author: TheAuthor, act: HandOver, actor_body: TheActor = None
 ) -> dict[str, Any]:
     """Asks for the robot, gives it, keeps it, takes it over or lets it go."""
-    lease, doer = studio.robot.lease, named(author, deed)
+    lease, actor = studio.robot.lease, named(author, actor_body)
     verbs: dict[HandOver, Callable[[Author], None]] = {
         HandOver.ASK: lease.ask,
         HandOver.GIVE: lease.give,
@@ -205,5 +207,5 @@ async def hand_over(
         HandOver.TAKE: lease.take,
         HandOver.RELEASE: lease.release,
     }
-    await run_in_threadpool(verbs[act], doer)
+    await run_in_threadpool(verbs[act], actor)
     return studio.robot.view()

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from app.runs.plan_json import ran_plan
-from app.runs.service import RunDesk
-from app.trials.comparison import TrialsBeside
+from app.runs.service import RunService
+from app.trials.comparison import TrialComparison
 from app.trials.photos import TrialPhotos
 from app.trials.record import ROBOT, TrialRecord
 from app.trials.report.comparison import compared_parts
@@ -28,7 +28,7 @@ from app.trials.report.page import (
     text,
 )
 from app.trials.report.plots import ways_from_above, ways_over_time
-from app.trials.service import TrialDesk
+from app.trials.service import TrialService
 from core.arrays import Floats
 from core.errors import FootfallError
 from core.robot.model import load_robot
@@ -44,33 +44,35 @@ _ENDS = {
 }
 
 
-class TrialReports:
+class TrialReportService:
     """Writes reports; every method may be called from any thread.
 
     Args:
-        desk: the trials.
-        beside: their plans and physics.
+        service: the trials.
+        comparison: their plans and physics.
         photos: their photos.
         runs: the runs that they are of.
     """
 
-    def __init__(self, desk: TrialDesk, beside: TrialsBeside, photos: TrialPhotos, runs: RunDesk) -> None:
-        self._desk = desk
-        self._beside = beside
+    def __init__(
+        self, service: TrialService, comparison: TrialComparison, photos: TrialPhotos, runs: RunService
+    ) -> None:
+        self._service = service
+        self._comparison = comparison
         self._photos = photos
         self._runs = runs
         self._colours = load_robot(ROBOT).colours
 
     def trial(self, trial: str) -> str:
         """One trial; its simulation only where it is there already."""
-        record, summary = self._desk.record(trial), self._desk.summary(trial)
-        beside, sources = self._beside.figures(trial), self._beside.sources(record)
+        record, summary = self._service.record(trial), self._service.summary(trial)
+        comparison, sources = self._comparison.figures(trial), self._comparison.sources(record)
         key = _key(record, sources)
         parts = [
             facts(_words(summary)),
             f'<p class="note">{text(summary["note"])}</p>' if summary["note"] else "",
-            _beside_table(beside["rows"]),
-            f'<p class="quiet">{text(beside["simulation"]["remark"])}</p>',
+            _beside_table(comparison["rows"]),
+            f'<p class="quiet">{text(comparison["simulation"]["remark"])}</p>',
             *_astray(summary),
             plot(
                 ways_from_above(sources, self._colours),
@@ -97,8 +99,8 @@ class TrialReports:
 
     def compared(self) -> str:
         """All gaits by steps compared, with the trials of each over each other."""
-        lines = self._desk.lines()
-        return page("Gaits compared", compared_parts(lines, self._beside.band, self._colours), footer())
+        lines = self._service.lines()
+        return page("Gaits compared", compared_parts(lines, self._comparison.band, self._colours), footer())
 
     def _movements(self, caption: str, summary: Mapping[str, Any], kind: str) -> str:
         def cells(movement: Mapping[str, float]) -> list[str]:
@@ -140,9 +142,9 @@ class TrialReports:
     def _origin(self, trial: str, summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         """Where everything comes from."""
         yield "Trial", trial
-        yield "Track, SHA-256", hashlib.sha256(self._desk.track(trial).encode()).hexdigest()
+        yield "Track, SHA-256", hashlib.sha256(self._service.track(trial).encode()).hexdigest()
         yield "Gait", f"{summary['gait_name'] or '–'} ({summary['gait'] or 'no id'})"
-        sent = self._desk.sent(trial)
+        sent = self._service.sent(trial)
         if sent is not None:
             yield "Waypoints, SHA-256", ran_plan(sent).waypoints.content_hash
         if summary["run"]:

@@ -9,7 +9,7 @@ from app.bench.robot.judge import Findings, Judge
 from app.bench.robot.soak import SoakRound, bench_soak, soak
 from app.bridge.delivery import Delivery
 from app.bridge.states import RobotState
-from app.bridge.write_gate import Gate
+from app.bridge.write_gate import WriteGate
 from app.emulator.faults import (
     Cable,
     Delayer,
@@ -63,7 +63,7 @@ def test_the_judge_sees_waypoints_that_were_not_reached(monkeypatch: pytest.Monk
 
 
 def test_the_judge_sees_messages_after_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Gate, "stop", lambda gate: gate._put(b"<s,0>"))
+    monkeypatch.setattr(WriteGate, "stop", lambda gate: gate._put(b"<s,0>"))
     monkeypatch.setattr(bridge_soak, "LIMIT", 20.0)
     found = play(Fault.STUCK_MOTOR, 1)
     assert found.unapproved > 0

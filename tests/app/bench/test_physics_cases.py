@@ -49,12 +49,12 @@ def own_walk() -> tuple[float, Trajectory]:
 def answers(monkeypatch: pytest.MonkeyPatch, largest: float) -> None:
     """In place of the solver: every margin up to one has a motion, the walk's."""
 
-    def judged(problem: MotionProblem, result: object) -> SimpleNamespace:
+    def verified(problem: MotionProblem, result: object) -> SimpleNamespace:
         has_one = problem.limits.margin <= largest
         status = SolveStatus.SOLVED if has_one else SolveStatus.INFEASIBLE
         return SimpleNamespace(status=status, trajectory=own_walk()[1])
 
-    monkeypatch.setattr(physics_cases, "judge", judged)
+    monkeypatch.setattr(physics_cases, "verify", verified)
     monkeypatch.setattr(physics_cases, "solve_exact", lambda problem: None)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import pytest
 
 from app.bridge.states import LinkState, RobotState
-from app.bridge.write_gate import Gate
+from app.bridge.write_gate import WriteGate
 from core.errors import RobotError
 from core.wire.messages import encode_flush
 from tests.support.studio_process import wait_for
@@ -145,7 +145,7 @@ class Outlet:
 
 
 def test_only_a_trusted_line_takes_a_message_and_a_failed_write_outlasts_the_trust() -> None:
-    gate, outlet = Gate(lambda way, data, when: None, lambda: 0.0), Outlet()
+    gate, outlet = WriteGate(lambda way, data, when: None, lambda: 0.0), Outlet()
     gate.attach(outlet)
     assert not gate.write(WAYPOINT, gate.permit())
     gate.stop()
@@ -176,7 +176,7 @@ class SlowOutlet(Outlet):
 
 
 def test_who_must_not_wait_sends_the_stop_only_where_no_message_is_going_out() -> None:
-    gate, outlet = Gate(lambda way, data, when: None, lambda: 0.0), SlowOutlet()
+    gate, outlet = WriteGate(lambda way, data, when: None, lambda: 0.0), SlowOutlet()
     gate.attach(outlet)
     writer = threading.Thread(target=gate.flush)
     writer.start()
@@ -191,7 +191,7 @@ def test_who_must_not_wait_sends_the_stop_only_where_no_message_is_going_out() -
 
 
 def test_who_must_not_wait_leaves_a_line_that_failed_to_others() -> None:
-    gate, outlet = Gate(lambda way, data, when: None, lambda: 0.0), Outlet()
+    gate, outlet = WriteGate(lambda way, data, when: None, lambda: 0.0), Outlet()
     gate.attach(outlet)
     outlet.broken = True
     with pytest.raises(RobotError):
@@ -204,7 +204,7 @@ def test_who_must_not_wait_leaves_a_line_that_failed_to_others() -> None:
 
 def test_what_a_stop_is_noted_in_delays_no_other_stop() -> None:
     notes, outlet = threading.Event(), Outlet()
-    gate = Gate(lambda way, data, when: _hold(notes), lambda: 0.0)
+    gate = WriteGate(lambda way, data, when: _hold(notes), lambda: 0.0)
     gate.attach(outlet)
     first = threading.Thread(target=gate.stop)
     first.start()

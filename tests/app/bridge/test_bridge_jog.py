@@ -7,7 +7,7 @@ import pytest
 
 from app.bridge.jog import JogPlan
 from app.bridge.states import LinkState, RobotState
-from app.bridge.write_gate import Gate, Kind
+from app.bridge.write_gate import Kind, WriteGate
 from app.emulator.profiles import ProfileName
 from app.robot.views import jog_stop_seconds
 from core.errors import InputError, StateError
@@ -199,7 +199,7 @@ BY_KIND = {
 @pytest.mark.parametrize("kind", list(Kind))
 @pytest.mark.parametrize("message", [WAYPOINT, encode_reset(), encode_release(), encode_stop(), b"<p,2,1"])
 def test_the_gate_lets_a_message_out_as_what_it_is_and_as_nothing_else(kind: Kind, message: bytes) -> None:
-    gate = Gate(lambda way, data, when: None, lambda: 0.0)
+    gate = WriteGate(lambda way, data, when: None, lambda: 0.0)
     if message in BY_KIND[kind]:
         assert not gate.write(message, gate.permit(), kind)
     else:

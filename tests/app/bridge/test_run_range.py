@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from app.bridge.run_range import (
     MOST_ITERATIONS,
-    Course,
+    RunRange,
     beginnings,
     why_not_repeated,
 )
@@ -24,7 +24,7 @@ HOLDS = [True, False, False, True]
 
 
 def with_course(plan: RunPlan, first: int = 0, iterations: int = 1) -> RunPlan:
-    return replace(plan, course=Course(first, iterations))
+    return replace(plan, run_range=RunRange(first, iterations))
 
 
 def taken_mm(robot: VirtualRobot) -> list[list[float]]:
@@ -36,7 +36,7 @@ def test_the_order_ends_with_the_last_waypoint_in_each_iteration(
     count: int, iterations: int, data: st.DataObject
 ) -> None:
     first = data.draw(st.integers(0, count - 1))
-    order = Course(first, iterations).order(count)
+    order = RunRange(first, iterations).order(count)
     assert order[0] == first
     assert order.count(count - 1) == iterations
     assert len(order) == count * iterations - first
@@ -92,20 +92,20 @@ def test_a_fault_names_waypoint_and_iteration() -> None:
 
 
 @pytest.mark.parametrize(
-    ("course", "field", "words"),
+    ("run_range", "field", "words"),
     [
-        (Course(first=2), "from", "At waypoint 3 a foot is in the air.* Begin at waypoint 1 or 4"),
-        (Course(first=4), "from", "There is no waypoint 5; there are 4"),
-        (Course(first=-1), "from", "There is no waypoint 0"),
-        (Course(iterations=0), "iterations", "0 iterations cannot be sent; choose 1 to 100"),
-        (Course(iterations=MOST_ITERATIONS + 1), "iterations", "101 iterations"),
+        (RunRange(first=2), "from", "At waypoint 3 a foot is in the air.* Begin at waypoint 1 or 4"),
+        (RunRange(first=4), "from", "There is no waypoint 5; there are 4"),
+        (RunRange(first=-1), "from", "There is no waypoint 0"),
+        (RunRange(iterations=0), "iterations", "0 iterations cannot be sent; choose 1 to 100"),
+        (RunRange(iterations=MOST_ITERATIONS + 1), "iterations", "101 iterations"),
     ],
 )
 def test_a_course_that_cannot_be_is_refused_with_what_would_do(
-    course: Course, field: str, words: str
+    run_range: RunRange, field: str, words: str
 ) -> None:
     with pytest.raises(InputError, match=words) as refused:
-        replace(make_plan(ROUND, HOLDS), course=course)
+        replace(make_plan(ROUND, HOLDS), run_range=run_range)
     assert refused.value.where == field
 
 

@@ -51,7 +51,7 @@ ALLOWED = {
 """Which state may follow which, beside those anywhere and the same one."""
 
 
-class Session(RuleBasedStateMachine):
+class CommandQueue(RuleBasedStateMachine):
     """People at random, a cable and a robot with faults, and a model of what may be on the wire."""
 
     @initialize(profile=st.sampled_from(ProfileName), start_mm=st.floats(0.5, 15.0), seed=st.integers(0, 99))
@@ -217,7 +217,7 @@ class Session(RuleBasedStateMachine):
             self.only_what_was_approved_was_sent()
 
 
-TestSession = Session.TestCase
+TestSession = CommandQueue.TestCase
 TestSession.settings = settings(
     max_examples=60, stateful_step_count=25, deadline=None, suppress_health_check=[HealthCheck.too_slow]
 )

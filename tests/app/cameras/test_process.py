@@ -11,7 +11,7 @@ import pytest
 
 from app.bench.page.film import Film, draw_film, stepping_feet
 from app.cameras.address import CameraAddress
-from app.cameras.process import CameraError, CameraLink
+from app.cameras.process import CameraError, CameraProcess
 from app.vision.footage import PICTURES
 from app.vision.recorder import RecordOrder
 from app.vision.recording_file import Recording, read_table
@@ -24,9 +24,9 @@ def film(tmp_path_factory: pytest.TempPathFactory) -> Film:
     return draw_film(tmp_path_factory.mktemp("film") / "film", (160, 120), stepping_feet(1.0))
 
 
-def link_of(film: Film) -> CameraLink:
+def link_of(film: Film) -> CameraProcess:
     address = CameraAddress("under", "Under", str(film.folder / PICTURES), True)
-    return CameraLink(address, lambda: None)
+    return CameraProcess(address, lambda: None)
 
 
 def order(film: Film, folder: Path) -> RecordOrder:
@@ -76,7 +76,7 @@ def test_a_process_that_ends_leaves_what_it_recorded(film: Film, tmp_path: Path)
 
 
 def test_a_camera_that_is_not_there_says_so(tmp_path: Path) -> None:
-    link = CameraLink(CameraAddress("under", "Under", str(tmp_path / "none.avi"), True), lambda: None)
+    link = CameraProcess(CameraAddress("under", "Under", str(tmp_path / "none.avi"), True), lambda: None)
     try:
         with pytest.raises(CameraError, match=r"The camera “Under” gives no pictures\. Plug it in again\."):
             link.picture(None, 90.0)

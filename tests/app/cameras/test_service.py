@@ -9,9 +9,9 @@ import pytest
 
 from app.cameras import service as camera_desk
 from app.cameras.address import CameraAddress
-from app.cameras.service import CameraDesk
-from app.cameras.setup_service import SetupDesk
-from app.store.camera_setup_store import SetupLog
+from app.cameras.service import CameraService
+from app.cameras.setup_service import CameraSetupService
+from app.store.camera_setup_store import CameraSetupStore
 from app.store.database import Database
 from core.errors import InputError, NotFoundError
 
@@ -19,38 +19,38 @@ RECORDS = {"name": "Lab camera", "use": "side", "setup": "", "records": True}
 
 
 @pytest.fixture
-def desk(database: Database, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[CameraDesk]:
+def service(database: Database, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[CameraService]:
     """A desk with one served film, on a computer without cameras."""
     monkeypatch.setattr(camera_desk, "devices", lambda: [])
     film = CameraAddress("film", "Film", str(tmp_path / "film.avi"), True)
-    opened = CameraDesk(database, SetupDesk(database), [film])
+    opened = CameraService(database, CameraSetupService(database), [film])
     yield opened
     opened.close()
 
 
-def test_a_camera_that_nobody_looks_at_is_idle(desk: CameraDesk) -> None:
-    (film,) = desk.views()
+def test_a_camera_that_nobody_looks_at_is_idle(service: CameraService) -> None:
+    (film,) = service.views()
     assert (film["id"], film["state"], film["use"], film["records"]) == ("film", "idle", "under", False)
-    assert desk.change("film", {"use": "side"})["use"] == "side"
-    assert desk.view("film")["use"] == "side"
+    assert service.change("film", {"use": "side"})["use"] == "side"
+    assert service.view("film")["use"] == "side"
 
 
-def test_a_recording_camera_that_is_unplugged_is_missed(desk: CameraDesk, database: Database) -> None:
-    SetupLog(database).put_camera("video0", RECORDS)
-    missed = desk.view("video0")
+def test_a_recording_camera_that_is_unplugged_is_missed(service: CameraService, database: Database) -> None:
+    CameraSetupStore(database).put_camera("video0", RECORDS)
+    missed = service.view("video0")
     assert missed["state"] == "unplugged"
     assert "“Lab camera” is unplugged" in missed["sentence"]
-    assert [view["id"] for view in desk.recording()] == ["video0"]
+    assert [view["id"] for view in service.recording()] == ["video0"]
     with pytest.raises(NotFoundError, match="Plug it in"):
-        desk.link("video0")
+        service.link("video0")
 
 
-def test_a_film_that_is_served_no_more_is_not_missed(desk: CameraDesk, database: Database) -> None:
-    SetupLog(database).put_camera("other", RECORDS)
-    assert [view["id"] for view in desk.views()] == ["film"]
+def test_a_film_that_is_served_no_more_is_not_missed(service: CameraService, database: Database) -> None:
+    CameraSetupStore(database).put_camera("other", RECORDS)
+    assert [view["id"] for view in service.views()] == ["film"]
 
 
-def test_a_camera_that_is_to_find_feet_needs_a_setup_to_record(desk: CameraDesk) -> None:
+def test_a_camera_that_is_to_find_feet_needs_a_setup_to_record(service: CameraService) -> None:
     with pytest.raises(InputError, match="has no setup"):
-        desk.change("film", {"records": True})
-    assert not desk.view("film")["records"]
+        service.change("film", {"records": True})
+    assert not service.view("film")["records"]

@@ -18,7 +18,7 @@ import pytest
 
 from app.documents.gait_json import gait_content
 from app.export.trajectory_files import write_trajectory
-from app.learning.parameter_sets import LearnedSets
+from app.learning.parameter_sets import ParameterSets
 from app.store.database import DATABASE, Database
 from core.library.library import library
 from core.motion.trajectory import Trajectory
@@ -160,7 +160,7 @@ def test_a_learned_set_is_found_in_the_data_folder_by_its_name_and_version(
 ) -> None:
     physics = replace(physics_set("scales"), cable_drag=0.5)
     with closing(Database(tmp_path / DATABASE)) as database:
-        LearnedSets(database).save("Lab floor", "Ada", "deltawalker", physics, "made", "made")
+        ParameterSets(database).save("Lab floor", "Ada", "deltawalker", physics, "made", "made")
     words = ("simulate", bow, "--data", str(tmp_path), "--physics")
     status, content = run_json(capsys, *words, "Lab floor, version 1")
     assert status == 0

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from app.emulator.emulated_robot import EmulatedRobot, start_emulator
-from app.runs.service import RunDesk
+from app.runs.service import RunService
 from app.store.database import Database
 from app.store.run_store import RunFilter
 from tests.support.command import run, run_json
@@ -41,27 +41,27 @@ def robot() -> Iterator[EmulatedRobot]:
 
 
 @pytest.fixture
-def desk(database: Database) -> RunDesk:
+def service(database: Database) -> RunService:
     """The runs of a studio that has the data folder open."""
-    return RunDesk(database)
+    return RunService(database)
 
 
 def words(way: Path, robot: str) -> tuple[str, ...]:
     return ("send", str(way), "--robot", robot, "--yes", "--data", str(way.parent))
 
 
-def newest(desk: RunDesk) -> dict[str, Any]:
-    run: dict[str, Any] = desk.found(RunFilter(), 0, 1)["runs"][0]
+def newest(service: RunService) -> dict[str, Any]:
+    run: dict[str, Any] = service.found(RunFilter(), 0, 1)["runs"][0]
     return run
 
 
 def test_a_run_of_a_file_is_kept_where_the_studio_lists_it(
-    capsys: pytest.CaptureFixture[str], way: Path, robot: EmulatedRobot, desk: RunDesk
+    capsys: pytest.CaptureFixture[str], way: Path, robot: EmulatedRobot, service: RunService
 ) -> None:
     status, out, err = run(capsys, *words(way, robot.device), "--json")
     answer = json.loads(out)
     assert (status, answer["state"], answer["reached"]) == (0, "done", COUNT)
-    kept = newest(desk)
+    kept = newest(service)
     assert (kept["id"], kept["state"], kept["gait_name"]) == (answer["run"], "done", "way.csv")
     assert (kept["reached"], kept["count"], kept["waypoints_hash"]) == (
         COUNT,
@@ -69,51 +69,51 @@ def test_a_run_of_a_file_is_kept_where_the_studio_lists_it(
         answer["waypoints_hash"],
     )
     assert kept["errors"]["arrived"] == COUNT
-    assert [state["robot"] for state in desk.summary(kept["id"])["states"]] == ["moving", "done"]
+    assert [state["robot"] for state in service.summary(kept["id"])["states"]] == ["moving", "done"]
     assert f"moving: on the way to the start pose, then {COUNT} waypoints in about" in err
     assert f"moving: waypoint 3 of {COUNT} reached, about" in err
     assert f"done: waypoint {COUNT} of {COUNT} reached," in err
 
 
 def test_ctrl_c_stops_the_robot_says_what_happened_and_the_next_run_goes_to_its_end(
-    way: Path, robot: EmulatedRobot, desk: RunDesk
+    way: Path, robot: EmulatedRobot, service: RunService
 ) -> None:
     command = [sys.executable, "-m", "app", *words(way, robot.device), "--json"]
     pipe = subprocess.PIPE
     with subprocess.Popen(command, cwd=PROJECT, stdout=pipe, stderr=pipe, text=True) as first:
         wait_for(lambda: len(robot.firmware.messages) > 4, "the run has begun")
-        assert newest(desk)["state"] == "running"
+        assert newest(service)["state"] == "running"
         first.send_signal(signal.SIGINT)
         out, _ = first.communicate(timeout=60)
     answer = json.loads(out)
     assert (first.returncode, answer["state"]) == (130, "stopped")
     assert answer["error"].startswith(f"Interrupted: {answer['reached']} of {COUNT} waypoints were reached.")
     assert robot.firmware.messages[-1].payload == "s,1"
-    assert (newest(desk)["state"], newest(desk)["reached"]) == ("stopped", answer["reached"])
+    assert (newest(service)["state"], newest(service)["reached"]) == ("stopped", answer["reached"])
     second = subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, timeout=60)
     assert second.returncode == 0, second.stderr
     assert json.loads(second.stdout)["reached"] == COUNT
 
 
 def test_a_send_that_is_killed_leaves_its_run_interrupted_with_what_had_passed(
-    way: Path, robot: EmulatedRobot, desk: RunDesk
+    way: Path, robot: EmulatedRobot, service: RunService
 ) -> None:
     command = [sys.executable, "-m", "app", *words(way, robot.device)]
     with subprocess.Popen(command, cwd=PROJECT, stderr=subprocess.PIPE) as sending:
         wait_for(lambda: len(robot.firmware.messages) > 5, "the run is on")
         sending.kill()
-    kept = newest(desk)
+    kept = newest(service)
     assert kept["state"] == "interrupted"
     assert kept["errors"]["arrived"] >= 1
 
 
 def test_a_single_pose_is_sent_and_kept_without_figures(
-    capsys: pytest.CaptureFixture[str], way: Path, robot: EmulatedRobot, desk: RunDesk
+    capsys: pytest.CaptureFixture[str], way: Path, robot: EmulatedRobot, service: RunService
 ) -> None:
     way.write_text("\n".join(way.read_text().splitlines()[:2]) + "\n")
     status, answer = run_json(capsys, *words(way, robot.device))
     assert (status, answer["reached"]) == (0, 1)
-    assert newest(desk)["errors"] is None
+    assert newest(service)["errors"] is None
 
 
 def test_a_data_folder_that_cannot_be_used_is_bad_input(

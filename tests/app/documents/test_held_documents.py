@@ -16,9 +16,9 @@ from app.documents.gait_json import (
     motion_hash,
     parse_gait,
 )
-from app.gaits.approvals import Word
-from app.gaits.normalise import in_agreement, settled
-from app.gaits.service import GaitDesk
+from app.gaits.approvals import ApprovalRequest
+from app.gaits.normalise import normalise, normalise_imported
+from app.gaits.service import GaitService
 from app.plans.plan import PlanSource
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
@@ -39,8 +39,8 @@ PAGE = Author()
 
 
 @pytest.fixture
-def desk(tmp_path: Path, database: Database) -> GaitDesk:
-    return GaitDesk(GaitFiles(tmp_path), database, lambda gait: solve_live)
+def service(tmp_path: Path, database: Database) -> GaitService:
+    return GaitService(GaitFiles(tmp_path), database, lambda gait: solve_live)
 
 
 def painted(gait: Gait, foot: int, first: int, last: int, *, stance: bool) -> Gait:
@@ -93,16 +93,16 @@ def test_results_belong_to_the_feet_that_are_held() -> None:
 
 @pytest.mark.parametrize("direction", [2, 3, 4])
 def test_another_direction_holds_the_feet_that_take_their_place(direction: int) -> None:
-    turned, _ = settled(FOUR, replace(FOUR, direction=direction))
+    turned, _ = normalise(FOUR, replace(FOUR, direction=direction))
     assert turned.held.start == turned.held.end
     assert not turned.timeline.stance[[foot - 1 for foot in turned.held.both]].any()
     assert (turned.timeline.stance == drawn_timeline(turned).stance).all()
-    assert settled(turned, replace(turned, direction=1))[0] == FOUR
+    assert normalise(turned, replace(turned, direction=1))[0] == FOUR
 
 
 def test_painting_a_held_foot_down_takes_it_back_with_a_word() -> None:
     last = FOUR.timeline.sample_count - 1
-    changed, notice = settled(FOUR, painted(FOUR, 4, last, last, stance=True))
+    changed, notice = normalise(FOUR, painted(FOUR, 4, last, last, stance=True))
     assert changed.held == HeldFeet(start=(1, 4), end=(1,))
     assert notice == "Foot 4 stands at the last sample now, so it is no longer held up there."
 
@@ -111,53 +111,53 @@ def test_an_edit_that_says_that_a_standing_foot_is_held_is_refused() -> None:
     with pytest.raises(
         InputError, match=r"Foot 2 is to be held up at the last sample but stands there.*swing, or"
     ):
-        settled(FOUR, replace(FOUR, held=HeldFeet((1, 4), (1, 2, 4))))
+        normalise(FOUR, replace(FOUR, held=HeldFeet((1, 4), (1, 2, 4))))
     with pytest.raises(InputError, match="Foot 2 is to be held up at the first sample but stands there"):
-        in_agreement(replace(FOUR, held=HeldFeet((2,), ())))
+        normalise_imported(replace(FOUR, held=HeldFeet((2,), ())))
 
 
-def test_the_desk_solves_checks_and_keeps_it(desk: GaitDesk, tmp_path: Path) -> None:
-    made = desk.create(FOUR)
-    plan = desk.plan(made.id)
+def test_the_desk_solves_checks_and_keeps_it(service: GaitService, tmp_path: Path) -> None:
+    made = service.create(FOUR)
+    plan = service.plan(made.id)
     assert plan.source is PlanSource.LIVE
     assert plan.note.endswith("Feet 1 and 4 are held up throughout.")
-    verdict = desk.check(made.id).verdict
+    verdict = service.check(made.id).verdict
     assert verdict is not None
     assert verdict.passed
     assert not {finding.rule for finding in verdict.findings} & {"slip", "contact", "clearance", "travel"}
-    assert desk.approve(made.id, Word("Ada", accept_warnings=True)).approval is not None
+    assert service.approve(made.id, ApprovalRequest("Ada", accept_warnings=True)).approval is not None
     (saved,) = tmp_path.rglob(f"{made.id}.json")
     assert parse_gait(saved.read_text()).held == FOUR.held
 
 
-def test_a_body_that_rests_aside_is_told_and_travels_as_it_should(desk: GaitDesk) -> None:
-    made = desk.create(lifting("hexapod", (1, 2)))
-    assert "At the end the body rests 4.0 mm aside, over the feet that stand." in desk.plan(made.id).note
-    verdict = desk.check(made.id).verdict
+def test_a_body_that_rests_aside_is_told_and_travels_as_it_should(service: GaitService) -> None:
+    made = service.create(lifting("hexapod", (1, 2)))
+    assert "At the end the body rests 4.0 mm aside, over the feet that stand." in service.plan(made.id).note
+    verdict = service.check(made.id).verdict
     assert verdict is not None
     assert verdict.passed
 
 
 def test_a_foot_that_ends_in_the_air_unheld_is_refused_and_holding_it_up_is_the_way_out(
-    desk: GaitDesk,
+    service: GaitService,
 ) -> None:
     lifted = lifting("hexapod", (1, 4))
-    made = desk.create(replace(lifted, held=HeldFeet()))
+    made = service.create(replace(lifted, held=HeldFeet()))
     with pytest.raises(CheckError, match=r"Foot 1, 4 is in the air at the last sample.*or hold it up"):
-        desk.check(made.id)
-    desk.edit(made.id, lifted, "Hold up", None)
-    assert desk.plan(made.id).source is PlanSource.LIVE
+        service.check(made.id)
+    service.edit(made.id, lifted, "Hold up", None)
+    assert service.plan(made.id).source is PlanSource.LIVE
 
 
-def test_undo_and_versions_bring_held_feet_back(desk: GaitDesk) -> None:
+def test_undo_and_versions_bring_held_feet_back(service: GaitService) -> None:
     lifted = lifting("hexapod", (1, 4))
-    made = desk.create(replace(lifted, held=HeldFeet()))
-    desk.edit(made.id, lifted, "Hold up", None)
-    desk.edit(made.id, replace(lifted, held=HeldFeet(end=(4,)), notes="one"), "Hold one", None)
-    assert desk.undo(made.id).gait.held == HeldFeet(end=(1, 4))
-    assert desk.undo(made.id).gait.held == HeldFeet()
-    assert desk.redo(made.id).gait.held == HeldFeet(end=(1, 4))
-    assert desk.restore_version(made.id, 1).gait.held == HeldFeet()
+    made = service.create(replace(lifted, held=HeldFeet()))
+    service.edit(made.id, lifted, "Hold up", None)
+    service.edit(made.id, replace(lifted, held=HeldFeet(end=(4,)), notes="one"), "Hold one", None)
+    assert service.undo(made.id).gait.held == HeldFeet(end=(1, 4))
+    assert service.undo(made.id).gait.held == HeldFeet()
+    assert service.redo(made.id).gait.held == HeldFeet(end=(1, 4))
+    assert service.restore_version(made.id, 1).gait.held == HeldFeet()
 
 
 def test_edits_of_others_are_merged_beside_held_feet_which_are_a_whole() -> None:
@@ -174,8 +174,8 @@ def test_edits_of_others_are_merged_beside_held_feet_which_are_a_whole() -> None
     assert place_words(merge(without, want, other).conflicts) == "the held feet"
 
 
-def test_an_exported_motion_comes_back_with_the_same_feet_held(desk: GaitDesk) -> None:
-    trajectory = desk.plan(desk.create(lifting("hexapod", (1, 4))).id).trajectory
+def test_an_exported_motion_comes_back_with_the_same_feet_held(service: GaitService) -> None:
+    trajectory = service.plan(service.create(lifting("hexapod", (1, 4))).id).trajectory
     assert trajectory is not None
     text = format_trajectory_csv(trajectory)
     read = parse_trajectory_csv(text, "lifted.csv", format_companion(trajectory, text))

@@ -15,12 +15,12 @@ from hypothesis.stateful import RuleBasedStateMachine, invariant, rule, run_stat
 from app.bridge.bridge import RobotBridge
 from app.bridge.run import plan_moves
 from app.bridge.states import RunPlan
-from app.gaits.approvals import Word
+from app.gaits.approvals import ApprovalRequest
 from app.gaits.open_gait import gait_text
-from app.gaits.service import GaitDesk
+from app.gaits.service import GaitService
 from app.plans.plan import Plan
 from app.robot.ports import RobotPorts
-from app.robot.service import RobotDesk
+from app.robot.service import RobotService
 from app.simulation.problem import simulation_problem
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
@@ -64,7 +64,7 @@ class Wire:
 class ApprovalMachine(RuleBasedStateMachine):
     """A desk that can be opened anew at any time, beside the word that was given last."""
 
-    def __init__(self, robot: RobotDesk, wire: Wire) -> None:
+    def __init__(self, robot: RobotService, wire: Wire) -> None:
         super().__init__()
         self.robot, self.wire = robot, wire
         wire.robot = "as built"
@@ -76,7 +76,9 @@ class ApprovalMachine(RuleBasedStateMachine):
     def open_desk(self) -> None:
         self.database = Database(Path(self.folder.name) / "studio.sqlite3")
         files = GaitFiles(Path(self.folder.name))
-        self.desk = GaitDesk(files, self.database, lambda gait: no_solver, simulated_for=self.simulation_of)
+        self.service = GaitService(
+            files, self.database, lambda gait: no_solver, simulated_for=self.simulation_of
+        )
 
     def simulation_of(self, plan: Plan) -> Simulated | None:
         return None if plan.waypoints is None else self.simulated.get(plan.waypoints.content_hash)
@@ -87,11 +89,11 @@ class ApprovalMachine(RuleBasedStateMachine):
 
     @property
     def document(self) -> str:
-        return gait_text(self.desk.document(GAIT))
+        return gait_text(self.service.document(GAIT))
 
     def change(self, verb: Callable[[], object]) -> None:
         """Does something that may change the document, which takes the word back, and visibly so."""
-        before, had = self.document, self.desk.open_gait(GAIT)
+        before, had = self.document, self.service.open_gait(GAIT)
         try:
             verb()
         except (InputError, StateError):
@@ -99,12 +101,12 @@ class ApprovalMachine(RuleBasedStateMachine):
         if self.document == before:
             return
         self.given = None
-        now = self.desk.open_gait(GAIT)
+        now = self.service.open_gait(GAIT)
         assert (now.verdict, now.approval, now.kept_approval) == (None, None, None)
         assert now.revoked or not (had.approval or had.kept_approval)
 
     def edit(self, gait: Gait) -> None:
-        self.change(lambda: self.desk.edit(GAIT, gait, "Edit", None))
+        self.change(lambda: self.service.edit(GAIT, gait, "Edit", None))
 
     def look(self) -> None:
         """Whoever looks at an approval under other parameters takes it away."""
@@ -113,51 +115,53 @@ class ApprovalMachine(RuleBasedStateMachine):
 
     @rule(bound=st.sampled_from([None, 0.9, 1.0]))
     def cut_otherwise(self, bound: float | None) -> None:
-        self.edit(self.desk.document(GAIT).with_options(stop_bound=bound))
+        self.edit(self.service.document(GAIT).with_options(stop_bound=bound))
 
     @rule(words=st.sampled_from(["", "For the ramp.", "For the floor."]))
     def write_notes(self, words: str) -> None:
-        self.edit(replace(self.desk.document(GAIT), notes=words))
+        self.edit(replace(self.service.document(GAIT), notes=words))
 
     @rule(name=st.sampled_from(["Walk", "March"]))
     def rename(self, name: str) -> None:
-        self.edit(replace(self.desk.document(GAIT), name=name))
+        self.edit(replace(self.service.document(GAIT), name=name))
 
     @rule()
     def undo(self) -> None:
-        self.change(lambda: self.desk.undo(GAIT))
+        self.change(lambda: self.service.undo(GAIT))
 
     @rule()
     def redo(self) -> None:
-        self.change(lambda: self.desk.redo(GAIT))
+        self.change(lambda: self.service.redo(GAIT))
 
     @rule()
     def save(self) -> None:
-        self.change(lambda: self.desk.save(GAIT))
+        self.change(lambda: self.service.save(GAIT))
 
     @rule()
     def delete(self) -> None:
-        self.change(lambda: self.desk.delete(GAIT))
+        self.change(lambda: self.service.delete(GAIT))
 
     @rule()
     def bring_back(self) -> None:
-        self.change(lambda: self.desk.restore(GAIT))
+        self.change(lambda: self.service.restore(GAIT))
 
     @rule(back=st.integers(0, 3))
     def restore_a_version(self, back: int) -> None:
-        self.change(lambda: self.desk.restore_version(GAIT, self.desk.versions.newest_number(GAIT) - back))
+        self.change(
+            lambda: self.service.restore_version(GAIT, self.service.versions.newest_number(GAIT) - back)
+        )
 
     @rule()
     def import_a_copy_and_send_it(self) -> None:
-        copy = self.desk.create(self.desk.document(GAIT)).id
+        copy = self.service.create(self.service.document(GAIT)).id
         with pytest.raises(StateError, match="is not approved as it is now"):
-            self.robot.send(self.desk.confirmed(copy), self.desk.plan(copy), None, "Ada")
+            self.robot.send(self.service.confirmed(copy), self.service.plan(copy), None, "Ada")
 
     @rule()
     def restart(self) -> None:
         self.database.close()
         self.open_desk()
-        self.desk.plan(GAIT)
+        self.service.plan(GAIT)
         self.look()
 
     @rule(parameters=st.sampled_from(["as built", "with longer rods"]))
@@ -166,18 +170,18 @@ class ApprovalMachine(RuleBasedStateMachine):
 
     @rule()
     def simulate(self) -> None:
-        plan = self.desk.plan(GAIT)
+        plan = self.service.plan(GAIT)
         assert plan.waypoints is not None
         problem = simulation_problem(plan, physics_set())
         known = plan.waypoints.content_hash
         self.simulated[known] = Simulated(report(problem, followed(problem)), problem)
         self.given = None
-        self.desk.take_simulation(known)
+        self.service.on_simulated(known)
 
     @rule()
     def check(self) -> None:
         self.look()
-        assert self.desk.check(GAIT).verdict is not None
+        assert self.service.check(GAIT).verdict is not None
 
     @rule(
         accept_warnings=st.sampled_from([True, True, False]),
@@ -186,7 +190,7 @@ class ApprovalMachine(RuleBasedStateMachine):
     )
     def approve(self, accept_warnings: bool, seen: str | None, by: str) -> None:
         try:
-            approved = self.desk.approve(GAIT, Word(by, seen, accept_warnings))
+            approved = self.service.approve(GAIT, ApprovalRequest(by, seen, accept_warnings))
         except StateError:
             return
         assert (accept_warnings, seen, by) == (True, None, "Ada")
@@ -203,7 +207,7 @@ class ApprovalMachine(RuleBasedStateMachine):
     def send(self, seen: str | None) -> None:
         self.look()
         self.wire.messages = []
-        open_gait, plan = self.desk.confirmed(GAIT), self.desk.plan(GAIT)
+        open_gait, plan = self.service.confirmed(GAIT), self.service.plan(GAIT)
         try:
             self.robot.send(open_gait, plan, seen, "Ada")
         except FootfallError:
@@ -217,12 +221,12 @@ class ApprovalMachine(RuleBasedStateMachine):
 
     @invariant()
     def an_approval_stands_only_where_it_was_given(self) -> None:
-        approval = self.desk.open_gait(GAIT).approval
+        approval = self.service.open_gait(GAIT).approval
         if approval is None:
             return
         assert self.given is not None
         assert approval.waypoints_hash == self.given.waypoints
-        assert [one.approval for one in self.desk.approvals.all(GAIT)].count(approval) == 1
+        assert [one.approval for one in self.service.approvals.all(GAIT)].count(approval) == 1
 
 
 def test_nothing_that_was_not_approved_reaches_the_wire(
@@ -232,7 +236,7 @@ def test_nothing_that_was_not_approved_reaches_the_wire(
     monkeypatch.setattr(RobotModel, "parameters_hash", property(lambda model: wire.robot))
     monkeypatch.setattr(RobotBridge, "send", lambda bridge, plan, by, run_id=None: wire.send(plan))
     database = Database(tmp_path / "robot.sqlite3")
-    robot = RobotDesk(database, "emulator", lambda view: None, RobotPorts(tmp_path / "robot.json"))
+    robot = RobotService(database, "emulator", lambda view: None, RobotPorts(tmp_path / "robot.json"))
 
     class Wired(ApprovalMachine):
         def __init__(self) -> None:

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from app.gaits.approvals import Word, approval_difference
-from app.gaits.service import GaitDesk
+from app.gaits.approvals import ApprovalRequest, approval_difference
+from app.gaits.service import GaitService
 from app.plans.plan import Plan
 from app.simulation.problem import simulation_problem
 from app.store.database import Database
@@ -21,8 +21,8 @@ from core.robot.model import RobotModel
 from tests.support.simulated_walk import followed, no_solver
 
 GAIT = "walk-manual-0"
-ADA = Word("Ada", accept_warnings=True)
-Opened = Callable[[], GaitDesk]
+ADA = ApprovalRequest("Ada", accept_warnings=True)
+Opened = Callable[[], GaitService]
 
 
 @pytest.fixture
@@ -36,47 +36,47 @@ def opened(tmp_path: Path, database: Database, simulations: list[Simulated]) -> 
     def simulated(plan: Plan) -> Simulated | None:
         return simulations[-1] if simulations else None
 
-    def open_desk() -> GaitDesk:
+    def open_desk() -> GaitService:
         files = GaitFiles(tmp_path)
-        return GaitDesk(files, database, lambda gait: no_solver, simulated_for=simulated)
+        return GaitService(files, database, lambda gait: no_solver, simulated_for=simulated)
 
     return open_desk
 
 
-def approved(desk: GaitDesk, word: Word = ADA) -> None:
-    desk.check(GAIT)
-    assert desk.approve(GAIT, word).approval is not None
+def approved(service: GaitService, word: ApprovalRequest = ADA) -> None:
+    service.check(GAIT)
+    assert service.approve(GAIT, word).approval is not None
 
 
-def simulate(desk: GaitDesk, simulations: list[Simulated]) -> str:
-    plan = desk.plan(GAIT)
+def simulate(service: GaitService, simulations: list[Simulated]) -> str:
+    plan = service.plan(GAIT)
     problem = simulation_problem(plan, physics_set())
     simulations.append(Simulated(report(problem, followed(problem)), problem))
     return problem.waypoints.content_hash
 
 
 def test_warnings_that_were_not_accepted_block_and_accepted_ones_are_recorded(opened: Opened) -> None:
-    desk = opened()
-    verdict = desk.check(GAIT).verdict
+    service = opened()
+    verdict = service.check(GAIT).verdict
     assert verdict is not None
     with pytest.raises(StateError, match="warnings stand, the first: "):
-        desk.approve(GAIT, Word("Ada"))
-    approved(desk)
-    [record] = desk.approvals.all(GAIT)
+        service.approve(GAIT, ApprovalRequest("Ada"))
+    approved(service)
+    [record] = service.approvals.all(GAIT)
     assert record.approval.warnings == tuple(finding.sentence for finding in verdict.warnings)
-    assert record.version == desk.versions.newest_number(GAIT)
+    assert record.version == service.versions.newest_number(GAIT)
     assert record.figures["simulated"] is False
 
 
 def test_a_newer_simulation_takes_verdict_and_approval_away_and_is_part_of_the_next(
     opened: Opened, simulations: list[Simulated]
 ) -> None:
-    desk = opened()
-    approved(desk)
-    [gone] = desk.take_simulation(simulate(desk, simulations))
+    service = opened()
+    approved(service)
+    [gone] = service.on_simulated(simulate(service, simulations))
     assert (gone.verdict, gone.approval) == (None, None)
     assert gone.revoked == "It was simulated since, and its approval is gone."
-    verdict = desk.check(GAIT).verdict
+    verdict = service.check(GAIT).verdict
     assert verdict is not None
     assert NOT_SIMULATED not in verdict.notes
     assert "simulated_slip" in {margin.rule for margin in verdict.margins}
@@ -85,12 +85,12 @@ def test_a_newer_simulation_takes_verdict_and_approval_away_and_is_part_of_the_n
 def test_a_verdict_that_a_simulation_overtook_cannot_be_approved_nor_sent(
     opened: Opened, simulations: list[Simulated]
 ) -> None:
-    desk = opened()
-    approved(desk)
-    simulate(desk, simulations)
+    service = opened()
+    approved(service)
+    simulate(service, simulations)
     with pytest.raises(StateError, match="The verdict is out of date"):
-        desk.approve(GAIT, ADA)
-    assert desk.confirmed(GAIT).approval is None
+        service.approve(GAIT, ADA)
+    assert service.confirmed(GAIT).approval is None
 
 
 def test_other_parameters_of_the_robot_take_the_approval_for_good(
@@ -99,9 +99,9 @@ def test_other_parameters_of_the_robot_take_the_approval_for_good(
     approved(opened())
     with monkeypatch.context() as other:
         other.setattr(RobotModel, "parameters_hash", property(lambda model: "0" * 64))
-        desk = opened()
-        desk.plan(GAIT)
-        said = desk.open_gait(GAIT).revoked
+        service = opened()
+        service.plan(GAIT)
+        said = service.open_gait(GAIT).revoked
         assert said == "The robot's parameters changed, and its approval is gone."
     again = opened()
     again.plan(GAIT)
@@ -109,13 +109,13 @@ def test_other_parameters_of_the_robot_take_the_approval_for_good(
 
 
 def test_approvals_are_compared_in_sentences(opened: Opened) -> None:
-    desk = opened()
-    approved(desk)
-    desk.edit(GAIT, desk.document(GAIT).with_options(stop_bound=0.9), "Stop bound", None)
-    assert desk.open_gait(GAIT).revoked == "The gait changed (“Stop bound”), and its approval is gone."
-    approved(desk, Word("Grace", accept_warnings=True))
-    after, before = desk.approvals.all(GAIT)
-    documents = (desk.approvals.document(GAIT, before), desk.approvals.document(GAIT, after))
+    service = opened()
+    approved(service)
+    service.edit(GAIT, service.document(GAIT).with_options(stop_bound=0.9), "Stop bound", None)
+    assert service.open_gait(GAIT).revoked == "The gait changed (“Stop bound”), and its approval is gone."
+    approved(service, ApprovalRequest("Grace", accept_warnings=True))
+    after, before = service.approvals.all(GAIT)
+    documents = (service.approvals.document(GAIT, before), service.approvals.document(GAIT, after))
     sides = [
         {
             "waypoints_hash": one.approval.waypoints_hash,
@@ -131,5 +131,5 @@ def test_approvals_are_compared_in_sentences(opened: Opened) -> None:
     unkept = approval_difference((None, documents[1]), sides[0], sides[1])
     assert "first release" in unkept[0].sentences[0]
     with pytest.raises(NotFoundError, match="has no approval 99"):
-        desk.approvals.get(GAIT, 99)
+        service.approvals.get(GAIT, 99)
     assert issubclass(NotFoundError, InputError)

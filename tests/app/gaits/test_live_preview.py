@@ -15,9 +15,9 @@ from app.gaits.live_preview import (
     FIRST_SECONDS,
     MOST_PLANS,
     NEXT_SECONDS,
-    LiveDesk,
+    LivePreview,
 )
-from app.gaits.normalise import settled
+from app.gaits.normalise import normalise
 from app.gaits.views import plan_view
 from app.jobs.timing_view import timing_content
 from app.plans.plan import make_plan
@@ -25,7 +25,7 @@ from app.plans.reach_outline_view import CORNERS, reach_rings
 from core.errors import InputError, StateError
 from core.gait.gait import Gait, heading_step, motion_problem
 from core.library.library import library
-from core.problem.initial_guess import initial_motion
+from core.problem.initial_guess import initial_guess
 from core.problem.motion_problem import MotionProblem, Workspace
 from core.robot.kinematics import BodyPose, feet_in_modules
 from core.robot.leg import strokes_from_foot
@@ -46,9 +46,9 @@ class RealTier(FixedTier):
         return solve_live(problem)
 
 
-def tiers() -> tuple[RealTier, LiveDesk]:
+def tiers() -> tuple[RealTier, LivePreview]:
     tier = RealTier(SolveStatus.SOLVED)
-    return tier, LiveDesk(tier)
+    return tier, LivePreview(tier)
 
 
 def toggled(gait: Gait, foot: int, sample: int) -> Gait:
@@ -62,8 +62,8 @@ def document(gait: Gait, **changes: Any) -> dict[str, Any]:
 
 
 def test_a_feasible_document_is_answered_with_a_checked_plan() -> None:
-    _, desk = tiers()
-    answer = desk.answer(WALK, document(WALK, step=[0.011, 0.011, 0.0]), False)
+    _, service = tiers()
+    answer = service.answer(WALK, document(WALK, step=[0.011, 0.011, 0.0]), False)
     assert (answer["status"], answer["method"], answer["remedies"]) == ("solved", "live", None)
     assert answer["check"]["max_violation"] <= 1e-6
     assert answer["plan"]["source"] == "live"
@@ -72,8 +72,8 @@ def test_a_feasible_document_is_answered_with_a_checked_plan() -> None:
 
 
 def test_an_infeasible_document_says_what_is_missing_and_offers_remedies() -> None:
-    desk = LiveDesk(FixedTier(SolveStatus.INFEASIBLE))
-    answer = desk.answer(WALK, None, True)
+    service = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    answer = service.answer(WALK, None, True)
     assert (answer["status"], answer["evidence"]) == ("infeasible", "proven")
     lack = answer["lacks"][0]
     assert (lack["family"], lack["first"], lack["last"], lack["feet"]) == ("workspace", 5, 9, [2])
@@ -87,48 +87,48 @@ def test_an_infeasible_document_says_what_is_missing_and_offers_remedies() -> No
 def test_a_search_that_was_cut_short_says_so() -> None:
     tier = FixedTier(SolveStatus.INFEASIBLE)
     tier.complete = False
-    answer = LiveDesk(tier).answer(WALK, None, True)
+    answer = LivePreview(tier).answer(WALK, None, True)
     assert (len(answer["remedies"]), answer["remedies_complete"]) == (1, False)
-    assert LiveDesk(tier).answer(WALK, None, False)["remedies_complete"] is None
+    assert LivePreview(tier).answer(WALK, None, False)["remedies_complete"] is None
 
 
 def test_only_the_first_answer_of_a_process_may_take_long() -> None:
     tier = FixedTier(SolveStatus.INFEASIBLE)
-    desk = LiveDesk(tier)
+    service = LivePreview(tier)
     for name, process in ((1, 7), (2, 7), (3, 8), (4, 8), (5, None)):
         tier.process_id = process
-        desk.answer(WALK, document(WALK, step=[0.001 * name, 0.0, 0.0]), False)
+        service.answer(WALK, document(WALK, step=[0.001 * name, 0.0, 0.0]), False)
     assert tier.waits == [FIRST_SECONDS, NEXT_SECONDS, FIRST_SECONDS, NEXT_SECONDS, FIRST_SECONDS]
 
 
 def test_a_process_that_gave_no_answer_is_still_waited_for() -> None:
     tier = FixedTier(SolveStatus.FAILED)
-    desk = LiveDesk(tier)
+    service = LivePreview(tier)
     for step in (0.001, 0.002):
-        desk.answer(WALK, document(WALK, step=[step, 0.0, 0.0]), False)
+        service.answer(WALK, document(WALK, step=[step, 0.0, 0.0]), False)
     assert tier.waits == [FIRST_SECONDS, FIRST_SECONDS]
 
 
 def test_a_solver_that_broke_off_is_left_alone_for_a_moment() -> None:
     tier, now = FixedTier(SolveStatus.FAILED), [100.0]
-    desk = LiveDesk(tier, lambda: now[0])
-    assert desk.answer(WALK, None, False)["status"] == "failed"
+    service = LivePreview(tier, lambda: now[0])
+    assert service.answer(WALK, None, False)["status"] == "failed"
     tier.status = SolveStatus.INFEASIBLE
     now[0] += FAILED_SECONDS - 0.1
-    assert desk.answer(WALK, None, False)["status"] == "failed"
+    assert service.answer(WALK, None, False)["status"] == "failed"
     assert tier.asked == 1
     now[0] += 0.2
-    assert desk.answer(WALK, None, False)["status"] == "infeasible"
+    assert service.answer(WALK, None, False)["status"] == "infeasible"
     assert tier.asked == 2
 
 
 @pytest.mark.parametrize("direction", [1, 2, 3, 4])
 def test_a_drawn_gait_turns_with_its_direction_and_its_answer_with_it(direction: int) -> None:
-    _, desk = tiers()
+    _, service = tiers()
     swing = WALK.timeline.swings()[1]
     drawn = toggled(WALK, swing.foot, swing.last)
-    straight = desk.answer(drawn, None, False)
-    turned = desk.answer(drawn, document(drawn, direction=direction), False)
+    straight = service.answer(drawn, None, False)
+    turned = service.answer(drawn, document(drawn, direction=direction), False)
     assert turned["status"] == straight["status"] == "solved"
     one, other = (np.array(answer["plan"]["contact"]) for answer in (straight, turned))
     assert (np.roll(one, direction - 1, axis=1) == other).all()
@@ -143,9 +143,9 @@ def test_locks_turn_with_the_direction_and_it_can_be_turned_back() -> None:
     locked = WALK.timeline.locked.copy()
     locked[1, 20] = True
     before = replace(WALK, timeline=replace(WALK.timeline, locked=locked))
-    turned, _ = settled(before, replace(before, direction=3))
+    turned, _ = normalise(before, replace(before, direction=3))
     assert np.argwhere(turned.timeline.locked).tolist() == [[3, 20]]
-    back, _ = settled(turned, replace(turned, direction=1))
+    back, _ = normalise(turned, replace(turned, direction=1))
     assert back == before
 
 
@@ -159,7 +159,7 @@ def test_a_plan_that_differs_in_its_heading_alone_has_another_hash() -> None:
 @pytest.mark.parametrize(("status", "is_known"), [(SolveStatus.SOLVED, True), (SolveStatus.FAILED, False)])
 def test_only_a_timing_that_was_found_has_a_violation(status: SolveStatus, is_known: bool) -> None:
     problem = motion_problem(WALK, load_robot(WALK.robot))
-    trajectory = initial_motion(problem)
+    trajectory = initial_guess(problem)
     timing = TimingResult(status, (), 16.0, 16.0, 0.1, 3, problem, trajectory, ())
     content = timing_content(WALK, timing)
     assert (content["max_violation"] is not None) is is_known
@@ -167,66 +167,66 @@ def test_only_a_timing_that_was_found_has_a_violation(status: SolveStatus, is_kn
 
 
 def test_remedies_of_a_feasible_gait_are_none() -> None:
-    _, desk = tiers()
-    assert desk.answer(WALK, None, True)["remedies"] == []
+    _, service = tiers()
+    assert service.answer(WALK, None, True)["remedies"] == []
 
 
 def test_a_gait_made_by_hand_is_planned_without_the_live_tier() -> None:
-    tier, desk = tiers()
-    answer = desk.answer(library()["walk-manual-0"].gait, None, True)
+    tier, service = tiers()
+    answer = service.answer(library()["walk-manual-0"].gait, None, True)
     assert (answer["method"], answer["status"], answer["remedies"]) == ("table", "manual", [])
     assert tier.asked == 0
 
 
 def test_the_same_motion_is_asked_for_once() -> None:
-    tier, desk = tiers()
-    first = desk.answer(WALK, None, False)
-    again = desk.answer(WALK, document(WALK, name="Another name"), False)
+    tier, service = tiers()
+    first = service.answer(WALK, None, False)
+    again = service.answer(WALK, document(WALK, name="Another name"), False)
     assert tier.asked == 1
     assert first["plan"]["hash"] == again["plan"]["hash"]
 
 
 def test_bad_documents_are_refused_with_a_sentence() -> None:
-    _, desk = tiers()
+    _, service = tiers()
     with pytest.raises(InputError, match="not a gait document"):
-        desk.answer(WALK, {"step": [1, 2, 3]}, False)
+        service.answer(WALK, {"step": [1, 2, 3]}, False)
     with pytest.raises(InputError, match="at most 200 mm"):
-        desk.answer(WALK, document(WALK, step=[10.0, 0.0, 0.0]), False)
+        service.answer(WALK, document(WALK, step=[10.0, 0.0, 0.0]), False)
     rows = document(WALK)["timeline"]["feet"]
     floating = {"sample_time": 0.4, "feet": [rows[0][:-1] + "0", *rows[1:]]}
     with pytest.raises(InputError, match="Foot 1 is in the air at the last sample"):
-        desk.answer(WALK, document(WALK, timeline=floating), False)
+        service.answer(WALK, document(WALK, timeline=floating), False)
 
 
 def test_a_locked_cell_holds_in_a_live_document_too() -> None:
-    _, desk = tiers()
+    _, service = tiers()
     locked = WALK.timeline.locked.copy()
     locked[1, 20] = True
     before = replace(WALK, timeline=replace(WALK.timeline, locked=locked))
     changed = gait_content(before)
     changed["timeline"]["feet"][1] = changed["timeline"]["feet"][1][:20] + "0" + "1" * 24
     with pytest.raises(StateError, match="Foot 2, sample 21 is locked"):
-        desk.answer(before, changed, False)
+        service.answer(before, changed, False)
 
 
 def test_more_iterations_are_drawn_as_an_edit_would() -> None:
-    desk = LiveDesk(FixedTier(SolveStatus.INFEASIBLE))
-    answer = desk.answer(WALK, document(WALK, iterations=2), False)
+    service = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    answer = service.answer(WALK, document(WALK, iterations=2), False)
     assert len(answer["plan"]["times"]) == 85
 
 
 def test_the_newest_plans_are_kept_by_hash_and_older_ones_make_room() -> None:
-    desk = LiveDesk(FixedTier(SolveStatus.INFEASIBLE))
+    service = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
     hashes = [
-        desk.answer(WALK, document(WALK, step=list(heading_step(WALK.orientation, step))), False)["plan"][
+        service.answer(WALK, document(WALK, step=list(heading_step(WALK.orientation, step))), False)["plan"][
             "hash"
         ]
         for step in np.linspace(0.001, 0.02, MOST_PLANS + 1)
     ]
-    assert desk.kept(hashes[-1]).hash == hashes[-1]
-    assert desk.kept(hashes[1]).trajectory is not None
+    assert service.kept(hashes[-1]).hash == hashes[-1]
+    assert service.kept(hashes[1]).trajectory is not None
     with pytest.raises(StateError, match="changed meanwhile"):
-        desk.kept(hashes[0])
+        service.kept(hashes[0])
 
 
 def test_a_plan_beyond_the_strokes_still_shows_what_strokes_it_needs() -> None:

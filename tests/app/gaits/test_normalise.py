@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.gaits.normalise import in_agreement, settled
+from app.gaits.normalise import normalise, normalise_imported
 from core.errors import InputError, StateError
 from core.gait.gait import Gait
 from core.library.library import library
@@ -41,7 +41,7 @@ def with_lock(before: Gait, foot: int, sample: int) -> Gait:
 def test_a_swing_drawn_on_borders_goes_into_the_table() -> None:
     walk = gait("walk-manual-0")
     later = drawn(drawn(walk, [(2, s) for s in range(10, 15)], False), [(2, s) for s in range(20, 25)], True)
-    changed, notice = settled(walk, later)
+    changed, notice = normalise(walk, later)
     assert notice is None
     assert changed.timeline == later.timeline
     assert table_of(changed).rows[2][:6] == ("Push A", "Wait A", "Wait A", "Lift A", "Step A", "Zero A")
@@ -49,7 +49,7 @@ def test_a_swing_drawn_on_borders_goes_into_the_table() -> None:
 
 def test_a_drawing_that_the_table_cannot_say_sets_it_aside_with_the_reason() -> None:
     walk = gait("walk-manual-0")
-    changed, notice = settled(walk, drawn(walk, [(2, 10)], False))
+    changed, notice = normalise(walk, drawn(walk, [(2, 10)], False))
     assert changed.segment_table is None
     assert notice is not None
     assert "Foot 3 would step from sample 12; segments change at samples 11 and 16." in notice
@@ -58,7 +58,7 @@ def test_a_drawing_that_the_table_cannot_say_sets_it_aside_with_the_reason() -> 
 
 def test_a_swing_without_room_for_a_step_stays_in_the_table_with_a_word() -> None:
     walk = gait("walk-manual-0")
-    changed, notice = settled(walk, drawn(walk, [(2, s) for s in range(15, 20)], False))
+    changed, notice = normalise(walk, drawn(walk, [(2, s) for s in range(15, 20)], False))
     assert changed.segment_table is not None
     assert notice is not None
     assert "its swing is too short for a step" in notice
@@ -66,10 +66,10 @@ def test_a_swing_without_room_for_a_step_stays_in_the_table_with_a_word() -> Non
 
 def test_a_drawing_of_a_turned_gait_is_carried_into_the_row_of_its_foot() -> None:
     walk = gait("walk-manual-0")
-    turned, _ = settled(walk, replace(walk, direction=2))
+    turned, _ = normalise(walk, replace(walk, direction=2))
     assert turned.timeline == walk.timeline.turned(1)
     emptied = drawn(turned, [(3, s) for s in range(10, 20)], False)
-    changed, notice = settled(turned, emptied)
+    changed, notice = normalise(turned, emptied)
     assert notice is None
     assert "Step A" not in table_of(changed).rows[2]
     assert table_of(changed).rows[3] == table_of(walk).rows[3]
@@ -78,7 +78,7 @@ def test_a_drawing_of_a_turned_gait_is_carried_into_the_row_of_its_foot() -> Non
 def test_a_table_that_changed_draws_the_timeline() -> None:
     walk = gait("walk-manual-0")
     finer = replace(walk, segment_table=replace(table_of(walk), samples_per_segment=3))
-    changed, notice = settled(walk, finer)
+    changed, notice = normalise(walk, finer)
     assert notice is None
     assert changed.timeline.sample_count == 33
 
@@ -91,33 +91,33 @@ def test_locks_hold_against_the_table_and_stay_with_it() -> None:
     link = tuple(("Wait A",) if f == 2 else one for f, one in enumerate(table_of(walk).link))
     without = replace(table_of(walk), rows=tuple(rows), link=link)
     with pytest.raises(StateError, match="Foot 3, sample 13 is locked"):
-        settled(locked, replace(locked, segment_table=without))
+        normalise(locked, replace(locked, segment_table=without))
     with pytest.raises(StateError, match="how many samples the table has"):
-        settled(locked, replace(locked, iterations=2))
+        normalise(locked, replace(locked, iterations=2))
     elsewhere = with_lock(walk, 1, 0)
-    kept, _ = settled(elsewhere, replace(elsewhere, segment_table=without))
+    kept, _ = normalise(elsewhere, replace(elsewhere, segment_table=without))
     assert kept.timeline.locked.sum() == 1
     assert kept.timeline.locked[1, 0]
-    turned, _ = settled(elsewhere, replace(elsewhere, direction=2))
+    turned, _ = normalise(elsewhere, replace(elsewhere, direction=2))
     assert turned.timeline.locked[2, 0]
 
 
 def test_a_timeline_drawn_by_hand_is_repeated_as_it_stands() -> None:
     walk = gait("walk")
-    longer, _ = settled(walk, drawn(walk, [(2, 10)], True))
-    thrice, _ = settled(longer, replace(longer, iterations=3))
+    longer, _ = normalise(walk, drawn(walk, [(2, 10)], True))
+    thrice, _ = normalise(longer, replace(longer, iterations=3))
     assert thrice.timeline.sample_count == 125
     assert [s.first for s in thrice.timeline.swings() if s.foot == 2] == [5, 45, 85]
     assert {s.last - s.first for s in thrice.timeline.swings() if s.foot == 2} == {5}
-    assert settled(thrice, replace(thrice, iterations=1))[0].timeline == longer.timeline
+    assert normalise(thrice, replace(thrice, iterations=1))[0].timeline == longer.timeline
 
 
 def test_iterations_and_direction_change_together() -> None:
     walk = gait("walk")
-    changed, _ = settled(walk, replace(walk, iterations=2, direction=3))
-    twice, _ = settled(walk, replace(walk, iterations=2))
+    changed, _ = normalise(walk, replace(walk, iterations=2, direction=3))
+    twice, _ = normalise(walk, replace(walk, iterations=2))
     assert changed.timeline == twice.timeline.turned(2)
-    assert settled(changed, replace(changed, iterations=1, direction=1))[0].timeline == walk.timeline
+    assert normalise(changed, replace(changed, iterations=1, direction=1))[0].timeline == walk.timeline
 
 
 def test_a_ring_of_six_turns_there_and_back() -> None:
@@ -126,8 +126,8 @@ def test_a_ring_of_six_turns_there_and_back() -> None:
     stance[1, 5:9] = False
     timeline = replace(walk.timeline, stance=stance, locked=np.zeros_like(stance))
     ring = replace(walk, robot="hexapod", order=(1, 2, 3, 4, 5, 6), timeline=timeline)
-    there, _ = settled(ring, replace(ring, direction=2))
-    back, _ = settled(there, replace(there, direction=1))
+    there, _ = normalise(ring, replace(ring, direction=2))
+    back, _ = normalise(there, replace(there, direction=1))
     assert there.timeline != ring.timeline
     assert back.timeline == ring.timeline
 
@@ -136,20 +136,20 @@ def test_iterations_that_are_not_alike_cannot_be_repeated() -> None:
     walk = gait("walk")
     uneven = drawn(replace(walk, iterations=3), [(2, 10)], True)
     with pytest.raises(InputError, match="not equally long"):
-        settled(uneven, replace(uneven, iterations=2))
+        normalise(uneven, replace(uneven, iterations=2))
 
 
 def test_locked_cells_are_not_lost_by_repeating() -> None:
     walk = with_lock(gait("walk"), 0, 0)
     with pytest.raises(StateError, match="locked cells"):
-        settled(walk, replace(walk, iterations=2))
+        normalise(walk, replace(walk, iterations=2))
 
 
 def test_the_timeline_of_a_document_from_elsewhere_follows_its_table() -> None:
     walk = gait("walk-manual-0")
-    assert in_agreement(walk) == (walk, None)
-    twice, notice = in_agreement(replace(walk, iterations=2, direction=2))
-    assert twice.timeline == settled(walk, replace(walk, iterations=2, direction=2))[0].timeline
+    assert normalise_imported(walk) == (walk, None)
+    twice, notice = normalise_imported(replace(walk, iterations=2, direction=2))
+    assert twice.timeline == normalise(walk, replace(walk, iterations=2, direction=2))[0].timeline
     assert notice is not None
     assert "follows the table" in notice
-    assert in_agreement(gait("walk")) == (gait("walk"), None)
+    assert normalise_imported(gait("walk")) == (gait("walk"), None)

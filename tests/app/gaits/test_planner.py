@@ -11,12 +11,12 @@ from typing import Any
 
 import pytest
 
-from app.gaits.approvals import Word
-from app.gaits.live_preview import LiveDesk
-from app.gaits.planner import PlanSettling
-from app.gaits.service import GaitDesk
+from app.gaits.approvals import ApprovalRequest
+from app.gaits.live_preview import LivePreview
+from app.gaits.planner import Planner
+from app.gaits.service import GaitService
 from app.plans.plan import PlanSource
-from app.session.command_queue import Session
+from app.session.command_queue import CommandQueue
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
 from core.errors import InputError
@@ -49,16 +49,16 @@ class Bench:
 
     def __init__(self, folder: Path, database: Database) -> None:
         self.tier = WatchedTier()
-        self.session = Session()
-        self.desk = GaitDesk(GaitFiles(folder), database, LiveDesk(self.tier).solve_for)
-        self.plans = PlanSettling(self.session, self.desk)
+        self.commands = CommandQueue()
+        self.service = GaitService(GaitFiles(folder), database, LivePreview(self.tier).solve_for)
+        self.plans = Planner(self.commands, self.service)
 
     def planned(self, action: Any, gait_id: str = WALK) -> Any:
         return self.plans.after(gait_id, action).result(DEADLINE)
 
     def close(self) -> None:
         self.plans.close()
-        self.session.close()
+        self.commands.close()
 
 
 @pytest.fixture
@@ -70,21 +70,23 @@ def bench(tmp_path: Path, database: Database) -> Iterator[Bench]:
 
 
 def shorter(bench: Bench) -> Any:
-    gait = bench.desk.document(WALK)
-    return bench.desk.edit(WALK, replace(gait, step=(0.005, 0.005, 0.0)), "Step", None)
+    gait = bench.service.document(WALK)
+    return bench.service.edit(WALK, replace(gait, step=(0.005, 0.005, 0.0)), "Step", None)
 
 
 def test_opening_checking_approving_and_opening_again_never_solve_on_the_session(
     bench: Bench, tmp_path: Path, database: Database
 ) -> None:
-    assert bench.planned(lambda: bench.desk.plan(WALK)).live.status is SolveStatus.SOLVED
-    bench.session.submit(lambda: shorter(bench)).result(DEADLINE)
-    bench.planned(lambda: bench.desk.check(WALK))
-    approval = bench.planned(lambda: bench.desk.approve(WALK, Word("Ada", accept_warnings=True))).approval
+    assert bench.planned(lambda: bench.service.plan(WALK)).live.status is SolveStatus.SOLVED
+    bench.commands.submit(lambda: shorter(bench)).result(DEADLINE)
+    bench.planned(lambda: bench.service.check(WALK))
+    approval = bench.planned(
+        lambda: bench.service.approve(WALK, ApprovalRequest("Ada", accept_warnings=True))
+    ).approval
     again = Bench(tmp_path, database)
-    opened = again.session.submit(lambda: again.desk.open_gait(WALK)).result(DEADLINE)
+    opened = again.commands.submit(lambda: again.service.open_gait(WALK)).result(DEADLINE)
     assert (opened.approval, again.tier.threads) == (None, [])
-    assert again.planned(lambda: again.desk.open_gait(WALK)).approval == approval
+    assert again.planned(lambda: again.service.open_gait(WALK)).approval == approval
     again.close()
     for threads in (bench.tier.threads, again.tier.threads):
         assert threads
@@ -93,9 +95,9 @@ def test_opening_checking_approving_and_opening_again_never_solve_on_the_session
 
 def test_the_session_does_other_things_while_a_plan_is_made(bench: Bench) -> None:
     bench.tier.go_on.clear()
-    shown = bench.plans.after(WALK, lambda: bench.desk.plan(WALK))
+    shown = bench.plans.after(WALK, lambda: bench.service.plan(WALK))
     wait_for(lambda: bool(bench.tier.threads), "the plan is being made")
-    assert bench.session.submit(lambda: 7).result(DEADLINE) == 7
+    assert bench.commands.submit(lambda: 7).result(DEADLINE) == 7
     assert not shown.done()
     bench.tier.go_on.set()
     assert shown.result(DEADLINE).source is PlanSource.LIVE
@@ -103,9 +105,9 @@ def test_the_session_does_other_things_while_a_plan_is_made(bench: Bench) -> Non
 
 def test_a_plan_of_a_document_that_changed_meanwhile_is_not_taken_for_the_new_one(bench: Bench) -> None:
     bench.tier.go_on.clear()
-    shown = bench.plans.after(WALK, lambda: bench.desk.plan(WALK))
+    shown = bench.plans.after(WALK, lambda: bench.service.plan(WALK))
     wait_for(lambda: bool(bench.tier.threads), "the plan is being made")
-    bench.session.submit(lambda: shorter(bench)).result(DEADLINE)
+    bench.commands.submit(lambda: shorter(bench)).result(DEADLINE)
     bench.tier.go_on.set()
     motion = shown.result(DEADLINE).trajectory
     assert motion is not None
@@ -116,11 +118,13 @@ def test_a_plan_of_a_document_that_changed_meanwhile_is_not_taken_for_the_new_on
 def test_a_kept_approval_is_not_lost_by_saving_before_its_plan_is_made(
     bench: Bench, tmp_path: Path, database: Database
 ) -> None:
-    bench.planned(lambda: bench.desk.check(WALK))
-    approval = bench.planned(lambda: bench.desk.approve(WALK, Word("Ada", accept_warnings=True))).approval
+    bench.planned(lambda: bench.service.check(WALK))
+    approval = bench.planned(
+        lambda: bench.service.approve(WALK, ApprovalRequest("Ada", accept_warnings=True))
+    ).approval
     again = Bench(tmp_path, database)
-    again.desk.save(WALK)
-    assert again.planned(lambda: again.desk.open_gait(WALK)).approval == approval
+    again.service.save(WALK)
+    assert again.planned(lambda: again.service.open_gait(WALK)).approval == approval
     again.close()
 
 
@@ -134,7 +138,7 @@ def test_what_an_unknown_gait_or_an_action_raises_goes_to_who_waits(bench: Bench
 def test_approval_record_version_and_state_are_one_transaction(
     bench: Bench, database: Database, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    bench.planned(lambda: bench.desk.check(WALK))
+    bench.planned(lambda: bench.service.check(WALK))
     written = []
     begin = database.writing
 
@@ -143,7 +147,7 @@ def test_approval_record_version_and_state_are_one_transaction(
         return begin()
 
     monkeypatch.setattr(database, "writing", counted)
-    bench.planned(lambda: bench.desk.approve(WALK, Word("Ada", accept_warnings=True)))
+    bench.planned(lambda: bench.service.approve(WALK, ApprovalRequest("Ada", accept_warnings=True)))
     assert len(written) == 1
     assert [row[0] for row in database.rows("SELECT gait FROM approval")] == [WALK]
-    assert bench.desk.versions.all(WALK)[0].kind == "approved"
+    assert bench.service.versions.all(WALK)[0].kind == "approved"

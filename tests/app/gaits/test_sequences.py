@@ -21,8 +21,8 @@ from app.documents.gait_json import (
 )
 from app.documents.trajectory_json import trajectory_content
 from app.export.gait_diagram import facts
-from app.gaits.approvals import Word
-from app.gaits.live_preview import LiveDesk
+from app.gaits.approvals import ApprovalRequest
+from app.gaits.live_preview import LivePreview
 from app.gaits.sequence_documents import (
     AskedPart,
     SourceState,
@@ -30,7 +30,7 @@ from app.gaits.sequence_documents import (
     refreshed,
     source_states,
 )
-from app.gaits.service import GaitDesk
+from app.gaits.service import GaitService
 from app.plans.plan import PlanSource
 from app.plans.sequence_plan import runs_without_result
 from app.store.database import Database
@@ -56,18 +56,18 @@ def gait(name: str) -> Gait:
 
 
 @pytest.fixture
-def desk(tmp_path: Path, database: Database) -> GaitDesk:
-    return GaitDesk(GaitFiles(tmp_path), database, lambda gait: solve_live)
+def service(tmp_path: Path, database: Database) -> GaitService:
+    return GaitService(GaitFiles(tmp_path), database, lambda gait: solve_live)
 
 
 @pytest.fixture
-def tour(desk: GaitDesk) -> str:
+def tour(service: GaitService) -> str:
     """Id of “walk 3×, turn 45°, S-gait 2×”."""
-    return desk.create(made_sequence("Tour", TOUR, desk.document)).id
+    return service.create(made_sequence("Tour", TOUR, service.document)).id
 
 
-def test_the_document_is_complete_and_comes_back_the_same(desk: GaitDesk, tour: str) -> None:
-    made = desk.document(tour)
+def test_the_document_is_complete_and_comes_back_the_same(service: GaitService, tour: str) -> None:
+    made = service.document(tour)
     text = json.dumps(gait_content(made))
     assert parse_gait(text) == made
     assert [part["source"] for part in json.loads(text)["sequence"]] == ["walk", "rotate", "s-gait"]
@@ -88,8 +88,8 @@ def test_a_gait_of_its_own_has_no_field_for_a_sequence() -> None:
     assert "sequence" not in gait_content(gait("walk"))
 
 
-def test_names_and_notes_of_parts_change_no_motion(desk: GaitDesk, tour: str) -> None:
-    made = desk.document(tour)
+def test_names_and_notes_of_parts_change_no_motion(service: GaitService, tour: str) -> None:
+    made = service.document(tour)
     first = replace(
         made.sequence[0], gait=replace(made.sequence[0].gait, name="Other", notes="!"), source=None
     )
@@ -98,18 +98,18 @@ def test_names_and_notes_of_parts_change_no_motion(desk: GaitDesk, tour: str) ->
     assert motion_hash(replace(made, sequence=(twice, *made.sequence[1:]))) != motion_hash(made)
 
 
-def test_a_part_is_migrated_like_a_document_of_its_own(desk: GaitDesk, tour: str) -> None:
-    content = gait_content(desk.document(tour))
+def test_a_part_is_migrated_like_a_document_of_its_own(service: GaitService, tour: str) -> None:
+    content = gait_content(service.document(tour))
     content["sequence"][1]["gait"]["version"] = 99
     with pytest.raises(InputError, match=r"sequence\.1\.gait has version 99"):
         gait_from_content(content)
 
 
-def test_one_trajectory_one_verdict_one_approval(desk: GaitDesk, tour: str) -> None:
-    plan = desk.plan(tour)
+def test_one_trajectory_one_verdict_one_approval(service: GaitService, tour: str) -> None:
+    plan = service.plan(tour)
     assert plan.source is PlanSource.SEQUENCE
     assert plan.trajectory is not None
-    assert np.array_equal(plan.trajectory.contact.T, desk.document(tour).timeline.stance)
+    assert np.array_equal(plan.trajectory.contact.T, service.document(tour).timeline.stance)
     assert [(part.name, part.is_transition) for part in plan.parts] == [
         ("Walk 10 mm", False),
         ("Rotate 15°", False),
@@ -117,48 +117,48 @@ def test_one_trajectory_one_verdict_one_approval(desk: GaitDesk, tour: str) -> N
     ]
     assert plan.parts[1].turn == pytest.approx(np.pi / 4, abs=1e-5)
     assert sum(part.duration or 0.0 for part in plan.parts) == pytest.approx(plan.trajectory.times[-1])
-    checked = desk.check(tour)
+    checked = service.check(tour)
     assert checked.verdict is not None
     assert checked.verdict.passed
-    approved = desk.approve(tour, Word("Ada", accept_warnings=True))
+    approved = service.approve(tour, ApprovalRequest("Ada", accept_warnings=True))
     assert plan.waypoints is not None
     assert approved.approval is not None
     assert approved.approval.waypoints_hash == plan.waypoints.content_hash
 
 
-def test_every_part_edit_is_an_undo_step_and_takes_the_approval_away(desk: GaitDesk, tour: str) -> None:
-    desk.check(tour)
-    desk.approve(tour, Word("Ada", accept_warnings=True))
-    before = desk.document(tour)
+def test_every_part_edit_is_an_undo_step_and_takes_the_approval_away(service: GaitService, tour: str) -> None:
+    service.check(tour)
+    service.approve(tour, ApprovalRequest("Ada", accept_warnings=True))
+    before = service.document(tour)
     turned = replace(before, sequence=before.sequence[::-1])
-    changed = desk.edit(tour, turned, "Move S-Gait up", None)
+    changed = service.edit(tour, turned, "Move S-Gait up", None)
     assert changed.approval is None
     assert changed.verdict is None
     assert changed.gait.timeline != before.timeline
-    assert desk.plan(tour).parts[0].name == "S-Gait 10 mm"
-    assert desk.undo(tour).gait == before
+    assert service.plan(tour).parts[0].name == "S-Gait 10 mm"
+    assert service.undo(tour).gait == before
 
 
 def test_two_people_change_different_parts_and_each_undoes_their_own(
     tmp_path: Path, database: Database
 ) -> None:
     pages = frozenset({"ada", "ben"})
-    desk = GaitDesk(GaitFiles(tmp_path), database, lambda gait: solve_live, lambda: pages)
-    tour = desk.create(made_sequence("Tour", TOUR, desk.document)).id
+    service = GaitService(GaitFiles(tmp_path), database, lambda gait: solve_live, lambda: pages)
+    tour = service.create(made_sequence("Tour", TOUR, service.document)).id
 
     def repeat(index: int, times: int, page: str) -> None:
-        parts = list(desk.document(tour).sequence)
+        parts = list(service.document(tour).sequence)
         parts[index] = replace(parts[index], times=times)
-        changed = replace(desk.document(tour), sequence=tuple(parts))
-        desk.edit(tour, changed, "Times", None, Author(page))
+        changed = replace(service.document(tour), sequence=tuple(parts))
+        service.edit(tour, changed, "Times", None, Author(page))
 
     repeat(0, 1, "ada")
     repeat(2, 1, "ben")
-    desk.undo(tour, Author("ada"))
-    assert [part.times for part in desk.document(tour).sequence] == [3, 3, 1]
-    assert desk.document(tour) == derived(desk.document(tour))
-    desk.undo(tour, Author("ben"))
-    assert desk.document(tour) == made_sequence("Tour", TOUR, desk.document)
+    service.undo(tour, Author("ada"))
+    assert [part.times for part in service.document(tour).sequence] == [3, 3, 1]
+    assert service.document(tour) == derived(service.document(tour))
+    service.undo(tour, Author("ben"))
+    assert service.document(tour) == made_sequence("Tour", TOUR, service.document)
 
 
 @pytest.mark.parametrize(
@@ -171,81 +171,81 @@ def test_two_people_change_different_parts_and_each_undoes_their_own(
     ],
 )
 def test_what_follows_from_the_parts_is_not_edited(
-    desk: GaitDesk, tour: str, change: dict[str, Any], field: str
+    service: GaitService, tour: str, change: dict[str, Any], field: str
 ) -> None:
-    before = desk.document(tour)
+    before = service.document(tour)
     with pytest.raises(InputError, match="follows from its parts") as refused:
-        desk.edit(tour, replace(before, **change), "Edit", None)
+        service.edit(tour, replace(before, **change), "Edit", None)
     assert refused.value.where == field
-    assert desk.document(tour) == before
+    assert service.document(tour) == before
 
 
-def test_a_painted_cell_is_refused(desk: GaitDesk, tour: str) -> None:
-    before = desk.document(tour)
+def test_a_painted_cell_is_refused(service: GaitService, tour: str) -> None:
+    before = service.document(tour)
     stance = before.timeline.stance.copy()
     stance[0, 3] = False
     painted = replace(before, timeline=replace(before.timeline, stance=stance))
     with pytest.raises(InputError, match="The timeline of a sequence follows from its parts"):
-        desk.edit(tour, painted, "Paint", None)
+        service.edit(tour, painted, "Paint", None)
 
 
-def test_the_last_part_stays(desk: GaitDesk, tour: str) -> None:
+def test_the_last_part_stays(service: GaitService, tour: str) -> None:
     with pytest.raises(InputError, match="at least one part"):
-        desk.edit(tour, replace(desk.document(tour), sequence=()), "Remove", None)
+        service.edit(tour, replace(service.document(tour), sequence=()), "Remove", None)
 
 
-def test_a_sequence_in_a_sequence_stands_for_its_parts(desk: GaitDesk, tour: str) -> None:
-    longer = made_sequence("Longer", [AskedPart(tour, 2), AskedPart("walk", 1)], desk.document)
+def test_a_sequence_in_a_sequence_stands_for_its_parts(service: GaitService, tour: str) -> None:
+    longer = made_sequence("Longer", [AskedPart(tour, 2), AskedPart("walk", 1)], service.document)
     assert [part.source for part in longer.sequence] == [*["walk", "rotate", "s-gait"] * 2, "walk"]
 
 
 def test_a_sequence_too_large_for_a_document_is_refused_when_it_is_made(
-    desk: GaitDesk, tour: str, monkeypatch: pytest.MonkeyPatch
+    service: GaitService, tour: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("app.documents.gait_json.MOST_BYTES", 4000)
     with pytest.raises(InputError, match=r"Tour would make a gait document of \d kB; at most 4 kB"):
-        made_sequence("Tour", TOUR, desk.document)
+        made_sequence("Tour", TOUR, service.document)
     with pytest.raises(InputError, match="at most 4 kB"):
-        refreshed(desk.document(tour), desk.document)
+        refreshed(service.document(tour), service.document)
 
 
-def test_a_changed_source_is_said_and_taken_over(desk: GaitDesk, tour: str) -> None:
+def test_a_changed_source_is_said_and_taken_over(service: GaitService, tour: str) -> None:
     walk = gait("walk")
-    desk.edit("walk", replace(walk, notes="only words"), "Notes", None)
-    assert set(source_states(desk.document(tour), desk.document)) == {SourceState.SAME}
-    desk.edit("walk", replace(walk, step=(0.005, 0.005, 0.0)), "Step", None)
-    states = source_states(desk.document(tour), desk.document)
+    service.edit("walk", replace(walk, notes="only words"), "Notes", None)
+    assert set(source_states(service.document(tour), service.document)) == {SourceState.SAME}
+    service.edit("walk", replace(walk, step=(0.005, 0.005, 0.0)), "Step", None)
+    states = source_states(service.document(tour), service.document)
     assert states == (SourceState.CHANGED, SourceState.SAME, SourceState.SAME)
-    assert desk.document(tour).sequence[0].gait == walk
-    only_second = refreshed(desk.document(tour), desk.document, 1)
-    assert only_second == desk.document(tour)
-    taken = refreshed(desk.document(tour), desk.document)
+    assert service.document(tour).sequence[0].gait == walk
+    only_second = refreshed(service.document(tour), service.document, 1)
+    assert only_second == service.document(tour)
+    taken = refreshed(service.document(tour), service.document)
     assert taken.sequence[0].gait.step == (0.005, 0.005, 0.0)
-    assert set(source_states(taken, desk.document)) == {SourceState.SAME}
+    assert set(source_states(taken, service.document)) == {SourceState.SAME}
 
 
-def test_a_source_that_is_gone_leaves_its_copy(desk: GaitDesk) -> None:
-    own = desk.create(replace(gait("walk"), name="Mine")).id
-    made = made_sequence("x", [AskedPart(own, 1)], desk.document)
-    desk.delete(own)
-    assert source_states(made, desk.document) == (SourceState.GONE,)
-    assert refreshed(made, desk.document) == made
+def test_a_source_that_is_gone_leaves_its_copy(service: GaitService) -> None:
+    own = service.create(replace(gait("walk"), name="Mine")).id
+    made = made_sequence("x", [AskedPart(own, 1)], service.document)
+    service.delete(own)
+    assert source_states(made, service.document) == (SourceState.GONE,)
+    assert refreshed(made, service.document) == made
 
 
 def test_a_part_without_a_motion_is_named(tmp_path: Path, database: Database) -> None:
-    tier = LiveDesk(FixedTier(SolveStatus.INFEASIBLE))
-    desk = GaitDesk(GaitFiles(tmp_path), database, tier.solve_for)
+    tier = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    service = GaitService(GaitFiles(tmp_path), database, tier.solve_for)
     asked = [AskedPart("walk-manual-0", 1), AskedPart("rotate", 1)]
-    tour = desk.create(made_sequence("Tour", asked, desk.document)).id
-    plan = desk.plan(tour)
+    tour = service.create(made_sequence("Tour", asked, service.document)).id
+    plan = service.plan(tour)
     assert plan.waypoints is None
     assert plan.source is PlanSource.DRAFT
     assert "Part 2, “Rotate 15°”, has no motion: There is none." in plan.note
     assert [part.source for part in plan.parts] == ["manual", "move", "draft"]
     assert plan.trajectory is not None
-    assert np.array_equal(plan.trajectory.contact.T, desk.document(tour).timeline.stance)
+    assert np.array_equal(plan.trajectory.contact.T, service.document(tour).timeline.stance)
     with pytest.raises(CheckError, match="Part 2"):
-        desk.check(tour)
+        service.check(tour)
 
 
 def odd_amble() -> Gait:
@@ -258,62 +258,66 @@ def odd_amble() -> Gait:
     return replace(made, name="Odd", segment_table=table, timeline=table.timeline(0.4))
 
 
-def test_feet_step_between_parts_where_they_have_to(desk: GaitDesk) -> None:
-    odd = desk.create(odd_amble()).id
-    tour = desk.create(made_sequence("x", [AskedPart(odd, 1), AskedPart("walk", 1)], desk.document)).id
-    plan = desk.plan(tour)
+def test_feet_step_between_parts_where_they_have_to(service: GaitService) -> None:
+    odd = service.create(odd_amble()).id
+    tour = service.create(made_sequence("x", [AskedPart(odd, 1), AskedPart("walk", 1)], service.document)).id
+    plan = service.plan(tour)
     assert plan.trajectory is not None
-    assert np.array_equal(plan.trajectory.contact.T, desk.document(tour).timeline.stance)
+    assert np.array_equal(plan.trajectory.contact.T, service.document(tour).timeline.stance)
     assert [(part.is_transition, part.source, part.feet) for part in plan.parts] == [
         (False, "manual", ()),
         (True, "steps", (0,)),
         (False, "live", ()),
     ]
-    checked = desk.check(tour)
+    checked = service.check(tour)
     assert checked.verdict is not None
     assert checked.verdict.passed
 
 
 def test_steps_that_cannot_be_made_are_named(tmp_path: Path, database: Database) -> None:
-    live = LiveDesk(FixedTier(SolveStatus.INFEASIBLE))
-    desk = GaitDesk(GaitFiles(tmp_path), database, live.solve_for)
-    odd = desk.create(odd_amble()).id
+    live = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    service = GaitService(GaitFiles(tmp_path), database, live.solve_for)
+    odd = service.create(odd_amble()).id
     asked = [AskedPart(odd, 1), AskedPart("walk-manual-0", 1)]
-    tour = desk.create(made_sequence("x", asked, desk.document)).id
-    note = desk.plan(tour).note
+    tour = service.create(made_sequence("x", asked, service.document)).id
+    note = service.plan(tour).note
     assert "Between Part 1, “Odd” and Part 2, “Manual walk, v0” feet have to step: foot 1 by 10.0 mm" in note
-    assert desk.plan(tour).waypoints is None
-    assert not desk.plan(tour).broke_off
+    assert service.plan(tour).waypoints is None
+    assert not service.plan(tour).broke_off
 
 
 def test_a_solver_that_broke_off_is_asked_again(tmp_path: Path, database: Database) -> None:
     tier = FixedTier(SolveStatus.FAILED)
-    desk = GaitDesk(GaitFiles(tmp_path), database, lambda gait: lambda problem: tier.solve(problem, 1.0))
-    tour = desk.create(made_sequence("Tour", [AskedPart("rotate", 1)], desk.document)).id
-    assert desk.plan(tour).broke_off
-    first = desk.plan(tour)
-    desk.ask_again(tour)
-    assert desk.plan(tour) is not first
+    service = GaitService(
+        GaitFiles(tmp_path), database, lambda gait: lambda problem: tier.solve(problem, 1.0)
+    )
+    tour = service.create(made_sequence("Tour", [AskedPart("rotate", 1)], service.document)).id
+    assert service.plan(tour).broke_off
+    first = service.plan(tour)
+    service.ask_again(tour)
+    assert service.plan(tour) is not first
 
 
-def test_a_parts_exact_result_becomes_part_of_the_plan(desk: GaitDesk, tour: str, database: Database) -> None:
-    run_gait = run_of(desk.document(tour).sequence[0]).gait
+def test_a_parts_exact_result_becomes_part_of_the_plan(
+    service: GaitService, tour: str, database: Database
+) -> None:
+    run_gait = run_of(service.document(tour).sequence[0]).gait
     solved = solve_live(motion_problem(run_gait, load_robot(run_gait.robot)))
     content = {
         "iterations": 9, "solve_seconds": 0.5, "max_violation": 1e-9,
         "trajectory": trajectory_content(solved.trajectory),
     }  # fmt: skip
-    desk.check(tour)
-    touched = desk.take_result(motion_hash(run_gait), content)
+    service.check(tour)
+    touched = service.on_result(motion_hash(run_gait), content)
     assert [one.id for one in touched] == [tour]
     assert touched[0].verdict is None
-    assert [part.source for part in desk.plan(tour).parts] == ["optimised", "live", "live"]
-    left = runs_without_result(desk.document(tour), database.result)
+    assert [part.source for part in service.plan(tour).parts] == ["optimised", "live", "live"]
+    left = runs_without_result(service.document(tour), database.result)
     assert [run.name for run in left] == ["Rotate 15°", "S-Gait 10 mm"]
 
 
 def test_five_parts_answer_well_under_a_second() -> None:
-    tier = LiveDesk(_Here())
+    tier = LivePreview(_Here())
     names = ["walk", "rotate", "walk-manual-0", "s-gait", "amble"]
     before = sequence_gait("x", [SequencePart(gait(name), 2, name) for name in names])
     tier.answer(before, None, False)
@@ -346,11 +350,13 @@ def test_the_diagram_names_the_parts_and_how_many_have_no_room() -> None:
 
 
 @pytest.mark.parametrize("robot", ["deltawalker5", "hexapod"])
-def test_a_file_of_a_part_for_another_robot_makes_no_motion(desk: GaitDesk, tour: str, robot: str) -> None:
-    content = gait_content(desk.document(tour))
+def test_a_file_of_a_part_for_another_robot_makes_no_motion(
+    service: GaitService, tour: str, robot: str
+) -> None:
+    content = gait_content(service.document(tour))
     other = with_robot(gait("s-gait"), load_robot(robot))
     content["sequence"][2]["gait"] = gait_content(other)
-    plan = desk.planned(gait_from_content(content))
+    plan = service.planned(gait_from_content(content))
     assert plan.trajectory is None
     assert plan.refusal is not None
     assert "Part 3, “S-Gait 10 mm” is for the robot" in plan.refusal.sentence

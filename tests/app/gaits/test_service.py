@@ -10,10 +10,10 @@ import pytest
 
 from app.documents.gait_json import motion_hash
 from app.documents.trajectory_json import trajectory_content
-from app.gaits.approvals import Word
-from app.gaits.live_preview import FAILED_SECONDS, LiveDesk
-from app.gaits.service import GaitDesk
-from app.gaits.summaries import GaitList
+from app.gaits.approvals import ApprovalRequest
+from app.gaits.live_preview import FAILED_SECONDS, LivePreview
+from app.gaits.service import GaitService
+from app.gaits.summaries import GaitSummaries
 from app.plans.plan import PlanSource
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
@@ -28,19 +28,19 @@ MANUAL = "walk-manual-0"
 
 
 @pytest.fixture
-def desk(tmp_path: Path, database: Database) -> GaitDesk:
+def service(tmp_path: Path, database: Database) -> GaitService:
     return reopened(tmp_path, database)
 
 
-def reopened(tmp_path: Path, database: Database) -> GaitDesk:
+def reopened(tmp_path: Path, database: Database) -> GaitService:
     """A desk whose live tier finds everything infeasible."""
     tier = FixedTier(SolveStatus.INFEASIBLE)
-    return GaitDesk(GaitFiles(tmp_path), database, LiveDesk(tier).solve_for)
+    return GaitService(GaitFiles(tmp_path), database, LivePreview(tier).solve_for)
 
 
-def solving(tmp_path: Path, database: Database) -> GaitDesk:
+def solving(tmp_path: Path, database: Database) -> GaitService:
     """A desk with the live tier itself."""
-    return GaitDesk(GaitFiles(tmp_path), database, lambda gait: solve_live)
+    return GaitService(GaitFiles(tmp_path), database, lambda gait: solve_live)
 
 
 def toggled(gait: Gait, foot: int, sample: int) -> Gait:
@@ -49,126 +49,126 @@ def toggled(gait: Gait, foot: int, sample: int) -> Gait:
     return replace(gait, timeline=replace(gait.timeline, stance=stance))
 
 
-def edit(desk: GaitDesk, gait_id: str, foot: int = 1, sample: int = 20) -> None:
-    desk.edit(gait_id, toggled(desk.open_gait(gait_id).gait, foot, sample), "Toggle", None)
+def edit(service: GaitService, gait_id: str, foot: int = 1, sample: int = 20) -> None:
+    service.edit(gait_id, toggled(service.open_gait(gait_id).gait, foot, sample), "Toggle", None)
 
 
 def test_an_edit_is_one_undo_step_that_survives_a_restart(
-    desk: GaitDesk, tmp_path: Path, database: Database
+    service: GaitService, tmp_path: Path, database: Database
 ) -> None:
-    before = desk.open_gait(WALK).gait
-    edit(desk, WALK)
-    edit(desk, WALK, sample=21)
+    before = service.open_gait(WALK).gait
+    edit(service, WALK)
+    edit(service, WALK, sample=21)
     again = reopened(tmp_path, database)
-    assert again.open_gait(WALK).gait == desk.open_gait(WALK).gait
+    assert again.open_gait(WALK).gait == service.open_gait(WALK).gait
     assert again.open_gait(WALK).undo_label() == "Toggle"
     again.undo(WALK)
     again.undo(WALK)
     assert again.open_gait(WALK).gait == before
     again.redo(WALK)
     again.redo(WALK)
-    assert again.open_gait(WALK).gait == desk.open_gait(WALK).gait
+    assert again.open_gait(WALK).gait == service.open_gait(WALK).gait
     with pytest.raises(StateError, match="nothing to redo"):
         again.redo(WALK)
 
 
-def test_an_edit_after_undo_forgets_what_could_be_redone(desk: GaitDesk) -> None:
-    edit(desk, WALK)
-    desk.undo(WALK)
-    edit(desk, WALK, foot=3)
-    assert desk.open_gait(WALK).redo_label() is None
+def test_an_edit_after_undo_forgets_what_could_be_redone(service: GaitService) -> None:
+    edit(service, WALK)
+    service.undo(WALK)
+    edit(service, WALK, foot=3)
+    assert service.open_gait(WALK).redo_label() is None
     with pytest.raises(StateError, match="nothing to undo"):
-        desk.undo(desk.undo(WALK).id)
+        service.undo(service.undo(WALK).id)
 
 
-def test_a_stale_edit_is_refused_and_nothing_is_lost(desk: GaitDesk) -> None:
-    seen = desk.open_gait(WALK)
-    edit(desk, WALK)
-    current = desk.open_gait(WALK)
+def test_a_stale_edit_is_refused_and_nothing_is_lost(service: GaitService) -> None:
+    seen = service.open_gait(WALK)
+    edit(service, WALK)
+    current = service.open_gait(WALK)
     with pytest.raises(StateError, match="changed elsewhere"):
-        desk.edit(WALK, toggled(seen.gait, 0, 3), "Toggle", seen.revision)
-    assert desk.open_gait(WALK) is current
+        service.edit(WALK, toggled(seen.gait, 0, 3), "Toggle", seen.revision)
+    assert service.open_gait(WALK) is current
 
 
 def test_saving_writes_a_file_that_another_studio_reads(
-    desk: GaitDesk, tmp_path: Path, database: Database
+    service: GaitService, tmp_path: Path, database: Database
 ) -> None:
-    edit(desk, WALK)
-    assert desk.open_gait(WALK).edited
-    saved = desk.save(WALK)
+    edit(service, WALK)
+    assert service.open_gait(WALK).edited
+    saved = service.save(WALK)
     assert not saved.edited
     assert reopened(tmp_path, database).open_gait(WALK).saved == saved.gait
     assert not list(tmp_path.glob("gaits/.*"))
 
 
-def test_a_deleted_gait_can_be_restored(desk: GaitDesk) -> None:
-    created = desk.create(replace(library()[WALK].gait, name="My walk"))
+def test_a_deleted_gait_can_be_restored(service: GaitService) -> None:
+    created = service.create(replace(library()[WALK].gait, name="My walk"))
     assert created.id == "my-walk"
-    assert desk.create(created.gait).id == "my-walk-2"
-    desk.delete(created.id)
+    assert service.create(created.gait).id == "my-walk-2"
+    service.delete(created.id)
     with pytest.raises(NotFoundError):
-        desk.open_gait(created.id)
-    assert desk.restore(created.id).gait == created.gait
+        service.open_gait(created.id)
+    assert service.restore(created.id).gait == created.gait
     with pytest.raises(StateError, match="comes with the program"):
-        desk.delete(WALK)
+        service.delete(WALK)
 
 
 def test_deleted_gaits_are_listed_by_their_last_names_until_they_are_back(
-    desk: GaitDesk, tmp_path: Path, database: Database
+    service: GaitService, tmp_path: Path, database: Database
 ) -> None:
-    assert desk.deleted() == ()
+    assert service.deleted() == ()
     began = time.time() - 1
-    made = [desk.create(replace(library()[WALK].gait, name=name)) for name in ("One", "Two", "Deleted")]
+    made = [service.create(replace(library()[WALK].gait, name=name)) for name in ("One", "Two", "Deleted")]
     assert [gait.id for gait in made] == ["one", "two", "deleted-2"]  # /api/gaits/deleted is the list itself
-    desk.edit("one", replace(made[0].gait, name="First"), "Rename", None)
+    service.edit("one", replace(made[0].gait, name="First"), "Rename", None)
     for gait in made:
-        desk.delete(gait.id)
+        service.delete(gait.id)
     (tmp_path / "trash" / "broken.json").write_text("{")
     listed = reopened(tmp_path, database).deleted()
     assert {gait.id: gait.name for gait in listed} == {"one": "First", "two": "Two", "deleted-2": "Deleted"}
     assert [gait.when for gait in listed] == sorted((gait.when for gait in listed), reverse=True)
     assert all(began < gait.when <= time.time() for gait in listed)
-    desk.restore("two")
-    assert "two" not in [gait.id for gait in desk.deleted()]
+    service.restore("two")
+    assert "two" not in [gait.id for gait in service.deleted()]
 
 
 @pytest.mark.parametrize("gait_id", ["nope", "../walk", "", "Walk", "a" * 200])
-def test_unknown_ids_are_refused(desk: GaitDesk, gait_id: str) -> None:
+def test_unknown_ids_are_refused(service: GaitService, gait_id: str) -> None:
     with pytest.raises(InputError):
-        desk.open_gait(gait_id)
+        service.open_gait(gait_id)
 
 
-def test_a_damaged_file_is_named_and_the_others_are_listed(desk: GaitDesk, tmp_path: Path) -> None:
+def test_a_damaged_file_is_named_and_the_others_are_listed(service: GaitService, tmp_path: Path) -> None:
     (tmp_path / "gaits" / "broken.json").write_text("{")
     with pytest.raises(InputError, match=r"broken\.json is not JSON"):
-        desk.open_gait("broken")
-    assert {line["id"] for line in GaitList(desk).lines()} == set(library())
+        service.open_gait("broken")
+    assert {line["id"] for line in GaitSummaries(service).lines()} == set(library())
 
 
-def test_drawing_over_a_segment_table_sets_it_aside_until_undo(desk: GaitDesk) -> None:
-    edit(desk, MANUAL, foot=0, sample=3)
-    drawn = desk.open_gait(MANUAL)
+def test_drawing_over_a_segment_table_sets_it_aside_until_undo(service: GaitService) -> None:
+    edit(service, MANUAL, foot=0, sample=3)
+    drawn = service.open_gait(MANUAL)
     assert drawn.gait.segment_table is None
     assert drawn.notice is not None
-    assert desk.undo(MANUAL).gait.segment_table is not None
+    assert service.undo(MANUAL).gait.segment_table is not None
 
 
-def test_turning_a_manual_gait_turns_its_timeline(desk: GaitDesk) -> None:
-    gait = desk.open_gait(MANUAL).gait
-    turned = desk.edit(MANUAL, replace(gait, direction=2), "Turn", None)
+def test_turning_a_manual_gait_turns_its_timeline(service: GaitService) -> None:
+    gait = service.open_gait(MANUAL).gait
+    turned = service.edit(MANUAL, replace(gait, direction=2), "Turn", None)
     assert turned.gait.segment_table is not None
     assert turned.gait.timeline == gait.timeline.turned(1)
 
 
 def test_a_manual_gait_is_checked_approved_and_the_approval_survives_a_restart(
-    desk: GaitDesk, tmp_path: Path, database: Database
+    service: GaitService, tmp_path: Path, database: Database
 ) -> None:
     with pytest.raises(StateError, match="Check this gait first"):
-        desk.approve(MANUAL, Word("Ada", accept_warnings=True))
-    desk.check(MANUAL)
-    approval = desk.approve(MANUAL, Word("Ada", accept_warnings=True)).approval
+        service.approve(MANUAL, ApprovalRequest("Ada", accept_warnings=True))
+    service.check(MANUAL)
+    approval = service.approve(MANUAL, ApprovalRequest("Ada", accept_warnings=True)).approval
     assert approval is not None
-    waypoints = desk.plan(MANUAL).waypoints
+    waypoints = service.plan(MANUAL).waypoints
     assert waypoints is not None
     assert approval.waypoints_hash == waypoints.content_hash
     again = reopened(tmp_path, database)
@@ -176,77 +176,77 @@ def test_a_manual_gait_is_checked_approved_and_the_approval_survives_a_restart(
     assert again.open_gait(MANUAL).approval == approval
 
 
-def test_any_edit_takes_the_approval_away_and_undo_does_not_bring_it_back(desk: GaitDesk) -> None:
-    desk.check(MANUAL)
-    desk.approve(MANUAL, Word("Ada", accept_warnings=True))
-    gait = desk.open_gait(MANUAL).gait
-    desk.edit(MANUAL, replace(gait, step=(0.006, 0.006, 0.0)), "Step", None)
-    assert desk.open_gait(MANUAL).approval is None
-    assert desk.open_gait(MANUAL).verdict is None
-    assert desk.undo(MANUAL).approval is None
+def test_any_edit_takes_the_approval_away_and_undo_does_not_bring_it_back(service: GaitService) -> None:
+    service.check(MANUAL)
+    service.approve(MANUAL, ApprovalRequest("Ada", accept_warnings=True))
+    gait = service.open_gait(MANUAL).gait
+    service.edit(MANUAL, replace(gait, step=(0.006, 0.006, 0.0)), "Step", None)
+    assert service.open_gait(MANUAL).approval is None
+    assert service.open_gait(MANUAL).verdict is None
+    assert service.undo(MANUAL).approval is None
 
 
-def test_a_drawing_is_a_draft_that_cannot_be_approved(desk: GaitDesk) -> None:
-    assert desk.plan(WALK).source is PlanSource.DRAFT
-    desk.check(WALK)
+def test_a_drawing_is_a_draft_that_cannot_be_approved(service: GaitService) -> None:
+    assert service.plan(WALK).source is PlanSource.DRAFT
+    service.check(WALK)
     with pytest.raises(StateError, match="only drawn"):
-        desk.approve(WALK, Word("Ada", accept_warnings=True))
+        service.approve(WALK, ApprovalRequest("Ada", accept_warnings=True))
 
 
-def test_a_gait_that_ends_in_the_air_keeps_its_drawing_and_says_why(desk: GaitDesk) -> None:
-    edit(desk, WALK, foot=2, sample=44)
-    plan = desk.plan(WALK)
+def test_a_gait_that_ends_in_the_air_keeps_its_drawing_and_says_why(service: GaitService) -> None:
+    edit(service, WALK, foot=2, sample=44)
+    plan = service.plan(WALK)
     assert plan.trajectory is None
     assert plan.refusal is not None
     assert "Foot 3 is in the air at the last sample" in plan.refusal.sentence
     with pytest.raises(CheckError, match="last sample"):
-        desk.check(WALK)
+        service.check(WALK)
 
 
-def test_a_result_for_an_older_version_is_not_shown_as_current(desk: GaitDesk) -> None:
-    old = motion_hash(desk.open_gait(WALK).gait)
-    edit(desk, WALK)
-    assert desk.take_result(old, {"trajectory": {}}) == ()
-    assert desk.plan(WALK).source is PlanSource.DRAFT
+def test_a_result_for_an_older_version_is_not_shown_as_current(service: GaitService) -> None:
+    old = motion_hash(service.open_gait(WALK).gait)
+    edit(service, WALK)
+    assert service.on_result(old, {"trajectory": {}}) == ()
+    assert service.plan(WALK).source is PlanSource.DRAFT
 
 
-def test_locked_cells_stay_until_they_are_unlocked(desk: GaitDesk) -> None:
-    gait = desk.open_gait(WALK).gait
+def test_locked_cells_stay_until_they_are_unlocked(service: GaitService) -> None:
+    gait = service.open_gait(WALK).gait
     locked = gait.timeline.locked.copy()
     locked[1, 20] = True
-    desk.edit(WALK, replace(gait, timeline=replace(gait.timeline, locked=locked)), "Lock", None)
+    service.edit(WALK, replace(gait, timeline=replace(gait.timeline, locked=locked)), "Lock", None)
     with pytest.raises(StateError, match="Foot 2, sample 21 is locked"):
-        edit(desk, WALK)
+        edit(service, WALK)
     with pytest.raises(StateError, match="locked cells"):
-        desk.redraw(WALK, (1, 2, 3, 4), 6, 5)
-    edit(desk, WALK, sample=22)
+        service.redraw(WALK, (1, 2, 3, 4), 6, 5)
+    edit(service, WALK, sample=22)
 
 
-def test_more_iterations_draw_the_timeline_anew(desk: GaitDesk) -> None:
-    gait = desk.open_gait(WALK).gait
-    tripled = desk.edit(WALK, replace(gait, iterations=3), "Three iterations", None).gait
+def test_more_iterations_draw_the_timeline_anew(service: GaitService) -> None:
+    gait = service.open_gait(WALK).gait
+    tripled = service.edit(WALK, replace(gait, iterations=3), "Three iterations", None).gait
     assert tripled.timeline.sample_count == 125
     assert len(tripled.timeline.swings()) == 12
 
 
-def test_an_approval_is_of_the_verdict_that_was_seen(desk: GaitDesk) -> None:
-    desk.check(MANUAL)
+def test_an_approval_is_of_the_verdict_that_was_seen(service: GaitService) -> None:
+    service.check(MANUAL)
     with pytest.raises(StateError, match="Another verdict"):
-        desk.approve(MANUAL, Word("Ada", "0" * 64))
+        service.approve(MANUAL, ApprovalRequest("Ada", "0" * 64))
 
 
-def test_a_stored_result_that_the_checker_does_not_confirm_is_a_draft(desk: GaitDesk) -> None:
-    gait = desk.open_gait(WALK).gait
-    drawn = desk.plan(WALK).trajectory
+def test_a_stored_result_that_the_checker_does_not_confirm_is_a_draft(service: GaitService) -> None:
+    gait = service.open_gait(WALK).gait
+    drawn = service.plan(WALK).trajectory
     assert drawn is not None
-    desk.take_result(motion_hash(gait), {"trajectory": trajectory_content(drawn)})
-    assert desk.plan(WALK).source is PlanSource.DRAFT
+    service.on_result(motion_hash(gait), {"trajectory": trajectory_content(drawn)})
+    assert service.plan(WALK).source is PlanSource.DRAFT
 
 
-def test_two_feet_in_the_air_are_named_at_once(desk: GaitDesk) -> None:
+def test_two_feet_in_the_air_are_named_at_once(service: GaitService) -> None:
     for sample in range(15, 20):
-        edit(desk, WALK, foot=0, sample=sample)
-    plan = desk.plan(WALK)
+        edit(service, WALK, foot=0, sample=sample)
+    plan = service.plan(WALK)
     words = plan.note if plan.refusal is None else plan.refusal.sentence
     assert "Feet 1, 2 are in the air together at samples 16 to 20" in words
 
@@ -254,14 +254,14 @@ def test_two_feet_in_the_air_are_named_at_once(desk: GaitDesk) -> None:
 def test_a_drawn_gait_is_solved_approved_and_its_approval_survives_a_restart(
     tmp_path: Path, database: Database
 ) -> None:
-    desk = solving(tmp_path, database)
-    assert desk.plan(WALK).source is PlanSource.LIVE
-    assert "live tier" in desk.plan(WALK).note
-    desk.check(WALK)
-    approval = desk.approve(WALK, Word("Ada", accept_warnings=True)).approval
+    service = solving(tmp_path, database)
+    assert service.plan(WALK).source is PlanSource.LIVE
+    assert "live tier" in service.plan(WALK).note
+    service.check(WALK)
+    approval = service.approve(WALK, ApprovalRequest("Ada", accept_warnings=True)).approval
     assert approval is not None
     again = solving(tmp_path, database)
-    assert again.plan(WALK).hash == desk.plan(WALK).hash
+    assert again.plan(WALK).hash == service.plan(WALK).hash
     assert again.open_gait(WALK).approval == approval
     # Another answer of the solver for the same document is not what was approved.
     other = reopened(tmp_path, database)
@@ -270,16 +270,16 @@ def test_a_drawn_gait_is_solved_approved_and_its_approval_survives_a_restart(
 
 
 def test_an_edit_takes_the_approval_of_a_live_plan_away(tmp_path: Path, database: Database) -> None:
-    desk = solving(tmp_path, database)
-    desk.check(WALK)
-    desk.approve(WALK, Word("Ada", accept_warnings=True))
-    edit(desk, WALK, foot=1, sample=20)
-    assert desk.open_gait(WALK).approval is None
-    assert desk.open_gait(WALK).verdict is None
+    service = solving(tmp_path, database)
+    service.check(WALK)
+    service.approve(WALK, ApprovalRequest("Ada", accept_warnings=True))
+    edit(service, WALK, foot=1, sample=20)
+    assert service.open_gait(WALK).approval is None
+    assert service.open_gait(WALK).verdict is None
 
 
-def test_an_infeasible_gait_shows_the_nearest_motion_and_what_it_lacks(desk: GaitDesk) -> None:
-    plan = desk.plan(WALK)
+def test_an_infeasible_gait_shows_the_nearest_motion_and_what_it_lacks(service: GaitService) -> None:
+    plan = service.plan(WALK)
     assert plan.source is PlanSource.DRAFT
     assert plan.trajectory is not None
     assert plan.live is not None
@@ -290,18 +290,18 @@ def test_a_live_tier_that_broke_off_is_asked_again_and_the_old_verdict_is_gone(
     tmp_path: Path, database: Database
 ) -> None:
     tier, now = FixedTier(SolveStatus.FAILED), [0.0]
-    desk = GaitDesk(GaitFiles(tmp_path), database, LiveDesk(tier, lambda: now[0]).solve_for)
-    desk.check(WALK)
-    desk.ask_again(WALK)
-    assert desk.open_gait(WALK).verdict is not None
+    service = GaitService(GaitFiles(tmp_path), database, LivePreview(tier, lambda: now[0]).solve_for)
+    service.check(WALK)
+    service.ask_again(WALK)
+    assert service.open_gait(WALK).verdict is not None
     assert tier.asked == 1
     tier.status = SolveStatus.INFEASIBLE
     asked = tier.asked
     now[0] += FAILED_SECONDS
-    desk.ask_again(WALK)
-    desk.ask_again(WALK)
+    service.ask_again(WALK)
+    service.ask_again(WALK)
     assert tier.asked == asked + 1
-    live = desk.plan(WALK).live
+    live = service.plan(WALK).live
     assert live is not None
     assert live.status is SolveStatus.INFEASIBLE
 
@@ -310,7 +310,7 @@ def test_what_the_live_tier_says_is_solved_counts_only_if_the_checker_confirms_i
     tmp_path: Path, database: Database
 ) -> None:
     tier = FixedTier(SolveStatus.SOLVED)
-    desk = GaitDesk(GaitFiles(tmp_path), database, LiveDesk(tier).solve_for)
-    plan = desk.plan(WALK)
+    service = GaitService(GaitFiles(tmp_path), database, LivePreview(tier).solve_for)
+    plan = service.plan(WALK)
     assert plan.source is PlanSource.DRAFT
     assert "the checker found" in plan.note

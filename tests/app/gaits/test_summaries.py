@@ -13,9 +13,9 @@ from typing import Any
 import pytest
 
 from app.bench.page.gait_list import fill
-from app.gaits.live_preview import LiveDesk
-from app.gaits.service import GaitDesk
-from app.gaits.summaries import GaitList
+from app.gaits.live_preview import LivePreview
+from app.gaits.service import GaitService
+from app.gaits.summaries import GaitSummaries
 from app.session.event_hub import Subscriber
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
@@ -48,21 +48,21 @@ def files(tmp_path: Path) -> CountedFiles:
     return CountedFiles(tmp_path)
 
 
-def open_desk(files: GaitFiles, database: Database) -> GaitDesk:
-    return GaitDesk(files, database, LiveDesk(FixedTier(SolveStatus.INFEASIBLE)).solve_for)
+def open_desk(files: GaitFiles, database: Database) -> GaitService:
+    return GaitService(files, database, LivePreview(FixedTier(SolveStatus.INFEASIBLE)).solve_for)
 
 
 @pytest.fixture
-def desk(files: CountedFiles, database: Database) -> GaitDesk:
+def service(files: CountedFiles, database: Database) -> GaitService:
     return open_desk(files, database)
 
 
-def line(gaits: GaitList, gait_id: str) -> dict[str, Any]:
+def line(gaits: GaitSummaries, gait_id: str) -> dict[str, Any]:
     return next(line for line in gaits.lines() if line["id"] == gait_id)
 
 
-def test_every_file_is_read_once(desk: GaitDesk, files: CountedFiles) -> None:
-    gaits = GaitList(desk)
+def test_every_file_is_read_once(service: GaitService, files: CountedFiles) -> None:
+    gaits = GaitSummaries(service)
     lines = gaits.lines()
     assert len(lines) == COUNT + len(library())
     assert sorted(files.read_ids) == sorted(files.ids())
@@ -71,55 +71,55 @@ def test_every_file_is_read_once(desk: GaitDesk, files: CountedFiles) -> None:
 
 
 def test_a_line_follows_edits_saves_and_other_programs(
-    desk: GaitDesk, files: CountedFiles, tmp_path: Path, database: Database
+    service: GaitService, files: CountedFiles, tmp_path: Path, database: Database
 ) -> None:
-    gaits = GaitList(desk)
+    gaits = GaitSummaries(service)
     assert line(gaits, "trial-0001")["edited"] is False
-    gait = desk.open_gait("trial-0001").gait
-    desk.edit("trial-0001", replace(gait, name="Better"), "Name", None)
+    gait = service.open_gait("trial-0001").gait
+    service.edit("trial-0001", replace(gait, name="Better"), "Name", None)
     assert (line(gaits, "trial-0001")["name"], line(gaits, "trial-0001")["edited"]) == ("Better", True)
-    restarted = GaitList(open_desk(files, database))
+    restarted = GaitSummaries(open_desk(files, database))
     assert (line(restarted, "trial-0001")["name"], line(restarted, "trial-0001")["edited"]) == (
         "Better",
         True,
     )
-    desk.save("trial-0001")
+    service.save("trial-0001")
     assert line(gaits, "trial-0001")["edited"] is False
     path = tmp_path / "gaits" / "trial-0002.json"
     content = json.loads(path.read_text())
     path.write_text(json.dumps({**content, "name": "By git"}))
     os.utime(path, ns=(1, 1))
     assert line(gaits, "trial-0002")["name"] == "By git"
-    edit(desk, WALK)
+    edit(service, WALK)
     assert line(gaits, WALK)["edited"] is True
 
 
-def test_gaits_come_go_and_come_back(desk: GaitDesk) -> None:
-    gaits = GaitList(desk)
+def test_gaits_come_go_and_come_back(service: GaitService) -> None:
+    gaits = GaitSummaries(service)
     before = len(gaits.lines())
-    made = desk.create(replace(library()[WALK].gait, name="New"))
+    made = service.create(replace(library()[WALK].gait, name="New"))
     assert not gaits.has(made.id)
     assert line(gaits, made.id)["kind"] == "saved"
-    edit(desk, made.id)
+    edit(service, made.id)
     assert line(gaits, made.id)["edited"] is True
-    desk.delete(made.id)
+    service.delete(made.id)
     assert len(gaits.lines()) == before
     assert not gaits.has(made.id)
-    desk.restore(made.id)
+    service.restore(made.id)
     assert line(gaits, made.id)["edited"] is True
 
 
 @pytest.mark.parametrize("content", ["{", "[]", '{"format": "footfall-gait", "version": 99}', ""])
 def test_a_damaged_file_is_left_out_and_comes_when_it_is_mended(
-    desk: GaitDesk, tmp_path: Path, content: str
+    service: GaitService, tmp_path: Path, content: str
 ) -> None:
     path = tmp_path / "gaits" / "trial-0003.json"
     whole = path.read_text()
     path.write_text(content)
-    gaits = GaitList(desk)
+    gaits = GaitSummaries(service)
     assert len(gaits.lines()) == COUNT + len(library()) - 1
     with pytest.raises(InputError, match=r"trial-0003\.json"):
-        desk.open_gait("trial-0003")
+        service.open_gait("trial-0003")
     path.write_text(whole)
     assert line(gaits, "trial-0003")["name"] == "Trial 3"
 

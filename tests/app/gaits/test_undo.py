@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.gaits.live_preview import LiveDesk
-from app.gaits.service import GaitDesk
+from app.gaits.live_preview import LivePreview
+from app.gaits.service import GaitService
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
 from app.undo.history import (
@@ -27,23 +27,23 @@ from solver_jobs import SolveStatus
 from tests.app.gaits.test_service import (
     MANUAL,
     WALK,
-    desk,
     edit,
     reopened,
+    service,
     toggled,
 )
 from tests.support.live_tiers import FixedTier
 
-__all__ = ["desk"]  # a fixture
+__all__ = ["service"]  # a fixture
 
 
 def test_a_hundred_steps_are_undone_and_redone_across_a_restart(
-    desk: GaitDesk, tmp_path: Path, database: Database
+    service: GaitService, tmp_path: Path, database: Database
 ) -> None:
-    first = desk.open_gait(WALK).gait
+    first = service.open_gait(WALK).gait
     for step in range(120):
-        edit(desk, WALK, foot=step % 4, sample=1 + step // 4)
-    last = desk.open_gait(WALK).gait
+        edit(service, WALK, foot=step % 4, sample=1 + step // 4)
+    last = service.open_gait(WALK).gait
     again = reopened(tmp_path, database)
     for _ in range(120):
         again.undo(WALK)
@@ -85,52 +85,52 @@ def test_a_large_log_still_keeps_a_hundred_steps(monkeypatch: pytest.MonkeyPatch
 
 def test_the_edits_of_a_page_that_is_gone_are_everybodys(tmp_path: Path, database: Database) -> None:
     pages = {"ada", "bob"}
-    tier = LiveDesk(FixedTier(SolveStatus.INFEASIBLE))
-    desk = GaitDesk(GaitFiles(tmp_path), database, tier.solve_for, lambda: frozenset(pages))
-    first = desk.open_gait(WALK).gait
-    desk.edit(WALK, toggled(first, 1, 20), "Hers", None, Author("ada", "Ada"))
+    tier = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    service = GaitService(GaitFiles(tmp_path), database, tier.solve_for, lambda: frozenset(pages))
+    first = service.open_gait(WALK).gait
+    service.edit(WALK, toggled(first, 1, 20), "Hers", None, Author("ada", "Ada"))
     with pytest.raises(StateError, match="nothing to undo"):
-        desk.undo(WALK, Author("bob"))
-    assert desk.open_gait(WALK).undo_label(frozenset({"ada"})) is None
+        service.undo(WALK, Author("bob"))
+    assert service.open_gait(WALK).undo_label(frozenset({"ada"})) is None
     pages.remove("ada")
-    assert desk.undo(WALK, Author("bob")).gait == first
+    assert service.undo(WALK, Author("bob")).gait == first
     pages.add("ada")
     with pytest.raises(StateError, match="nothing to redo"):
-        desk.redo(WALK, Author("ada"))  # who undid it does it again
-    assert desk.redo(WALK, Author("bob")).gait == toggled(first, 1, 20)
+        service.redo(WALK, Author("ada"))  # who undid it does it again
+    assert service.redo(WALK, Author("bob")).gait == toggled(first, 1, 20)
 
 
 def test_undo_says_who_changed_the_same_since(tmp_path: Path, database: Database) -> None:
     pages = frozenset({"ada", "bob"})
-    tier = LiveDesk(FixedTier(SolveStatus.INFEASIBLE))
-    desk = GaitDesk(GaitFiles(tmp_path), database, tier.solve_for, lambda: pages)
-    first = desk.open_gait(WALK).gait
-    desk.edit(WALK, first.with_options(margin=0.001), "Margin to 1 mm", None, Author("ada", "Ada"))
-    desk.edit(WALK, first.with_options(margin=0.002), "Margin to 2 mm", None, Author("bob", "Bob"))
+    tier = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    service = GaitService(GaitFiles(tmp_path), database, tier.solve_for, lambda: pages)
+    first = service.open_gait(WALK).gait
+    service.edit(WALK, first.with_options(margin=0.001), "Margin to 1 mm", None, Author("ada", "Ada"))
+    service.edit(WALK, first.with_options(margin=0.002), "Margin to 2 mm", None, Author("bob", "Bob"))
     with pytest.raises(
         StateError, match=r"“Margin to 1 mm” cannot be undone: Bob changed the stability margin since"
     ):
-        desk.undo(WALK, Author("ada", "Ada"))
+        service.undo(WALK, Author("ada", "Ada"))
     with pytest.raises(StateError, match="another tab changed the stability margin"):
-        desk.undo(WALK, Author("ada", "Bob"))
-    assert desk.open_gait(WALK).gait.options.margin == 0.002
-    desk.undo(WALK, Author("bob", "Bob"))
-    assert desk.undo(WALK, Author("ada", "Ada")).gait == first
+        service.undo(WALK, Author("ada", "Bob"))
+    assert service.open_gait(WALK).gait.options.margin == 0.002
+    service.undo(WALK, Author("bob", "Bob"))
+    assert service.undo(WALK, Author("ada", "Ada")).gait == first
 
 
 def test_a_swing_that_two_moved_is_undone_by_the_last_one_first(tmp_path: Path, database: Database) -> None:
-    tier = LiveDesk(FixedTier(SolveStatus.INFEASIBLE))
-    desk = GaitDesk(GaitFiles(tmp_path), database, tier.solve_for, lambda: frozenset({"ada", "bob"}))
+    tier = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    service = GaitService(GaitFiles(tmp_path), database, tier.solve_for, lambda: frozenset({"ada", "bob"}))
 
     def row() -> str:
-        return "".join("1" if stance else "0" for stance in desk.open_gait(WALK).gait.timeline.stance[1])
+        return "".join("1" if stance else "0" for stance in service.open_gait(WALK).gait.timeline.stance[1])
 
     def move(by: int, author: Author) -> None:
-        gait = desk.open_gait(WALK).gait
+        gait = service.open_gait(WALK).gait
         stance = gait.timeline.stance.copy()
         stance[1] = np.roll(stance[1], by)
         moved = replace(gait, timeline=replace(gait.timeline, stance=stance))
-        desk.edit(WALK, moved, "Move the swing", None, author)
+        service.edit(WALK, moved, "Move the swing", None, author)
 
     first = row()
     move(2, Author("bob"))
@@ -138,44 +138,44 @@ def test_a_swing_that_two_moved_is_undone_by_the_last_one_first(tmp_path: Path, 
     move(-1, Author("ada", "Ada"))
     hers = row()
     with pytest.raises(StateError, match=r"cannot be undone: Ada changed foot 2, samples \d+–\d+ since"):
-        desk.undo(WALK, Author("bob"))
+        service.undo(WALK, Author("bob"))
     assert row() == hers
-    desk.undo(WALK, Author("ada", "Ada"))
+    service.undo(WALK, Author("ada", "Ada"))
     assert row() == his
-    desk.undo(WALK, Author("bob"))
+    service.undo(WALK, Author("bob"))
     assert row() == first
     with pytest.raises(StateError, match="cannot be done again: another tab changed foot 2"):
-        desk.redo(WALK, Author("ada", "Ada"))
+        service.redo(WALK, Author("ada", "Ada"))
 
 
 def test_undo_leaves_cells_alone_that_somebody_locked(tmp_path: Path, database: Database) -> None:
-    tier = LiveDesk(FixedTier(SolveStatus.INFEASIBLE))
-    desk = GaitDesk(GaitFiles(tmp_path), database, tier.solve_for, lambda: frozenset({"ada", "bob"}))
-    painted = toggled(desk.open_gait(WALK).gait, 1, 20)
-    desk.edit(WALK, painted, "Paint", None, Author("ada"))
+    tier = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    service = GaitService(GaitFiles(tmp_path), database, tier.solve_for, lambda: frozenset({"ada", "bob"}))
+    painted = toggled(service.open_gait(WALK).gait, 1, 20)
+    service.edit(WALK, painted, "Paint", None, Author("ada"))
     locked = painted.timeline.locked.copy()
     locked[1, 20] = True
     locking = replace(painted, timeline=replace(painted.timeline, locked=locked))
-    desk.edit(WALK, locking, "Lock", None, Author("bob"))
+    service.edit(WALK, locking, "Lock", None, Author("bob"))
     with pytest.raises(StateError, match="Foot 2, sample 21 is locked"):
-        desk.undo(WALK, Author("ada"))
+        service.undo(WALK, Author("ada"))
 
 
-def test_the_document_before_the_present_one_is_known(desk: GaitDesk) -> None:
-    assert desk.open_gait(WALK).before is None
-    first = desk.open_gait(WALK).gait
-    edit(desk, WALK)
-    assert desk.open_gait(WALK).before == first
+def test_the_document_before_the_present_one_is_known(service: GaitService) -> None:
+    assert service.open_gait(WALK).before is None
+    first = service.open_gait(WALK).gait
+    edit(service, WALK)
+    assert service.open_gait(WALK).before == first
 
 
 def test_a_deleted_gait_comes_back_with_its_unsaved_edits_and_its_id_is_not_given_away(
-    desk: GaitDesk, tmp_path: Path, database: Database
+    service: GaitService, tmp_path: Path, database: Database
 ) -> None:
-    created = desk.create(replace(library()[WALK].gait, name="My walk"))
-    edit(desk, created.id)
-    edited = desk.open_gait(created.id).gait
-    desk.delete(created.id)
-    assert desk.create(created.gait).id == "my-walk-2"
+    created = service.create(replace(library()[WALK].gait, name="My walk"))
+    edit(service, created.id)
+    edited = service.open_gait(created.id).gait
+    service.delete(created.id)
+    assert service.create(created.gait).id == "my-walk-2"
     again = reopened(tmp_path, database)
     assert again.restore(created.id).gait == edited
     assert again.undo(created.id).gait == created.gait
@@ -193,29 +193,29 @@ def renamed_segment(gait: Gait, foot: int, at: int, name: str) -> Gait:
 
 
 def test_two_people_edit_one_segment_table_and_undo_their_own(tmp_path: Path, database: Database) -> None:
-    tier = LiveDesk(FixedTier(SolveStatus.INFEASIBLE))
-    desk = GaitDesk(GaitFiles(tmp_path), database, tier.solve_for, lambda: frozenset({"ada", "bob"}))
-    first = desk.open_gait(MANUAL).gait
-    desk.edit(MANUAL, renamed_segment(first, 0, 3, "Hers"), "Hers", None, Author("ada"))
-    both = renamed_segment(desk.open_gait(MANUAL).gait, 1, 3, "His")
-    desk.edit(MANUAL, both, "His", None, Author("bob"))
-    undone = desk.undo(MANUAL, Author("ada")).gait
+    tier = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    service = GaitService(GaitFiles(tmp_path), database, tier.solve_for, lambda: frozenset({"ada", "bob"}))
+    first = service.open_gait(MANUAL).gait
+    service.edit(MANUAL, renamed_segment(first, 0, 3, "Hers"), "Hers", None, Author("ada"))
+    both = renamed_segment(service.open_gait(MANUAL).gait, 1, 3, "His")
+    service.edit(MANUAL, both, "His", None, Author("bob"))
+    undone = service.undo(MANUAL, Author("ada")).gait
     assert undone == renamed_segment(first, 1, 3, "His")
-    assert desk.redo(MANUAL, Author("ada")).gait == both
-    assert desk.undo(MANUAL, Author("bob")).gait == renamed_segment(first, 0, 3, "Hers")
+    assert service.redo(MANUAL, Author("ada")).gait == both
+    assert service.undo(MANUAL, Author("bob")).gait == renamed_segment(first, 0, 3, "Hers")
 
 
 def test_a_new_length_of_the_timeline_is_not_taken_back_under_somebodys_drawing(
     tmp_path: Path, database: Database
 ) -> None:
-    tier = LiveDesk(FixedTier(SolveStatus.INFEASIBLE))
-    desk = GaitDesk(GaitFiles(tmp_path), database, tier.solve_for, lambda: frozenset({"ada", "bob"}))
-    first = desk.open_gait(WALK).gait
-    desk.edit(WALK, replace(first, iterations=2), "Two iterations", None, Author("ada"))
-    drawn = toggled(desk.open_gait(WALK).gait, 1, 60)
-    desk.edit(WALK, drawn, "Draw", None, Author("bob", "Bob"))
+    tier = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    service = GaitService(GaitFiles(tmp_path), database, tier.solve_for, lambda: frozenset({"ada", "bob"}))
+    first = service.open_gait(WALK).gait
+    service.edit(WALK, replace(first, iterations=2), "Two iterations", None, Author("ada"))
+    drawn = toggled(service.open_gait(WALK).gait, 1, 60)
+    service.edit(WALK, drawn, "Draw", None, Author("bob", "Bob"))
     with pytest.raises(StateError, match="Bob changed the timeline of foot 2 since"):
-        desk.undo(WALK, Author("ada"))
-    assert desk.open_gait(WALK).gait == drawn
-    desk.undo(WALK, Author("bob", "Bob"))
-    assert desk.undo(WALK, Author("ada")).gait == first
+        service.undo(WALK, Author("ada"))
+    assert service.open_gait(WALK).gait == drawn
+    service.undo(WALK, Author("bob", "Bob"))
+    assert service.undo(WALK, Author("ada")).gait == first

@@ -13,8 +13,8 @@ from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
-from app.gaits.live_preview import LiveDesk
-from app.gaits.service import GaitDesk
+from app.gaits.live_preview import LivePreview
+from app.gaits.service import GaitService
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
 from app.undo.history import Author
@@ -52,13 +52,13 @@ class DeskMachine(RuleBasedStateMachine):
 
     def open_desk(self) -> None:
         tier = FixedTier(SolveStatus.INFEASIBLE)
-        self.desk = GaitDesk(
-            GaitFiles(Path(self.folder.name)), self.database, LiveDesk(tier).solve_for, lambda: self.pages
+        self.service = GaitService(
+            GaitFiles(Path(self.folder.name)), self.database, LivePreview(tier).solve_for, lambda: self.pages
         )
 
     @property
     def gait(self) -> Gait:
-        return self.desk.open_gait(GAIT).gait
+        return self.service.open_gait(GAIT).gait
 
     @rule()
     def restart(self) -> None:
@@ -86,7 +86,7 @@ class OneAuthor(DeskMachine):
 
     def edit(self, gait: Gait) -> None:
         before = self.gait
-        self.desk.edit(GAIT, gait, f"Edit {len(self.stack)}", None, self.author)
+        self.service.edit(GAIT, gait, f"Edit {len(self.stack)}", None, self.author)
         if gait != before:
             self.stack = [*self.stack[: self.at + 1], gait]
             self.at += 1
@@ -105,7 +105,7 @@ class OneAuthor(DeskMachine):
 
     @rule(iterations=st.integers(1, 2))
     def repeat(self, iterations: int) -> None:
-        self.desk.edit(GAIT, replace(self.gait, iterations=iterations), "Repeat", None, self.author)
+        self.service.edit(GAIT, replace(self.gait, iterations=iterations), "Repeat", None, self.author)
         if self.gait != self.stack[self.at]:
             self.stack = [*self.stack[: self.at + 1], self.gait]
             self.at += 1
@@ -114,18 +114,18 @@ class OneAuthor(DeskMachine):
     def undo(self) -> None:
         if self.at == 0:
             with pytest.raises(StateError, match="nothing to undo"):
-                self.desk.undo(GAIT, self.author)
+                self.service.undo(GAIT, self.author)
             return
-        self.desk.undo(GAIT, self.author)
+        self.service.undo(GAIT, self.author)
         self.at -= 1
 
     @rule()
     def redo(self) -> None:
         if self.at == len(self.stack) - 1:
             with pytest.raises(StateError, match="nothing to redo"):
-                self.desk.redo(GAIT, self.author)
+                self.service.redo(GAIT, self.author)
             return
-        self.desk.redo(GAIT, self.author)
+        self.service.redo(GAIT, self.author)
         self.at += 1
 
     @rule()
@@ -135,12 +135,12 @@ class OneAuthor(DeskMachine):
 
     @rule()
     def save(self) -> None:
-        self.desk.save(GAIT, self.author)
+        self.service.save(GAIT, self.author)
 
     @invariant()
     def the_document_is_the_models(self) -> None:
         assert self.gait == self.stack[self.at]
-        opened = self.desk.open_gait(GAIT)
+        opened = self.service.open_gait(GAIT)
         assert (opened.undo_label() is None) == (self.at == 0)
         assert (opened.redo_label() is None) == (self.at == len(self.stack) - 1)
 
@@ -183,7 +183,7 @@ class TwoAuthors(DeskMachine):
         stance=st.booleans(),
     )
     def paint(self, author: str, foot: int, first: int, length: int, stance: bool) -> None:
-        self.desk.edit(
+        self.service.edit(
             GAIT, painted(self.gait, foot, first, first + length, stance), "Paint", None, Author(author)
         )
         before = self.rows[foot]
@@ -226,7 +226,7 @@ class TwoAuthors(DeskMachine):
     @rule(author=st.sampled_from(AUTHORS))
     def undo(self, author: str) -> None:
         mine = [painting for painting in self.done if painting.author == author]
-        if mine and self.step(self.desk.undo, mine[-1], redo=False):
+        if mine and self.step(self.service.undo, mine[-1], redo=False):
             self.done.remove(mine[-1])
             self.undone.append(mine[-1])
 
@@ -234,7 +234,7 @@ class TwoAuthors(DeskMachine):
     @rule(author=st.sampled_from(AUTHORS))
     def redo(self, author: str) -> None:
         mine = [painting for painting in self.undone if painting.author == author]
-        if mine and self.step(self.desk.redo, mine[-1], redo=True):
+        if mine and self.step(self.service.redo, mine[-1], redo=True):
             self.undone.remove(mine[-1])
             self.done.append(mine[-1])
 
@@ -249,7 +249,7 @@ class TwoMovers(DeskMachine):
     def __init__(self) -> None:
         super().__init__()
         drawn = painted(painted(self.gait, FOOT, 1, SAMPLES - 2, True), FOOT, 10, 13, False)
-        self.desk.edit(GAIT, painted(drawn, FOOT, 20, 22, False), FIRST, None, Author("ada"))
+        self.service.edit(GAIT, painted(drawn, FOOT, 20, 22, False), FIRST, None, Author("ada"))
 
     def swings(self) -> list[tuple[int, int]]:
         row = "".join("1" if stance else "0" for stance in self.gait.timeline.stance[FOOT])
@@ -261,16 +261,16 @@ class TwoMovers(DeskMachine):
         moved = painted(painted(self.gait, FOOT, first, end - 1, True), FOOT, to, to + end - first - 1, False)
         other = self.swings()[1 - which]
         if to > other[1] or to + end - first < other[0]:
-            self.desk.edit(GAIT, moved, "Move", None, Author(author))
+            self.service.edit(GAIT, moved, "Move", None, Author(author))
 
     @rule(author=st.sampled_from(AUTHORS))
     def undo(self, author: str) -> None:
-        if self.desk.open_gait(GAIT).undo_label(self.pages - {author}) != FIRST:
-            self.take(self.desk.undo, author)
+        if self.service.open_gait(GAIT).undo_label(self.pages - {author}) != FIRST:
+            self.take(self.service.undo, author)
 
     @rule(author=st.sampled_from(AUTHORS))
     def redo(self, author: str) -> None:
-        self.take(self.desk.redo, author)
+        self.take(self.service.redo, author)
 
     def take(self, act: Callable[[str, Author], object], author: str) -> None:
         before, refusal = self.gait, None

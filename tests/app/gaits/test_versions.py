@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from app.gaits.approvals import Word
-from app.gaits.live_preview import LiveDesk
-from app.gaits.service import GaitDesk
+from app.gaits.approvals import ApprovalRequest
+from app.gaits.live_preview import LivePreview
+from app.gaits.service import GaitService
 from app.gaits.versions import (
     AUTOMATIC_EDITS,
     AUTOMATIC_SECONDS,
@@ -51,107 +51,107 @@ def clock() -> Clock:
     return Clock()
 
 
-def open_desk(folder: Path, database: Database, clock: Clock) -> GaitDesk:
+def open_desk(folder: Path, database: Database, clock: Clock) -> GaitService:
     tier = FixedTier(SolveStatus.INFEASIBLE)
-    return GaitDesk(GaitFiles(folder), database, LiveDesk(tier).solve_for, clock=clock)
+    return GaitService(GaitFiles(folder), database, LivePreview(tier).solve_for, clock=clock)
 
 
 @pytest.fixture
-def desk(tmp_path: Path, database: Database, clock: Clock) -> GaitDesk:
+def service(tmp_path: Path, database: Database, clock: Clock) -> GaitService:
     return open_desk(tmp_path, database, clock)
 
 
-def kinds(desk: GaitDesk, gait_id: str = WALK) -> list[str]:
-    return [version.kind for version in reversed(desk.versions.all(gait_id))]
+def kinds(service: GaitService, gait_id: str = WALK) -> list[str]:
+    return [version.kind for version in reversed(service.versions.all(gait_id))]
 
 
-def test_the_first_edit_keeps_the_gait_as_it_came(desk: GaitDesk) -> None:
-    came = desk.open_gait(WALK).gait
-    edit(desk, WALK)
-    edit(desk, WALK, sample=21)
-    assert kinds(desk) == ["automatic"]
-    assert desk.restore_version(WALK, 1).gait == came
+def test_the_first_edit_keeps_the_gait_as_it_came(service: GaitService) -> None:
+    came = service.open_gait(WALK).gait
+    edit(service, WALK)
+    edit(service, WALK, sample=21)
+    assert kinds(service) == ["automatic"]
+    assert service.restore_version(WALK, 1).gait == came
 
 
-def test_while_editing_a_version_is_made_after_two_minutes(desk: GaitDesk, clock: Clock) -> None:
-    edit(desk, WALK)
+def test_while_editing_a_version_is_made_after_two_minutes(service: GaitService, clock: Clock) -> None:
+    edit(service, WALK)
     clock.now += AUTOMATIC_SECONDS - 1
-    edit(desk, WALK, sample=21)
-    assert kinds(desk) == ["automatic"]
+    edit(service, WALK, sample=21)
+    assert kinds(service) == ["automatic"]
     clock.now += 1
-    before = desk.open_gait(WALK).gait
-    edit(desk, WALK, sample=22)
-    assert kinds(desk) == ["automatic", "automatic"]
-    assert desk.restore_version(WALK, 2).gait == before
+    before = service.open_gait(WALK).gait
+    edit(service, WALK, sample=22)
+    assert kinds(service) == ["automatic", "automatic"]
+    assert service.restore_version(WALK, 2).gait == before
 
 
-def test_while_editing_a_version_is_made_after_so_many_edits(desk: GaitDesk) -> None:
+def test_while_editing_a_version_is_made_after_so_many_edits(service: GaitService) -> None:
     for number in range(AUTOMATIC_EDITS):
-        edit(desk, WALK, sample=1 + number)
-    assert kinds(desk) == ["automatic"]
-    edit(desk, WALK, sample=1 + AUTOMATIC_EDITS)
-    assert kinds(desk) == ["automatic", "automatic"]
+        edit(service, WALK, sample=1 + number)
+    assert kinds(service) == ["automatic"]
+    edit(service, WALK, sample=1 + AUTOMATIC_EDITS)
+    assert kinds(service) == ["automatic", "automatic"]
 
 
-def test_saving_and_approving_make_versions_with_who_did_so(desk: GaitDesk) -> None:
-    edit(desk, WALK)
-    desk.save(WALK, ADA)
-    desk.save(WALK, ADA)
-    newest = desk.versions.all(WALK)[0]
+def test_saving_and_approving_make_versions_with_who_did_so(service: GaitService) -> None:
+    edit(service, WALK)
+    service.save(WALK, ADA)
+    service.save(WALK, ADA)
+    newest = service.versions.all(WALK)[0]
     assert (newest.number, newest.kind, newest.by) == (2, "saved", "Ada")
-    desk.check(MANUAL)
-    desk.approve(MANUAL, Word("Grace", accept_warnings=True))
-    approved = desk.versions.all(MANUAL)[0]
+    service.check(MANUAL)
+    service.approve(MANUAL, ApprovalRequest("Grace", accept_warnings=True))
+    approved = service.versions.all(MANUAL)[0]
     assert (approved.kind, approved.by) == ("approved", "Grace")
 
 
-def test_a_state_is_named_twice_and_a_name_too_long_is_refused(desk: GaitDesk) -> None:
-    opened = desk.open_gait(WALK)
-    assert desk.versions.keep(opened, VersionKind.NAMED, ADA, " For the demo ").name == "For the demo"
-    assert desk.versions.keep(opened, VersionKind.NAMED, ADA, "Thesis").number == 2
-    assert desk.versions.keep(opened, VersionKind.NAMED, ADA, "Thesis").number == 2
+def test_a_state_is_named_twice_and_a_name_too_long_is_refused(service: GaitService) -> None:
+    opened = service.open_gait(WALK)
+    assert service.versions.keep(opened, VersionKind.NAMED, ADA, " For the demo ").name == "For the demo"
+    assert service.versions.keep(opened, VersionKind.NAMED, ADA, "Thesis").number == 2
+    assert service.versions.keep(opened, VersionKind.NAMED, ADA, "Thesis").number == 2
     with pytest.raises(InputError, match=f"at most {MOST_NAME}"):
-        desk.versions.keep(opened, VersionKind.NAMED, ADA, "a" * (MOST_NAME + 1))
+        service.versions.keep(opened, VersionKind.NAMED, ADA, "a" * (MOST_NAME + 1))
 
 
-def test_going_back_is_an_edit_that_keeps_what_was_there(desk: GaitDesk) -> None:
-    edit(desk, WALK)
-    desk.save(WALK)
-    edit(desk, WALK, sample=21)
-    last = desk.open_gait(WALK).gait
-    restored = desk.restore_version(WALK, 1, ADA)
+def test_going_back_is_an_edit_that_keeps_what_was_there(service: GaitService) -> None:
+    edit(service, WALK)
+    service.save(WALK)
+    edit(service, WALK, sample=21)
+    last = service.open_gait(WALK).gait
+    restored = service.restore_version(WALK, 1, ADA)
     assert restored.undo_label() == "Restore version 1"
-    assert kinds(desk) == ["automatic", "saved", "before restore"]
-    assert desk.undo(WALK, ADA).gait == last
-    assert desk.redo(WALK, ADA).gait == restored.gait
-    assert desk.restore_version(WALK, 1) is desk.open_gait(WALK)
+    assert kinds(service) == ["automatic", "saved", "before restore"]
+    assert service.undo(WALK, ADA).gait == last
+    assert service.redo(WALK, ADA).gait == restored.gait
+    assert service.restore_version(WALK, 1) is service.open_gait(WALK)
     with pytest.raises(NotFoundError, match="no version 9"):
-        desk.restore_version(WALK, 9)
+        service.restore_version(WALK, 9)
 
 
 @pytest.mark.parametrize("number", [-1, 0, 2**63, 10**40])
-def test_a_number_that_no_version_can_have_is_unknown(desk: GaitDesk, number: int) -> None:
+def test_a_number_that_no_version_can_have_is_unknown(service: GaitService, number: int) -> None:
     with pytest.raises(NotFoundError, match=f"no version {number};"):
-        desk.versions.get(WALK, number)
+        service.versions.get(WALK, number)
 
 
-def test_locked_cells_do_not_stand_in_the_way_back(desk: GaitDesk) -> None:
-    came = desk.open_gait(WALK).gait
+def test_locked_cells_do_not_stand_in_the_way_back(service: GaitService) -> None:
+    came = service.open_gait(WALK).gait
     drawn = toggled(came, 1, 20)
     locked = drawn.timeline.locked.copy()
     locked[1, 20] = True
-    desk.edit(WALK, replace(drawn, timeline=replace(drawn.timeline, locked=locked)), "Lock", None)
-    assert desk.restore_version(WALK, 1).gait == came
-    assert desk.undo(WALK).gait.timeline.locked[1, 20]
+    service.edit(WALK, replace(drawn, timeline=replace(drawn.timeline, locked=locked)), "Lock", None)
+    assert service.restore_version(WALK, 1).gait == came
+    assert service.undo(WALK).gait.timeline.locked[1, 20]
 
 
 def test_versions_survive_a_restart_a_deletion_and_are_not_given_to_another_gait(
-    desk: GaitDesk, tmp_path: Path, database: Database, clock: Clock
+    service: GaitService, tmp_path: Path, database: Database, clock: Clock
 ) -> None:
-    created = desk.create(replace(library()[WALK].gait, name="Mine"))
-    edit(desk, created.id)
-    unsaved = desk.open_gait(created.id).gait
-    assert desk.delete(created.id) is None
+    created = service.create(replace(library()[WALK].gait, name="Mine"))
+    edit(service, created.id)
+    unsaved = service.open_gait(created.id).gait
+    assert service.delete(created.id) is None
     again = open_desk(tmp_path, database, clock)
     other = again.create(created.gait)
     assert kinds(again, other.id) == ["saved"]
@@ -160,29 +160,33 @@ def test_versions_survive_a_restart_a_deletion_and_are_not_given_to_another_gait
     assert again.restore_version(created.id, 2).gait == unsaved
 
 
-def test_a_builtin_gait_that_was_saved_over_keeps_its_versions_when_that_is_deleted(desk: GaitDesk) -> None:
-    edit(desk, WALK)
-    saved = desk.save(WALK).gait
-    assert desk.delete(WALK) is desk.open_gait(WALK)
-    assert desk.open_gait(WALK).gait == library()[WALK].gait
-    assert kinds(desk) == ["automatic", "saved"]
-    edit(desk, WALK, sample=30)
-    edited = desk.open_gait(WALK).gait
-    assert desk.restore(WALK).gait == saved
-    assert kinds(desk) == ["automatic", "saved", "before restore"]
-    assert not desk.open_gait(WALK).edited
-    assert desk.undo(WALK).gait == edited
-    desk.undo(WALK)
-    assert desk.undo(WALK).gait == saved
-    assert desk.undo(WALK).gait == library()[WALK].gait
+def test_a_builtin_gait_that_was_saved_over_keeps_its_versions_when_that_is_deleted(
+    service: GaitService,
+) -> None:
+    edit(service, WALK)
+    saved = service.save(WALK).gait
+    assert service.delete(WALK) is service.open_gait(WALK)
+    assert service.open_gait(WALK).gait == library()[WALK].gait
+    assert kinds(service) == ["automatic", "saved"]
+    edit(service, WALK, sample=30)
+    edited = service.open_gait(WALK).gait
+    assert service.restore(WALK).gait == saved
+    assert kinds(service) == ["automatic", "saved", "before restore"]
+    assert not service.open_gait(WALK).edited
+    assert service.undo(WALK).gait == edited
+    service.undo(WALK)
+    assert service.undo(WALK).gait == saved
+    assert service.undo(WALK).gait == library()[WALK].gait
 
 
-def test_of_automatic_versions_the_newest_are_kept_and_of_others_all(desk: GaitDesk, clock: Clock) -> None:
-    desk.versions.keep(desk.open_gait(WALK), VersionKind.NAMED, ADA, "First")
+def test_of_automatic_versions_the_newest_are_kept_and_of_others_all(
+    service: GaitService, clock: Clock
+) -> None:
+    service.versions.keep(service.open_gait(WALK), VersionKind.NAMED, ADA, "First")
     for number in range(MOST_AUTOMATIC + 5):
         clock.now += AUTOMATIC_SECONDS
-        edit(desk, WALK, sample=1 + number % 40, foot=number // 40 % 4)
-    found = kinds(desk)
+        edit(service, WALK, sample=1 + number % 40, foot=number // 40 % 4)
+    found = kinds(service)
     assert found.count("automatic") == MOST_AUTOMATIC
     assert found[0] == "named"
 

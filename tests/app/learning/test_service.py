@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 
-from app.learning.service import LearningDesk
+from app.learning.service import LearningService
 from app.simulation.problem import simulation_key
-from app.simulation.repository import KeptSimulations
+from app.simulation.repository import SimulationRepository
 from app.store.database import Database
-from app.store.learning_store import LearningLog
-from app.store.simulation_store import SimulationLog
+from app.store.learning_store import LearningStore
+from app.store.simulation_store import SimulationStore
 from core.errors import InputError, NotFoundError, StateError
 from core.physics.parameters import physics_set
 from core.robot.model import load_robot
@@ -33,120 +33,120 @@ def tier() -> Tier:
 
 
 @pytest.fixture
-def desk(database: Database, tier: Tier) -> Iterator[LearningDesk]:
-    desk = LearningDesk(database, (tier, tier), POINTS)
-    yield desk
-    desk.close()
+def service(database: Database, tier: Tier) -> Iterator[LearningService]:
+    service = LearningService(database, (tier, tier), POINTS)
+    yield service
+    service.close()
 
 
-def begun(desk: LearningDesk) -> str:
-    learning: str = desk.start(made_walks(), USUAL, "Ada", "made")["id"]
+def begun(service: LearningService) -> str:
+    learning: str = service.start(made_walks(), USUAL, "Ada", "made")["id"]
     return learning
 
 
-def ended(desk: LearningDesk, learning: str) -> dict[str, Any]:
-    wait_for(lambda: desk.content(learning)["ended"] is not None, "learning has ended")
-    return desk.content(learning)
+def ended(service: LearningService, learning: str) -> dict[str, Any]:
+    wait_for(lambda: service.content(learning)["ended"] is not None, "learning has ended")
+    return service.content(learning)
 
 
 @pytest.fixture
-def learned(desk: LearningDesk, tier: Tier) -> str:
+def learned(service: LearningService, tier: Tier) -> str:
     tier.may_answer.set()
-    learning = begun(desk)
-    assert ended(desk, learning)["state"] == "done"
+    learning = begun(service)
+    assert ended(service, learning)["state"] == "done"
     return learning
 
 
-def test_a_course_tells_how_far_it_is_and_what_came_of_it(desk: LearningDesk, learned: str) -> None:
-    content = desk.content(learned)
+def test_a_course_tells_how_far_it_is_and_what_came_of_it(service: LearningService, learned: str) -> None:
+    content = service.content(learned)
     assert content["done"] == content["total"]
     drag = next(one for one in content["result"]["parameters"] if one["name"] == "cable_drag")
     assert drag["is_identifiable"]
     assert drag["low"] - 0.1 <= 0.6 <= drag["high"] + 0.1
     assert "cable drag" in content["sentence"]
     assert [gait["cut_mm"] for gait in content["result"]["gaits"]] == pytest.approx([4.2, 0.0, 0.0])
-    assert [(one["id"], "result" in one) for one in desk.found()] == [(learned, False)]
+    assert [(one["id"], "result" in one) for one in service.found()] == [(learned, False)]
 
 
 def test_what_was_learned_gets_a_name_and_a_version_and_is_offered_to_its_robot(
-    desk: LearningDesk, learned: str
+    service: LearningService, learned: str
 ) -> None:
     for version in (1, 2):
-        kept = desk.save(learned, " Lab  floor", "Ada")
+        kept = service.save(learned, " Lab  floor", "Ada")
         assert (kept.name, kept.version, kept.physics.name) == (
             "Lab floor",
             version,
             f"Lab floor, version {version}",
         )
     assert kept.physics.cable_drag > 0.3
-    offered = [one.name for one in desk.sets.fitting(ROBOT)]
+    offered = [one.name for one in service.sets.fitting(ROBOT)]
     assert offered[0] == "scales"
     assert offered[-2:] == ["Lab floor, version 2", "Lab floor, version 1"]
-    assert [one.name for one in desk.sets.fitting(load_robot("hexapod"))] == ["model"]
-    assert desk.sets.chosen(ROBOT, "Lab floor, version 1").masses == "scales"
-    assert desk.sets.chosen(ROBOT, None) == USUAL
+    assert [one.name for one in service.sets.fitting(load_robot("hexapod"))] == ["model"]
+    assert service.sets.chosen(ROBOT, "Lab floor, version 1").masses == "scales"
+    assert service.sets.chosen(ROBOT, None) == USUAL
     with pytest.raises(InputError, match=r"no physics set “moon” for .*Lab floor, version 1"):
-        desk.sets.chosen(ROBOT, "moon")
+        service.sets.chosen(ROBOT, "moon")
 
 
 def test_a_simulation_with_a_learned_set_has_a_key_of_its_own_and_is_stale_while_the_set_is_deleted(
-    desk: LearningDesk, learned: str, database: Database
+    service: LearningService, learned: str, database: Database
 ) -> None:
-    kept = desk.save(learned, "Lab floor", "Ada")
-    simulations = KeptSimulations(SimulationLog(database), sets=desk.sets.physics)
+    kept = service.save(learned, "Lab floor", "Ada")
+    simulations = SimulationRepository(SimulationStore(database), sets=service.sets.physics)
     key = simulation_key(walk_plan(), kept.physics)
     assert key != simulation_key(walk_plan(), USUAL)
     assert key in simulations.keys_of(walk_plan())
-    desk.sets.delete("Lab floor", 1)
+    service.sets.delete("Lab floor", 1)
     assert key not in simulations.keys_of(walk_plan())
-    assert [one.name for one in desk.sets.found(deleted=True)] == ["Lab floor"]
-    assert desk.sets.restore("Lab floor", 1) == kept
+    assert [one.name for one in service.sets.found(deleted=True)] == ["Lab floor"]
+    assert service.sets.restore("Lab floor", 1) == kept
     assert key in simulations.keys_of(walk_plan())
 
 
-def test_the_version_of_a_deleted_set_is_not_given_again(desk: LearningDesk, learned: str) -> None:
-    desk.save(learned, "Lab floor", "Ada")
-    desk.sets.delete("Lab floor", 1)
-    assert desk.save(learned, "Lab floor", "Ada").version == 2
+def test_the_version_of_a_deleted_set_is_not_given_again(service: LearningService, learned: str) -> None:
+    service.save(learned, "Lab floor", "Ada")
+    service.sets.delete("Lab floor", 1)
+    assert service.save(learned, "Lab floor", "Ada").version == 2
 
 
-def test_a_course_that_is_cancelled_ends_without_a_result(desk: LearningDesk) -> None:
-    learning = begun(desk)
-    assert desk.cancel(learning)["state"] in ("cancelling", "cancelled")
-    content = ended(desk, learning)
+def test_a_course_that_is_cancelled_ends_without_a_result(service: LearningService) -> None:
+    learning = begun(service)
+    assert service.cancel(learning)["state"] in ("cancelling", "cancelled")
+    content = ended(service, learning)
     assert (content["state"], content["result"]) == ("cancelled", None)
     with pytest.raises(StateError, match="no result"):
-        desk.save(learning, "Lab floor", "Ada")
-    assert desk.cancel(learning)["state"] == "cancelled"
+        service.save(learning, "Lab floor", "Ada")
+    assert service.cancel(learning)["state"] == "cancelled"
 
 
-def test_one_course_is_on_at_a_time(desk: LearningDesk) -> None:
-    begun(desk)
+def test_one_course_is_on_at_a_time(service: LearningService) -> None:
+    begun(service)
     with pytest.raises(StateError, match="Wait for it, or cancel it"):
-        begun(desk)
+        begun(service)
 
 
 def test_a_course_that_was_on_when_the_studio_ended_is_said_to_be_interrupted(
-    database: Database, desk: LearningDesk, learned: str
+    database: Database, service: LearningService, learned: str
 ) -> None:
-    LearningLog(database).put({**desk.content(learned), "state": "running", "ended": None})
-    again = LearningDesk(database, ())
+    LearningStore(database).put({**service.content(learned), "state": "running", "ended": None})
+    again = LearningService(database, ())
     assert again.content(learned)["state"] == "interrupted"
     assert "Learn again" in again.content(learned)["sentence"]
 
 
-def test_a_course_that_is_on_while_the_studio_closes_is_interrupted_too(desk: LearningDesk) -> None:
-    learning = begun(desk)
-    desk.close()
-    assert desk.content(learning)["state"] == "interrupted"
+def test_a_course_that_is_on_while_the_studio_closes_is_interrupted_too(service: LearningService) -> None:
+    learning = begun(service)
+    service.close()
+    assert service.content(learning)["state"] == "interrupted"
 
 
-def test_too_few_gaits_and_unknown_things_are_refused(desk: LearningDesk, learned: str) -> None:
+def test_too_few_gaits_and_unknown_things_are_refused(service: LearningService, learned: str) -> None:
     with pytest.raises(InputError, match="these are of 2"):
-        desk.start(made_walks(2), USUAL, "Ada", "made")
+        service.start(made_walks(2), USUAL, "Ada", "made")
     with pytest.raises(InputError, match="no name"):
-        desk.save(learned, "  ", "Ada")
+        service.save(learned, "  ", "Ada")
     with pytest.raises(NotFoundError):
-        desk.content("none")
+        service.content("none")
     with pytest.raises(NotFoundError, match="no set “Lab floor”, version 7"):
-        desk.sets.delete("Lab floor", 7)
+        service.sets.delete("Lab floor", 7)

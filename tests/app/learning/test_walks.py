@@ -13,7 +13,7 @@ from app.learning.walks import SentTrial, walks_of
 from app.runs.plan_json import sent_content
 from app.store.database import Database
 from app.trials.planned import PlannedFeet
-from app.trials.service import TrialDesk, TrialWords
+from app.trials.service import TrialDescription, TrialService
 from core.errors import InputError
 from core.robot.model import load_robot
 from core.trials.alignment import repeated_motion
@@ -24,7 +24,7 @@ from tests.support.simulated_walk import walk_plan
 from tests.support.trials.tracks import stepping_track
 
 ROBOT = load_robot("deltawalker")
-WORDS = TrialWords("first", "Ada", 3.0, 3, gait="walk", gait_name="Walk 10 mm")
+WORDS = TrialDescription("first", "Ada", 3.0, 3, gait="walk", gait_name="Walk 10 mm")
 TABLE = "Traj, +x, -x, dx, +y, -y, dy, dist, angle, % err\n"
 ROW = "TrajAa_o1,3.6,0.1,3.5,0.5,0.2,0.4,3.7,8.5,22.0\n"
 
@@ -39,11 +39,11 @@ def planned(laps: int = 3) -> PlannedFeet:
 
 
 def trial(
-    database: Database, track: FootTrack, feet: PlannedFeet | None, words: TrialWords = WORDS
+    database: Database, track: FootTrack, feet: PlannedFeet | None, words: TrialDescription = WORDS
 ) -> SentTrial:
-    desk = TrialDesk(database)
-    kept = desk.add(track, words, feet)["id"]
-    return SentTrial(desk.record(kept), desk.sent(kept))
+    service = TrialService(database)
+    kept = service.add(track, words, feet)["id"]
+    return SentTrial(service.record(kept), service.sent(kept))
 
 
 def test_trials_of_the_same_waypoints_are_one_gait_with_their_mean_and_spread(database: Database) -> None:
@@ -53,8 +53,8 @@ def test_trials_of_the_same_waypoints_are_one_gait_with_their_mean_and_spread(da
     assert walk.measured.trials == 2
     assert walk.laps == 3
     assert walk.heading == pytest.approx(math.pi / 4, abs=1e-6)
-    assert walk.measured.travel.distance == pytest.approx(3 * 0.0086 * math.sqrt(2), rel=0.02)
-    assert walk.measured.travel.angle == pytest.approx(0.0, abs=0.02)
+    assert walk.measured.displacement.distance == pytest.approx(3 * 0.0086 * math.sqrt(2), rel=0.02)
+    assert walk.measured.displacement.angle == pytest.approx(0.0, abs=0.02)
     assert walk.measured.spread is not None
     assert walk.measured.spread[0] == pytest.approx(3 * 0.0004, rel=0.05)
 
@@ -64,7 +64,8 @@ def test_a_robot_that_stood_turned_goes_the_same_way(database: Database) -> None
     quarter = np.array([[0.0, -1.0], [1.0, 0.0]])
     turned = FootTrack(straight.times, straight.feet @ quarter.T, straight.filled)
     angles = [
-        walks_of([trial(database, track, planned())])[0].measured.travel.angle for track in (straight, turned)
+        walks_of([trial(database, track, planned())])[0].measured.displacement.angle
+        for track in (straight, turned)
     ]
     assert angles[0] == pytest.approx(angles[1], abs=1e-6)
 
@@ -89,8 +90,8 @@ def test_a_row_and_its_trajectory_make_a_gait_in_the_wanted_direction() -> None:
     plan = walk_plan()
     assert plan.trajectory is not None
     (walk,) = walks_of_table(TABLE + ROW, {"walk_a.csv": format_trajectory_csv(plan.trajectory)}, ROBOT)
-    assert walk.measured.travel.distance == pytest.approx(0.037)
-    assert walk.measured.travel.angle == pytest.approx(math.atan2(0.4, 3.5))
+    assert walk.measured.displacement.distance == pytest.approx(0.037)
+    assert walk.measured.displacement.angle == pytest.approx(math.atan2(0.4, 3.5))
     assert walk.measured.wanted == pytest.approx(0.03, abs=1e-3)
     assert walk.heading == pytest.approx(math.pi / 4, abs=1e-3)
 
@@ -119,5 +120,5 @@ def test_the_published_robot_is_off_by_0_96_cm_where_it_is_taken_to_walk_as_plan
     walks = walks_of_table(table, {path.name: path.read_text() for path in folder.glob("*.csv")}, ROBOT)
     assert len(walks) == 16
     assert max(walk.cut for walk in walks) > 0.001
-    off = [abs(walk.measured.travel.distance - walk.measured.wanted) for walk in walks]
+    off = [abs(walk.measured.displacement.distance - walk.measured.wanted) for walk in walks]
     assert np.mean(off) == pytest.approx(0.0096, abs=0.00005)

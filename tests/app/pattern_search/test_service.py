@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.pattern_search.service import PatternDesk, PatternQuestion, next_length
+from app.pattern_search.service import PatternRequest, PatternSearchService, next_length
 from core.errors import InputError, NotFoundError, StateError
 from core.patterns.problem import (
     Pattern,
@@ -97,12 +97,12 @@ def told() -> list[tuple[str, dict[str, Any]]]:
     return []
 
 
-def desk_of(told: list[tuple[str, dict[str, Any]]], *tiers: Tier) -> PatternDesk:
-    return PatternDesk(tiers, lambda page, event: told.append((page, event)))
+def desk_of(told: list[tuple[str, dict[str, Any]]], *tiers: Tier) -> PatternSearchService:
+    return PatternSearchService(tiers, lambda page, event: told.append((page, event)))
 
 
-def question(samples: range | None = None) -> PatternQuestion:
-    return PatternQuestion(transition, samples, 1, 5.0)
+def question(samples: range | None = None) -> PatternRequest:
+    return PatternRequest(transition, samples, 1, 5.0)
 
 
 def begun(tier: Tier, count: int = 1) -> Handle:
@@ -122,11 +122,11 @@ def test_an_answer_holds_pattern_score_and_fixed_cells(told: list[tuple[str, dic
 
 def test_the_newest_question_of_a_page_ends_the_one_before(told: list[tuple[str, dict[str, Any]]]) -> None:
     tier = Tier()
-    desk = desk_of(told, tier)
-    older = desk.ask("page", question())
+    service = desk_of(told, tier)
+    older = service.ask("page", question())
     begun(tier)
-    assert desk.detach(older)
-    newer = desk.ask("page", question())
+    assert service.detach(older)
+    newer = service.ask("page", question())
     assert older.future.result(5)["result"]["status"] == "cancelled"
     assert not newer.future.done()
     begun(tier, 2).end(found(transition(None)))
@@ -136,8 +136,8 @@ def test_the_newest_question_of_a_page_ends_the_one_before(told: list[tuple[str,
 
 def test_pages_and_scripts_do_not_end_each_others_searches(told: list[tuple[str, dict[str, Any]]]) -> None:
     tier = Tier()
-    desk = desk_of(told, tier)
-    searches = [desk.ask(page, question()) for page in ("one", "two", "", "")]
+    service = desk_of(told, tier)
+    searches = [service.ask(page, question()) for page in ("one", "two", "", "")]
     begun(tier, 4)
     assert not any(search.future.done() for search in searches)
     for handle in tier.handles:
@@ -147,10 +147,10 @@ def test_pages_and_scripts_do_not_end_each_others_searches(told: list[tuple[str,
 
 def test_a_search_that_goes_on_tells_its_page_alone(told: list[tuple[str, dict[str, Any]]]) -> None:
     tier = Tier()
-    desk = desk_of(told, tier)
-    search = desk.ask("one", question())
+    service = desk_of(told, tier)
+    search = service.ask("one", question())
     handle = begun(tier)
-    assert desk.detach(search)
+    assert service.detach(search)
     best = found(transition(None)).patterns[0]
     handle.progress(PatternProgress(0.3, 3000.0, 2000.0, best))
     handle.use_now()
@@ -163,10 +163,10 @@ def test_a_search_that_goes_on_tells_its_page_alone(told: list[tuple[str, dict[s
 
 def test_a_search_goes_to_the_process_that_has_the_fewest(told: list[tuple[str, dict[str, Any]]]) -> None:
     first, second = Tier(), Tier()
-    desk = desk_of(told, first, second)
-    desk.ask("one", question())
+    service = desk_of(told, first, second)
+    service.ask("one", question())
     begun(first)
-    desk.ask("two", question())
+    service.ask("two", question())
     begun(second)
     assert (len(first.handles), len(second.handles)) == (1, 1)
     first.handles[0].cancel()
@@ -175,14 +175,14 @@ def test_a_search_goes_to_the_process_that_has_the_fewest(told: list[tuple[str, 
 
 def test_a_cancelled_search_and_one_of_a_page_that_left_end(told: list[tuple[str, dict[str, Any]]]) -> None:
     tier = Tier()
-    desk = desk_of(told, tier)
-    search = desk.ask("one", question())
+    service = desk_of(told, tier)
+    search = service.ask("one", question())
     begun(tier)
-    assert desk.cancel(search.id)["id"] == search.id
+    assert service.cancel(search.id)["id"] == search.id
     assert search.future.result(5)["result"]["status"] == "cancelled"
-    left = desk.ask("two", question())
+    left = service.ask("two", question())
     begun(tier, 2)
-    desk.forget("two")
+    service.forget("two")
     assert left.future.result(5)["result"]["status"] == "cancelled"
 
 
@@ -197,12 +197,12 @@ def test_lengths_that_were_not_tried_are_not_said_to_be_impossible(
     told: list[tuple[str, dict[str, Any]]],
 ) -> None:
     tier = Tier()
-    desk = desk_of(told, tier)
-    search = desk.ask("page", question(range(4, 61)))
+    service = desk_of(told, tier)
+    search = service.ask("page", question(range(4, 61)))
     handle = begun(tier)
     # The answer of this length arrives together with the wish to end.
     handle.cancel = lambda: handle.end(none(handle.problem))  # type: ignore[method-assign]
-    desk.cancel(search.id)
+    service.cancel(search.id)
     result = search.future.result(5)["result"]
     assert (result["status"], result["explanation"]) == ("cancelled", [])
     assert len(tier.handles) == 1
@@ -219,10 +219,10 @@ def test_a_search_that_is_cancelled_before_it_reaches_a_process_ends(
             assert goes_on.wait(60)
             return super().submit(problem, **words)
 
-    desk = desk_of(told, SlowTier())
-    search = desk.ask("page", question())
+    service = desk_of(told, SlowTier())
+    search = service.ask("page", question())
     assert reached.wait(60)
-    desk.cancel(search.id)
+    service.cancel(search.id)
     goes_on.set()
     assert search.future.result(5)["result"]["status"] == "cancelled"
 
@@ -244,7 +244,7 @@ def test_a_length_that_is_too_short_is_said_with_the_first_one_that_works(
     told: list[tuple[str, dict[str, Any]]],
 ) -> None:
     tier = Tier(lambda problem: none(problem, 9) if problem.sample_count < 9 else found(problem))
-    asked = PatternQuestion(transition, range(7, 61), 1, 5.0, too_few=4)
+    asked = PatternRequest(transition, range(7, 61), 1, 5.0, too_few=4)
     result = desk_of(told, tier).ask("page", asked).future.result(5)["result"]
     assert (result["status"], result["patterns"]) == ("infeasible", [])
     assert result["explanation"][0].startswith("4 samples are too few to finish the swings and stances")
@@ -256,15 +256,15 @@ def test_a_length_that_is_too_short_is_said_with_the_first_one_that_works(
 def test_where_no_length_works_the_last_ones_reason_stands_too(
     told: list[tuple[str, dict[str, Any]]],
 ) -> None:
-    asked = PatternQuestion(transition, range(7, 8), 1, 5.0, too_few=4)
+    asked = PatternRequest(transition, range(7, 8), 1, 5.0, too_few=4)
     result = desk_of(told, Tier(none)).ask("page", asked).future.result(5)["result"]
     assert result["explanation"][1:] == ["It is too short."]
 
 
 def test_a_solver_that_breaks_off_is_said(told: list[tuple[str, dict[str, Any]]]) -> None:
     tier = Tier()
-    desk = desk_of(told, tier)
-    search = desk.ask("page", question())
+    service = desk_of(told, tier)
+    search = service.ask("page", question())
     begun(tier).end(StateError("The pattern solver's process ended twice."))
     assert search.future.result(5) == {
         "id": search.id,
@@ -278,7 +278,7 @@ def test_a_problem_that_cannot_be_posed_is_refused_at_once(told: list[tuple[str,
         raise InputError("No limb walks.", "limbs")
 
     with pytest.raises(InputError, match="No limb walks"):
-        desk_of(told, Tier()).ask("page", PatternQuestion(refuse, None, 1, 5.0))
+        desk_of(told, Tier()).ask("page", PatternRequest(refuse, None, 1, 5.0))
 
 
 def test_a_search_that_nobody_began_is_unknown(told: list[tuple[str, dict[str, Any]]]) -> None:

@@ -14,9 +14,9 @@ from app.documents.gait_json import gait_content, parse_gait
 from app.export.formats import ExportFormat, export
 from app.export.import_gait import read_gait
 from app.export.source import Exportable, exportable_plan
-from app.gaits.approvals import Word
+from app.gaits.approvals import ApprovalRequest
 from app.gaits.sequence_documents import AskedPart, made_sequence
-from app.gaits.service import GaitDesk
+from app.gaits.service import GaitService
 from app.plans.plan import (
     Plan,
     PlanSource,
@@ -29,7 +29,7 @@ from app.undo.history import Author
 from core.errors import InputError, StateError
 from core.findings import Severity
 from core.gait.gait import Gait, Orientation, motion_problem
-from core.gait.motion_source import Making, making
+from core.gait.motion_source import MotionSource, motion_source
 from core.library.library import library
 from core.motion.contact_timeline import timeline_from_order
 from core.motion.trajectory import Trajectory
@@ -61,9 +61,9 @@ def recorded(motion: Trajectory) -> Gait:
 
 
 @pytest.fixture
-def desk(tmp_path: Path) -> Iterator[GaitDesk]:
+def service(tmp_path: Path) -> Iterator[GaitService]:
     database = Database(tmp_path / "studio.sqlite3")
-    yield GaitDesk(GaitFiles(tmp_path), database, lambda gait: solve_live, lambda: frozenset("ab"))
+    yield GaitService(GaitFiles(tmp_path), database, lambda gait: solve_live, lambda: frozenset("ab"))
     database.close()
 
 
@@ -82,7 +82,7 @@ def test_the_plan_is_the_recorded_motion_to_the_last_bit(recorded: Gait, motion:
     assert plan.note == "The recorded motion of mine.csv, as it stands."
     assert plan.trajectory.feet_world.tobytes() == motion.feet_world.tobytes()
     assert plan.trajectory.body_world.tobytes() == motion.body_world.tobytes()
-    assert making(recorded) is Making.RECORDED
+    assert motion_source(recorded) is MotionSource.RECORDED
 
 
 def test_the_gait_is_described_as_the_one_that_moved_so(recorded: Gait) -> None:
@@ -90,20 +90,20 @@ def test_the_gait_is_described_as_the_one_that_moved_so(recorded: Gait) -> None:
     assert recorded.order == walk.order
     assert recorded.timeline == walk.timeline
     assert recorded.step == pytest.approx(walk.step, abs=1e-5)
-    assert making(replace(recorded, recorded=None)) is Making.OPTIMISED
+    assert motion_source(replace(recorded, recorded=None)) is MotionSource.OPTIMISED
 
 
 def test_it_is_checked_approved_and_kept_over_a_restart(
-    desk: GaitDesk, recorded: Gait, tmp_path: Path
+    service: GaitService, recorded: Gait, tmp_path: Path
 ) -> None:
-    gait_id = desk.create(recorded).id
-    verdict = desk.check(gait_id).verdict
+    gait_id = service.create(recorded).id
+    verdict = service.check(gait_id).verdict
     assert verdict is not None
     assert verdict.passed
-    desk.approve(gait_id, Word("Ada", accept_warnings=True))
+    service.approve(gait_id, ApprovalRequest("Ada", accept_warnings=True))
     database = Database(tmp_path / "studio.sqlite3")
-    again = GaitDesk(GaitFiles(tmp_path), database, lambda gait: no_solver)
-    assert again.plan(gait_id).hash == desk.plan(gait_id).hash
+    again = GaitService(GaitFiles(tmp_path), database, lambda gait: no_solver)
+    assert again.plan(gait_id).hash == service.plan(gait_id).hash
     assert again.open_gait(gait_id).approval is not None
     database.close()
 
@@ -140,21 +140,21 @@ EDITS: list[Callable[[Gait], Gait]] = [
 
 @pytest.mark.parametrize("change", EDITS)
 def test_an_edit_that_asks_for_another_motion_sets_it_aside_and_undo_brings_it_back(
-    change: Callable[[Gait], Gait], desk: GaitDesk, recorded: Gait
+    change: Callable[[Gait], Gait], service: GaitService, recorded: Gait
 ) -> None:
-    gait_id = desk.create(recorded).id
-    desk.check(gait_id)
-    desk.approve(gait_id, Word("Ada", accept_warnings=True))
-    edited = desk.edit(gait_id, change(recorded), "Edit", None)
+    gait_id = service.create(recorded).id
+    service.check(gait_id)
+    service.approve(gait_id, ApprovalRequest("Ada", accept_warnings=True))
+    edited = service.edit(gait_id, change(recorded), "Edit", None)
     assert edited.gait.recorded is None
     assert edited.notice is not None
     assert edited.notice.startswith(
         "The recorded motion of mine.csv was set aside; the motion is computed now"
     )
     assert edited.approval is None
-    assert desk.plan(gait_id).source is not PlanSource.RECORDED
-    assert desk.undo(gait_id).gait == recorded
-    assert desk.plan(gait_id).source is PlanSource.RECORDED
+    assert service.plan(gait_id).source is not PlanSource.RECORDED
+    assert service.undo(gait_id).gait == recorded
+    assert service.plan(gait_id).source is PlanSource.RECORDED
 
 
 def _locked(gait: Gait) -> Gait:
@@ -170,12 +170,12 @@ def _locked(gait: Gait) -> Gait:
     ],
 )
 def test_words_orientation_and_locks_leave_it_alone(
-    change: Callable[[Gait], Gait], desk: GaitDesk, recorded: Gait
+    change: Callable[[Gait], Gait], service: GaitService, recorded: Gait
 ) -> None:
-    gait_id = desk.create(recorded).id
-    edited = desk.edit(gait_id, change(recorded), "Edit", None)
+    gait_id = service.create(recorded).id
+    edited = service.edit(gait_id, change(recorded), "Edit", None)
     assert (edited.gait.recorded, edited.notice) == (recorded.recorded, None)
-    assert desk.plan(gait_id).source is PlanSource.RECORDED
+    assert service.plan(gait_id).source is PlanSource.RECORDED
 
 
 def _options(gait: Gait) -> Gait:
@@ -188,17 +188,17 @@ def _words(gait: Gait) -> Gait:
 
 @pytest.mark.parametrize(("others", "fits"), [(_options, False), (_words, True)])
 def test_undo_brings_a_recorded_motion_back_only_where_the_gait_still_asks_for_it(
-    others: Callable[[Gait], Gait], fits: bool, desk: GaitDesk, recorded: Gait
+    others: Callable[[Gait], Gait], fits: bool, service: GaitService, recorded: Gait
 ) -> None:
-    gait_id = desk.create(recorded).id
-    desk.edit(gait_id, replace(recorded, recorded=None), "Compute", None, Author("a"))
-    desk.edit(gait_id, others(desk.document(gait_id)), "Other", None, Author("b"))
+    gait_id = service.create(recorded).id
+    service.edit(gait_id, replace(recorded, recorded=None), "Compute", None, Author("a"))
+    service.edit(gait_id, others(service.document(gait_id)), "Other", None, Author("b"))
     if fits:
-        assert desk.undo(gait_id, Author("a")).gait.recorded == recorded.recorded
+        assert service.undo(gait_id, Author("a")).gait.recorded == recorded.recorded
         return
     with pytest.raises(StateError, match=r"recorded motion of mine\.csv is not what the gait would ask for"):
-        desk.undo(gait_id, Author("a"))
-    assert desk.document(gait_id).recorded is None
+        service.undo(gait_id, Author("a"))
+    assert service.document(gait_id).recorded is None
 
 
 @pytest.mark.parametrize("change", [_another_swing, _slower, _longer_timeline])
@@ -293,15 +293,15 @@ def test_a_trajectory_that_is_not_in_the_worlds_frame_is_refused(motion: Traject
 
 
 def test_a_sequence_that_begins_with_a_recorded_motion_is_exported_whole(
-    desk: GaitDesk, recorded: Gait, motion: Trajectory
+    service: GaitService, recorded: Gait, motion: Trajectory
 ) -> None:
-    mine = desk.create(replace(recorded, provenance=PROVENANCE))
-    tour = desk.create(made_sequence("Tour", [AskedPart(mine.id, 2)], desk.document)).gait
-    assert (tour.recorded, tour.provenance, making(tour)) == (None, None, Making.SEQUENCE)
+    mine = service.create(replace(recorded, provenance=PROVENANCE))
+    tour = service.create(made_sequence("Tour", [AskedPart(mine.id, 2)], service.document)).gait
+    assert (tour.recorded, tour.provenance, motion_source(tour)) == (None, None, MotionSource.SEQUENCE)
     older = replace(tour, recorded=recorded.recorded)
-    assert making(older) is Making.SEQUENCE
+    assert motion_source(older) is MotionSource.SEQUENCE
     for gait in (tour, older):
-        plan = desk.planned(gait)
+        plan = service.planned(gait)
         text = export(exportable_plan("tour", gait, plan), ExportFormat.CSV).content.decode()
         assert plan.trajectory is not None
         assert text == format_trajectory_csv(plan.trajectory)
@@ -309,14 +309,14 @@ def test_a_sequence_that_begins_with_a_recorded_motion_is_exported_whole(
         assert read.knot_count == 2 * motion.knot_count - 1
 
 
-def test_a_recorded_motion_comes_back_only_to_its_own_timeline(desk: GaitDesk, recorded: Gait) -> None:
+def test_a_recorded_motion_comes_back_only_to_its_own_timeline(service: GaitService, recorded: Gait) -> None:
     ada, bo = Author("a"), Author("b")
-    mine = desk.create(recorded).id
+    mine = service.create(recorded).id
     slower = replace(recorded, options=replace(recorded.options, clearance=0.002))
-    assert desk.edit(mine, slower, "Clearance", None, ada).gait.recorded is None
-    longer = replace(desk.document(mine), iterations=2)
-    desk.edit(mine, longer, "Iterations", None, bo)
+    assert service.edit(mine, slower, "Clearance", None, ada).gait.recorded is None
+    longer = replace(service.document(mine), iterations=2)
+    service.edit(mine, longer, "Iterations", None, bo)
     with pytest.raises(StateError, match="does not fit what others changed since: The timeline"):
-        desk.undo(mine, ada)
-    desk.undo(mine, bo)
-    assert desk.undo(mine, ada).gait == desk.open_gait(mine).saved
+        service.undo(mine, ada)
+    service.undo(mine, bo)
+    assert service.undo(mine, ada).gait == service.open_gait(mine).saved

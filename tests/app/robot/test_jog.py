@@ -44,7 +44,7 @@ def arm(studio: StudioProcess) -> None:
     assert studio.ask("POST", "/api/robot/arm", None, ADA).status == 200
 
 
-def settled(studio: StudioProcess) -> bool:
+def normalise(studio: StudioProcess) -> bool:
     return bool(studio.robot()["robot"] == "armed")
 
 
@@ -59,7 +59,7 @@ def made(jog: Jog, studio: StudioProcess, *steps: dict[str, Any]) -> dict[str, A
     wait_for(accepted, "the robot stands still", LONG)
     assert answers[-1].status == 200, answers[-1].content
     assert answers[-1].content["jog"]["by"] == "Ada"
-    wait_for(lambda: settled(studio), "the jog is done", LONG)
+    wait_for(lambda: normalise(studio), "the jog is done", LONG)
     return studio.robot()
 
 
@@ -138,7 +138,7 @@ def test_only_who_holds_an_armed_robot_without_a_run_moves_it(studio: StudioProc
     assert jog(RAISE, who=GRACE, preview=True).status == 200
     studio.ask("POST", "/api/robot/reset", None, ADA)
     wait_for(lambda: studio.robot()["robot"] != "moving", "the reset is over", LONG)
-    assert settled(studio)
+    assert normalise(studio)
 
 
 def test_what_a_robot_cannot_make_is_refused_and_sends_nothing(studio: StudioProcess, jog: Jog) -> None:
@@ -158,7 +158,7 @@ def test_what_a_robot_cannot_make_is_refused_and_sends_nothing(studio: StudioPro
     given = jog(RAISE, from_mm=EIGHT)
     assert "leave from_mm out" in given.content["error"]
     assert jog().status == 422
-    assert settled(studio)
+    assert normalise(studio)
     assert studio.robot()["strokes_mm"] == pytest.approx(stands, abs=0.1)
 
 

@@ -12,7 +12,7 @@ from app.bridge.bridge import RobotBridge
 from app.bridge.lease import GONE_SECONDS
 from app.bridge.states import RobotState
 from app.emulator.emulated_robot import EmulatedRobot
-from app.robot.operator_lease import LeaseDesk
+from app.robot.operator_lease import OperatorLease
 from app.undo.history import Author
 from core.errors import StateError
 from tests.support.studio_process import (
@@ -27,11 +27,11 @@ SPEED = 20.0
 ADA = {"X-Footfall-Page": "page-a", "X-Footfall-Name": "Ada"}
 GRACE = {"X-Footfall-Page": "page-g", "X-Footfall-Name": "Grace"}
 
-Ask = Callable[..., Answer]
+Submit = Callable[..., Answer]
 
 
 @pytest.fixture
-def ask(studio: StudioProcess) -> Iterator[Ask]:
+def ask(studio: StudioProcess) -> Iterator[Submit]:
     """Asks the robot for something, and leaves it disconnected."""
 
     def asked(verb: str, who: dict[str, str] | None = None, **content: object) -> Answer:
@@ -42,12 +42,12 @@ def ask(studio: StudioProcess) -> Iterator[Ask]:
     asked("disconnect", {"X-Footfall-Page": holder} if holder else None)
 
 
-def connected(studio: StudioProcess, ask: Ask, who: dict[str, str]) -> None:
+def connected(studio: StudioProcess, ask: Submit, who: dict[str, str]) -> None:
     assert ask("connect", who).status == 200
     wait_for(lambda: studio.robot()["robot"] == "disarmed", "the robot is up")
 
 
-def test_a_looker_on_moves_nothing_and_can_stop(studio: StudioProcess, ask: Ask) -> None:
+def test_a_looker_on_moves_nothing_and_can_stop(studio: StudioProcess, ask: Submit) -> None:
     connected(studio, ask, ADA)
     assert studio.robot()["lease"]["name"] == "Ada"
     for verb in ("arm", "pause", "resume", "reset", "disconnect"):
@@ -65,7 +65,7 @@ def test_a_looker_on_moves_nothing_and_can_stop(studio: StudioProcess, ask: Ask)
     wait_for(lambda: studio.robot()["robot"] == "disarmed", "the stop is cleared")
 
 
-def test_the_holder_gives_the_robot_to_who_asks(studio: StudioProcess, ask: Ask) -> None:
+def test_the_holder_gives_the_robot_to_who_asks(studio: StudioProcess, ask: Submit) -> None:
     connected(studio, ask, ADA)
     assert ask("lease/ask", GRACE).content["lease"]["asker"] == {"page": "page-g", "name": "Grace"}
     assert ask("lease/take", GRACE).status == 409
@@ -76,7 +76,7 @@ def test_the_holder_gives_the_robot_to_who_asks(studio: StudioProcess, ask: Ask)
 
 
 def test_a_script_needs_no_page_and_holds_the_robot_while_it_is_armed(
-    studio: StudioProcess, ask: Ask
+    studio: StudioProcess, ask: Submit
 ) -> None:
     connected(studio, ask, {})
     assert studio.robot()["lease"]["page"] is None
@@ -88,19 +88,19 @@ def test_a_script_needs_no_page_and_holds_the_robot_while_it_is_armed(
     assert ask("reset").status == 409
 
 
-def test_a_deed_that_is_refused_does_not_take_the_robot(studio: StudioProcess, ask: Ask) -> None:
+def test_a_deed_that_is_refused_does_not_take_the_robot(studio: StudioProcess, ask: Submit) -> None:
     refused = ask("arm", ADA)
     assert (refused.status, "Connect" in refused.content["error"]) == (409, True)
     assert studio.robot()["lease"]["page"] is None
 
 
-def test_who_disconnects_lets_the_robot_go(studio: StudioProcess, ask: Ask) -> None:
+def test_who_disconnects_lets_the_robot_go(studio: StudioProcess, ask: Submit) -> None:
     connected(studio, ask, ADA)
     assert ask("disconnect", ADA).content["lease"]["page"] is None
     assert ask("connect", GRACE).content["lease"]["name"] == "Grace"
 
 
-def test_an_armed_robot_that_changes_hands_is_disarmed(studio: StudioProcess, ask: Ask) -> None:
+def test_an_armed_robot_that_changes_hands_is_disarmed(studio: StudioProcess, ask: Submit) -> None:
     connected(studio, ask, ADA)
     assert ask("arm", ADA).content["robot"] == "armed"
     released = ask("lease/release", ADA).content
@@ -114,7 +114,7 @@ def test_an_armed_robot_that_changes_hands_is_disarmed(studio: StudioProcess, as
     assert "Disarmed by Ada, for the robot changed hands." in causes
 
 
-def test_an_unknown_hand_over_is_refused(ask: Ask) -> None:
+def test_an_unknown_hand_over_is_refused(ask: Submit) -> None:
     assert ask("lease/steal", ADA).status == 422
     assert ask("arm", {"X-Footfall-Page": "no page!"}).status == 422
 
@@ -131,27 +131,29 @@ def test_a_run_whose_holder_is_gone_pauses_at_the_next_pose_with_all_feet_down(
     robot: EmulatedRobot,
 ) -> None:
     time, told, bridge = [0.0], list[str](), RobotBridge()
-    desk = LeaseDesk(bridge, lambda: None, lambda page, event: told.append(page), lambda: time[0], 0.02)
+    service = OperatorLease(
+        bridge, lambda: None, lambda page, event: told.append(page), lambda: time[0], 0.02
+    )
     try:
         bridge.connect(robot.device)
         wait_for(lambda: bridge.snapshot.robot is RobotState.DISARMED, "the robot is up")
-        with desk.held_by(Author("page-a", "Ada")):
+        with service.held_by(Author("page-a", "Ada")):
             bridge.arm("Ada")
             bridge.send(make_plan([[15.0] * 12, [5.0] * 12] * 10, [False] * 19 + [True]), "Ada")
         wait_for(lambda: "page-a" in told, "the holder's page is asked for a sign of life")
         time[0] += GONE_SECONDS + 1.0
         wait_for(lambda: bridge.snapshot.robot is RobotState.PAUSING, "the run goes on to its next hold")
-        assert desk.view()["is_gone"]
-        with pytest.raises(StateError, match="gone for 16 s"), desk.held_by(Author("page-g", "Grace")):
+        assert service.view()["is_gone"]
+        with pytest.raises(StateError, match="gone for 16 s"), service.held_by(Author("page-g", "Grace")):
             bridge.resume("Grace")
-        desk.take(Author("page-g", "Grace"))
-        with desk.held_by(Author("page-g", "Grace")):
+        service.take(Author("page-g", "Grace"))
+        with service.held_by(Author("page-g", "Grace")):
             bridge.resume("Grace")
         assert bridge.snapshot.robot is RobotState.MOVING
         causes = [transition.cause for transition in bridge.transitions]
         assert "Pause by the studio, as Ada is gone." in causes
     finally:
-        desk.close()
+        service.close()
         bridge.close()
 
 
@@ -164,52 +166,52 @@ def refused_after(deed: AbstractContextManager[None]) -> Iterator[None]:
 
 def test_a_deed_that_is_refused_takes_the_robot_from_nobody_who_goes_on_with_it() -> None:
     shown, bridge = list[object](), RobotBridge()
-    desk = LeaseDesk(bridge, lambda: shown.append(desk.view()["page"]), lambda page, event: None)
+    service = OperatorLease(bridge, lambda: shown.append(service.view()["page"]), lambda page, event: None)
     ada = Author("page-a", "Ada")
     try:
-        with pytest.raises(StateError), desk.held_by(ada):
+        with pytest.raises(StateError), service.held_by(ada):
             raise StateError("The robot is connected already.")
         assert shown == [None]
-        with pytest.raises(StateError), desk.held_by(ada), refused_after(desk.held_by(ada)):
-            assert desk.view()["page"] == "page-a"
+        with pytest.raises(StateError), service.held_by(ada), refused_after(service.held_by(ada)):
+            assert service.view()["page"] == "page-a"
         assert shown == [None, "page-a", "page-a"]
     finally:
-        desk.close()
+        service.close()
         bridge.close()
 
 
 def test_the_end_of_a_deed_takes_the_robot_from_nobody_who_came_meanwhile() -> None:
     bridge = RobotBridge()
-    desk = LeaseDesk(bridge, lambda: None, lambda page, event: None)
+    service = OperatorLease(bridge, lambda: None, lambda page, event: None)
     ada, grace = Author("page-a", "Ada"), Author("page-g", "Grace")
     try:
-        with desk.held_by(Author(), ends=True), desk.held_by(grace):
+        with service.held_by(Author(), ends=True), service.held_by(grace):
             pass
-        assert desk.view()["page"] == "page-g"
-        with desk.held_by(grace, ends=True), desk.held_by(grace):
+        assert service.view()["page"] == "page-g"
+        with service.held_by(grace, ends=True), service.held_by(grace):
             pass
-        assert desk.view()["page"] == "page-g"
-        with desk.held_by(grace, ends=True):
-            desk.ask(ada)
-        assert desk.view()["page"] is None
+        assert service.view()["page"] == "page-g"
+        with service.held_by(grace, ends=True):
+            service.ask(ada)
+        assert service.view()["page"] is None
     finally:
-        desk.close()
+        service.close()
         bridge.close()
 
 
 def test_a_robot_whose_line_was_lost_is_the_next_persons_once_its_holder_is_gone() -> None:
     time, bridge = [0.0], RobotBridge()
-    desk = LeaseDesk(bridge, lambda: None, lambda page, event: None, lambda: time[0])
+    service = OperatorLease(bridge, lambda: None, lambda page, event: None, lambda: time[0])
     ada, grace = Author("page-a", "Ada"), Author("page-g", "Grace")
     try:
-        with desk.held_by(ada):
+        with service.held_by(ada):
             pass
-        with pytest.raises(StateError, match="Ada holds"), desk.held_by(grace):
+        with pytest.raises(StateError, match="Ada holds"), service.held_by(grace):
             pass
         time[0] += GONE_SECONDS + 1.0
-        assert desk.view()["page"] is None
-        with desk.held_by(grace):
-            assert desk.view()["page"] == "page-g"
+        assert service.view()["page"] is None
+        with service.held_by(grace):
+            assert service.view()["page"] == "page-g"
     finally:
-        desk.close()
+        service.close()
         bridge.close()

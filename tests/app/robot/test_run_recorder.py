@@ -12,14 +12,14 @@ import pytest
 from app.bridge.states import Direction, LinkState, RobotState, Transition
 from app.emulator.emulated_robot import start_emulator
 from app.robot import run_recorder
-from app.robot.recorded_bridge import KeptRun, KeptRuns
+from app.robot.recorded_bridge import RecordedBridge, RecordedRun
 from app.robot.run_recorder import RunRecorder
 from app.robot.views import RunOrigin
 from app.runs.recovery import end_abandoned
-from app.runs.service import RunDesk
+from app.runs.service import RunService
 from app.store.database import Database
 from app.store.run_journal import Entry, EntryKind, RunJournal
-from app.store.run_store import RunFilter, RunLog
+from app.store.run_store import RunFilter, RunStore
 from app.store.run_writer import RunWriter
 from core.errors import StateError
 from tests.support.studio_process import wait_for
@@ -82,8 +82,8 @@ def test_what_the_database_does_not_take_is_kept_and_written_when_it_does(
     recorder.end(RECORD | {"state": "done"})
     writer.is_full = False
     wait_for(lambda: database.runs()[0]["state"] == "done", "the record is whole")
-    assert [data for _, _, data in RunLog(database).bytes_of("r")] == [b"%d" % n for n in range(10)]
-    assert [cause for *_, cause in RunLog(database).states_of("r")] == ["change 1"]
+    assert [data for _, _, data in RunStore(database).bytes_of("r")] == [b"%d" % n for n in range(10)]
+    assert [cause for *_, cause in RunStore(database).states_of("r")] == ["change 1"]
 
 
 def test_a_record_that_lags_is_told_of_until_it_has_caught_up(
@@ -109,7 +109,7 @@ def test_where_memory_has_an_end_the_record_says_what_it_lacks(
     writer.is_full = False
     wait_for(lambda: database.runs()[0]["state"] == "done", "the record is ended")
     assert database.runs()[0]["left_out"] == 2
-    assert [data for _, _, data in RunLog(database).bytes_of("r")] == [b"0", b"1", b"2"]
+    assert [data for _, _, data in RunStore(database).bytes_of("r")] == [b"0", b"1", b"2"]
     recorder.begin(RECORD | {"id": "next"})
     assert recorder.trouble is None
 
@@ -126,7 +126,7 @@ def test_another_programs_long_write_costs_the_record_nothing(database: Database
     other.execute("COMMIT")
     other.close()
     closing.join()
-    assert len(RunLog(database).bytes_of("r")) == 5
+    assert len(RunStore(database).bytes_of("r")) == 5
     assert database.runs()[0]["state"] == "done"
 
 
@@ -146,7 +146,7 @@ def test_the_end_of_the_program_does_not_wait_for_ever(
 
 
 def test_a_run_whose_record_cannot_be_begun_is_not_sent(database: Database) -> None:
-    robot, kept = start_emulator(speed=20.0, booted=True), KeptRuns(database)
+    robot, kept = start_emulator(speed=20.0, booted=True), RecordedBridge(database)
     plan = make_plan([[5.0] * 12])
     origin = RunOrigin("r", "walk", "Walk", plan.waypoints, plan.waypoints.durations)
     try:
@@ -156,7 +156,7 @@ def test_a_run_whose_record_cannot_be_begun_is_not_sent(database: Database) -> N
         with database.writing() as connection:
             connection.execute("DROP TABLE run_plan")
         with pytest.raises(StateError, match=r"record of the run cannot be begun: .*no such table"):
-            kept.send(plan, KeptRun(origin, {"robot": "deltawalker"}), "Ada")
+            kept.send(plan, RecordedRun(origin, {"robot": "deltawalker"}), "Ada")
         assert kept.bridge.snapshot.robot is RobotState.ARMED
         assert database.runs() == []
     finally:
@@ -177,7 +177,7 @@ def test_what_the_database_never_got_is_completed_from_the_journal_of_a_program_
     recorder.begin(RECORD)
     log_some(recorder)
     recorder.note([change(1)])
-    wait_for(lambda: len(RunLog(database).states_of("r")) == 1, "the database has the beginning")
+    wait_for(lambda: len(RunStore(database).states_of("r")) == 1, "the database has the beginning")
     writer.is_full = True
     log_some(recorder, first=5)
     recorder.note([change(2)])
@@ -185,8 +185,8 @@ def test_what_the_database_never_got_is_completed_from_the_journal_of_a_program_
     assert database.runs()[0]["state"] == "running"  # it lives
     recorder.close()
     end_abandoned(database)
-    assert [data for _, _, data in RunLog(database).bytes_of("r")] == [b"%d" % n for n in range(10)]
-    assert [cause for *_, cause in RunLog(database).states_of("r")] == ["change 1", "change 2"]
+    assert [data for _, _, data in RunStore(database).bytes_of("r")] == [b"%d" % n for n in range(10)]
+    assert [cause for *_, cause in RunStore(database).states_of("r")] == ["change 1", "change 2"]
     assert database.runs()[0]["state"] == "interrupted"
     assert journals(database) == []
 
@@ -206,15 +206,15 @@ def test_a_run_whose_end_the_database_never_got_ends_as_it_did(
 
 @pytest.mark.parametrize("tail", [bytes(40), b"\x07" + b"\x01" * 40, b"\x02" + bytes(12)])
 def test_what_a_loss_of_power_left_at_a_journals_end_is_no_entry(database: Database, tail: bytes) -> None:
-    RunLog(database).begin(RECORD, None)
+    RunStore(database).begin(RECORD, None)
     journal = RunJournal(database.path.parent, "r")
     journal.add(Entry(EntryKind.FROM_ROBOT, 11.0, b"j,"))
     journal.close(is_in_database=False)
     with (database.path.parent / "running" / "r.journal").open("ab") as file:
         file.write(tail)
     end_abandoned(database)
-    assert RunLog(database).bytes_of("r") == [(11.0, "from robot", b"j,")]
-    assert RunLog(database).running() == ()
+    assert RunStore(database).bytes_of("r") == [(11.0, "from robot", b"j,")]
+    assert RunStore(database).running() == ()
 
 
 def test_an_entry_that_was_cut_off_is_left_out(database: Database) -> None:
@@ -227,7 +227,7 @@ def test_an_entry_that_was_cut_off_is_left_out(database: Database) -> None:
     path = data / "running" / "r.journal"
     path.write_bytes(path.read_bytes()[:-3])
     end_abandoned(database)
-    assert RunLog(database).bytes_of("r") == [(11.0, "from robot", b"whole")]
+    assert RunStore(database).bytes_of("r") == [(11.0, "from robot", b"whole")]
 
 
 def test_only_runs_whose_program_is_gone_are_called_interrupted_also_while_the_studio_is_open(
@@ -236,10 +236,10 @@ def test_only_runs_whose_program_is_gone_are_called_interrupted_also_while_the_s
     more = {"gait_name": "Walk", "waypoints_hash": "", "by": "Ada", "sentence": "", "ended": None}
     for run in ("living", "old"):
         database.put_run(RECORD | more | {"id": run})
-    living, desk = RunJournal(database.path.parent, "living"), RunDesk(database)
+    living, service = RunJournal(database.path.parent, "living"), RunService(database)
 
     def states() -> dict[str, str]:
-        return {run["id"]: run["state"] for run in desk.found(RunFilter(), 0, 5)["runs"]}
+        return {run["id"]: run["state"] for run in service.found(RunFilter(), 0, 5)["runs"]}
 
     assert states() == {"living": "running", "old": "interrupted"}
     living.close(is_in_database=False)

@@ -30,11 +30,11 @@ ROWS_MM = [[2.0] * 12, [8.0] * 12, [9.2] * 12, [8.0] * 12]
 
 def test_the_stop_time_of_a_run_from_a_later_pose_holds_on_its_way_to_the_start_pose() -> None:
     plan = make_plan(ROWS_MM)
-    plan = replace(plan, course=replace(plan.course, first=1))
+    plan = replace(plan, run_range=replace(plan.run_range, first=1))
     moves = plan_moves(plan, (0.5,) * 12)
     places = [(0.5,) * 12, *(move.target_mm for move in moves)]
     longest_mm = max(abs(b[0] - a[0]) for a, b in pairwise(places))
-    stated = stop_seconds(sent_waypoints(plan.waypoints, plan.course), MOVING, plan.waypoints)
+    stated = stop_seconds(sent_waypoints(plan.waypoints, plan.run_range), MOVING, plan.waypoints)
     assert longest_mm > 2.0
     assert stated >= LONGEST_SCAN + ramp_time((longest_mm + 1.0) / 1000.0)
 

@@ -38,8 +38,8 @@ class FakeBridge:
 def app_with(bridge: FakeBridge, lane: ThreadPoolExecutor | None = None) -> FastAPI:
     app = FastAPI()
     app.include_router(robot.router)
-    desk = SimpleNamespace(bridge=bridge, view=dict)
-    app.state.studio = SimpleNamespace(robot=desk, stop_lane=lane)
+    service = SimpleNamespace(bridge=bridge, view=dict)
+    app.state.studio = SimpleNamespace(robot=service, stop_lane=lane)
     return app
 
 

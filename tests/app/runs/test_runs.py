@@ -18,9 +18,9 @@ from app.robot.run_recorder import RunRecorder
 from app.runs.csv_file import run_csv
 from app.runs.mcap_file import run_mcap
 from app.runs.motion import measured_trajectory
-from app.runs.service import RunDesk
+from app.runs.service import RunService
 from app.store.database import Database
-from app.store.run_store import RunFilter, RunLog
+from app.store.run_store import RunFilter, RunStore
 from core.errors import NotFoundError, StateError
 from tests.support.ran_robot import STARTED, keep_run, ran
 from tests.support.studio_process import StudioProcess, wait_for
@@ -32,59 +32,59 @@ EVERY = RunFilter()
 
 
 @pytest.fixture
-def desk(database: Database) -> RunDesk:
-    return RunDesk(database)
+def service(database: Database) -> RunService:
+    return RunService(database)
 
 
-def found(desk: RunDesk, wanted: RunFilter = EVERY, offset: int = 0, most: int = 50) -> list[str]:
-    return [run["id"] for run in desk.found(wanted, offset, most)["runs"]]
+def found(service: RunService, wanted: RunFilter = EVERY, offset: int = 0, most: int = 50) -> list[str]:
+    return [run["id"] for run in service.found(wanted, offset, most)["runs"]]
 
 
-def test_a_run_is_listed_with_its_largest_error(desk: RunDesk, database: Database) -> None:
+def test_a_run_is_listed_with_its_largest_error(service: RunService, database: Database) -> None:
     run = keep_run(database)
-    line = desk.found(EVERY, 0, 50)["runs"][0]
+    line = service.found(EVERY, 0, 50)["runs"][0]
     assert (line["id"], line["by"], line["state"], line["note"]) == (run, "Ada", "done", "")
     errors = line["errors"]
     assert 0.1 < errors["largest_mm"] == max(errors["motor_largest_mm"]) <= 1.2
     assert errors["motor_largest_mm"][errors["largest_motor"]] == errors["largest_mm"]
     assert errors["arrived"] == ran().way.waypoints.count
-    assert RunLog(database).figures(run) == errors  # computed once
+    assert RunStore(database).figures(run) == errors  # computed once
 
 
-def test_runs_are_filtered_by_gait_operator_state_and_day(desk: RunDesk, database: Database) -> None:
+def test_runs_are_filtered_by_gait_operator_state_and_day(service: RunService, database: Database) -> None:
     first = keep_run(database)
     second = keep_run(database, by="Bob", gait="amble", day=1)
     third = keep_run(database, by="Bob", day=2)
-    assert found(desk) == [third, second, first]
-    assert found(desk, RunFilter(gait="amble")) == [second]
-    assert found(desk, RunFilter(by="Bob", gait="walk")) == [third]
-    assert found(desk, RunFilter(state="stopped")) == []
-    assert found(desk, RunFilter(since=STARTED + 1, until=STARTED + 1.5 * 86400)) == [second]
-    assert found(desk, EVERY, offset=1, most=1) == [second]
-    page = desk.found(RunFilter(by="Bob"), 0, 1)
+    assert found(service) == [third, second, first]
+    assert found(service, RunFilter(gait="amble")) == [second]
+    assert found(service, RunFilter(by="Bob", gait="walk")) == [third]
+    assert found(service, RunFilter(state="stopped")) == []
+    assert found(service, RunFilter(since=STARTED + 1, until=STARTED + 1.5 * 86400)) == [second]
+    assert found(service, EVERY, offset=1, most=1) == [second]
+    page = service.found(RunFilter(by="Bob"), 0, 1)
     assert page["total"] == 2
     assert page["operators"] == ["Ada", "Bob"]
     assert [gait["id"] for gait in page["gaits"]] == ["amble", "walk"]
 
 
-def test_a_note_survives_the_end_of_its_run(desk: RunDesk, database: Database) -> None:
+def test_a_note_survives_the_end_of_its_run(service: RunService, database: Database) -> None:
     run = keep_run(database)
-    assert desk.note(run, "Slipped on the mat.")["note"] == "Slipped on the mat."
+    assert service.note(run, "Slipped on the mat.")["note"] == "Slipped on the mat."
     database.put_run(dict(database.runs()[0]))  # what the recorder does when a run ends
-    assert desk.summary(run)["note"] == "Slipped on the mat."
+    assert service.summary(run)["note"] == "Slipped on the mat."
 
 
-def test_a_deleted_run_is_gone_from_the_list_and_comes_back(desk: RunDesk, database: Database) -> None:
+def test_a_deleted_run_is_gone_from_the_list_and_comes_back(service: RunService, database: Database) -> None:
     run = keep_run(database)
-    desk.delete(run)
-    assert found(desk) == []
-    assert desk.restore(run)["deleted"] is False
-    assert found(desk) == [run]
+    service.delete(run)
+    assert found(service) == []
+    assert service.restore(run)["deleted"] is False
+    assert found(service) == [run]
 
 
-def test_strokes_are_thinned_and_keep_every_arrival(desk: RunDesk, database: Database) -> None:
+def test_strokes_are_thinned_and_keep_every_arrival(service: RunService, database: Database) -> None:
     run = keep_run(database)
-    whole, thin = desk.strokes(run, 100_000), desk.strokes(run, 10)
+    whole, thin = service.strokes(run, 100_000), service.strokes(run, 10)
     assert whole["count"] == len(whole["times"])
     assert len(thin["times"]) < len(whole["times"])
     arrived = {round(arrival["arrived"], 4) for arrival in thin["arrivals"]}
@@ -98,16 +98,16 @@ def test_strokes_are_thinned_and_keep_every_arrival(desk: RunDesk, database: Dat
     assert heights.max() == pytest.approx(ran().trajectory.feet_world[..., 2].max() * 1000, abs=2.0)
 
 
-def test_states_have_their_causes(desk: RunDesk, database: Database) -> None:
-    states = desk.summary(keep_run(database))["states"]
+def test_states_have_their_causes(service: RunService, database: Database) -> None:
+    states = service.summary(keep_run(database))["states"]
     assert [state["robot"] for state in states] == ["moving", "done"]
     assert "sent by Ada" in states[0]["cause"]
 
 
-def test_the_csv_holds_every_telemetry(desk: RunDesk, database: Database) -> None:
+def test_the_csv_holds_every_telemetry(service: RunService, database: Database) -> None:
     run = keep_run(database)
-    rows = list(csv.DictReader(io.StringIO(run_csv(desk.record(run)))))
-    assert len(rows) == desk.strokes(run, 10)["count"]
+    rows = list(csv.DictReader(io.StringIO(run_csv(service.record(run)))))
+    assert len(rows) == service.strokes(run, 10)["count"]
     last = rows[-1]
     assert list(last)[:3] == ["t", "state", "commanded_h1"]
     assert [float(last[f"commanded_h{m + 1}"]) for m in range(12)] == pytest.approx(
@@ -125,20 +125,20 @@ def read_mcap(content: bytes) -> dict[str, list[dict[str, Any]]]:
     return messages
 
 
-def test_the_mcap_file_opens_in_the_standard_reader(desk: RunDesk, database: Database) -> None:
+def test_the_mcap_file_opens_in_the_standard_reader(service: RunService, database: Database) -> None:
     run = keep_run(database)
-    content = run_mcap(desk.record(run))
+    content = run_mcap(service.record(run))
     messages = read_mcap(content)
     assert set(messages) == {"/run/measured", "/run/commanded", "/run/state", "/run/bytes"}
-    assert len(messages["/run/measured"]) == desk.strokes(run, 10)["count"]
+    assert len(messages["/run/measured"]) == service.strokes(run, 10)["count"]
     assert messages["/run/commanded"][-1]["waypoint"] == ran().way.waypoints.count
     assert len(messages["/run/bytes"]) == len(ran().robot.pieces)
     metadata = next(iter(make_reader(io.BytesIO(content)).iter_metadata()))
     assert metadata.metadata["by"] == "Ada"
 
 
-def test_the_measured_motion_stays_near_the_plan(desk: RunDesk, database: Database) -> None:
-    motion = measured_trajectory(desk.record(keep_run(database)))
+def test_the_measured_motion_stays_near_the_plan(service: RunService, database: Database) -> None:
+    motion = measured_trajectory(service.record(keep_run(database)))
     planned = ran().trajectory
     np.testing.assert_allclose(motion.times, planned.times)
     assert np.abs(motion.feet_world - planned.feet_world).max() < 0.005
@@ -146,15 +146,15 @@ def test_the_measured_motion_stays_near_the_plan(desk: RunDesk, database: Databa
     assert np.abs(motion.body_world - planned.body_world).max() > 1e-4
 
 
-def test_a_run_without_its_plan_says_so_and_is_still_listed(desk: RunDesk, database: Database) -> None:
+def test_a_run_without_its_plan_says_so_and_is_still_listed(service: RunService, database: Database) -> None:
     run = keep_run(database)
     with database.writing() as connection:
         connection.execute("DELETE FROM run_plan")
-    assert desk.found(EVERY, 0, 50)["runs"][0]["errors"] is None
+    assert service.found(EVERY, 0, 50)["runs"][0]["errors"] is None
     with pytest.raises(StateError, match="older program"):
-        desk.strokes(run, 100)
+        service.strokes(run, 100)
     with pytest.raises(NotFoundError, match="no run “nope”"):
-        desk.summary("nope")
+        service.summary("nope")
 
 
 def test_the_recorder_keeps_each_change_of_state_once(database: Database) -> None:
@@ -171,9 +171,9 @@ def test_the_recorder_keeps_each_change_of_state_once(database: Database) -> Non
     recorder.end(record)
     recorder.note(changes)
     recorder.close()
-    causes = [state[3] for state in RunLog(database).states_of("r")]
+    causes = [state[3] for state in RunStore(database).states_of("r")]
     assert causes == ["change 2", "change 3", "change 4"]
-    assert RunLog(database).bytes_of("r") == [(11.0, "to robot", b"<r>")]
+    assert RunStore(database).bytes_of("r") == [(11.0, "to robot", b"<r>")]
 
 
 @pytest.fixture(scope="module")
@@ -243,5 +243,5 @@ def test_an_old_database_gets_its_runs_listed(tmp_path: Path) -> None:
     run = keep_run(database)
     database.close()
     database = Database(path)
-    assert found(RunDesk(database)) == [run]
+    assert found(RunService(database)) == [run]
     database.close()

@@ -9,7 +9,7 @@ from core.arrays import Floats
 from core.gait.gait import motion_problem
 from core.library.library import optimised_entry
 from core.motion.trajectory import Trajectory
-from core.problem.initial_guess import initial_motion
+from core.problem.initial_guess import initial_guess
 from core.problem.motion_problem import Workspace
 from core.robot.kinematics import feet_in_modules
 from core.robot.leg import strokes_from_foot
@@ -20,7 +20,7 @@ MOVING_NODES = 50
 
 def walk() -> tuple[RobotModel, Trajectory]:
     model = load_robot("deltawalker")
-    return model, initial_motion(motion_problem(optimised_entry("walk").gait, model))
+    return model, initial_guess(motion_problem(optimised_entry("walk").gait, model))
 
 
 def placed(pose: Floats, points: Floats) -> Floats:

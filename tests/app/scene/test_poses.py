@@ -18,7 +18,7 @@ from core.errors import InputError
 from core.gait.gait import motion_problem
 from core.library.library import optimised_entry
 from core.motion.trajectory import Trajectory
-from core.problem.initial_guess import initial_motion
+from core.problem.initial_guess import initial_guess
 from core.robot.closed_chain import joint_values
 from core.robot.coupled_strokes import real_strokes
 from core.robot.kinematics import actuator_plane_pose, feet_in_modules, feet_in_world
@@ -40,7 +40,7 @@ def matrix(pose: Floats) -> Floats:
 
 def walk() -> tuple[RobotModel, Trajectory]:
     model = load_robot("deltawalker")
-    return model, initial_motion(motion_problem(optimised_entry("walk").gait, model))
+    return model, initial_guess(motion_problem(optimised_entry("walk").gait, model))
 
 
 def header_of(data: bytes) -> tuple[dict[str, Any], int]:

@@ -17,9 +17,9 @@ from app.simulation.problem import (
     simulation_key,
     simulation_problem,
 )
-from app.simulation.repository import KeptSimulations
+from app.simulation.repository import SimulationRepository
 from app.store.database import Database
-from app.store.simulation_store import MOST_KEPT, SimulationLog, SimulationRow
+from app.store.simulation_store import MOST_KEPT, SimulationRow, SimulationStore
 from core.errors import CheckError, NotFoundError
 from core.library.library import library
 from core.physics.parameters import PhysicsSet, physics_set, physics_sets
@@ -32,8 +32,8 @@ from tests.support.simulated_walk import (
 
 
 @pytest.fixture
-def kept(database: Database) -> KeptSimulations:
-    return KeptSimulations(SimulationLog(database))
+def kept(database: Database) -> SimulationRepository:
+    return SimulationRepository(SimulationStore(database))
 
 
 def row_of(plan: Plan, physics: PhysicsSet, made: float = 1.0) -> SimulationRow:
@@ -41,7 +41,9 @@ def row_of(plan: Plan, physics: PhysicsSet, made: float = 1.0) -> SimulationRow:
     return SimulationRow(GAIT, simulation_key(plan, physics), plan.waypoints.content_hash, physics.name, made)
 
 
-def put(kept: KeptSimulations, plan: Plan, name: str | None = None, made: float = 1.0, **more: Any) -> str:
+def put(
+    kept: SimulationRepository, plan: Plan, name: str | None = None, made: float = 1.0, **more: Any
+) -> str:
     physics = physics_set(name)
     row = row_of(plan, physics, made)
     content = {
@@ -60,7 +62,7 @@ def shorter_plan() -> Plan:
     return make_plan(replace(gait, step=(0.9 * x, 0.9 * y, yaw)), None, no_solver)
 
 
-def test_a_simulation_is_fresh_for_its_plan_and_stale_for_another(kept: KeptSimulations) -> None:
+def test_a_simulation_is_fresh_for_its_plan_and_stale_for_another(kept: SimulationRepository) -> None:
     assert kept.standing(GAIT, walk_plan()) is None
     key = put(kept, walk_plan())
     standing, later = kept.standing(GAIT, walk_plan()), kept.standing(GAIT, shorter_plan())
@@ -71,14 +73,14 @@ def test_a_simulation_is_fresh_for_its_plan_and_stale_for_another(kept: KeptSimu
     assert not kept.is_fresh(GAIT, key, shorter_plan())
 
 
-def test_going_back_to_a_simulated_plan_finds_its_simulation_again(kept: KeptSimulations) -> None:
+def test_going_back_to_a_simulated_plan_finds_its_simulation_again(kept: SimulationRepository) -> None:
     first = put(kept, walk_plan(), made=1.0)
     second = put(kept, shorter_plan(), made=2.0)
     standing = [kept.standing(GAIT, plan) for plan in (walk_plan(), shorter_plan())]
     assert [one and one["key"] for one in standing] == [first, second]
 
 
-def test_the_report_of_a_plan_comes_back_as_it_was(kept: KeptSimulations) -> None:
+def test_the_report_of_a_plan_comes_back_as_it_was(kept: SimulationRepository) -> None:
     slip = np.array([0.001, 0.0, 0.002, 1 / 3])
     put(kept, walk_plan(), report=report_content(walk_report(slip=slip, fell=True, fell_time=3.5)))
     found = kept.simulated(walk_plan())
@@ -88,7 +90,9 @@ def test_the_report_of_a_plan_comes_back_as_it_was(kept: KeptSimulations) -> Non
     assert kept.simulated(shorter_plan()) is None
 
 
-def test_what_the_robots_usual_parameters_find_stands_whatever_else_is_tried(kept: KeptSimulations) -> None:
+def test_what_the_robots_usual_parameters_find_stands_whatever_else_is_tried(
+    kept: SimulationRepository,
+) -> None:
     put(kept, walk_plan(), "published", made=1.0)
     put(kept, walk_plan(), "model", made=2.0)
     newest = kept.simulated(walk_plan())
@@ -100,7 +104,7 @@ def test_what_the_robots_usual_parameters_find_stands_whatever_else_is_tried(kep
 
 @pytest.mark.parametrize(("name", "other"), [("VERSION", "0.0.1"), ("FORM", 1)])
 def test_what_another_program_computed_is_no_simulation_of_today(
-    kept: KeptSimulations, monkeypatch: pytest.MonkeyPatch, name: str, other: object
+    kept: SimulationRepository, monkeypatch: pytest.MonkeyPatch, name: str, other: object
 ) -> None:
     with monkeypatch.context() as before:
         before.setattr(f"app.simulation.problem.{name}", other)
@@ -111,19 +115,19 @@ def test_what_another_program_computed_is_no_simulation_of_today(
     assert not standing["fresh"]
 
 
-def test_variations_stay_where_the_same_is_simulated_without_them(kept: KeptSimulations) -> None:
+def test_variations_stay_where_the_same_is_simulated_without_them(kept: SimulationRepository) -> None:
     key = put(kept, walk_plan(), variations={"walks": 3})
     put(kept, walk_plan())
     assert kept.content(key)["variations"] == {"walks": 3}
 
 
-def test_a_simulation_that_is_not_kept_is_named_with_the_remedy(kept: KeptSimulations) -> None:
+def test_a_simulation_that_is_not_kept_is_named_with_the_remedy(kept: SimulationRepository) -> None:
     with pytest.raises(NotFoundError, match="Simulate again"):
         kept.content("none")
 
 
 def test_the_oldest_simulations_go(database: Database) -> None:
-    log = SimulationLog(database)
+    log = SimulationStore(database)
     for number in range(MOST_KEPT + 1):
         log.put(SimulationRow(GAIT, f"key {number}", "w", "scales", float(number)), {})
     rows = log.of_gait(GAIT)

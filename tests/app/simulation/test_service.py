@@ -9,11 +9,11 @@ from dataclasses import dataclass
 import pytest
 
 from app.gaits.open_gait import OpenGait, fresh_gait
-from app.jobs.repository import JobBook
-from app.simulation.repository import KeptSimulations
-from app.simulation.service import SimulationDesk
+from app.jobs.repository import JobRepository
+from app.simulation.repository import SimulationRepository
+from app.simulation.service import SimulationService
 from app.store.database import Database
-from app.store.simulation_store import SimulationLog
+from app.store.simulation_store import SimulationStore
 from core.errors import NotFoundError, StateError
 from core.library.library import library
 from core.physics.motion import SimulatedMotion
@@ -78,23 +78,23 @@ class Desk:
 
     def __init__(self, database: Database) -> None:
         self.tier = Tier()
-        self.book = JobBook(database)
-        self.kept = KeptSimulations(SimulationLog(database))
+        self.job_repository = JobRepository(database)
+        self.kept = SimulationRepository(SimulationStore(database))
         self.shown: list[tuple[str, float]] = []
-        self.desk = SimulationDesk(
+        self.service = SimulationService(
             self.tier,
-            self.book,
+            self.job_repository,
             self.kept,
             lambda act: act(),
             lambda job: self.shown.append((job["state"], job["share"])),
         )
 
     def submit(self) -> str:
-        job_id: str = self.desk.submit(open_gait(), walk_plan(), physics_set())["id"]
+        job_id: str = self.service.submit(open_gait(), walk_plan(), physics_set())["id"]
         return job_id
 
     def wait(self, job_id: str, state: str) -> None:
-        wait_for(lambda: self.book.content(job_id)["state"] == state, f"the job is {state}")
+        wait_for(lambda: self.job_repository.content(job_id)["state"] == state, f"the job is {state}")
 
 
 def open_gait() -> OpenGait:
@@ -102,70 +102,70 @@ def open_gait() -> OpenGait:
 
 
 @pytest.fixture
-def desk(database: Database) -> Iterator[Desk]:
+def service(database: Database) -> Iterator[Desk]:
     made = Desk(database)
     yield made
     for handle in made.tier.handles:
         handle.ended.set()
-    made.desk.close()
+    made.service.close()
 
 
-def test_a_simulation_that_is_done_is_kept_with_its_figures(desk: Desk) -> None:
-    job_id = desk.submit()
-    assert desk.book.content(job_id)["state"] == "queued"
-    desk.tier.handles[0].end()
-    desk.wait(job_id, "done")
-    job, standing = desk.book.content(job_id), desk.kept.standing(GAIT, walk_plan())
+def test_a_simulation_that_is_done_is_kept_with_its_figures(service: Desk) -> None:
+    job_id = service.submit()
+    assert service.job_repository.content(job_id)["state"] == "queued"
+    service.tier.handles[0].end()
+    service.wait(job_id, "done")
+    job, standing = service.job_repository.content(job_id), service.kept.standing(GAIT, walk_plan())
     assert standing is not None
     assert standing["key"] == job["motion"]
-    kept = desk.kept.content(job["motion"])
+    kept = service.kept.content(job["motion"])
     assert kept["report"]["body_error"] == pytest.approx(BEHIND)
     assert job["result"]["mean_error"]["feet"] == pytest.approx([BEHIND] * 4)
     assert "stays on its feet" in job["sentence"]
     assert len(kept["motion"]["times"]) == len(kept["motion"]["strokes_mm"])
 
 
-def test_progress_is_told_while_it_goes(desk: Desk) -> None:
-    job_id = desk.submit()
-    desk.tier.handles[0].progress(0.25)
-    assert desk.shown == [("running", 0.25)]
-    desk.tier.handles[0].progress(0.26)  # too soon after the last
-    assert desk.shown == [("running", 0.25)]
-    desk.tier.handles[0].end()
-    desk.wait(job_id, "done")
+def test_progress_is_told_while_it_goes(service: Desk) -> None:
+    job_id = service.submit()
+    service.tier.handles[0].progress(0.25)
+    assert service.shown == [("running", 0.25)]
+    service.tier.handles[0].progress(0.26)  # too soon after the last
+    assert service.shown == [("running", 0.25)]
+    service.tier.handles[0].end()
+    service.wait(job_id, "done")
 
 
-def test_a_cancelled_simulation_leaves_nothing(desk: Desk) -> None:
-    job_id = desk.submit()
-    assert desk.desk.cancel(job_id)["state"] == "cancelling"
-    desk.wait(job_id, "cancelled")
-    assert desk.kept.standing(GAIT, walk_plan()) is None
-    assert desk.desk.cancel(job_id)["state"] == "cancelled"
+def test_a_cancelled_simulation_leaves_nothing(service: Desk) -> None:
+    job_id = service.submit()
+    assert service.service.cancel(job_id)["state"] == "cancelling"
+    service.wait(job_id, "cancelled")
+    assert service.kept.standing(GAIT, walk_plan()) is None
+    assert service.service.cancel(job_id)["state"] == "cancelled"
 
 
-def test_a_simulation_that_fails_says_why_and_the_next_one_may_begin(desk: Desk) -> None:
-    job_id = desk.submit()
-    desk.tier.handles[0].end(StateError("The physics' process ended twice."))
-    desk.wait(job_id, "failed")
-    assert desk.book.content(job_id)["sentence"] == "The physics' process ended twice."
-    assert desk.submit() != job_id
+def test_a_simulation_that_fails_says_why_and_the_next_one_may_begin(service: Desk) -> None:
+    job_id = service.submit()
+    service.tier.handles[0].end(StateError("The physics' process ended twice."))
+    service.wait(job_id, "failed")
+    assert service.job_repository.content(job_id)["sentence"] == "The physics' process ended twice."
+    assert service.submit() != job_id
 
 
-def test_a_gait_is_simulated_once_at_a_time(desk: Desk) -> None:
-    desk.submit()
+def test_a_gait_is_simulated_once_at_a_time(service: Desk) -> None:
+    service.submit()
     with pytest.raises(StateError, match="is being simulated"):
-        desk.submit()
+        service.submit()
 
 
 def test_after_a_restart_a_simulation_that_was_on_asks_to_simulate_again(
-    desk: Desk, database: Database
+    service: Desk, database: Database
 ) -> None:
-    job_id = desk.submit()
-    again = JobBook(database).content(job_id)
+    job_id = service.submit()
+    again = JobRepository(database).content(job_id)
     assert again["state"] == "interrupted"
     assert again["sentence"].endswith("Simulate again.")
 
 
-def test_an_unknown_job_cannot_be_cancelled(desk: Desk) -> None:
+def test_an_unknown_job_cannot_be_cancelled(service: Desk) -> None:
     with pytest.raises(NotFoundError):
-        desk.desk.cancel("none")
+        service.service.cancel("none")

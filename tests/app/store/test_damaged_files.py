@@ -9,7 +9,7 @@ import pytest
 
 from app.documents.gait_json import gait_content, motion_hash
 from app.documents.trajectory_json import trajectory_content
-from app.gaits.service import GaitDesk
+from app.gaits.service import GaitService
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
 from app.studio.studio import Studio
@@ -50,7 +50,7 @@ def test_a_greeting_opens_no_gait_for_its_jobs(tmp_path: Path, monkeypatch: pyte
     )
     database.close()
     studio = Studio(tmp_path, "emulator")
-    monkeypatch.delattr(GaitDesk, "open_gait")
+    monkeypatch.delattr(GaitService, "open_gait")
     try:
         greeting = studio.call(studio.hello).result(20)
     finally:
@@ -65,12 +65,12 @@ def test_a_sequence_that_runs_too_often_keeps_no_result_from_another_gait(tmp_pa
     put(tmp_path, "long", json.dumps(content))
     database = Database(tmp_path / "studio.sqlite3")
     try:
-        desk = GaitDesk(GaitFiles(tmp_path), database, lambda gait: solve_live)
-        assert "at most 20 follow each other" in str(desk.plan("long").refusal)
-        desk.open_gait("walk")
+        service = GaitService(GaitFiles(tmp_path), database, lambda gait: solve_live)
+        assert "at most 20 follow each other" in str(service.plan("long").refusal)
+        service.open_gait("walk")
         solved = solve_live(motion_problem(walk, load_robot(walk.robot)))
         result = {"solve_seconds": 0.5, "trajectory": trajectory_content(solved.trajectory)}
-        touched = desk.take_result(motion_hash(walk), result)
+        touched = service.on_result(motion_hash(walk), result)
     finally:
         database.close()
     assert [one.id for one in touched] == ["walk"]

@@ -41,12 +41,12 @@ class Acknowledged:
     saves: dict[str, int] = field(default_factory=lambda: dict.fromkeys(GAITS, 0))
     versions: dict[tuple[str, int], int] = field(default_factory=dict)
 
-    def take(self, deed: str, gait: str, number: int) -> None:
-        if deed == "edit":
+    def take(self, action: str, gait: str, number: int) -> None:
+        if action == "edit":
             self.edits[gait] = number
-        elif deed == "save":
+        elif action == "save":
             self.saves[gait] = self.edits[gait]
-        elif deed == "version":
+        elif action == "version":
             self.versions[gait, number] = self.edits[gait]
 
 
@@ -64,11 +64,11 @@ def worker() -> Iterator[subprocess.Popen[str]]:
     process.communicate()
 
 
-def deeds(process: subprocess.Popen[str]) -> Iterator[tuple[str, str, int]]:
+def actions(process: subprocess.Popen[str]) -> Iterator[tuple[str, str, int]]:
     assert process.stdout is not None
     while line := process.stdout.readline():
-        deed, gait, number = line.split()
-        yield deed, gait, int(number)
+        action, gait, number = line.split()
+        yield action, gait, int(number)
 
 
 def wait_about(seconds: float) -> None:
@@ -83,31 +83,31 @@ def one_round(worker: subprocess.Popen[str], folder: Path, dice: random.Random, 
     assert worker.stdin is not None
     worker.stdin.write(f"{folder} {dice.randrange(10**6)}\n")
     worker.stdin.flush()
-    told = deeds(worker)
+    told = actions(worker)
     wanted, done, child = dice.randrange(MOST_DEEDS + 1), 0, 0
     while done < wanted or child == 0:
-        deed, gait, number = next(told)
-        if deed == "child":
+        action, gait, number = next(told)
+        if action == "child":
             child = int(gait)
         else:
-            known.take(deed, gait, number)
+            known.take(action, gait, number)
             done += 1
     wait_about(dice.uniform(0, LONGEST_WAIT))
     os.kill(child, signal.SIGKILL)
-    for deed, gait, number in told:
-        if deed == "ended":
+    for action, gait, number in told:
+        if action == "ended":
             break
-        known.take(deed, gait, number)
+        known.take(action, gait, number)
         done += 1
     return done
 
 
 def check(folder: Path, known: Acknowledged) -> None:
     """Opens the folder as the next start of the studio does, and looks for everything."""
-    desk, database = opened(folder)
+    service, database = opened(folder)
     with closing(database):
         for gait in GAITS:
-            present = desk.open_gait(gait)
+            present = service.open_gait(gait)
             assert number_of(present.gait.name) in (known.edits[gait], known.edits[gait] + 1)
             known.edits[gait] = number_of(present.gait.name)
             file = folder / "gaits" / f"{gait}.json"
@@ -115,7 +115,7 @@ def check(folder: Path, known: Acknowledged) -> None:
                 saved = number_of(parse_gait(file.read_bytes(), file.name).name)
                 assert known.saves[gait] <= saved <= known.edits[gait]
                 known.saves[gait] = saved
-            held = {version.number: version for version in desk.versions.all(gait)}
+            held = {version.number: version for version in service.versions.all(gait)}
             for (owner, number), content in known.versions.items():
                 if owner == gait:
                     assert number_of(json.loads(held[number].document)["name"]) == content

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from app.store.database import Database
-from app.store.trial_reference_store import TrialBesideLog
-from app.trials.comparison import TrialsBeside
+from app.store.trial_reference_store import TrialReferenceStore
+from app.trials.comparison import TrialComparison
 from app.trials.planned import sent_problem
-from app.trials.service import TrialDesk, TrialWords
+from app.trials.service import TrialDescription, TrialService
 from app.trials.simulated_feet import NOT_KNOWN, TrialSimulations
 from core.errors import CheckError, InputError, NotFoundError
 from core.physics.motion import SimulatedMotion
@@ -25,7 +25,7 @@ from tests.support.studio_process import wait_for
 from tests.support.trials.tracks import stepping_track
 from tests.support.trials.walking import walk_planned, walked
 
-WORDS = TrialWords("first", "Ada", 1.0, 1, gait="walk", gait_name="Walk 10 mm")
+WORDS = TrialDescription("first", "Ada", 1.0, 1, gait="walk", gait_name="Walk 10 mm")
 
 
 @dataclass(frozen=True)
@@ -75,13 +75,13 @@ def tier() -> Tier:
 
 
 @pytest.fixture
-def desk(database: Database) -> TrialDesk:
-    return TrialDesk(database)
+def service(database: Database) -> TrialService:
+    return TrialService(database)
 
 
 @pytest.fixture
-def beside(database: Database, desk: TrialDesk, tier: Tier) -> TrialsBeside:
-    return TrialsBeside(desk, TrialSimulations(TrialBesideLog(database), tier))
+def comparison(database: Database, service: TrialService, tier: Tier) -> TrialComparison:
+    return TrialComparison(service, TrialSimulations(TrialReferenceStore(database), tier))
 
 
 def test_the_problem_of_what_was_sent_is_the_one_of_the_plan() -> None:
@@ -99,18 +99,18 @@ def test_the_problem_of_what_was_sent_is_the_one_of_the_plan() -> None:
 
 
 def test_physics_stands_beside_a_trial_once_it_is_there(
-    desk: TrialDesk, beside: TrialsBeside, tier: Tier
+    service: TrialService, comparison: TrialComparison, tier: Tier
 ) -> None:
-    trial = desk.add(walked(), WORDS, walk_planned())["id"]
-    before = beside.figures(trial)
+    trial = service.add(walked(), WORDS, walk_planned())["id"]
+    before = comparison.figures(trial)
     assert before["simulation"]["state"] == "absent"
     assert [row["source"] for row in before["rows"]] == ["planned", "tracked"]
     assert before["rows"][0]["gap_mm"] == pytest.approx(0.0, abs=0.2)
-    assert beside.simulate(trial) == {"state": "running", "share": 0.4, "sentence": ""}
-    assert beside.simulate(trial)["state"] == "running"
+    assert comparison.simulate(trial) == {"state": "running", "share": 0.4, "sentence": ""}
+    assert comparison.simulate(trial)["state"] == "running"
     tier.may_answer.set()
-    wait_for(lambda: beside.figures(trial)["simulation"]["state"] == "done", "the simulation is kept")
-    after = beside.figures(trial)
+    wait_for(lambda: comparison.figures(trial)["simulation"]["state"] == "done", "the simulation is kept")
+    after = comparison.figures(trial)
     planned, simulated, tracked = after["rows"]
     assert [planned["source"], simulated["source"], tracked["source"]] == ["planned", "simulated", "tracked"]
     assert simulated["net_distance"] == pytest.approx(tracked["net_distance"], abs=0.01)
@@ -123,44 +123,46 @@ def test_physics_stands_beside_a_trial_once_it_is_there(
 
 
 def test_laps_go_on_from_where_the_simulated_robot_is(
-    desk: TrialDesk, beside: TrialsBeside, tier: Tier
+    service: TrialService, comparison: TrialComparison, tier: Tier
 ) -> None:
-    words = TrialWords("laps", "Ada", 2.0, 2)
-    trial = desk.add(walked(2), words, walk_planned(2))["id"]
+    words = TrialDescription("laps", "Ada", 2.0, 2)
+    trial = service.add(walked(2), words, walk_planned(2))["id"]
     tier.may_answer.set()
-    beside.simulate(trial)
-    wait_for(lambda: len(beside.figures(trial)["rows"]) == 3, "the simulation is kept")
-    planned, simulated, _ = beside.figures(trial)["rows"]
+    comparison.simulate(trial)
+    wait_for(lambda: len(comparison.figures(trial)["rows"]) == 3, "the simulation is kept")
+    planned, simulated, _ = comparison.figures(trial)["rows"]
     assert simulated["net_distance"] == pytest.approx(planned["net_distance"], abs=0.02)
 
 
 def test_a_refused_simulation_says_why_and_can_be_asked_for_again(
-    desk: TrialDesk, beside: TrialsBeside, tier: Tier
+    service: TrialService, comparison: TrialComparison, tier: Tier
 ) -> None:
-    trial = desk.add(walked(), WORDS, walk_planned())["id"]
+    trial = service.add(walked(), WORDS, walk_planned())["id"]
     tier.refusal = CheckError("A leg's chain opened.", "plan")
     tier.may_answer.set()
-    beside.simulate(trial)
-    wait_for(lambda: beside.figures(trial)["simulation"]["state"] == "failed", "it is refused")
-    assert beside.figures(trial)["simulation"]["sentence"] == "A leg's chain opened."
+    comparison.simulate(trial)
+    wait_for(lambda: comparison.figures(trial)["simulation"]["state"] == "failed", "it is refused")
+    assert comparison.figures(trial)["simulation"]["sentence"] == "A leg's chain opened."
     tier.refusal = None
-    beside.simulate(trial)
-    wait_for(lambda: beside.figures(trial)["simulation"]["state"] == "done", "it is kept")
+    comparison.simulate(trial)
+    wait_for(lambda: comparison.figures(trial)["simulation"]["state"] == "done", "it is kept")
 
 
 def test_what_was_sent_without_being_known_is_not_simulated(
-    desk: TrialDesk, beside: TrialsBeside, tier: Tier
+    service: TrialService, comparison: TrialComparison, tier: Tier
 ) -> None:
-    trial = desk.add(walked(), WORDS, walk_planned(knows_sent=False))["id"]
-    assert beside.simulate(trial)["sentence"] == NOT_KNOWN
+    trial = service.add(walked(), WORDS, walk_planned(knows_sent=False))["id"]
+    assert comparison.simulate(trial)["sentence"] == NOT_KNOWN
     assert tier.asked == 0
     with pytest.raises(NotFoundError):
-        beside.simulate("none")
+        comparison.simulate("none")
 
 
-def test_a_track_comes_into_the_scene_as_the_plan_lies(desk: TrialDesk, beside: TrialsBeside) -> None:
-    trial = desk.add(walked(), WORDS, walk_planned())["id"]
-    scene = beside.scene(trial)
+def test_a_track_comes_into_the_scene_as_the_plan_lies(
+    service: TrialService, comparison: TrialComparison
+) -> None:
+    trial = service.add(walked(), WORDS, walk_planned())["id"]
+    scene = comparison.scene(trial)
     plan = walk_plan().trajectory
     assert plan is not None
     feet = np.array(scene["feet"])
@@ -172,9 +174,11 @@ def test_a_track_comes_into_the_scene_as_the_plan_lies(desk: TrialDesk, beside: 
     assert not np.array(scene["filled"]).any()
 
 
-def test_a_later_lap_lies_over_the_plan_as_the_first_one_does(desk: TrialDesk, beside: TrialsBeside) -> None:
-    trial = desk.add(walked(2), TrialWords("laps", "Ada", 2.0, 2), walk_planned(2))["id"]
-    first, second = beside.scene(trial), beside.scene(trial, 2)
+def test_a_later_lap_lies_over_the_plan_as_the_first_one_does(
+    service: TrialService, comparison: TrialComparison
+) -> None:
+    trial = service.add(walked(2), TrialDescription("laps", "Ada", 2.0, 2), walk_planned(2))["id"]
+    first, second = comparison.scene(trial), comparison.scene(trial, 2)
     assert first["laps"] == 2
     assert (first["playing"], second["playing"]) == ([0.0, 0.5], [0.5, 1.0])
     shares, feet = np.array(first["shares"]), np.array(first["feet"])
@@ -184,11 +188,11 @@ def test_a_later_lap_lies_over_the_plan_as_the_first_one_does(desk: TrialDesk, b
     np.testing.assert_allclose(np.array(second["feet"])[:, -1], feet[:, middle], atol=1e-3)
     assert np.linalg.norm(end - begin, axis=-1) == pytest.approx([0.02] * 4, abs=1e-3)
     with pytest.raises(InputError, match="The walk has 2 laps"):
-        beside.scene(trial, 3)
+        comparison.scene(trial, 3)
 
 
 def test_a_run_that_ended_early_plays_over_as_much_of_the_plan_as_was_done(
-    desk: TrialDesk, beside: TrialsBeside
+    service: TrialService, comparison: TrialComparison
 ) -> None:
     whole = walk_planned(2)
     lap = float(whole.times[-1]) / 2
@@ -196,9 +200,9 @@ def test_a_run_that_ended_early_plays_over_as_much_of_the_plan_as_was_done(
     planned = replace(whole, times=whole.times[done], feet=whole.feet[done], sent=None, lap_seconds=lap)
     track = walked(2)
     frames = int((track.times <= planned.times[-1]).sum())
-    words = TrialWords("early", "Ada", 1.5, 1)
-    trial = desk.add(track.between(0, frames - 1), words, planned)["id"]
-    first, second = beside.scene(trial), beside.scene(trial, 2)
+    words = TrialDescription("early", "Ada", 1.5, 1)
+    trial = service.add(track.between(0, frames - 1), words, planned)["id"]
+    first, second = comparison.scene(trial), comparison.scene(trial, 2)
     assert first["laps"] == 2
     assert first["playing"] == pytest.approx([0.0, 2 / 3], abs=0.02)
     assert second["playing"] == pytest.approx([2 / 3, 4 / 3], abs=0.03)
@@ -206,20 +210,22 @@ def test_a_run_that_ended_early_plays_over_as_much_of_the_plan_as_was_done(
     np.testing.assert_allclose(np.array(second["feet"])[:, at], np.array(first["feet"])[:, 0], atol=1e-3)
 
 
-def test_a_trial_without_a_plan_stands_as_the_robot_does(desk: TrialDesk, beside: TrialsBeside) -> None:
-    trial = desk.add(stepping_track((0.01, 0.0), 1), WORDS, None)["id"]
-    assert [row["source"] for row in beside.figures(trial)["rows"]] == ["tracked"]
-    assert abs(beside.scene(trial)["turn_deg"]) < 90.0
+def test_a_trial_without_a_plan_stands_as_the_robot_does(
+    service: TrialService, comparison: TrialComparison
+) -> None:
+    trial = service.add(stepping_track((0.01, 0.0), 1), WORDS, None)["id"]
+    assert [row["source"] for row in comparison.figures(trial)["rows"]] == ["tracked"]
+    assert abs(comparison.scene(trial)["turn_deg"]) < 90.0
 
 
 def test_a_band_over_trials_lies_round_their_mean_over_the_plan(
-    desk: TrialDesk, beside: TrialsBeside
+    service: TrialService, comparison: TrialComparison
 ) -> None:
     longer = walked()
-    first = desk.add(longer, WORDS, walk_planned())["id"]
+    first = service.add(longer, WORDS, walk_planned())["id"]
     stretched = FootTrack(longer.times, longer.feet[0] + 1.2 * (longer.feet - longer.feet[0]), longer.filled)
-    second = desk.add(stretched, WORDS, walk_planned())["id"]
-    band = beside.band([first, second])
+    second = service.add(stretched, WORDS, walk_planned())["id"]
+    band = comparison.band([first, second])
     assert [trial["id"] for trial in band["trials"]] == [first, second]
     way = band["feet"][0]["way"]
     assert way["plan"][-1] == pytest.approx(1.0, abs=0.01)
@@ -231,13 +237,13 @@ def test_a_band_over_trials_lies_round_their_mean_over_the_plan(
 
 
 def test_trials_of_other_iterations_or_the_same_twice_make_no_band(
-    desk: TrialDesk, beside: TrialsBeside
+    service: TrialService, comparison: TrialComparison
 ) -> None:
-    one = desk.add(walked(), WORDS, None)["id"]
-    two = desk.add(stepping_track((0.01, 0.0), 2), TrialWords("two", "Ada", 2.0, 2), None)["id"]
+    one = service.add(walked(), WORDS, None)["id"]
+    two = service.add(stepping_track((0.01, 0.0), 2), TrialDescription("two", "Ada", 2.0, 2), None)["id"]
     with pytest.raises(InputError, match="as many feet and iterations"):
-        beside.band([one, two])
+        comparison.band([one, two])
     with pytest.raises(InputError, match="different trials"):
-        beside.band([one, one])
+        comparison.band([one, one])
     with pytest.raises(InputError, match="Choose 1 to 20"):
-        beside.band([])
+        comparison.band([])

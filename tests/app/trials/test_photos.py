@@ -11,27 +11,27 @@ from PIL import Image
 from app.store.database import Database
 from app.trials import photos as limits
 from app.trials.photos import TrialPhotos
-from app.trials.service import TrialDesk, TrialWords
-from app.vision.services import Eyes
+from app.trials.service import TrialDescription, TrialService
+from app.vision.services import VisionServices
 from core.errors import InputError, NotFoundError
 from tests.core.vision.test_image_header import picture
 from tests.support.trials.tracks import stepping_track
 
 
 @pytest.fixture
-def desk(database: Database) -> TrialDesk:
-    return TrialDesk(database)
+def service(database: Database) -> TrialService:
+    return TrialService(database)
 
 
 @pytest.fixture
-def trial(desk: TrialDesk) -> str:
-    summary = desk.add(stepping_track((0.01, 0.0), 1), TrialWords("first", "Ada", 1.0, 1), None)
+def trial(service: TrialService) -> str:
+    summary = service.add(stepping_track((0.01, 0.0), 1), TrialDescription("first", "Ada", 1.0, 1), None)
     return str(summary["id"])
 
 
 @pytest.fixture
-def photos(desk: TrialDesk, database: Database, tmp_path: Path, eyes: Eyes) -> TrialPhotos:
-    return TrialPhotos(desk, database, tmp_path, eyes)
+def photos(service: TrialService, database: Database, tmp_path: Path, vision: VisionServices) -> TrialPhotos:
+    return TrialPhotos(service, database, tmp_path, vision)
 
 
 def test_a_photo_is_kept_smaller_with_a_thumbnail_and_nothing_but_the_picture(

@@ -12,18 +12,18 @@ import numpy as np
 import pytest
 
 from app.export.drawing import dashed
-from app.runs.service import RunDesk
+from app.runs.service import RunService
 from app.store.database import Database
-from app.store.trial_reference_store import TrialBesideLog
+from app.store.trial_reference_store import TrialReferenceStore
 from app.trials import comparison as limits
-from app.trials.comparison import TrialsBeside
+from app.trials.comparison import TrialComparison
 from app.trials.photos import TrialPhotos
 from app.trials.report.page import number
 from app.trials.report.plots import ways_from_above
-from app.trials.report.service import TrialReports
-from app.trials.service import TrialDesk, TrialWords
+from app.trials.report.service import TrialReportService
+from app.trials.service import TrialDescription, TrialService
 from app.trials.simulated_feet import TrialSimulations
-from app.vision.services import Eyes
+from app.vision.services import VisionServices
 from core.errors import NotFoundError
 from core.vision.track import FootTrack
 from solver_jobs import Simulator
@@ -32,23 +32,25 @@ from tests.support.simulated_walk import walk_problem
 from tests.support.trials.tracks import stepping_track
 from tests.support.trials.walking import walk_planned, walked
 
-WORDS = TrialWords("on <glass>", "Ada", 1.0, 1, note="new tape & a cable", gait="walk", gait_name="Walk")
+WORDS = TrialDescription(
+    "on <glass>", "Ada", 1.0, 1, note="new tape & a cable", gait="walk", gait_name="Walk"
+)
 
 
 @pytest.fixture
-def desk(database: Database) -> TrialDesk:
-    return TrialDesk(database)
+def service(database: Database) -> TrialService:
+    return TrialService(database)
 
 
 @pytest.fixture
-def photos(desk: TrialDesk, database: Database, tmp_path: Path, eyes: Eyes) -> TrialPhotos:
-    return TrialPhotos(desk, database, tmp_path, eyes)
+def photos(service: TrialService, database: Database, tmp_path: Path, vision: VisionServices) -> TrialPhotos:
+    return TrialPhotos(service, database, tmp_path, vision)
 
 
 @pytest.fixture
-def reports(desk: TrialDesk, photos: TrialPhotos, database: Database) -> TrialReports:
-    beside = TrialsBeside(desk, TrialSimulations(TrialBesideLog(database), Simulator()))
-    return TrialReports(desk, beside, photos, RunDesk(database))
+def reports(service: TrialService, photos: TrialPhotos, database: Database) -> TrialReportService:
+    comparison = TrialComparison(service, TrialSimulations(TrialReferenceStore(database), Simulator()))
+    return TrialReportService(service, comparison, photos, RunService(database))
 
 
 class Whole(HTMLParser):
@@ -88,12 +90,12 @@ def whole(page: str) -> Whole:
 
 
 def test_a_trials_report_has_figures_plots_note_photos_and_origin(
-    desk: TrialDesk, photos: TrialPhotos, reports: TrialReports
+    service: TrialService, photos: TrialPhotos, reports: TrialReportService
 ) -> None:
     track = walked()
     filled = track.filled.copy()
     filled[100:140, 2] = True
-    trial = desk.add(replace(track, filled=filled), WORDS, walk_planned())["id"]
+    trial = service.add(replace(track, filled=filled), WORDS, walk_planned())["id"]
     photo = photos.add(trial, picture("PNG", (60, 40)), "tape.png", "Ada")["id"]
     photos.caption(trial, photo, "the <new> tape")
     report = whole(reports.trial(trial))
@@ -116,22 +118,24 @@ def test_a_trials_report_has_figures_plots_note_photos_and_origin(
 
 
 def test_a_report_says_that_ends_were_moved_by_hand_and_that_a_walk_went_astray(
-    desk: TrialDesk, reports: TrialReports
+    service: TrialService, reports: TrialReportService
 ) -> None:
     track = stepping_track((0.0, 0.01), 2)
-    trial = desk.add(track, TrialWords("by hand", "Ada", 2.0, 2), walk_planned())
+    trial = service.add(track, TrialDescription("by hand", "Ada", 2.0, 2), walk_planned())
     ends = [trial["found_ends"][0] - 20, trial["found_ends"][1]]
     assert "moved by hand" not in whole(reports.trial(trial["id"])).words
-    desk.change(trial["id"], 1, {"ends": ends})
+    service.change(trial["id"], 1, {"ends": ends})
     report = whole(reports.trial(trial["id"])).words
     assert "moved by hand" in report
     assert "of the plan. Did a foot slip" in report
 
 
 def test_a_trial_without_plan_photos_or_note_has_a_shorter_report(
-    desk: TrialDesk, reports: TrialReports
+    service: TrialService, reports: TrialReportService
 ) -> None:
-    trial = desk.add(stepping_track((0.01, 0.0), 1), TrialWords("bare", "", 1.0, 1, run="gone"), None)["id"]
+    trial = service.add(
+        stepping_track((0.01, 0.0), 1), TrialDescription("bare", "", 1.0, 1, run="gone"), None
+    )["id"]
     report = whole(reports.trial(trial))
     assert "There is no run “gone”" in report.words
     assert not {"Photos", "Placement", "planned", "Waypoints"} & set(report.words.split())
@@ -140,11 +144,13 @@ def test_a_trial_without_plan_photos_or_note_has_a_shorter_report(
 
 
 def test_gaits_compared_come_with_their_trials_over_each_other(
-    desk: TrialDesk, reports: TrialReports, monkeypatch: pytest.MonkeyPatch
+    service: TrialService, reports: TrialReportService, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for _ in range(2):
-        desk.add(walked(), WORDS, walk_planned())
-    desk.add(stepping_track((0.01, 0.0), 2), TrialWords("two", "Eve", 2.0, 2, gait_name="Amble"), None)
+        service.add(walked(), WORDS, walk_planned())
+    service.add(
+        stepping_track((0.01, 0.0), 2), TrialDescription("two", "Eve", 2.0, 2, gait_name="Amble"), None
+    )
     report = whole(reports.compared())
     assert report.words.index("Amble, 1.0 cm a step") < report.words.index("Walk, 1.0 cm a step")
     assert "Their ends lie apart by foot 1 0.00" in report.words
@@ -156,7 +162,7 @@ def test_gaits_compared_come_with_their_trials_over_each_other(
     assert report.tags.count("svg") == 1
 
 
-def test_no_trials_make_an_empty_comparison(reports: TrialReports) -> None:
+def test_no_trials_make_an_empty_comparison(reports: TrialReportService) -> None:
     assert whole(reports.compared()).tags.count("table") == 1
 
 

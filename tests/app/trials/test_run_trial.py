@@ -9,7 +9,7 @@ import pytest
 
 from app.runs.record import RunRecord, read_record
 from app.store.database import Database
-from app.store.run_store import RunLog
+from app.store.run_store import RunStore
 from app.trials.run_trial import run_trial
 from app.vision.tracking import VideoTrack
 from core.errors import InputError, StateError
@@ -21,7 +21,7 @@ RATE = 10.0
 
 @pytest.fixture
 def record(database: Database) -> RunRecord:
-    return read_record(RunLog(database), keep_run(database))
+    return read_record(RunStore(database), keep_run(database))
 
 
 def seen(seconds: float, begin: float = 0.0) -> VideoTrack:

@@ -13,14 +13,14 @@ import numpy as np
 import pytest
 
 from app.bridge.states import LinkState, RobotSnapshot, RobotState
-from app.cameras.service import SIDE, CameraDesk
+from app.cameras.service import SIDE, CameraService
 from app.store.database import Database
-from app.store.run_store import RunLog
+from app.store.run_store import RunStore
 from app.videos.run_recording import RunRecordings
-from app.videos.service import VideoDesk
+from app.videos.service import VideoService
 from app.vision.recorder import Recorded, RecordOrder
 from app.vision.recording_file import RecordingWriter
-from app.vision.services import Eyes
+from app.vision.services import VisionServices
 from app.vision.video_io import jpeg
 from tests.support.studio_process import wait_for
 
@@ -41,12 +41,12 @@ def writing(order: RecordOrder) -> None:
 
 def cameras(
     record: Callable[[RecordOrder], None], finish: Callable[[float], Recorded] = broken
-) -> CameraDesk:
+) -> CameraService:
     """One camera, whose recordings cannot be ended if nothing else is said."""
     view = {"id": "side", "name": "Side", "use": SIDE, "setup": ""}
     link = SimpleNamespace(record=record, finish=finish)
-    desk = SimpleNamespace(recording=lambda: [view], link=lambda camera: link, tell=lambda: None)
-    return cast(CameraDesk, desk)
+    service = SimpleNamespace(recording=lambda: [view], link=lambda camera: link, tell=lambda: None)
+    return cast(CameraService, service)
 
 
 def snapshot(state: RobotState, run_id: str = "run") -> RobotSnapshot:
@@ -58,13 +58,13 @@ def snapshot(state: RobotState, run_id: str = "run") -> RobotSnapshot:
 def test_an_unexpected_error_leaves_no_video_that_is_being_recorded(
     tmp_path: Path,
     database: Database,
-    eyes: Eyes,
+    vision: VisionServices,
     monkeypatch: pytest.MonkeyPatch,
     record: Callable[[RecordOrder], None],
     state: str,
 ) -> None:
-    monkeypatch.setattr(RunLog, "get", lambda log, run: SimpleNamespace(content=RUN))
-    videos = VideoDesk(tmp_path, database, eyes)
+    monkeypatch.setattr(RunStore, "get", lambda log, run: SimpleNamespace(content=RUN))
+    videos = VideoService(tmp_path, database, vision)
     nobody = cast(Any, None)
     recordings = RunRecordings(database, cameras(record), nobody, videos, nobody, nobody, nobody)
     recordings.follow(snapshot(RobotState.MOVING))
@@ -76,7 +76,7 @@ def test_an_unexpected_error_leaves_no_video_that_is_being_recorded(
 
 
 def test_the_next_run_is_recorded_while_the_trial_of_the_last_one_is_made(
-    tmp_path: Path, database: Database, eyes: Eyes, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, database: Database, vision: VisionServices, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     begun: queue.SimpleQueue[str] = queue.SimpleQueue()
     may_go_on = threading.Event()
@@ -89,12 +89,12 @@ def test_the_next_run_is_recorded_while_the_trial_of_the_last_one_is_made(
         may_go_on.wait(60)
         return "", ("The trial is made.",)
 
-    monkeypatch.setattr(RunLog, "get", lambda log, run: SimpleNamespace(content=RUN))
+    monkeypatch.setattr(RunStore, "get", lambda log, run: SimpleNamespace(content=RUN))
     monkeypatch.setattr(RunRecordings, "_trial", waits)
-    videos = VideoDesk(tmp_path, database, eyes)
+    videos = VideoService(tmp_path, database, vision)
     nobody = cast(Any, None)
-    desk = cameras(recording, lambda seconds: Recorded(3, 1200, (64, 48), 13.0, 0.2, None, "", ()))
-    recordings = RunRecordings(database, desk, nobody, videos, nobody, nobody, nobody)
+    service = cameras(recording, lambda seconds: Recorded(3, 1200, (64, 48), 13.0, 0.2, None, "", ()))
+    recordings = RunRecordings(database, service, nobody, videos, nobody, nobody, nobody)
     try:
         for run in ("first", "second"):
             recordings.follow(snapshot(RobotState.MOVING, run))

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from app.store.database import Database
-from app.store.video_store import VideoLog
+from app.store.video_store import VideoStore
 from app.videos import service as video_desk
 from app.videos.files import Upload
-from app.videos.service import VideoDesk
+from app.videos.service import VideoService
 from app.vision.footage import PICTURES
 from app.vision.recording_file import Recording, RecordingWriter
-from app.vision.services import Eyes, Look, seen
+from app.vision.services import VisionServices, VisionTask, seen
 from app.vision.video_io import jpeg, read_picture
 from app.vision.worker import FactsOf
 from core.errors import FootfallError, InputError, StateError
@@ -25,28 +25,30 @@ GREY = jpeg(np.full((48, 64, 3), 120, dtype=np.uint8))
 
 
 @pytest.fixture
-def desk(tmp_path: Path, database: Database, eyes: Eyes) -> VideoDesk:
-    return VideoDesk(tmp_path, database, eyes)
+def service(tmp_path: Path, database: Database, vision: VisionServices) -> VideoService:
+    return VideoService(tmp_path, database, vision)
 
 
-def recorded(desk: VideoDesk, pictures: int, name: str = "Walk") -> str:
+def recorded(service: VideoService, pictures: int, name: str = "Walk") -> str:
     """A recording that nobody ended."""
-    video = str(desk.begin_recording(name, "run", "under")["id"])
-    writer = RecordingWriter(desk.files.path(video))
+    video = str(service.begin_recording(name, "run", "under")["id"])
+    writer = RecordingWriter(service.files.path(video))
     for number in range(pictures):
         writer.add(GREY, 0.1 * number)
     writer.close()
     return video
 
 
-def ended(desk: VideoDesk, video: str) -> str:
-    wait_for(lambda: desk.view(video)["state"] != "recording", "it is known what there is", 60)
-    return str(desk.view(video)["state"])
+def ended(service: VideoService, video: str) -> str:
+    wait_for(lambda: service.view(video)["state"] != "recording", "it is known what there is", 60)
+    return str(service.view(video)["state"])
 
 
-def test_what_a_killed_program_recorded_is_kept(desk: VideoDesk, database: Database, eyes: Eyes) -> None:
-    video = recorded(desk, 5)
-    again = VideoDesk(desk.files.folder.parent, database, eyes)
+def test_what_a_killed_program_recorded_is_kept(
+    service: VideoService, database: Database, vision: VisionServices
+) -> None:
+    video = recorded(service, 5)
+    again = VideoService(service.files.folder.parent, database, vision)
     again.tidy()
     assert ended(again, video) == "kept"
     view = again.view(video)
@@ -55,55 +57,57 @@ def test_what_a_killed_program_recorded_is_kept(desk: VideoDesk, database: Datab
     assert "The studio ended while this was recorded." in view["sentence"]
 
 
-def test_a_picture_that_was_not_written_whole_is_left_out(desk: VideoDesk) -> None:
-    video = recorded(desk, 3)
-    pictures = desk.files.path(video) / PICTURES
+def test_a_picture_that_was_not_written_whole_is_left_out(service: VideoService) -> None:
+    video = recorded(service, 3)
+    pictures = service.files.path(video) / PICTURES
     pictures.write_bytes(pictures.read_bytes()[:-10])
-    footage = Recording(desk.files.path(video))
+    footage = Recording(service.files.path(video))
     assert footage.facts.count == 2
     with pytest.raises(InputError, match="ends before picture 2"):
         footage.picture(2)
     footage.close()
 
 
-def test_a_recording_without_pictures_says_so(desk: VideoDesk) -> None:
-    video = recorded(desk, 0)
-    desk.salvage(video, "The camera's process ended.")
-    assert ended(desk, video) == "removed"
-    assert "holds no picture" in desk.view(video)["sentence"]
+def test_a_recording_without_pictures_says_so(service: VideoService) -> None:
+    video = recorded(service, 0)
+    service.salvage(video, "The camera's process ended.")
+    assert ended(service, video) == "removed"
+    assert "holds no picture" in service.view(video)["sentence"]
     with pytest.raises(StateError, match="holds no picture"):
-        desk.path(video)
+        service.path(video)
 
 
-def test_the_oldest_recordings_make_room(desk: VideoDesk, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_oldest_recordings_make_room(service: VideoService, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(video_desk, "MOST_RECORDED", 1.5 * len(GREY) * 3)
-    old, new = recorded(desk, 3), recorded(desk, 3)
+    old, new = recorded(service, 3), recorded(service, 3)
     for video in (old, new):
-        desk.change(video, state="kept", bytes=3 * len(GREY))
-    desk.make_room()
-    assert [desk.view(video)["state"] for video in (old, new)] == ["removed", "kept"]
-    assert not desk.files.path(old).exists()
+        service.change(video, state="kept", bytes=3 * len(GREY))
+    service.make_room()
+    assert [service.view(video)["state"] for video in (old, new)] == ["removed", "kept"]
+    assert not service.files.path(old).exists()
 
 
-def test_a_video_that_was_deleted_long_ago_goes(desk: VideoDesk, monkeypatch: pytest.MonkeyPatch) -> None:
-    video = recorded(desk, 3)
-    desk.change(video, state="kept")
-    desk.delete(video)
-    desk.tidy()
-    assert desk.files.path(video).exists()
+def test_a_video_that_was_deleted_long_ago_goes(
+    service: VideoService, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    video = recorded(service, 3)
+    service.change(video, state="kept")
+    service.delete(video)
+    service.tidy()
+    assert service.files.path(video).exists()
     monkeypatch.setattr(video_desk, "MOST_DELETED", -1.0)
-    desk.tidy()
-    assert not desk.files.path(video).exists()
+    service.tidy()
+    assert not service.files.path(video).exists()
 
 
-def test_a_video_that_is_being_recorded_cannot_be_deleted(desk: VideoDesk) -> None:
+def test_a_video_that_is_being_recorded_cannot_be_deleted(service: VideoService) -> None:
     with pytest.raises(StateError, match="being recorded"):
-        desk.delete(recorded(desk, 1))
+        service.delete(recorded(service, 1))
 
 
-def test_a_video_that_is_being_recorded_is_not_read_yet(desk: VideoDesk) -> None:
+def test_a_video_that_is_being_recorded_is_not_read_yet(service: VideoService) -> None:
     with pytest.raises(StateError, match="being recorded"):
-        desk.source(recorded(desk, 1), 0)
+        service.source(recorded(service, 1), 0)
 
 
 def test_an_upload_that_the_disk_does_not_take_leaves_nothing(tmp_path: Path) -> None:
@@ -118,20 +122,22 @@ def test_an_upload_that_the_disk_does_not_take_leaves_nothing(tmp_path: Path) ->
 
 
 def test_an_upload_that_the_database_refuses_leaves_nothing(
-    desk: VideoDesk, monkeypatch: pytest.MonkeyPatch
+    service: VideoService, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def refuse(log: VideoLog, content: object) -> None:
+    def refuse(log: VideoStore, content: object) -> None:
         raise sqlite3.OperationalError("The database is locked.")
 
-    monkeypatch.setattr(VideoLog, "put", refuse)
-    upload = desk.begin("row.mjpeg", None)
+    monkeypatch.setattr(VideoStore, "put", refuse)
+    upload = service.begin("row.mjpeg", None)
     upload.add(GREY * 3)
     with pytest.raises(sqlite3.OperationalError):
-        desk.keep(upload)
-    assert list(desk.files.folder.iterdir()) == []
+        service.keep(upload)
+    assert list(service.files.folder.iterdir()) == []
 
 
-def test_an_answer_that_cannot_be_kept_is_told_and_the_next_one_comes(desk: VideoDesk, eyes: Eyes) -> None:
+def test_an_answer_that_cannot_be_kept_is_told_and_the_next_one_comes(
+    service: VideoService, vision: VisionServices
+) -> None:
     failures: list[FootfallError] = []
 
     def broken(_: object) -> None:
@@ -141,27 +147,29 @@ def test_an_answer_that_cannot_be_kept_is_told_and_the_next_one_comes(desk: Vide
         failures.append(error)
         raise OSError("The disk is full.")
 
-    facts = FactsOf(desk.files.path(recorded(desk, 3)))
-    look = eyes.near.ask(Look(facts, done=broken, failed=broken_again))
+    facts = FactsOf(service.files.path(recorded(service, 3)))
+    look = vision.near.ask(VisionTask(facts, done=broken, failed=broken_again))
     with pytest.raises(StateError):
         look.result(60.0)
-    assert seen(eyes.near, facts, 60.0).count == 3
+    assert seen(vision.near, facts, 60.0).count == 3
     assert len(failures) == 1
 
 
-def test_a_bare_row_of_pictures_is_counted_and_sought_in(desk: VideoDesk) -> None:
+def test_a_bare_row_of_pictures_is_counted_and_sought_in(service: VideoService) -> None:
     shades = [jpeg(np.full((48, 64, 3), 20 * number, dtype=np.uint8)) for number in range(12)]
-    upload = desk.begin("row.mjpeg", None)
+    upload = service.begin("row.mjpeg", None)
     upload.add(b"".join(shades))
-    video = desk.keep(upload)
+    video = service.keep(upload)
     assert video["frames"] == 12
     for number in (9, 2, 11):
-        shown = read_picture(desk.picture(desk.source(video["id"], number), None), "shown")
+        shown = read_picture(service.picture(service.source(video["id"], number), None), "shown")
         assert shown.mean() == pytest.approx(20 * number, abs=2)
     with pytest.raises(InputError, match="there is no picture 12"):
-        desk.source(video["id"], 12)
+        service.source(video["id"], 12)
 
 
-def test_an_answer_that_does_not_come_in_time_is_a_sentence(desk: VideoDesk, eyes: Eyes) -> None:
+def test_an_answer_that_does_not_come_in_time_is_a_sentence(
+    service: VideoService, vision: VisionServices
+) -> None:
     with pytest.raises(StateError, match="the computer is busy"):
-        seen(eyes.near, FactsOf(desk.files.path(recorded(desk, 3))), 0.0)
+        seen(vision.near, FactsOf(service.files.path(recorded(service, 3))), 0.0)

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
-from app.vision.checkerboard import FoundLens, board_corners, lens_of_corners
+from app.vision.checkerboard import CalibratedLens, board_corners, lens_of_corners
 from app.vision.video_io import Picture, jpeg, read_picture
 from core.arrays import Floats
 from core.errors import InputError
@@ -37,7 +37,7 @@ def seen_from(turn: Floats, shift: Floats) -> Picture:
     return np.asarray(cv2.remap(straight, *distorting_maps(), cv2.INTER_LINEAR), dtype=np.uint8)
 
 
-def lens_of_pictures(pictures: list[Picture]) -> FoundLens:
+def lens_of_pictures(pictures: list[Picture]) -> CalibratedLens:
     boards = [board_corners(picture, CORNERS) for picture in pictures]
     return lens_of_corners([board for board in boards if board is not None], SIZE, CORNERS)
 

@@ -39,7 +39,7 @@ def found(plan: CheckedPlan, rule: str) -> list[Finding]:
 
 @pytest.mark.parametrize(("gap", "count"), [(0.0009, 0), (0.001, 0), (0.0011, 1)])
 def test_the_body_ends_where_the_document_says(gap: float, count: int) -> None:
-    assert len(found(replace(still(), expected_travel=np.array([gap, 0.0])), "travel")) == count
+    assert len(found(replace(still(), expected_displacement=np.array([gap, 0.0])), "travel")) == count
 
 
 @pytest.mark.parametrize(("turn_deg", "count"), [(9.1, 0), (10.9, 0), (8.9, 1), (11.1, 1)])

@@ -22,7 +22,7 @@ from core.gait.held_feet import HeldFeet
 from core.gait.recording import Recording, RecordingForm
 from core.gait.sequence_part import SequencePart
 from core.library.library import library
-from core.motion.heading_profile import Turning
+from core.motion.heading_profile import HeadingProfile
 from core.problem.motion_problem import Boundary, Cost, Workspace
 from core.segments.segment_table import Segment, SegmentTable
 
@@ -77,7 +77,7 @@ OPTION_CHANGES: dict[str, Any] = {
     "motor_speed": 0.02,
     "motor_acceleration": 0.1,
     "boundary": Boundary.PERIODIC,
-    "turning": Turning.RETURN,
+    "turning": HeadingProfile.RETURN,
     "merge": 0.0005,
     "stop_bound": 1.5,
 }

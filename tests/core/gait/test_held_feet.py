@@ -24,16 +24,16 @@ from core.gait.held_feet import (
     held_height,
     held_sentence,
 )
-from core.gait.motion_source import Making, making
+from core.gait.motion_source import MotionSource, motion_source
 from core.library.new_gait import with_robot
 from core.motion.contact_timeline import Swing
-from core.motion.heading_profile import Turning
+from core.motion.heading_profile import HeadingProfile
 from core.motion.support_polygon import stability_margins
 from core.motion.trajectory import Trajectory
-from core.problem.initial_guess import closed_contact, initial_motion, problem_swings
+from core.problem.initial_guess import closed_contact, initial_guess, problem_swings
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import Boundary, MotionProblem, standing_pose
-from core.problem.resting_pose import RESERVE, leaning
+from core.problem.resting_pose import RESERVE, resting_body
 from core.problem.swing_height import held_climb, held_knots
 from core.recorded.recorded_gait import gait_of_motion
 from core.robot.model import load_robot
@@ -142,7 +142,7 @@ def test_feet_are_held_as_high_as_swings_rise_and_at_least_three_millimetres(
 
 
 def test_a_timeline_of_order_and_phases_keeps_held_feet_in_the_air() -> None:
-    assert making(WAVE) is Making.OPTIMISED
+    assert motion_source(WAVE) is MotionSource.OPTIMISED
     assert WAVE.timeline.sample_count == 4 * 10 + 5
     assert not WAVE.timeline.stance[[0, 3]].any()
     twice = with_iterations(WAVE, 2)
@@ -165,7 +165,7 @@ def test_a_gait_that_ends_with_other_feet_up_is_not_repeated() -> None:
 
 
 def test_the_body_may_turn_back_while_feet_are_held_up() -> None:
-    turned = replace(WAVE, step=(0.0, 0.0, 0.1)).with_options(turning=Turning.RETURN)
+    turned = replace(WAVE, step=(0.0, 0.0, 0.1)).with_options(turning=HeadingProfile.RETURN)
     heading = problem_of(turned).heading
     assert not heading[:40].any()
     assert heading[-1] == pytest.approx(0.1)
@@ -186,7 +186,7 @@ def test_turning_hands_the_raised_pose_on_with_the_timeline() -> None:
 @pytest.mark.parametrize("gait", [WAVE, lifting("hexapod", (1, 4)), lowering("hexapod", (2,))])
 def test_the_drawing_keeps_the_ends_the_integrator_and_the_ground(gait: Gait) -> None:
     problem = problem_of(gait)
-    motion = initial_motion(problem)
+    motion = initial_guess(problem)
     assert motion.feet_velocity is not None
     for knot, pose in ((0, problem.start), (-1, problem.goal)):
         np.testing.assert_allclose(motion.feet_world[knot], pose.feet_world, atol=1e-15)
@@ -270,7 +270,7 @@ def test_a_leaning_body_is_balanced_or_cannot_be_and_takes_the_shortest_way(
     model = load_robot("dodecapod")
     held = tuple(sorted(up))
     natural = standing_pose(model, 0.0535, (0.0, 0.0)).raised(held, 0.003)
-    pose = leaning(natural, held, margin)
+    pose = resting_body(natural, held, margin)
     standing = np.array([[foot + 1 not in held for foot in range(12)]])
 
     def margin_of(place: np.ndarray) -> float:

@@ -19,7 +19,7 @@ from core.identification.learning import (
 )
 from core.identification.parameters import FIT_PARAMETERS, physics_at
 from core.physics.parameters import PhysicsSet, physics_set
-from core.trials.travel import MeasuredWalk, Travel, pooled_spread, walk_of_trials
+from core.trials.travel import Displacement, MeasuredWalk, pooled_spread, walk_of_trials
 from tests.support.trials.few_draws import few_draws
 
 __all__ = ["few_draws"]
@@ -40,28 +40,30 @@ class MadeWalk:
     measured: MeasuredWalk
 
 
-def travel(wanted: float, physics: PhysicsSet) -> Travel:
+def displacement(wanted: float, physics: PhysicsSet) -> Displacement:
     """Soft links shorten long steps, drag every step alike, and a mass that lies ahead turns the robot."""
     compliance = 1.0 / physics.link_stiffness - 1.0 / DEFAULT.link_stiffness
     distance = wanted - 8.0e3 * wanted**2 * compliance - 0.012 * physics.cable_drag
-    return Travel(distance, 40.0 * wanted * physics.centre_offset[0])
+    return Displacement(distance, 40.0 * wanted * physics.centre_offset[0])
 
 
 def made_walks(real: PhysicsSet = REAL, noise: float = 0.0) -> list[MadeWalk]:
     off = noise * np.random.default_rng(5).normal(size=len(STEPS) * len(KINDS))
     walks = []
     for place, (kind, wanted) in enumerate(product(KINDS, STEPS)):
-        went = travel(wanted, real)
-        trials = [Travel(went.distance + off[place] + side, went.angle + side) for side in (-0.002, 0.002)]
+        went = displacement(wanted, real)
+        trials = [
+            Displacement(went.distance + off[place] + side, went.angle + side) for side in (-0.002, 0.002)
+        ]
         walks.append(MadeWalk(walk_of_trials(f"{kind} {wanted}", kind, wanted, trials)))
     return walks
 
 
 def simulating(walks: Sequence[MadeWalk], counted: list[Task] | None = None) -> Simulate:
-    def simulate(tasks: Sequence[Task]) -> list[Travel | None]:
+    def simulate(tasks: Sequence[Task]) -> list[Displacement | None]:
         if counted is not None:
             counted.extend(tasks)
-        return [travel(walks[gait].measured.wanted, physics) for gait, physics in tasks]
+        return [displacement(walks[gait].measured.wanted, physics) for gait, physics in tasks]
 
     return simulate
 
@@ -98,7 +100,7 @@ def test_what_does_not_show_is_said_to_be_unknown_and_stays_as_it_was(learned: L
 
 
 def test_gaits_that_were_left_out_are_foretold_better_than_by_plan_and_default(learned: Learned) -> None:
-    errors = {way.name: learned.errors(way)[0] for way in learned.foretold}
+    errors = {way.name: learned.errors(way)[0] for way in learned.predicted}
     assert errors["as planned"] == pytest.approx(errors["default"])
     assert errors["left out"] < 0.25 * errors["default"]
     assert errors["kind left out"] < 0.25 * errors["default"]
@@ -107,21 +109,21 @@ def test_gaits_that_were_left_out_are_foretold_better_than_by_plan_and_default(l
 
 def test_a_line_helps_where_the_real_robot_goes_farther_than_any_parameter_lets_it() -> None:
     walks = [
-        MadeWalk(replace(one.measured, travel=replace(went, distance=1.3 * went.distance + 0.004)))
+        MadeWalk(replace(one.measured, displacement=replace(went, distance=1.3 * went.distance + 0.004)))
         for one in made_walks(DEFAULT)
-        for went in [one.measured.travel]
+        for went in [one.measured.displacement]
     ]
     result = learn(walks, DEFAULT, simulating(walks), POINTS)
-    errors = {way.name: result.errors(way)[0] for way in result.foretold}
+    errors = {way.name: result.errors(way)[0] for way in result.predicted}
     assert errors["left out, line"] < 0.25 * errors["left out"]
 
 
 def test_a_gait_that_is_left_out_says_nothing_about_itself(learned: Learned) -> None:
     lying = made_walks()
-    lying[2] = MadeWalk(replace(lying[2].measured, travel=Travel(0.02, 0.5)))
+    lying[2] = MadeWalk(replace(lying[2].measured, displacement=Displacement(0.02, 0.5)))
     other = learn(lying, DEFAULT, simulating(lying), POINTS)
-    of = [next(way for way in one.foretold if way.name == "left out") for one in (learned, other)]
-    assert of[0].travels[2].distance == pytest.approx(of[1].travels[2].distance, abs=1e-3)
+    of = [next(way for way in one.predicted if way.name == "left out") for one in (learned, other)]
+    assert of[0].displacements[2].distance == pytest.approx(of[1].displacements[2].distance, abs=1e-3)
 
 
 def test_as_many_simulations_run_as_were_announced(learned: Learned, counted: list[Task]) -> None:
@@ -131,7 +133,7 @@ def test_as_many_simulations_run_as_were_announced(learned: Learned, counted: li
 def test_trials_that_agree_with_the_defaults_change_nothing_much() -> None:
     walks = made_walks(DEFAULT)
     result = learn(walks, DEFAULT, simulating(walks), POINTS)
-    way = next(way for way in result.foretold if way.name == "fitted")
+    way = next(way for way in result.predicted if way.name == "fitted")
     assert result.errors(way)[0] < result.spread[0]
 
 
@@ -151,8 +153,10 @@ def test_a_handful_of_points_is_too_few() -> None:
 def test_a_gait_that_falls_in_most_simulations_is_to_be_left_out() -> None:
     walks = made_walks()
 
-    def falling(tasks: Sequence[Task]) -> list[Travel | None]:
-        return [None if gait == 1 and one.cable_drag > 0.3 else Travel(0.03, 0.0) for gait, one in tasks]
+    def falling(tasks: Sequence[Task]) -> list[Displacement | None]:
+        return [
+            None if gait == 1 and one.cable_drag > 0.3 else Displacement(0.03, 0.0) for gait, one in tasks
+        ]
 
     with pytest.raises(CheckError, match="Leave it out"):
         learn(walks, DEFAULT, falling, POINTS)
@@ -162,28 +166,31 @@ def test_a_gait_that_falls_when_foretold_counts_its_whole_way_and_no_angle() -> 
     walks = made_walks()
     simulate = simulating(walks)
 
-    def falling(tasks: Sequence[Task]) -> list[Travel | None]:
-        travels = simulate(tasks)
-        return travels if len(tasks) > len(walks) else [travels[0], None, *travels[2:]]
+    def falling(tasks: Sequence[Task]) -> list[Displacement | None]:
+        displacements = simulate(tasks)
+        return displacements if len(tasks) > len(walks) else [displacements[0], None, *displacements[2:]]
 
     result = learn(walks, DEFAULT, falling, POINTS)
-    way = next(way for way in result.foretold if way.name == "default")
+    way = next(way for way in result.predicted if way.name == "default")
     distance, angle = result.errors(way)
     others = [
-        (abs(said.distance - walk.measured.travel.distance), abs(said.angle - walk.measured.travel.angle))
-        for place, (said, walk) in enumerate(zip(way.travels, walks, strict=True))
+        (
+            abs(said.distance - walk.measured.displacement.distance),
+            abs(said.angle - walk.measured.displacement.angle),
+        )
+        for place, (said, walk) in enumerate(zip(way.displacements, walks, strict=True))
         if place != 1
     ]
     assert (way.falls, way.angles) == (1, 8)
     assert angle == pytest.approx(np.mean([off for _, off in others]))
-    whole = walks[1].measured.travel.distance
+    whole = walks[1].measured.displacement.distance
     assert distance == pytest.approx((sum(off for off, _ in others) + whole) / 9)
-    assert np.isnan(result.errors(result.foretold[5])[1])
+    assert np.isnan(result.errors(result.predicted[5])[1])
 
 
 def test_the_spread_of_a_trial_is_pooled_over_gaits_that_were_repeated() -> None:
-    two = walk_of_trials("a", "a", 0.03, [Travel(0.028, 0.0), Travel(0.032, 0.2)])
-    one = walk_of_trials("b", "b", 0.03, [Travel(0.03, 0.0)])
+    two = walk_of_trials("a", "a", 0.03, [Displacement(0.028, 0.0), Displacement(0.032, 0.2)])
+    one = walk_of_trials("b", "b", 0.03, [Displacement(0.03, 0.0)])
     assert pooled_spread([one]) is None
     assert pooled_spread([one, two]) == pytest.approx((0.004 / np.sqrt(2), 0.2 / np.sqrt(2)))
     with pytest.raises(InputError, match="has no trial"):

@@ -25,7 +25,7 @@ from core.library.library import (
     optimised_entry,
 )
 from core.motion.contact_timeline import rows_from_bits
-from core.motion.heading_profile import Turning
+from core.motion.heading_profile import HeadingProfile
 from core.problem.motion_check import check_motion
 from core.robot.model import load_robot
 from solver_jobs import Evidence, SolveStatus, solve_live
@@ -64,7 +64,7 @@ def test_rotation_steps_in_place_and_turns_in_its_closing_stance() -> None:
     gait = optimised_entry("rotate").gait
     assert gait.name == "Rotate 15°"
     assert list(gait.step) == pytest.approx([0.0, 0.0, np.radians(15)])
-    assert gait.options.turning is Turning.RETURN
+    assert gait.options.turning is HeadingProfile.RETURN
     heading = motion_problem(gait, MODEL).heading
     last_swing = max(swing.last for swing in gait.timeline.swings())
     assert (heading[: last_swing + 2] == 0).all()

@@ -14,7 +14,7 @@ from core.gait.chain import Chain, Piece, chain
 from core.gait.gait import Gait, GaitOptions, motion_problem
 from core.gait.manual_motion import manual_motion
 from core.gait.sequence_part import SequencePart
-from core.gait.transition import crossing
+from core.gait.transition import feet_transition
 from core.library.library import library, optimised_entry
 from core.library.sequence import (
     chain_runs,
@@ -249,7 +249,7 @@ def test_the_steps_between_are_a_problem_from_where_the_robot_stands() -> None:
     feet[-1, 2, 0] += 0.006
     moved = replace(first, feet_world=feet)
     then = placed_on(moved, standing(0.0, 0.0))
-    way = crossing(MODEL, moved, then, GaitOptions(margin=0.003))
+    way = feet_transition(MODEL, moved, then, GaitOptions(margin=0.003))
     solved = way.placement.motion(solve_live(way.problem).trajectory)
     assert check_motion(way.problem, solve_live(way.problem).trajectory).confirmed
     assert solved.feet_world[0] == pytest.approx(moved.feet_world[-1], abs=1e-9)

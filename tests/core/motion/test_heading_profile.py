@@ -7,7 +7,7 @@ import pytest
 
 from core.errors import InputError
 from core.motion.contact_timeline import timeline_from_order
-from core.motion.heading_profile import Turning, heading_profile, return_knots
+from core.motion.heading_profile import HeadingProfile, heading_profile, return_knots
 from core.robot.model import load_robot
 
 ORDER = (3, 2, 4, 1)
@@ -15,7 +15,7 @@ ORDER = (3, 2, 4, 1)
 
 def test_a_steady_turn_begins_and_ends_gently() -> None:
     timeline = timeline_from_order(4, ORDER)
-    heading = heading_profile(timeline, 0.3, 1, Turning.STEADY)
+    heading = heading_profile(timeline, 0.3, 1, HeadingProfile.STEADY)
     steps = np.diff(heading)
     assert heading[0] == 0.0
     assert heading[-1] == pytest.approx(0.3)
@@ -27,7 +27,7 @@ def test_a_steady_turn_begins_and_ends_gently() -> None:
 @pytest.mark.parametrize("yaw", [0.3, -0.2])
 def test_a_return_turns_only_while_every_foot_stands_after_its_iteration(yaw: float) -> None:
     timeline = timeline_from_order(4, ORDER, iterations=3, closing_knots=8)
-    heading = heading_profile(timeline, yaw, 3, Turning.RETURN)
+    heading = heading_profile(timeline, yaw, 3, HeadingProfile.RETURN)
     turning = np.abs(np.diff(heading)) > 0
     standing = np.array([column.all() for column in timeline.stance.T])
     assert standing[:-1][turning].all()
@@ -41,7 +41,7 @@ def test_a_return_turns_only_while_every_foot_stands_after_its_iteration(yaw: fl
 def test_a_return_without_a_closing_stance_is_refused() -> None:
     timeline = timeline_from_order(4, ORDER, closing_knots=2)
     with pytest.raises(InputError, match="has 2 knots; it needs at least 3"):
-        heading_profile(timeline, 0.3, 1, Turning.RETURN)
+        heading_profile(timeline, 0.3, 1, HeadingProfile.RETURN)
 
 
 def test_a_larger_turn_takes_longer_to_return_and_keeps_the_motors_speed() -> None:

@@ -11,7 +11,7 @@ from core.patterns.clause import Clause, asked_by
 from core.patterns.numerals import counted, listed, named, only, times
 from core.patterns.problem import BalanceModel, PatternProblem, PatternRules, Relaxation, Rule
 from core.patterns.sentences import (
-    clash_sentence,
+    conflict_sentence,
     explanation,
     failing_samples,
     relaxation_words,
@@ -64,7 +64,7 @@ def test_the_sentence_of_the_issue() -> None:
         Clause(Rule.SHORTEST_STANCE, (0,), 0, 11),
         Clause(Rule.FEET_DOWN, (), 3, 5),
     ]
-    assert clash_sentence(problem, clauses, 2) == (
+    assert conflict_sentence(problem, clauses, 2) == (
         "Limb 3 is locked in swing and limb 1 must rest at least 3 samples at a time: somewhere in samples "
         "4–6 only two feet are down, and at least 3 must be."
     )
@@ -77,7 +77,7 @@ def test_what_one_limb_does_stands_together() -> None:
         Clause(Rule.LIMB_CHANGES, (0,), 0, 8),
         Clause(Rule.FIXED, (0,), 8, 8),
     ]
-    assert clash_sentence(problem, clauses, None) == (
+    assert conflict_sentence(problem, clauses, None) == (
         "Limb 1 swings at sample 1, stands at sample 9 and may not change, and limb 4 stands at sample 1: "
         "not all of this can hold in 9 samples."
     )
@@ -86,7 +86,7 @@ def test_what_one_limb_does_stands_together() -> None:
 def test_a_long_mixed_state_is_only_mentioned() -> None:
     problem = transition("011111", "111111", 9)
     clauses = [Clause(Rule.FIXED, tuple(range(6)), 0, 0), Clause(Rule.WORKLOAD, tuple(range(6)), 0, 8)]
-    assert clash_sentence(problem, clauses, None) == (
+    assert conflict_sentence(problem, clauses, None) == (
         "The state at sample 1 is given and the stances of limbs may differ by at most 2 samples: both "
         "cannot hold in 9 samples."
     )
@@ -95,7 +95,7 @@ def test_a_long_mixed_state_is_only_mentioned() -> None:
 def test_every_walking_limb_means_just_those() -> None:
     problem = periodic(4, 9, {1: 0, 2: 1})
     said = [
-        clash_sentence(problem, [Clause(Rule.SHORTEST_STANCE, limbs, 0, 8)], None).split(" must")[0]
+        conflict_sentence(problem, [Clause(Rule.SHORTEST_STANCE, limbs, 0, 8)], None).split(" must")[0]
         for limbs in ((2, 3), (1, 2), (0, 1, 2, 3))
     ]
     assert said == ["Every walking limb", "Limbs 2 and 3", "Every limb"]
@@ -104,7 +104,7 @@ def test_every_walking_limb_means_just_those() -> None:
 def test_each_side_and_feet_down_can_both_be_asked() -> None:
     problem = transition("1111", "1111", 9)
     clauses = [Clause(Rule.FEET_DOWN, (), 2, 3), Clause(Rule.FEET_DOWN_EACH_SIDE, (), 4, 4)]
-    assert clash_sentence(problem, clauses, 1) == (
+    assert conflict_sentence(problem, clauses, 1) == (
         "At least 1 foot must be down on each side at sample 5: somewhere in samples 3–4 only one foot is "
         "down, and at least 3 must be."
     )
@@ -113,7 +113,7 @@ def test_each_side_and_feet_down_can_both_be_asked() -> None:
 def test_balance_is_said_in_millimetres() -> None:
     problem = balanced(0.005)
     clauses = [Clause(Rule.FIXED, (2,), 0, 8), Clause(Rule.BALANCE, (), 3, 3)]
-    assert clash_sentence(problem, clauses, None) == (
+    assert conflict_sentence(problem, clauses, None) == (
         "Limb 3 is locked in swing: at sample 4 the body cannot keep a balance margin of 5 mm."
     )
     words = [relaxation_words(problem, Relaxation(Rule.BALANCE, value, (), "")) for value in (-0.002, None)]

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from core.errors import InputError
 from core.physics.motors import motor_force_limits, motor_speeds
 from core.physics.parameters import PhysicsSet, physics_set
-from core.physics.ramp import TURN, MotorCourse, motor_course, ramp_shares
+from core.physics.ramp import TURN, MotorTrajectory, motor_trajectory, ramp_shares
 from core.physics.variations import variations
 from core.robot.model import load_robot
 from core.wire.timing import ARRIVAL_THRESHOLD, RAMP_SPEED, ramp_time
@@ -23,10 +23,10 @@ MODEL = load_robot("deltawalker")
 SPEEDS = motor_speeds(MODEL, physics_set())
 
 
-def course(*strokes_mm: float, share: float = 1.0) -> MotorCourse:
+def course(*strokes_mm: float, share: float = 1.0) -> MotorTrajectory:
     """All motors go to these strokes, one after the other."""
     rows = np.repeat(np.array(strokes_mm)[:, None, None] / 1000, 4, 1).repeat(3, 2)
-    return motor_course(Waypoints(rows, np.full(len(rows), 0.4)), share * SPEEDS)
+    return motor_trajectory(Waypoints(rows, np.full(len(rows), 0.4)), share * SPEEDS)
 
 
 def weak(**changes: object) -> PhysicsSet:

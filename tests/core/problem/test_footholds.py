@@ -17,7 +17,7 @@ from core.library.library import (
 )
 from core.motion.contact_timeline import timeline_from_rows
 from core.problem.footholds import way_shares
-from core.problem.initial_guess import initial_motion, problem_swings
+from core.problem.initial_guess import initial_guess, problem_swings
 from core.problem.motion_problem import MotionProblem
 from core.robot.model import load_robot
 from solver_jobs import SolveStatus, solve_live
@@ -88,7 +88,7 @@ def test_a_drawing_of_unequal_steps_reaches_its_goal_and_the_live_tier_solves_it
         "1111111111000001111111111111111111111111111111",
         "1111111111111111111100000111111111111111111111",
     )
-    motion = initial_motion(problem)
+    motion = initial_guess(problem)
     assert motion.feet_world[-1] == pytest.approx(problem.goal.feet_world)
     assert np.ptp(motion.feet_world[24:30, 0], axis=0).max() < 1e-12
     assert solve_live(problem).status is SolveStatus.SOLVED

@@ -12,7 +12,7 @@ from core.motion.contact_timeline import timeline_from_order, timeline_from_rows
 from core.motion.support_polygon import GRAVITY, stability_margins
 from core.problem.initial_guess import (
     clearance_knot,
-    initial_motion,
+    initial_guess,
     next_standing,
     problem_swings,
     standing_forces,
@@ -46,7 +46,7 @@ def test_it_begins_at_the_start_ends_at_the_goal_and_rests_there(
     order: tuple[int, ...], iterations: int
 ) -> None:
     problem = problem_of(order, iterations)
-    motion = initial_motion(problem)
+    motion = initial_guess(problem)
     assert motion.body_velocity is not None
     assert motion.feet_velocity is not None
     for knot, pose in ((0, problem.start), (-1, problem.goal)):
@@ -59,7 +59,7 @@ def test_it_begins_at_the_start_ends_at_the_goal_and_rests_there(
 @pytest.mark.parametrize("order", ORDERS)
 def test_feet_obey_the_integrator_and_stand_still_in_stance(order: tuple[int, ...]) -> None:
     problem = problem_of(order, 2)
-    motion = initial_motion(problem)
+    motion = initial_guess(problem)
     velocity = motion.feet_velocity
     assert velocity is not None
     step = problem.timeline.sample_time * (velocity[1:] + velocity[:-1]) / 2
@@ -70,7 +70,7 @@ def test_feet_obey_the_integrator_and_stand_still_in_stance(order: tuple[int, ..
 
 def test_each_swing_rises_to_the_clearance_in_its_middle() -> None:
     problem = problem_of((3, 2, 4, 1))
-    motion = initial_motion(problem)
+    motion = initial_guess(problem)
     for swing in problem_swings(problem):
         heights = motion.feet_world[swing.first : swing.last + 1, swing.foot, 2]
         assert heights.max() == pytest.approx(problem.limits.clearance, abs=1e-12)
@@ -79,7 +79,7 @@ def test_each_swing_rises_to_the_clearance_in_its_middle() -> None:
 
 @pytest.mark.parametrize("order", ORDERS)
 def test_the_body_is_drawn_over_the_support_polygons(order: tuple[int, ...]) -> None:
-    motion = initial_motion(problem_of(order))
+    motion = initial_guess(problem_of(order))
     margins = stability_margins(motion.body_world[:, :2], motion.feet_world, motion.contact)
     assert margins.min() > 0.0015
 
@@ -87,7 +87,7 @@ def test_the_body_is_drawn_over_the_support_polygons(order: tuple[int, ...]) -> 
 def test_a_swing_up_to_the_last_knot_lands_at_the_goal() -> None:
     problem = problem_of((1, 2, 3, 4))
     rows = ["1" * 20 + "0" * 6, "1" * 5 + "0" * 5 + "1" * 16, "1" * 26, "1" * 26]
-    motion = initial_motion(replace(problem, timeline=timeline_from_rows(rows, 0.4)))
+    motion = initial_guess(replace(problem, timeline=timeline_from_rows(rows, 0.4)))
     np.testing.assert_array_equal(motion.feet_world[-1], problem.goal.feet_world)
     assert motion.contact[-1].all()
 
@@ -95,14 +95,14 @@ def test_a_swing_up_to_the_last_knot_lands_at_the_goal() -> None:
 def test_a_swing_from_the_first_knot_starts_at_rest() -> None:
     problem = problem_of((1, 2, 3, 4))
     rows = ["0" * 6 + "1" * 20, "1" * 26, "1" * 26, "1" * 26]
-    motion = initial_motion(replace(problem, timeline=timeline_from_rows(rows, 0.4)))
+    motion = initial_guess(replace(problem, timeline=timeline_from_rows(rows, 0.4)))
     np.testing.assert_array_equal(motion.feet_world[0], problem.start.feet_world)
     np.testing.assert_allclose(motion.feet_world[6, 0], problem.goal.feet_world[0], atol=1e-15)
 
 
 def test_standing_forces_carry_the_weight_without_torque() -> None:
     problem = problem_of((3, 2, 4, 1))
-    motion = initial_motion(problem)
+    motion = initial_guess(problem)
     forces = standing_forces(problem.model, motion.body_world, motion.feet_world, motion.contact)
     weight = problem.model.total_model_mass * GRAVITY
     np.testing.assert_allclose(forces[..., 2].sum(axis=1), weight, rtol=1e-12)
@@ -123,10 +123,10 @@ def test_the_next_standing_foot_skips_swinging_ones() -> None:
 
 def test_it_is_drawn_within_five_milliseconds() -> None:
     problem = problem_of((3, 2, 4, 1))
-    initial_motion(problem)
+    initial_guess(problem)
     times = []
     for _ in range(10):
         begin = time.thread_time()
-        initial_motion(problem)
+        initial_guess(problem)
         times.append(time.thread_time() - begin)
     assert min(times) < 0.005

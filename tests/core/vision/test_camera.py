@@ -7,13 +7,13 @@ import pytest
 
 from core.errors import InputError
 from core.vision.camera import (
+    BlobLimits,
     ColourRange,
     Lens,
     PlatformView,
-    SpotLimits,
     view_of_points,
 )
-from core.vision.outliers import false_sights
+from core.vision.outliers import find_outliers
 from tests.support.trials.tracks import stepping_track
 
 CORNERS = np.array([[-0.05, -0.05], [0.05, -0.05], [0.05, 0.05], [-0.05, 0.05]])
@@ -66,7 +66,7 @@ def test_only_what_lies_far_from_its_neighbours_is_false() -> None:
     feet = np.array(track.feet)
     feet[200, 1] += 0.03
     feet[100:110, 3] = np.nan
-    assert [tuple(place) for place in np.argwhere(false_sights(track.times, feet))] == [(200, 1)]
+    assert [tuple(place) for place in np.argwhere(find_outliers(track.times, feet))] == [(200, 1)]
 
 
 LENS = Lens(
@@ -115,11 +115,11 @@ def test_two_points_whose_places_are_exchanged_are_refused() -> None:
     ],
 )
 def test_a_spot_is_refused_with_its_number(area: float, fill: float, words: str | None) -> None:
-    refusal = SpotLimits().refusal(area, fill)
+    refusal = BlobLimits().refusal(area, fill)
     assert refusal is None if words is None else words in str(refusal)
 
 
 @pytest.mark.parametrize("limits", [(0.0, 10.0, 0.5), (20.0, 10.0, 0.5), (1.0, 10.0, 1.5)])
 def test_limits_that_no_spot_can_keep_are_refused(limits: tuple[float, float, float]) -> None:
     with pytest.raises(InputError):
-        SpotLimits(*limits)
+        BlobLimits(*limits)

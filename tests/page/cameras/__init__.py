@@ -1,1 +1,1 @@
-"""Browser tests of `app\/static\/cameras`."""
+r"""Browser tests of `app\/static\/cameras`."""

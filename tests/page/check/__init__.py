@@ -1,1 +1,1 @@
-"""Browser tests of `app\/static\/check`."""
+r"""Browser tests of `app\/static\/check`."""

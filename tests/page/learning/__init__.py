@@ -1,1 +1,1 @@
-"""Browser tests of `app\/static\/learning`."""
+r"""Browser tests of `app\/static\/learning`."""

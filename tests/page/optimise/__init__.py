@@ -1,1 +1,1 @@
-"""Browser tests of `app\/static\/optimise`."""
+r"""Browser tests of `app\/static\/optimise`."""

@@ -1,1 +1,1 @@
-"""Browser tests of `app\/static\/patterns`."""
+r"""Browser tests of `app\/static\/patterns`."""

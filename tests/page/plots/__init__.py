@@ -1,1 +1,1 @@
-"""Browser tests of `app\/static\/plots`."""
+r"""Browser tests of `app\/static\/plots`."""

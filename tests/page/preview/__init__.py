@@ -1,1 +1,1 @@
-"""Browser tests of `app\/static\/preview`."""
+r"""Browser tests of `app\/static\/preview`."""

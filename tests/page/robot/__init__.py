@@ -1,1 +1,1 @@
-"""Browser tests of `app\/static\/robot`."""
+r"""Browser tests of `app\/static\/robot`."""

@@ -1,1 +1,1 @@
-"""Browser tests of `app\/static\/runs`."""
+r"""Browser tests of `app\/static\/runs`."""

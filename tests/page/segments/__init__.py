@@ -1,1 +1,1 @@
-"""Browser tests of `app\/static\/segments`."""
+r"""Browser tests of `app\/static\/segments`."""

@@ -1,1 +1,1 @@
-"""Browser tests of `app\/static\/sequence`."""
+r"""Browser tests of `app\/static\/sequence`."""

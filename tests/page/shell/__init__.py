@@ -1,1 +1,1 @@
-"""Browser tests of `app\/static\/shell`."""
+r"""Browser tests of `app\/static\/shell`."""

@@ -1,1 +1,1 @@
-"""Browser tests of `app\/static\/state`."""
+r"""Browser tests of `app\/static\/state`."""

@@ -1,1 +1,1 @@
-"""Browser tests of `app\/static\/timeline`."""
+r"""Browser tests of `app\/static\/timeline`."""

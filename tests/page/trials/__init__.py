@@ -1,1 +1,1 @@
-"""Browser tests of `app\/static\/trials`."""
+r"""Browser tests of `app\/static\/trials`."""

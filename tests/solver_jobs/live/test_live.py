@@ -16,7 +16,7 @@ from core.gait.gait import (
 )
 from core.library.library import library
 from core.motion.contact_timeline import ContactTimeline, timeline_from_order
-from core.motion.heading_profile import Turning
+from core.motion.heading_profile import HeadingProfile
 from core.motion.trajectory import turn_trajectory
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import Boundary, MotionProblem, Workspace
@@ -81,7 +81,7 @@ def test_three_iterations_and_a_turn_are_one_problem() -> None:
 
 @pytest.mark.parametrize("degrees", [15, 20, -15])
 def test_rotation_in_place_ends_turned(degrees: float) -> None:
-    options = GaitOptions(turning=Turning.RETURN, motor_speed=MODEL.stroke.speed, margin=0.003)
+    options = GaitOptions(turning=HeadingProfile.RETURN, motor_speed=MODEL.stroke.speed, margin=0.003)
     gait = replace(library()["c-gait"].gait, step=(0.0, 0.0, float(np.radians(degrees))), options=options)
     motion = expect_solved(motion_problem(gait, MODEL)).trajectory
     assert motion.heading[-1] == pytest.approx(np.radians(degrees))

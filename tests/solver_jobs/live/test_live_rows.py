@@ -14,12 +14,12 @@ from core.problem.motion_problem import CYLINDER, MotionProblem, Workspace
 from core.robot.kinematics import BodyPose, feet_in_modules
 from core.robot.leg import strokes_from_foot
 from solver_jobs.live.elastic import nearest
-from solver_jobs.live.linearisation import MM, Outline, outline_of
+from solver_jobs.live.linearisation import MM, Linearisation, linearise
 from solver_jobs.live.motion import trajectory_of, vertical_shares
 from solver_jobs.live.qp import Solver
 from solver_jobs.live.reach import reach_of
 from solver_jobs.live.rows import DiscPolygon, Rows, balance, integration
-from solver_jobs.live.solve import goal_cost, inner_rows, natural_outline, outer_rows
+from solver_jobs.live.solve import goal_cost, inner_rows, natural_linearisation, outer_rows
 from tests.support.solvers.cases import gait_problem
 
 PROBLEM = gait_problem("walk", 0.012, Workspace.STROKE)
@@ -32,15 +32,15 @@ def values(rows: Rows, x: np.ndarray) -> np.ndarray:
     return total
 
 
-def some_point(outline: Outline, seed: int) -> np.ndarray:
-    return np.random.default_rng(seed).normal(0.0, 5.0, outline.size)
+def some_point(linearisation: Linearisation, seed: int) -> np.ndarray:
+    return np.random.default_rng(seed).normal(0.0, 5.0, linearisation.size)
 
 
 def test_integration_rows_are_the_double_integrator() -> None:
-    outline = outline_of(PROBLEM)
-    x = some_point(outline, 1)
-    motion = trajectory_of(outline, x)
-    rows = integration(outline)
+    linearisation = linearise(PROBLEM)
+    x = some_point(linearisation, 1)
+    motion = trajectory_of(linearisation, x)
+    rows = integration(linearisation)
     missing = values(rows, x) - rows.lower
     gaps = [
         np.diff(p, axis=0) - 0.2 * (v[1:] + v[:-1])
@@ -54,13 +54,13 @@ def test_integration_rows_are_the_double_integrator() -> None:
 @pytest.mark.parametrize("margin", [0.0, 0.004])
 def test_balance_rows_are_the_margin_of_the_centre_of_pressure(margin: float) -> None:
     problem = replace(PROBLEM, limits=replace(PROBLEM.limits, margin=margin))
-    outline = outline_of(problem)
-    x = some_point(outline, 2)
-    motion = trajectory_of(outline, x)
-    rows = balance(outline)
+    linearisation = linearise(problem)
+    x = some_point(linearisation, 2)
+    motion = trajectory_of(linearisation, x)
+    rows = balance(linearisation)
     slack = values(rows, x) - rows.lower
     pressure = trajectory_pressure(problem.model, motion)
-    wanted = stability_margins(pressure, motion.feet_world[:-1], outline.contact[:-1]) - margin
+    wanted = stability_margins(pressure, motion.feet_world[:-1], linearisation.contact[:-1]) - margin
     least = np.full(len(wanted), np.inf)
     np.minimum.at(least, rows.knot, slack)
     inside = wanted > -margin
@@ -87,14 +87,14 @@ def test_inner_polygons_are_within_reach_and_outer_ones_around_it(
     problem = turned(PROBLEM, angle)
     lifted = replace(problem.start, body_world=np.array([0.0, 0.0, height + 0.020]))
     limits = replace(problem.limits, workspace=workspace)
-    outline = outline_of(replace(problem, start=lifted, goal=lifted, limits=limits))
+    linearisation = linearise(replace(problem, start=lifted, goal=lifted, limits=limits))
     direction = np.array([np.cos(way), np.sin(way)])
     cosine, sine = np.cos(angle), np.sin(angle)
     centre = np.array([[cosine, -sine], [sine, cosine]]) @ problem.model.module_centres_robot[foot, :2]
 
     def edge(inner: bool) -> np.ndarray:
         """Where a ray from the module's centre leaves the polygon, m."""
-        reach = reach_of(outline, DiscPolygon(16, inner))
+        reach = reach_of(linearisation, DiscPolygon(16, inner))
         along = reach.directions @ direction
         room = reach.bound[0, foot] - reach.directions @ centre * MM
         return centre + direction * float((room[along > 1e-9] / along[along > 1e-9]).min()) / MM
@@ -141,9 +141,9 @@ def test_a_share_outside_the_polygon_pulls() -> None:
 
 @pytest.mark.parametrize(("step", "feasible"), [(0.010, True), (0.020, False)])
 def test_the_bound_of_weak_duality_lies_below_the_least_miss(step: float, feasible: bool) -> None:
-    outline = natural_outline(gait_problem("amble", step, Workspace.CYLINDER))
-    for rows in (inner_rows(outline, 16), outer_rows(outline, 32)):
-        found = nearest(Solver(), goal_cost(outline), rows, 0.4)
+    linearisation = natural_linearisation(gait_problem("amble", step, Workspace.CYLINDER))
+    for rows in (inner_rows(linearisation, 16), outer_rows(linearisation, 32)):
+        found = nearest(Solver(), goal_cost(linearisation), rows, 0.4)
         assert found is not None
         assert found.proven <= found.total + 1e-9
         assert (found.proven > 1.0) is not feasible
@@ -151,8 +151,8 @@ def test_the_bound_of_weak_duality_lies_below_the_least_miss(step: float, feasib
 
 
 def test_the_centre_of_pressure_uses_the_same_heights() -> None:
-    outline = outline_of(PROBLEM)
-    motion = trajectory_of(outline, some_point(outline, 3))
+    linearisation = linearise(PROBLEM)
+    motion = trajectory_of(linearisation, some_point(linearisation, 3))
     assert motion.body_velocity is not None
     assert motion.feet_velocity is not None
     masses = PROBLEM.model.masses

@@ -11,7 +11,7 @@ from casadi import Function, vertcat
 
 from core.arrays import Floats
 from core.motion.contact_timeline import timeline_from_order
-from core.problem.initial_guess import initial_motion
+from core.problem.initial_guess import initial_guess
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import (
     Boundary,
@@ -22,10 +22,10 @@ from core.problem.motion_problem import (
 from core.robot.kinematics import feet_in_modules
 from core.robot.leg import strokes_from_foot
 from solver_jobs.nlp.compiled_problem import (
-    Structure,
-    StructureCache,
+    CompiledProblem,
+    CompiledProblemCache,
     assembled_rows,
-    build_structure,
+    compile_problem,
     shape_of,
 )
 from solver_jobs.nlp.constraint import Family, situation_of
@@ -60,14 +60,14 @@ EVERYTHING = replace(
 
 
 @pytest.fixture(scope="module", params=list(Workspace))
-def everything(request: pytest.FixtureRequest) -> tuple[Structure, MotionProblem]:
+def everything(request: pytest.FixtureRequest) -> tuple[CompiledProblem, MotionProblem]:
     problem = replace(EVERYTHING, limits=replace(LIMITS, workspace=request.param))
-    return build_structure(problem.model, shape_of(problem)), problem
+    return compile_problem(problem.model, shape_of(problem)), problem
 
 
 def shaken_start(problem: MotionProblem) -> tuple[Floats, Floats]:
     """A point near the drawing, and the parameters."""
-    start = slopes_of_forces(vector_of_trajectory(initial_motion(problem))).packed()
+    start = slopes_of_forces(vector_of_trajectory(initial_guess(problem))).packed()
     noise = np.random.default_rng(7).normal(0.0, 0.3, start.shape)
     return start + noise, parameter_values(problem, situation_of(problem).successor)
 
@@ -85,10 +85,10 @@ def expect_slopes(value: Callable[[Floats], Floats], slope: Floats, point: Float
 
 @pytest.mark.parametrize("part", ["rows", "cost"])
 def test_derivatives_agree_with_finite_differences(
-    everything: tuple[Structure, MotionProblem], part: str
+    everything: tuple[CompiledProblem, MotionProblem], part: str
 ) -> None:
-    structure, problem = everything
-    function: Function = getattr(structure, part)
+    compiled, problem = everything
+    function: Function = getattr(compiled, part)
     point, parameters = shaken_start(problem)
     slope = function.factory("slope", ["i0", "i1"], ["jac:o0:i0"])(point, parameters).full()
     expect_slopes(lambda x: np.array(function(x, parameters)).ravel(), slope, point)
@@ -96,12 +96,12 @@ def test_derivatives_agree_with_finite_differences(
 
 @pytest.mark.parametrize("elastic", [False, True])
 def test_the_solvers_own_derivatives_agree_with_finite_differences(elastic: bool) -> None:
-    structure = build_structure(EVERYTHING.model, shape_of(EVERYTHING, elastic=elastic))
+    compiled = compile_problem(EVERYTHING.model, shape_of(EVERYTHING, elastic=elastic))
     point, parameters = shaken_start(EVERYTHING)
-    rows = np.array(structure.rows(point, parameters)).ravel()
-    lower, upper_bound = structure.row_bounds(situation_of(EVERYTHING))
-    point = np.append(point, structure.misses_of(rows, lower, upper_bound))
-    function = structure.solver.function
+    rows = np.array(compiled.rows(point, parameters)).ravel()
+    lower, upper_bound = compiled.row_bounds(situation_of(EVERYTHING))
+    point = np.append(point, compiled.misses_of(rows, lower, upper_bound))
+    function = compiled.solver.function
     parts = {name: function.get_function(f"nlp_{name}") for name in ("grad_f", "jac_g")}
     hessian = function.get_function("nlp_hess_l")
     weights = np.random.default_rng(9).normal(size=len(rows))
@@ -136,23 +136,23 @@ def test_a_stretch_of_its_intervals_is_what_a_problem_with_longer_ones_has() -> 
     point, parameters = shaken_start(EVERYTHING)
     stretch = np.linspace(0.7, 1.3, max(phases) + 1)
     longer = replace(EVERYTHING, durations=EVERYTHING.intervals * stretch[list(phases)])
-    plain = build_structure(longer.model, shape_of(longer)).rows(point, shaken_start(longer)[1])
+    plain = compile_problem(longer.model, shape_of(longer)).rows(point, shaken_start(longer)[1])
     found = function(np.append(point, stretch), parameters)
     np.testing.assert_allclose(np.array(found), np.array(plain), atol=1e-9)
 
 
 def test_rows_mean_what_the_checker_measures() -> None:
-    structure = build_structure(EVERYTHING.model, shape_of(EVERYTHING))
-    motion = initial_motion(EVERYTHING)
+    compiled = compile_problem(EVERYTHING.model, shape_of(EVERYTHING))
+    motion = initial_guess(EVERYTHING)
     feet_velocity = np.random.default_rng(5).normal(0.0, 0.01, motion.feet_world.shape)
     motion = replace(motion, feet_velocity=feet_velocity)
     vector = slopes_of_forces(vector_of_trajectory(motion)).packed()
     situation = situation_of(EVERYTHING)
     parameters = parameter_values(EVERYTHING, situation.successor)
-    rows = np.array(structure.rows(vector, parameters)).ravel()
+    rows = np.array(compiled.rows(vector, parameters)).ravel()
     measured = check_motion(EVERYTHING, motion).violations
-    lower, upper = structure.row_bounds(situation)
-    for block in structure.blocks:
+    lower, upper = compiled.row_bounds(situation)
+    for block in compiled.blocks:
         if block.constraint.family in (Family.MOTOR_SPEED, Family.MOTOR_ACCELERATION):
             excess = block.constraint.excess(block.of(rows), block.of(lower), block.of(upper))
             assert excess.max() / MM == pytest.approx(measured[block.constraint.family], abs=1e-12)
@@ -176,10 +176,10 @@ def test_slopes_are_undone_by_forces() -> None:
 
 def test_the_form_without_roots_is_the_stroke_limit_of_inverse_kinematics() -> None:
     turned = replace(PROBLEM, heading_profile=np.linspace(0.0, 0.3, PROBLEM.knot_count))
-    structure = build_structure(turned.model, shape_of(turned))
-    upper, lower = structure.blocks[-2:]
+    compiled = compile_problem(turned.model, shape_of(turned))
+    upper, lower = compiled.blocks[-2:]
     parameters = parameter_values(turned, situation_of(turned).successor)
-    motion = initial_motion(turned)
+    motion = initial_guess(turned)
     n, legs = PROBLEM.knot_count, PROBLEM.model.leg_count
     rng = np.random.default_rng(10)
     feet = motion.feet_world + rng.uniform(-0.02, 0.02, motion.feet_world.shape)
@@ -188,7 +188,7 @@ def test_the_form_without_roots_is_the_stroke_limit_of_inverse_kinematics() -> N
         np.zeros((n, legs + 1, 3)),
         np.zeros((n, legs, 3)),
     ).packed()
-    rows = np.array(structure.rows(vector, parameters)).ravel()
+    rows = np.array(compiled.rows(vector, parameters)).ravel()
     strokes = strokes_from_foot(
         PROBLEM.model.leg, feet_in_modules(PROBLEM.model, feet, motion.pose(PROBLEM.model))
     ).reshape(n, -1)
@@ -198,7 +198,7 @@ def test_the_form_without_roots_is_the_stroke_limit_of_inverse_kinematics() -> N
 
 
 def test_one_structure_serves_every_timeline_of_its_shape() -> None:
-    cache = StructureCache()
+    cache = CompiledProblemCache()
     first, build_seconds = cache.get(gait_problem("walk", 0.010, Workspace.STROKE))
     second, again = cache.get(gait_problem("s-gait", 0.015, Workspace.STROKE))
     assert first is second

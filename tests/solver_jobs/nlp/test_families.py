@@ -11,7 +11,7 @@ import pytest
 from core.gait.gait import GaitOptions, heading_step, motion_problem
 from core.library.library import library
 from core.motion.contact_timeline import timeline_from_order
-from core.motion.heading_profile import Turning
+from core.motion.heading_profile import HeadingProfile
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import Boundary, MotionProblem, Workspace
 from core.robot.model import load_robot
@@ -49,7 +49,9 @@ def test_the_body_turns_while_it_walks(workspace: Workspace, yaw_deg: float) -> 
 
 
 def test_rotation_in_place_returns_within_the_motors_limits() -> None:
-    problem = asked(step=0.0, yaw=np.radians(15), closing_knots=12, turning=Turning.RETURN, motor_speed=0.015)
+    problem = asked(
+        step=0.0, yaw=np.radians(15), closing_knots=12, turning=HeadingProfile.RETURN, motor_speed=0.015
+    )
     confirmed(problem)
 
 

@@ -108,13 +108,13 @@ def test_a_motion_that_does_not_fit_is_refused() -> None:
 def test_the_motion_of_every_iteration_is_kept() -> None:
     problem = WALK.turned(1)
     result = solve_motion(problem)
-    assert len(result.course) == len(result.iterations)
-    np.testing.assert_allclose(result.course[0].body_world, result.initial.body_world, atol=1e-4)
-    np.testing.assert_allclose(result.course[-1].feet_world, result.trajectory.feet_world, atol=1e-9)
-    np.testing.assert_allclose(result.course[3].feet_world[-1], problem.goal.feet_world, atol=1e-12)
+    assert len(result.iterate_motions) == len(result.iterations)
+    np.testing.assert_allclose(result.iterate_motions[0].body_world, result.initial.body_world, atol=1e-4)
+    np.testing.assert_allclose(result.iterate_motions[-1].feet_world, result.trajectory.feet_world, atol=1e-9)
+    np.testing.assert_allclose(result.iterate_motions[3].feet_world[-1], problem.goal.feet_world, atol=1e-12)
 
 
 def test_the_course_of_an_infeasible_problem_includes_the_search_for_the_nearest_motion() -> None:
     result = solve_motion(gait_problem("amble", 0.020, Workspace.CYLINDER))
     assert result.status is SolveStatus.INFEASIBLE
-    assert len(result.course) == len(result.iterations) > 30
+    assert len(result.iterate_motions) == len(result.iterations) > 30

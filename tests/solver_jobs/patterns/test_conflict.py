@@ -106,7 +106,7 @@ def explained(request: pytest.FixtureRequest) -> tuple[str, PatternProblem, Expl
 
 def test_the_clauses_clash_and_each_is_needed(explained: tuple[str, PatternProblem, Explanation]) -> None:
     _, problem, why = explained
-    assert Probe().clash(problem, why.clauses)
+    assert Probe().conflict(problem, why.clauses)
     for clause in why.clauses:
         others = [other for other in why.clauses if other is not clause]
         assert Probe().ask(problem, asked_by(others)) is Answer.SOLVABLE, clause
@@ -166,7 +166,7 @@ def test_without_work_left_a_question_is_answered_by_neither_yes_nor_no() -> Non
     probe = Probe(work=1e-9)
     assert [probe.ask(problem), probe.ask(problem)] == [Answer.SOLVABLE, Answer.UNKNOWN]
     assert not probe.solvable(problem)
-    assert not probe.clash(problem, [])
+    assert not probe.conflict(problem, [])
     assert probe.asked == 1
 
 

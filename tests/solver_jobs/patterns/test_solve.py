@@ -23,7 +23,7 @@ from core.patterns.problem import (
     PatternWeights,
     index_halves,
 )
-from solver_jobs.patterns.callbacks import Watch
+from solver_jobs.patterns.callbacks import SearchMonitor
 from solver_jobs.patterns.model import build_model
 from solver_jobs.patterns.solve import best_patterns
 from tests.support.solvers.brute_force import every_sum
@@ -67,8 +67,8 @@ def test_the_two_models_agree() -> None:
         problem = random_small(random)
         built = build_model(problem)
         built.model.minimize(built.objective())
-        with Watch(problem, 30.0, lambda known: True) as watch:
-            status, solver = watch.solve(built.model, linear=0)
+        with SearchMonitor(problem, 30.0, lambda known: True) as monitor:
+            status, solver = monitor.solve(built.model, linear=0)
         wanted = sums(problem, best_patterns(problem))
         found = [round(solver.objective_value)] if solver.status_name(status) == "OPTIMAL" else []
         assert found == wanted

@@ -24,7 +24,7 @@ from core.problem.motion_problem import (
     standing_pose,
 )
 from core.robot.model import load_robot
-from solver_jobs import Job, JobRunner, JobState, SolveStatus
+from solver_jobs import Job, JobQueue, JobState, SolveStatus
 from solver_jobs.workers import job_queue as runner_module
 from tests.support.solvers.cases import gait_problem
 
@@ -65,12 +65,12 @@ def listener() -> Listener:
 
 
 @pytest.fixture
-def runner(listener: Listener) -> Iterator[JobRunner]:
-    with JobRunner(listener) as made:
+def runner(listener: Listener) -> Iterator[JobQueue]:
+    with JobQueue(listener) as made:
         yield made
 
 
-def test_a_job_runs_and_keeps_its_whole_course(runner: JobRunner, listener: Listener) -> None:
+def test_a_job_runs_and_keeps_its_whole_course(runner: JobQueue, listener: Listener) -> None:
     job_id = runner.submit(WALK, "Walk, 10 mm")
     job = runner.wait(job_id, DEADLINE)
     assert job.state is JobState.DONE
@@ -90,13 +90,13 @@ def test_a_job_runs_and_keeps_its_whole_course(runner: JobRunner, listener: List
     assert counts == sorted(counts)
 
 
-def test_jobs_that_cannot_be_done_end_infeasible_with_a_sentence(runner: JobRunner) -> None:
+def test_jobs_that_cannot_be_done_end_infeasible_with_a_sentence(runner: JobQueue) -> None:
     job = runner.wait(runner.submit(gait_problem("walk", 0.2, Workspace.STROKE), "far"), DEADLINE)
     assert job.state is JobState.INFEASIBLE
     assert "Foot 1 has to travel 200.0 mm" in job.sentence
 
 
-def test_a_waiting_job_is_cancelled_at_once(runner: JobRunner, listener: Listener) -> None:
+def test_a_waiting_job_is_cancelled_at_once(runner: JobQueue, listener: Listener) -> None:
     first = runner.submit(long_problem(), "long")
     listener.until(lambda job: job.state is JobState.RUNNING)
     second = runner.submit(WALK, "walk")
@@ -105,7 +105,7 @@ def test_a_waiting_job_is_cancelled_at_once(runner: JobRunner, listener: Listene
     assert runner.cancel(second).state is JobState.CANCELLED
 
 
-def test_a_running_job_is_cancelled_within_an_iteration(runner: JobRunner, listener: Listener) -> None:
+def test_a_running_job_is_cancelled_within_an_iteration(runner: JobQueue, listener: Listener) -> None:
     timeline = timeline_from_order(4, (3, 2, 4, 1), iterations=5)
     job_id = runner.submit(replace(WALK, timeline=timeline), "five iterations")
     listener.until(lambda job: len(job.progress) > 0)
@@ -116,7 +116,7 @@ def test_a_running_job_is_cancelled_within_an_iteration(runner: JobRunner, liste
     assert job.result.status is SolveStatus.CANCELLED
 
 
-def test_a_worker_that_does_not_answer_is_ended_and_replaced(runner: JobRunner, listener: Listener) -> None:
+def test_a_worker_that_does_not_answer_is_ended_and_replaced(runner: JobQueue, listener: Listener) -> None:
     job_id = runner.submit(long_problem(), "long")
     listener.until(lambda job: job.state is JobState.RUNNING)
     before = runner.process_ids()
@@ -128,7 +128,7 @@ def test_a_worker_that_does_not_answer_is_ended_and_replaced(runner: JobRunner, 
 
 
 def test_a_job_beyond_its_time_fails_with_a_sentence() -> None:
-    with JobRunner(time_limit=0.2) as runner:
+    with JobQueue(time_limit=0.2) as runner:
         job = runner.wait(runner.submit(long_problem(), "long"), DEADLINE)
     assert job.state is JobState.FAILED
     assert "time limit of 0.2 s" in job.sentence
@@ -137,7 +137,7 @@ def test_a_job_beyond_its_time_fails_with_a_sentence() -> None:
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="needs POSIX signals")
 def test_a_killed_worker_fails_its_job_and_the_next_one_runs(listener: Listener) -> None:
     timeline = timeline_from_order(4, (3, 2, 4, 1), iterations=5)
-    with JobRunner(listener) as runner:
+    with JobQueue(listener) as runner:
         job_id = runner.submit(replace(WALK, timeline=timeline), "five iterations")
         listener.until(lambda job: len(job.progress) > 0)
         os.kill(runner.process_ids()[0], signal.SIGKILL)
@@ -148,7 +148,7 @@ def test_a_killed_worker_fails_its_job_and_the_next_one_runs(listener: Listener)
 
 
 def test_closing_interrupts_open_jobs_and_leaves_no_process(listener: Listener) -> None:
-    runner = JobRunner(listener)
+    runner = JobQueue(listener)
     running = runner.submit(long_problem(), "long")
     listener.until(lambda job: job.state is JobState.RUNNING)
     waiting = runner.submit(WALK, "walk")
@@ -162,7 +162,7 @@ def test_closing_interrupts_open_jobs_and_leaves_no_process(listener: Listener) 
 
 
 def test_a_full_queue_refuses_with_the_limit(
-    runner: JobRunner, listener: Listener, monkeypatch: pytest.MonkeyPatch
+    runner: JobQueue, listener: Listener, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(runner_module, "QUEUE_LIMIT", 1)
     runner.submit(long_problem(), "long")
@@ -172,7 +172,7 @@ def test_a_full_queue_refuses_with_the_limit(
         runner.submit(WALK, "walk")
 
 
-def test_an_unknown_job_is_refused(runner: JobRunner) -> None:
+def test_an_unknown_job_is_refused(runner: JobQueue) -> None:
     with pytest.raises(InputError, match="no job"):
         runner.cancel("none")
 
@@ -181,19 +181,19 @@ def test_a_listener_that_fails_does_not_stop_the_queue(caplog: pytest.LogCapture
     def fail(job: Job) -> None:
         raise RuntimeError("listener")
 
-    with JobRunner(fail) as runner:
+    with JobQueue(fail) as runner:
         assert runner.wait(runner.submit(WALK, "walk"), DEADLINE).state is JobState.DONE
     assert "listener failed" in caplog.text
 
 
 PARENT = """
 import sys
-from solver_jobs import JobRunner
+from solver_jobs import JobQueue
 from tests.support.solvers.cases import gait_problem
 from core.problem.motion_problem import Workspace
 
 if __name__ == "__main__":
-    runner = JobRunner()
+    runner = JobQueue()
     problem = gait_problem("walk", 0.010, Workspace.STROKE)
     runner.wait(runner.submit(problem, "walk"), 60)
     print("casadi" in sys.modules, runner.process_ids()[0], flush=True)

@@ -8,14 +8,14 @@ from collections.abc import Callable
 
 import pytest
 
-from solver_jobs import JobRunner, LiveSolver, PatternSolver, Simulator, TravelSimulator
+from solver_jobs import BatchSimulator, JobQueue, LiveSolver, PatternSolver, Simulator
 from solver_jobs.workers.spawning import BACKGROUND_NICENESS, NICENESS
 
 PATIENCE = 60.0
 """Longest wait for a process, s."""
 
 
-def job_process(runner: JobRunner) -> int | None:
+def job_process(runner: JobQueue) -> int | None:
     return next(iter(runner.process_ids()), None)
 
 
@@ -37,11 +37,11 @@ def niceness_of(process: Callable[[], int | None], wanted: int) -> int:
         (PatternSolver, NICENESS),
         (LiveSolver, NICENESS),
         (Simulator, BACKGROUND_NICENESS),
-        (TravelSimulator, BACKGROUND_NICENESS),
+        (BatchSimulator, BACKGROUND_NICENESS),
     ],
 )
 def test_simulations_stand_back_behind_what_answers_a_hand_and_both_behind_the_bridge(
-    service: type[PatternSolver | LiveSolver | Simulator | TravelSimulator], wanted: int
+    service: type[PatternSolver | LiveSolver | Simulator | BatchSimulator], wanted: int
 ) -> None:
     solver = service()
     solver.start()
@@ -52,5 +52,5 @@ def test_simulations_stand_back_behind_what_answers_a_hand_and_both_behind_the_b
 
 
 def test_jobs_stand_back_behind_what_answers_a_hand() -> None:
-    with JobRunner() as runner:
+    with JobQueue() as runner:
         assert niceness_of(lambda: job_process(runner), BACKGROUND_NICENESS) == BACKGROUND_NICENESS

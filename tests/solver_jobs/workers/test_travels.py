@@ -9,13 +9,13 @@ import pytest
 from core.errors import SimulationCancelledError
 from core.identification.learning import Walk
 from core.physics.parameters import physics_set
-from core.trials.travel import MeasuredWalk, Travel
-from solver_jobs import TravelSimulator
+from core.trials.travel import Displacement, MeasuredWalk
+from solver_jobs import BatchSimulator
 from solver_jobs.workers.batch_simulation_worker import walked
 from tests.support.solvers.rigs import problem_of_strokes, resting
 
 USUAL = physics_set("scales")
-MEASURED = MeasuredWalk("made", "made", 0.01, Travel(0.01, 0.0), 1)
+MEASURED = MeasuredWalk("made", "made", 0.01, Displacement(0.01, 0.0), 1)
 
 
 def lift_and_stand() -> Walk:
@@ -33,7 +33,7 @@ def falling() -> Walk:
 
 def test_a_process_of_its_own_answers_as_this_one_does() -> None:
     walk, soft = lift_and_stand(), replace(USUAL, link_stiffness=2000.0)
-    simulator = TravelSimulator()
+    simulator = BatchSimulator()
     try:
         first, second = simulator.submit(walk, (USUAL, soft)).result(120)
     finally:

@@ -13,7 +13,7 @@ from app.scene import Scenes, plan_poses
 from core.gait.gait import motion_problem
 from core.library.library import optimised_entry
 from core.motion.trajectory import Trajectory
-from core.problem.initial_guess import initial_motion
+from core.problem.initial_guess import initial_guess
 from core.robot.model import load_robot
 
 PAGE = """<!doctype html><title>Preview</title>
@@ -36,7 +36,7 @@ PAGE = """<!doctype html><title>Preview</title>
 
 def walk() -> Trajectory:
     """The drawn (not optimised) walk of the gait library."""
-    return initial_motion(motion_problem(optimised_entry("walk").gait, load_robot("deltawalker")))
+    return initial_guess(motion_problem(optimised_entry("walk").gait, load_robot("deltawalker")))
 
 
 def preview_application(scenes: Scenes) -> FastAPI:

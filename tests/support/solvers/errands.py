@@ -8,13 +8,13 @@ from multiprocessing.connection import Connection
 from typing import ClassVar
 
 from core.errors import InputError, SimulationCancelledError
-from solver_jobs.workers.task_service import Question, QuestionService
-from solver_jobs.workers.task_worker import Report, answer_questions
+from solver_jobs.workers.task_service import Task, TaskService
+from solver_jobs.workers.task_worker import Report, run_tasks
 
 Errand = Callable[[Report], int]
 
 
-class AskedErrand(Question[Errand, int, int]):
+class AskedErrand(Task[Errand, int, int]):
     """An errand; where its process gives no answer, −1 comes of it."""
 
     grace: ClassVar[float] = 60.0
@@ -41,7 +41,7 @@ class ShortErrand(AskedErrand):
         return begun + 0.05
 
 
-class Errands(QuestionService[AskedErrand]):
+class Errands(TaskService[AskedErrand]):
     """The service over such a process."""
 
     def __init__(self) -> None:
@@ -50,7 +50,7 @@ class Errands(QuestionService[AskedErrand]):
 
 def run_errands(pipe: Connection, warm_up: None) -> None:
     """Body of the process."""
-    answer_questions(pipe, lambda errand, report: errand(report))
+    run_tasks(pipe, lambda errand, report: errand(report))
 
 
 def seven(report: Report) -> int:

@@ -1,1 +1,1 @@
-"""The robot's cable: transport, session, and an emulated robot for the other end."""
+"""The host's end of the cable: transport, write gate, state machine."""

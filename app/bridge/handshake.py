@@ -1,4 +1,4 @@
-"""From an open line to a robot that is ready: one flush, and its effect awaited (PROTOCOL 5.6)."""
+"""The handshake from an open line to a ready robot: one flush, then its effect (PROTOCOL 5.6)."""
 
 from __future__ import annotations
 

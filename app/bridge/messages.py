@@ -1,4 +1,4 @@
-"""The sentences that go with the bridge's states."""
+"""The sentences of the bridge's states."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which of the approved waypoints a run sends: from which pose on, and how many times over."""
+"""The range of approved waypoints that a run sends: its first pose, and how often it repeats."""
 
 from __future__ import annotations
 

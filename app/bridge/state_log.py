@@ -1,4 +1,4 @@
-"""Where link and robot stand, and every change of it with its cause."""
+"""The states of link and robot, and a log of every change with its cause."""
 
 from __future__ import annotations
 

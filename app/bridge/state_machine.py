@@ -1,4 +1,4 @@
-"""The bridge's state machine, without threads, clocks or ports: lines, ticks and wishes in, messages out.
+"""The bridge's state machine, without threads, clocks or ports: lines, ticks and requests in, messages out.
 
 Whoever drives it serialises the calls and says what time it is. Link and robot have a state each,
 and each change has its cause.

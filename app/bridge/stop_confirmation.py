@@ -1,4 +1,4 @@
-"""One stop from its bytes to its confirmation: echoed, and every motor standing as measured."""
+"""Confirms one stop: the robot echoed it, and every motor stands still as measured."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The way of a stop: latched, followed, repeated, confirmed, and what is said of it meanwhile."""
+"""The stop procedure: latch, send, repeat, confirm, and the sentences meanwhile."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ class StopProcedure:
     """The stop that stands, a person's or a fault's.
 
     Args:
-        ledger: where its states and sentences go.
+        state_log: where its states and sentences go.
         gate: the way out.
     """
 
-    def __init__(self, ledger: StateLog, gate: WriteGate) -> None:
-        self._ledger = ledger
+    def __init__(self, state_log: StateLog, gate: WriteGate) -> None:
+        self._state_log = state_log
         self._gate = gate
         self._stop: StopConfirmation | None = None
 
@@ -84,13 +84,13 @@ class StopProcedure:
             return
         if stop.echoed and still:
             stop.confirmed = True
-            fault = self._ledger.robot is RobotState.FAULT
+            fault = self._state_log.robot is RobotState.FAULT
             robot = RobotState.FAULT if fault else RobotState.STOPPED
-            self._ledger.become(now, "The robot stands still.", self.describe(robot), robot=robot)
+            self._state_log.become(now, "The robot stands still.", self.describe(robot), robot=robot)
             return
         sentence = f"{stop.cause} {NOT_STOPPED}".strip()
-        if stop.overdue(now) and self._ledger.sentence != sentence:
-            self._ledger.become(now, "The stop was not confirmed in time.", sentence)
+        if stop.overdue(now) and self._state_log.sentence != sentence:
+            self._state_log.become(now, "The stop was not confirmed in time.", sentence)
         if may_send and stop.repeat_due(now):
             self.send(now)
 

@@ -1,4 +1,4 @@
-"""What is known of the robot from its lines alone: strokes, whether it idles, whether it stands still."""
+"""What the robot's lines show: strokes, whether it idles, whether it stands still."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The one way out to the robot: nothing overtakes a stop, and a stop overtakes everything."""
+"""The write gate, the only way to the robot: nothing overtakes a stop, and a stop overtakes everything."""
 
 from __future__ import annotations
 

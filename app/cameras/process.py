@@ -1,4 +1,4 @@
-"""The studio's hold on one camera's process."""
+"""One camera's process, as the studio drives it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The bridge's session and an emulated robot, joined without threads in the robot's own time."""
+"""The bridge's state machine joined to an emulated robot, without threads, in the robot's own time."""
 
 from __future__ import annotations
 

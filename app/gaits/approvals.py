@@ -1,4 +1,4 @@
-"""Approvals: a person's word for a verdict that still stands, the record of them, and what changed since."""
+"""Approvals: a person approves a verdict that is still valid; their record, and what changed since."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class ApprovalRecord:
 
 @dataclass(frozen=True)
 class ApprovalRequest:
-    """What a person says of a verdict.
+    """A request to approve a verdict.
 
     Args:
         by: their name.

@@ -1,6 +1,6 @@
 """Plans that follow an edit while it is still under way: documents in, checked answers of the live tier out.
 
-It knows documents, not the open gaits, and may be called from any thread; nothing here changes the desk.
+It knows documents, not the open gaits, and may be called from any thread; nothing here changes an open gait.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ class LivePreview:
     def _solve(self, gait: str, problem: MotionProblem) -> MotionResult:
         # A sequence asks for several problems: the steps between its parts, which differ by their ends.
         motion = f"{gait} {_ends(problem)}"
-        # A page asks while the desk asks for the same edit: the second finds the first one's answer.
+        # A page asks while the gait service asks for the same edit: the second finds the first one's answer.
         with self._asking:
             known = self._known(motion)
             if known is not None:
@@ -135,7 +135,7 @@ class LivePreview:
         """What a gait would amount to, as JSON content.
 
         Args:
-            before: the gait as it is on the desk.
+            before: the gait as it is now.
             document: the changed document; None for the gait as it is.
             wants_remedies: whether to look for changes that make it feasible; takes longer.
 

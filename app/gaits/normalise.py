@@ -1,4 +1,4 @@
-"""What an edit carries with it: locks that hold, and timeline and segment table that agree."""
+"""Applies the consequences of an edit: locks, and agreement of timeline and segment table."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from core.segments.from_timeline_edit import carried
 
 
 def normalise(before: Gait, after: Gait) -> tuple[Gait, str | None]:
-    """What an edit makes of a gait: locks held, timeline and segment table in agreement.
+    """Normalises an edited gait: locks hold, timeline and segment table agree.
 
     Args:
         before: the document as it was.

@@ -1,4 +1,4 @@
-"""A gait on the desk: its document, its log, and what was found and approved of it."""
+"""An open gait: its document, its history, its verdict and its approval."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Plans are made beside the session: its thread goes on with other commands while a solver is at work."""
+"""Makes plans on other threads, so that the command queue's thread goes on while a solver is at work."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Planner:
     """Makes the plan that a command needs, and then lets the session do the command.
 
     Args:
-        commands: whose thread owns the desk.
+        commands: the queue whose thread owns the open gaits.
         service: the gaits.
     """
 

@@ -1,4 +1,4 @@
-"""Where gaits lie when nobody has them open: the library, the saved files, and what is being edited.
+"""All gaits that nobody has open: the library, the saved files, and the edits that were kept.
 
 Only the session's thread calls this.
 """
@@ -91,7 +91,7 @@ class GaitRepository:
 
         Args:
             gait: the document.
-            taken: ids that it must not get, beside those on the shelf.
+            taken: ids that it must not get, besides those of the repository.
         """
         used = {ROUTE, *taken, *self.stamps(), *self._files.deleted_ids(), *self._log.ids()}
         return self.write(fresh_gait(free_id(gait.name, used), gait, False, None))

@@ -1,4 +1,4 @@
-"""Sequence documents on the desk: made from the ids of gaits, edited, and brought up to date with them."""
+"""Sequence documents: made from the ids of gaits, edited, and brought up to date with them."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class AskedPart:
 
 
 def made_sequence(name: str, asked: Iterable[AskedPart], gait_of: GaitOf, notes: str = "") -> Gait:
-    """A sequence of gaits that are on the desk; a sequence among them stands for its parts.
+    """A sequence of saved or open gaits; a sequence among them contributes its parts.
 
     Args:
         name: of the sequence.

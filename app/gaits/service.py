@@ -1,4 +1,4 @@
-"""Everything that happens to gaits: opening, editing, saving, planning, checking and approving.
+"""The open gaits: opening, editing, saving, planning, checking and approving.
 
 Only the session's thread calls this.
 """
@@ -105,7 +105,7 @@ class GaitService:
         return tuple(gait for gait in self._open.values() if page in gait.history.pages)
 
     def document(self, gait_id: str) -> Gait:
-        """The gait's document as it is on the desk (see `open_gait`)."""
+        """The gait's document as it is now (see `open_gait`)."""
         return self.open_gait(gait_id).gait
 
     def sequences_with(self, gait_id: str) -> tuple[OpenGait, ...]:
@@ -161,7 +161,7 @@ class GaitService:
     def edit(
         self, gait_id: str, gait: Gait, label: str, revision: int | None, author: Author = _SCRIPT
     ) -> OpenGait:
-        """Puts a changed document on the desk, in the database too.
+        """Makes a changed document the present one, in memory and in the database.
 
         Args:
             gait_id: which gait.
@@ -239,7 +239,7 @@ class GaitService:
         return self._open[gait_id]
 
     def restore_version(self, gait_id: str, number: int, author: Author = _SCRIPT) -> OpenGait:
-        """Puts the document of a version on the desk again, as an edit that can be undone.
+        """Makes a version's document the present one again, as an edit that can be undone.
 
         Raises:
             NotFoundError: there is none of that number.
@@ -360,7 +360,7 @@ class GaitService:
     def _put(
         self, open_gait: OpenGait, version: VersionRow | None = None, record: dict[str, Any] | None = None
     ) -> OpenGait:
-        """Keeps a changed gait open and on the shelf, with version and approval record."""
+        """Keeps a changed gait, in memory and in the repository, with its version and approval record."""
         self._repository.put(open_gait, version, record)
         self._open[open_gait.id] = open_gait
         return open_gait

@@ -13,7 +13,7 @@ def normalise_held_feet(gait: Gait, notice: str | None, *, is_said: bool) -> tup
     """Takes back that feet are held up which an edit of the timeline has put down there.
 
     Args:
-        gait: the document as it was changed, otherwise settled.
+        gait: the changed document, normalised in all other respects.
         notice: what the edit had to set aside so far.
         is_said: whether the edit itself says which feet are held.
 

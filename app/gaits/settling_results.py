@@ -15,7 +15,7 @@ def normalise_results(before: Gait, after: Gait, notice: str | None = None) -> t
 
     Args:
         before: the document as it was.
-        after: the document as it was changed, otherwise settled.
+        after: the changed document, normalised in all other respects.
         notice: what the edit had to set aside so far.
 
     Returns:
@@ -47,7 +47,7 @@ def _same_size(before: Gait, after: Gait) -> bool:
 
 
 def _with_provenance(before: Gait, after: Gait) -> Gait:
-    """Results belong to the desk: a page that has not heard of one does not undo it by its next edit."""
+    """Results are the server's: a page that does not know one yet cannot undo it by its next edit."""
     own = after.provenance
     if own == before.provenance or (own is not None and own.motion == asked_hash(after)):
         return after

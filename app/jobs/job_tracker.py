@@ -1,4 +1,4 @@
-"""Jobs of a kind while they are on: told of, cancelled and ended on the session's thread."""
+"""Running jobs of one kind: their progress, cancelling and end, on the command queue's thread."""
 
 from __future__ import annotations
 

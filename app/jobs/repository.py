@@ -1,4 +1,4 @@
-"""The list of jobs as pages and scripts see it, whoever does them; kept so that it survives a restart.
+"""The list of jobs that pages and scripts see, kept in the database so that it survives a restart.
 
 Only the session's thread calls this.
 """

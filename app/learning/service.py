@@ -1,4 +1,4 @@
-"""Courses of learning: asked for by trials, run in processes in the background, kept; any thread may ask."""
+"""Learning runs: started for trials, run in background processes, and kept. Thread-safe."""
 
 from __future__ import annotations
 

@@ -111,6 +111,6 @@ def learned_sentence(content: Mapping[str, Any]) -> str:
     told = [one["title"].lower() for one in content["parameters"] if one["is_identifiable"]]
     what = f"These trials tell {', '.join(told)}." if told else "These trials tell none of the parameters."
     return (
-        f"{what} A gait that was left out is foretold to {errors['left out']:.2f} cm; as planned it is "
+        f"{what} A gait that was left out is predicted to {errors['left out']:.2f} cm; as planned it is "
         f"{errors['as planned']:.2f} cm, by a line through the others {errors['ratio, left out']:.2f} cm."
     )

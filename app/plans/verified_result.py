@@ -1,4 +1,4 @@
-"""Believing a solver: only what the independent checker confirms counts as solved."""
+"""A solver's result after the independent checker: only what it confirms counts as solved."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The bridge, and the record of every run that goes over it: from before its first byte to its end."""
+"""The bridge with a record of every run, from before its first byte to its end."""
 
 from __future__ import annotations
 

@@ -28,7 +28,7 @@ class Version(StrEnum):
     """The document before the present one."""
     SAVED = "saved"
     PRESENT = "present"
-    """The document on the desk, while an edit is under way on a page."""
+    """The document as it is, while an edit is under way on a page."""
 
 
 @router.get("/{gait_id}/ghost", response_class=Response)

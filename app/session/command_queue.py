@@ -1,4 +1,4 @@
-"""The one owner of the studio's state: a thread that takes commands off a queue, one after the other.
+"""The command queue: one thread owns the studio's state and runs one command after the other.
 
 Pages, jobs and robot put commands on the queue; only this thread changes state and publishes what changed.
 The one exception is Stop, which goes straight to the bridge.

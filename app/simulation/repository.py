@@ -1,4 +1,4 @@
-"""The simulations that are kept: which one is of a plan as it is now, and its report; any thread may ask."""
+"""The kept simulations: which of them belongs to the present plan, and its report. Thread-safe."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What was learned from trials, and the named sets of physics parameters, in the database."""
+"""Learning runs and the named sets of physics parameters, in the database."""
 
 from __future__ import annotations
 

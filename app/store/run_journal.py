@@ -1,4 +1,4 @@
-"""A file in which what passes in a run stands at once, until the database has it.
+"""A journal file that holds what passes in a run until the database has it.
 
 A kill of the program takes nothing of it. It is locked as long as the program lives, and the system
 unlocks it however that ends; so it also says whether a run is still under way.

@@ -1,4 +1,4 @@
-"""How runs stand in the database, for everybody who writes them."""
+"""The database rows of runs, for all that write them."""
 
 from __future__ import annotations
 

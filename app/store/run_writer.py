@@ -1,4 +1,4 @@
-"""A way of its own into the database for what passes in a run, so that it waits for nobody else."""
+"""A database connection of its own for runs, so that recording waits for nobody else."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is kept beside trials in the database: what the robot was sent, and physics' feet of it."""
+"""What the database keeps with trials for comparison: what the robot was sent, and the simulated feet."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The studio: desks for gaits, jobs and robot behind one session, and what they publish."""
+"""The studio: every service behind one command queue, and what they publish."""
 
 from __future__ import annotations
 

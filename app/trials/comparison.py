@@ -1,4 +1,4 @@
-"""A trial beside its plan and physics: figures of the three, its track in the plan's frame, and bands."""
+"""Compares a trial with its plan and with physics: figures of the three, tracks in one frame, bands."""
 
 from __future__ import annotations
 

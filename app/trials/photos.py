@@ -12,7 +12,7 @@ from app.store.database import Database
 from app.store.gait_files import require_folder, write_atomically
 from app.store.photo_store import Content, PhotoStore
 from app.trials.service import TrialService
-from app.vision.services import VisionServices, seen
+from app.vision.services import VisionServices, ask
 from app.vision.worker import PhotoFiles, PhotoOf, Source
 from core.errors import InputError, NotFoundError
 
@@ -64,7 +64,7 @@ class TrialPhotos:
         self._service.require_listed(trial)
         check_bytes(len(content), name)
         task = PhotoOf(Source(file=content, name=name), KEPT_WIDTH, SMALL_WIDTH)
-        made: PhotoFiles = seen(self._vision.near, task, LOOK_SECONDS)
+        made: PhotoFiles = ask(self._vision.near, task, LOOK_SECONDS)
         photo: Content = {
             "id": uuid.uuid4().hex[:12],
             "trial": trial,

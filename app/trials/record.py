@@ -117,8 +117,8 @@ def kept_track(row: TrialRow) -> FootTrack:
     """The track with the times at which it was seen."""
     content = row.content
     track = parse_track_csv(row.track, content["name"], frame_rate=content["frame_rate"])
-    sight = content.get("sight")
-    return track if sight is None else replace(track, times=np.array(sight["times"]))
+    track_record = content.get("sight")
+    return track if track_record is None else replace(track, times=np.array(track_record["times"]))
 
 
 def trial_record(row: TrialRow) -> TrialRecord:

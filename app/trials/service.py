@@ -75,7 +75,7 @@ class TrialService:
         track: FootTrack,
         words: TrialDescription,
         planned: PlannedFeet | None,
-        sight: TrackRecord | None = None,
+        track_record: TrackRecord | None = None,
     ) -> dict[str, Any]:
         """Keeps a new trial and tells its figures.
 
@@ -83,7 +83,7 @@ class TrialService:
             track: where the feet were.
             words: what a person says of it.
             planned: where the feet were to be; None where that is not known.
-            sight: how a camera saw the track; None where it came as a file.
+            track_record: how a camera saw the track; None where it came as a file.
 
         Raises:
             InputError: the track is too short for its iterations.
@@ -96,7 +96,7 @@ class TrialService:
             "frame_rate": float(1.0 / np.median(np.diff(track.times))),
             "ends": None,
             "plan": None if planned is None else _kept_plan(planned),
-            "sight": None if sight is None else sight.content(),
+            "sight": None if track_record is None else track_record.content(),
         }
         self._log.add(content, format_track_csv(track))
         if planned is not None and planned.sent is not None:
@@ -249,7 +249,7 @@ def _summary(row: TrialRow) -> dict[str, Any]:
         "deleted": row.is_deleted,
         "ends_by_hand": content["ends"] is not None,
         "ends_from": ends_from,
-        **_sight_content(content.get("sight")),
+        **_record_content(content.get("sight")),
         **track_content(track, expected, found, ends, length),
         "plan": None,
     }
@@ -261,12 +261,12 @@ def _summary(row: TrialRow) -> dict[str, Any]:
     return summary
 
 
-def _sight_content(sight: dict[str, Any] | None) -> dict[str, Any]:
-    if sight is None:
+def _record_content(track_record: dict[str, Any] | None) -> dict[str, Any]:
+    if track_record is None:
         return {"source": None, "unseen": [], "false": [], "remarks": [], "first_seconds": 0.0}
     return {
-        **{key: sight[key] for key in ("source", "unseen", "false", "remarks")},
-        "first_seconds": sight["times"][0],
+        **{key: track_record[key] for key in ("source", "unseen", "false", "remarks")},
+        "first_seconds": track_record["times"][0],
     }
 
 

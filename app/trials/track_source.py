@@ -1,4 +1,4 @@
-"""What is kept with a trial whose track a camera saw: from where, when, and what was not seen."""
+"""The source of a trial's track that a camera saw: which camera, when, and what was not seen."""
 
 from __future__ import annotations
 

@@ -59,7 +59,7 @@ class LogEntry:
 
 @dataclass(frozen=True)
 class Action:
-    """That an edit was done or undone.
+    """An edit that was done or undone.
 
     Args:
         position: of the edit in the log.

@@ -1,4 +1,4 @@
-"""Everything that sees the robot: setups, videos, tracking, cameras, recordings of runs."""
+"""The lab's cameras put together: setups, videos, tracking, cameras, recordings of runs."""
 
 from __future__ import annotations
 

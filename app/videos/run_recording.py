@@ -242,10 +242,10 @@ class RunRecordings:
             self._await_record(run)
             made = run_trial(self._runs.record(run), recorded.found)
             source = replace(one.source, video=one.video)
-            sight = TrackRecord(
+            track_record = TrackRecord(
                 made.found, source, (*remarks, *missing_remarks(made.found), *made.remarks), made.ends
             )
-            trial = self._trials.add(made.found.track, made.words, made.planned, sight)
+            trial = self._trials.add(made.found.track, made.words, made.planned, track_record)
         except FootfallError as error:
             return "", (*remarks, f"There is no trial: {error.sentence}")
         return trial["id"], remarks

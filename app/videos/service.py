@@ -13,7 +13,7 @@ from app.store.database import Database
 from app.store.video_store import VideoStore
 from app.videos.files import MOST_RECORDED, Upload, VideoFiles
 from app.vision.footage import PICTURES, Facts
-from app.vision.services import VisionServices, VisionTask, seen
+from app.vision.services import VisionServices, VisionTask, ask
 from app.vision.worker import FactsOf, PictureOf, Source
 from core.errors import FootfallError, InputError, NotFoundError, StateError
 
@@ -120,7 +120,7 @@ class VideoService:
 
     def _facts(self, path: Path, name: str) -> Facts:
         try:
-            facts: Facts = seen(self._vision.boards, FactsOf(path), FACTS_SECONDS)
+            facts: Facts = ask(self._vision.boards, FactsOf(path), FACTS_SECONDS)
         except InputError as refusal:
             raise InputError(refusal.sentence.replace(path.name, name), "file") from None
         return facts
@@ -244,7 +244,7 @@ class VideoService:
 
     def picture(self, source: Source, most: int | None) -> bytes:
         """A picture as a JPEG file, no wider than so many pixels."""
-        file: bytes = seen(self._vision.near, PictureOf(source, most), LOOK_SECONDS)
+        file: bytes = ask(self._vision.near, PictureOf(source, most), LOOK_SECONDS)
         return file
 
     def _known(self, video: str) -> Content:

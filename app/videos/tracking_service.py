@@ -128,11 +128,13 @@ class TrackingService:
         """The trial; that of a recorded run counts from the run's first waypoint, as the run's log tells."""
         words, video = order.words, self._videos.view(order.video)
         if video["kind"] != "recording" or words.run != video["run"]:
-            sight = TrackRecord(found, source, missing_remarks(found))
-            return self._trials.add(found.track, words, order.planned, sight)
+            track_record = TrackRecord(found, source, missing_remarks(found))
+            return self._trials.add(found.track, words, order.planned, track_record)
         made = run_trial(self._runs.record(words.run), found)
-        sight = TrackRecord(made.found, source, (*missing_remarks(made.found), *made.remarks), made.ends)
-        return self._trials.add(made.found.track, words, made.planned, sight)
+        track_record = TrackRecord(
+            made.found, source, (*missing_remarks(made.found), *made.remarks), made.ends
+        )
+        return self._trials.add(made.found.track, words, made.planned, track_record)
 
 
 def track_figures(trial: str, found: VideoTrack) -> Content:

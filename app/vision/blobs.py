@@ -1,4 +1,4 @@
-"""Spots of a foot's colour in a picture: which there are, which one is the foot, and why others are not."""
+"""Blobs of a foot's colour in a picture: all of them, the one that is the foot, and why others are not."""
 
 from __future__ import annotations
 
@@ -70,16 +70,16 @@ def _largest(mask: Mask, limits: BlobLimits) -> tuple[float, float]:
         if area < limits.least_area:
             break
         if area <= limits.most_area:
-            spot = _spot(contour, area, limits)
-            if spot.refusal is None:
-                return spot.pixel
+            blob = _blob(contour, area, limits)
+            if blob.refusal is None:
+                return blob.pixel
     return (math.nan, math.nan)
 
 
 def blobs_of(mask: Mask, limits: BlobLimits) -> tuple[tuple[Blob, ...], int]:
     """The largest spots of a mask, and how many smaller ones there are."""
     found = _contours(mask)
-    return tuple(_spot(*one, limits) for one in found[:MOST_SPOTS]), max(len(found) - MOST_SPOTS, 0)
+    return tuple(_blob(*one, limits) for one in found[:MOST_SPOTS]), max(len(found) - MOST_SPOTS, 0)
 
 
 def _contours(mask: Mask) -> list[tuple[NDArray[np.int32], float]]:
@@ -89,7 +89,7 @@ def _contours(mask: Mask) -> list[tuple[NDArray[np.int32], float]]:
     return sorted(found, key=lambda one: -one[1])
 
 
-def _spot(contour: NDArray[np.int32], area: float, limits: BlobLimits) -> Blob:
+def _blob(contour: NDArray[np.int32], area: float, limits: BlobLimits) -> Blob:
     middle, radius = cv2.minEnclosingCircle(contour)
     fill = area / (math.pi * max(radius, 0.5) ** 2)
     sums = cv2.moments(contour)
@@ -98,13 +98,13 @@ def _spot(contour: NDArray[np.int32], area: float, limits: BlobLimits) -> Blob:
     return Blob((float(middle[0]), float(middle[1])), area, radius, fill, limits.refusal(area, fill))
 
 
-def shown_mask(picture: Picture, mask: Mask, spots: tuple[Blob, ...], most: int | None) -> Picture:
+def shown_mask(picture: Picture, mask: Mask, blobs: tuple[Blob, ...], most: int | None) -> Picture:
     """A picture where only what has a foot's colour stays in colour, and what may be the foot is ringed.
 
     Args:
         picture: as it is.
         mask: of the foot's colour.
-        spots: found in it.
+        blobs: found in it.
         most: width of the result at most, px; None for the picture's own.
     """
     small = scaled(picture, most)
@@ -114,8 +114,8 @@ def shown_mask(picture: Picture, mask: Mask, spots: tuple[Blob, ...], most: int 
     shown = cv2.cvtColor(dim, cv2.COLOR_GRAY2BGR)
     cv2.copyTo(small, kept, shown)
     scale = width / picture.shape[1]
-    for spot in spots:
-        if spot.refusal is None:
-            middle = (round(spot.pixel[0] * scale), round(spot.pixel[1] * scale))
-            cv2.circle(shown, middle, round(spot.radius * scale) + 4, RING, 2, cv2.LINE_AA)
+    for blob in blobs:
+        if blob.refusal is None:
+            middle = (round(blob.pixel[0] * scale), round(blob.pixel[1] * scale))
+            cv2.circle(shown, middle, round(blob.radius * scale) + 4, RING, 2, cv2.LINE_AA)
     return np.asarray(shown, dtype=np.uint8)

@@ -77,8 +77,8 @@ def lens_of_corners(
         raise _no_lens()
     each = []
     for board, turn, shift in zip(boards, turns, shifts, strict=True):
-        seen, _ = cv2.projectPoints(flat, turn, shift, matrix, distortion)
-        off = np.asarray(seen).reshape(-1, 2) - board.reshape(-1, 2)
+        ask, _ = cv2.projectPoints(flat, turn, shift, matrix, distortion)
+        off = np.asarray(ask).reshape(-1, 2) - board.reshape(-1, 2)
         each.append(float(np.sqrt((off**2).sum(axis=1).mean())))
     lens = Lens(np.asarray(matrix, dtype=np.float64), np.asarray(distortion, dtype=np.float64).ravel()[:5])
     return CalibratedLens(lens, float(unexplained), tuple(each))

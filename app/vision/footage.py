@@ -1,4 +1,4 @@
-"""Something that has pictures one after the other: a video file, or the recording of a camera."""
+"""A source of frames: a video file, or the recording of a camera."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The processes that look at pictures, and how to ask them."""
+"""The vision processes, and how to submit tasks to them."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class VisionServices:
             service.close()
 
 
-def seen(service: TaskService[VisionTask], task: VisionRequest, seconds: float) -> Any:
+def ask(service: TaskService[VisionTask], task: VisionRequest, seconds: float) -> Any:
     """The answer to a question about pictures.
 
     Args:

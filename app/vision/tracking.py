@@ -77,19 +77,19 @@ def track_video(
     Raises:
         InputError: it is no video, of another size than the setup's, or a foot is never seen.
     """
-    footage = open_frames(path)
+    frames = open_frames(path)
     times: list[float] = []
     pixels: list[Floats] = []
     try:
-        setup.require_size(footage.facts.size)
-        for time, frame in footage.pictures():
+        setup.require_size(frames.facts.size)
+        for time, frame in frames.pictures():
             times.append(time)
             pixels.append(find_feet(frame, setup.colours, setup.limits))
-            done = min(1.0, len(pixels) / max(footage.facts.count, 1))
+            done = min(1.0, len(pixels) / max(frames.facts.count, 1))
             if len(pixels) % TELL_EVERY == 0 and not progress(done):
                 return None
     finally:
-        footage.close()
+        frames.close()
     return track_of_pixels(np.array(times), np.array(pixels), setup, path.name)
 
 
@@ -110,8 +110,8 @@ def track_of_pixels(times: Floats, pixels: Floats, setup: TrackingSetup, name: s
     """
     if len(times) < 2:
         raise InputError(f"{name} holds {len(times)} pictures; a track needs at least two.", name)
-    every, seen = _with_missing(times, pixels, name)
-    feet = setup.places(seen)
+    every, ask = _with_missing(times, pixels, name)
+    feet = setup.places(ask)
     unseen = np.asarray(np.isnan(feet).any(axis=2))
     missing = np.asarray(unseen.all(axis=1))
     false = find_outliers(every, feet)
@@ -148,6 +148,6 @@ def _with_missing(times: Floats, pixels: Floats, name: str) -> tuple[Floats, Flo
     missing = missing.astype(np.int64)
     places = np.concatenate([[0], np.cumsum(1 + missing)])
     every = np.interp(np.arange(places[-1] + 1), places, times)
-    seen = np.full((len(every), *pixels.shape[1:]), math.nan)
-    seen[places] = pixels
-    return every, seen
+    ask = np.full((len(every), *pixels.shape[1:]), math.nan)
+    ask[places] = pixels
+    return every, ask

@@ -1,4 +1,4 @@
-"""What a process of its own does with pictures, so that neither event loop nor bridge waits for it."""
+"""What the vision processes do with pictures, so that neither event loop nor bridge waits for it."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class FrameSourceCache:
         self._open: OrderedDict[Path, FrameSource] = OrderedDict()
         self._last: tuple[Path, int, Picture] | None = None
 
-    def footage(self, path: Path) -> FrameSource:
+    def frames(self, path: Path) -> FrameSource:
         """A video, opened where it is not."""
         if path not in self._open:
             self._open[path] = open_frames(path)
@@ -61,7 +61,7 @@ class FrameSourceCache:
     def picture(self, path: Path, number: int) -> Picture:
         """One picture of a video."""
         if self._last is None or self._last[:2] != (path, number):
-            self._last = (path, number, self.footage(path).picture(number))
+            self._last = (path, number, self.frames(path).picture(number))
         return self._last[2]
 
 
@@ -81,18 +81,18 @@ class FactsOf:
     def answer(self, repository: FrameSourceCache, report: Report) -> Facts:
         """Reads them."""
         del repository
-        footage = open_frames(self.path)
+        frames = open_frames(self.path)
         try:
             for number in range(2):
                 try:
-                    footage.picture(number)
+                    frames.picture(number)
                 except InputError:
                     raise InputError(
                         f"{self.path.name} holds {number} pictures; a track needs at least two.", "file"
                     ) from None
-            return footage.counted(lambda: report(0.0))
+            return frames.counted(lambda: report(0.0))
         finally:
-            footage.close()
+            frames.close()
 
 
 @dataclass(frozen=True)
@@ -202,13 +202,13 @@ class LookAt:
         if self.foot is None:
             return {**whole, "picture": self._shown(picture), "spots": [], "more": 0, "chosen": None}
         mask = mask_of(in_colours(picture), self.colours[self.foot])
-        spots, more = blobs_of(mask, self.limits)
-        fit = [index for index, spot in enumerate(spots) if spot.refusal is None]
-        masked = (mask, spots) if self.shows_mask else None
+        blobs, more = blobs_of(mask, self.limits)
+        fit = [index for index, blob in enumerate(blobs) if blob.refusal is None]
+        masked = (mask, blobs) if self.shows_mask else None
         return {
             **whole,
             "picture": self._shown(picture, masked),
-            "spots": [{**_spot(asdict(spot)), "fit": spot.refusal is None} for spot in spots],
+            "spots": [{**_blob(asdict(blob)), "fit": blob.refusal is None} for blob in blobs],
             "more": more,
             "chosen": fit[0] if fit else None,
         }
@@ -220,7 +220,7 @@ class LookAt:
         return data_url(jpeg(small))
 
 
-def _spot(values: dict[str, Any]) -> dict[str, Any]:
+def _blob(values: dict[str, Any]) -> dict[str, Any]:
     return {
         "reason": values.pop("refusal"),
         **values,

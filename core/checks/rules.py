@@ -1,7 +1,7 @@
 """Every rule that a plan must keep before a person may approve it, in one list.
 
-The rules stand by kind: `motor_check`, `balance_check`, `ground_check`, `document_check`, `coupling_check`,
-`path_check` on the way between waypoints, and `simulation_check` with what the physics says.
+The rules, by kind: `motors`, `balance`, `ground`, `document`, `coupling`, `path` for the way between
+waypoints, and `simulation` for what the physics finds.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""How a gait is made, in a word: what says its motion."""
+"""What a gait's motion comes from."""
 
 from __future__ import annotations
 

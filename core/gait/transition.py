@@ -1,4 +1,4 @@
-"""The steps between two motions where feet have to be elsewhere: a motion problem of its own."""
+"""The transition between two motions whose feet differ: steps, as a motion problem of its own."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A line through measured distances: over wanted ones any model of the robot must beat it."""
+"""The linear baseline: a line of measured over wanted distances, which any model must beat."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def linear_baseline(said: Floats, measured: Floats) -> tuple[float, float]:
     Where all are said to be equally far, a is the mean of their shares and b is 0.
 
     Args:
-        said: (gaits,) distances by whatever foretells them, m.
+        said: (gaits,) predicted distances, m.
         measured: (gaits,) m.
     """
     if np.ptp(said) < LEAST_RANGE:
@@ -29,7 +29,7 @@ def linear_baseline(said: Floats, measured: Floats) -> tuple[float, float]:
 
 
 def baseline_left_out(wanted: Floats, measured: Floats, groups: Sequence[Sequence[int]]) -> Floats:
-    """Distances that a line through the others' over wanted ones foretells of gaits that were left out.
+    """Distances that a line through the others' over wanted ones predicts of gaits that were left out.
 
     Args:
         wanted: (gaits,) m.

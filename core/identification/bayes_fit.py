@@ -1,4 +1,4 @@
-"""Parameters that explain measured travels, how sure they are, and which the travels cannot tell (Bayes)."""
+"""A Bayesian fit: parameters that explain measured displacements, and how certain each of them is."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Points that fill a box evenly, the same each time."""
+"""A space-filling design: points that fill a box evenly, the same each time."""
 
 from __future__ import annotations
 

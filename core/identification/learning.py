@@ -1,4 +1,4 @@
-"""Learning parameters of the physics from trials, and how well they foretell gaits that were left out."""
+"""Learning parameters of the physics from trials, and how well they predict gaits that were left out."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ PARTS = 4
 """So many times an equal part of the points is left out; a parameter must be told each time, since what is
 told with all of them alone hangs on where they happen to lie."""
 FALLEN = Displacement(0.0, math.nan)
-"""What a check foretells in whose simulation the robot falls: no angle, and no way, all of which is error."""
+"""The prediction where the robot falls in simulation: no angle and distance 0, all of it error."""
 USUAL_SPREAD = (0.0021, float(np.radians(3.8)))
 """Of one trial, m and rad, where none was repeated: that of the published trials."""
 
@@ -203,7 +203,7 @@ def learn(
 
 
 class _Identification:
-    """The surfaces and the fit of all gaits, and what is foretold with and without some.
+    """The surfaces and the fit of all gaits, and predictions with and without some.
 
     Args:
         walks: the gaits.

@@ -1,4 +1,4 @@
-"""How a simulated figure depends on parameters, from simulations at points that fill their box."""
+"""A surrogate: how a simulated figure depends on parameters, fitted to simulations over their box."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A pose of the robot as the last segment of a segment table: named places, heights and ways to them."""
+"""Turns a pose of the robot into the last segment of a segment table."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Trajectories and what can be said of any of them."""
+"""Trajectories, and what follows from any of them: timeline, balance, speeds, heading."""

@@ -1,4 +1,4 @@
-"""How the body turns about z during a gait: a given profile, which the optimiser does not seek."""
+"""The heading profile: how the body turns about z during a gait. It is given, not optimised."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Lost motion between a motor and what it moves."""
+"""Backlash between a motor and what it moves."""
 
 from __future__ import annotations
 

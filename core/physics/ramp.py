@@ -1,4 +1,4 @@
-"""What the firmware makes of waypoints: every motor's stroke over the robot's own time (PROTOCOL.md 3)."""
+"""The firmware's ramps: every motor's stroke over the robot's own time, of waypoints (PROTOCOL.md 3)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A first drawing of a motion from its contact timeline: what a solver starts from and the page shows first.
+"""The initial guess of a motion from its contact timeline: solvers start from it, the page shows it first.
 
 It keeps the boundary, the timing and the clearance, and draws the body over the support polygons; it is a
 drawing, not a solution: reach, speed and balance are not looked at.

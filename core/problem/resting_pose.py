@@ -1,4 +1,4 @@
-"""Where a resting body is when feet are held up: over the feet that stand."""
+"""The resting pose of the body while feet are held up: over the feet that stand."""
 
 from __future__ import annotations
 

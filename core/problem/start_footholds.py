@@ -1,4 +1,4 @@
-"""Where a motion begins in the world: on the footholds where the robot stands."""
+"""The start of a motion in the world: on the footholds where the robot stands."""
 
 from __future__ import annotations
 

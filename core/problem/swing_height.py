@@ -1,4 +1,4 @@
-"""How a foot comes up to where it is held in the air, or down from there."""
+"""Swing height: how a foot comes up to where it is held in the air, or down from there."""
 
 from __future__ import annotations
 

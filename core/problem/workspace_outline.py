@@ -1,4 +1,4 @@
-"""How far a leg reaches sideways at a height: outlines of its workspace, to be drawn."""
+"""Outlines of a leg's workspace at a height, for drawing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a robot with coupled motors really does: strokes that its actuators can make, and feet that follow.
+"""Strokes of a robot with coupled motors: those that its actuators can make, and the feet that follow.
 
 Wanted strokes h are met in the sense of least squares, h′ = C·u with u = argmin |C·u − h| (thesis 2.1.2), and
 the feet go where forward kinematics of h′ puts them. A robot with an actuator for every motor does what is

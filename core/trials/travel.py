@@ -1,4 +1,4 @@
-"""How far a robot went and which way, of a recording and of a motion alike, so that both can be compared."""
+"""The displacement of a walk, from a recording or from a motion, so that both can be compared."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from core.vision.track import FootTrack
 
 @dataclass(frozen=True)
 class Displacement:
-    """The travel of a whole walk, a mean over its feet.
+    """The displacement of a whole walk, a mean over its feet.
 
     Args:
         distance: by the published definition, hypot of the largest excursions along and across the wanted

@@ -1,4 +1,4 @@
-"""Detections that cannot be the foot, found from the ones before and after."""
+"""Outliers: detections that cannot be the foot, by the ones before and after."""
 
 from __future__ import annotations
 

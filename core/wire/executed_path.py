@@ -1,4 +1,4 @@
-"""The path that the robot really takes over its waypoints, between which every motor moves in proportion."""
+"""The executed path: between waypoints every motor moves in proportion."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the convex problem takes as known: footholds, heights of body and feet, where they may move.
+"""The linearisation: what the convex problem takes as known (footholds, heights, where feet may move).
 
 With the vertical motion and the footholds given, balance, reach and speed are linear or discs in what is
 left: the ground motion of the body and of the feet in the air. Millimetres and seconds throughout.

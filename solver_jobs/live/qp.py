@@ -1,4 +1,4 @@
-"""The convex programme in a solver's hands: rows stacked, solved by PIQP through CasADi, with multipliers."""
+"""The quadratic programme: rows stacked, solved by PIQP through CasADi, with multipliers."""
 
 from __future__ import annotations
 

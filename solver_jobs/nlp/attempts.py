@@ -1,4 +1,4 @@
-"""One problem in the solver's hands: starts, attempts, the course of iterations."""
+"""Attempts to solve one problem: starting points, solver calls, iterates."""
 
 from __future__ import annotations
 

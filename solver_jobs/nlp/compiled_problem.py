@@ -1,4 +1,4 @@
-"""The assembled problem of one shape with IPOPT over it, built once and kept."""
+"""A compiled problem: the assembled problem of one shape with its IPOPT solver, built once and kept."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a person reads about each family of constraints, and about IPOPT's verdicts."""
+"""Messages about each family of constraints, and about IPOPT's return status."""
 
 from __future__ import annotations
 

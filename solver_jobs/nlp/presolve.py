@@ -1,4 +1,4 @@
-"""What rules a motion out before any search: proofs from the bounds alone, each with its sentence."""
+"""Presolve: proofs from the bounds alone that no motion exists, each with its sentence."""
 
 from __future__ import annotations
 

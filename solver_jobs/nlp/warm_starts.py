@@ -1,4 +1,4 @@
-"""What a worker remembers of the last problem of each shape, so that an edit goes on from its solution."""
+"""Warm starts: the last solution of each problem shape, from which an edit goes on."""
 
 from __future__ import annotations
 

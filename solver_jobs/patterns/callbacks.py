@@ -1,4 +1,4 @@
-"""A listener's view into a running search: what is known every 50 ms, and a way to stop it."""
+"""Callbacks of a running search: what is known every 50 ms, and a way to stop it."""
 
 from __future__ import annotations
 

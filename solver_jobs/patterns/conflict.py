@@ -1,4 +1,4 @@
-"""Why there is no pattern: a smallest set of clauses that clash.
+"""Conflicts: a minimal unsatisfiable subset of the clauses, which explains why there is no pattern.
 
 Each clause of the set is needed: without any one of them the others can hold together. It is found by asking
 again and again with clauses left out: first whole rules, then the limbs of each, then windows of samples.

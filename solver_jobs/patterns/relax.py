@@ -1,4 +1,4 @@
-"""What would make a problem without a pattern solvable: the mildest change of each rule that clashes."""
+"""Relaxations: the mildest change of each conflicting rule that makes a problem solvable."""
 
 from __future__ import annotations
 

@@ -228,7 +228,7 @@ def _add_motors(root: Element, model: RobotModel, physics: PhysicsSet) -> None:
 
 
 def _add_sensors(root: Element, model: RobotModel) -> None:
-    """Arms' lengths, motors' forces, ground's forces, centre of mass; `reading` knows this order."""
+    """Arms' lengths, motors' forces, ground's forces, centre of mass; `states` relies on this order."""
     sensors = ElementTree.SubElement(root, "sensor")
     for leg, motor in _motors(model):
         ElementTree.SubElement(sensors, "tendonpos", tendon=arm_name(leg, motor))

@@ -81,7 +81,7 @@ class SimulatedRun:
     def recorded(self) -> tuple[Floats, Floats]:
         """Positions (n, nq) and sensors (n, …) from the moment at which the robot's time begins.
 
-        Of a robot that fell before it had settled, all.
+        Of a robot that fell before it came to rest, all.
         """
         first = SETTLING - 1 if self._row >= SETTLING else 0
         return np.concatenate(self._positions)[first:], np.concatenate(self._sensors)[first:]

@@ -1,4 +1,4 @@
-"""Simulated travels of gaits, in a process of their own."""
+"""Simulations in batches: the displacements of gaits, from a process of its own."""
 
 from __future__ import annotations
 

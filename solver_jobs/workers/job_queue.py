@@ -1,4 +1,4 @@
-"""The job queue: worker processes fed by a thread each, snapshots handed out by another."""
+"""The job queue: a thread for each worker process, and one that hands out snapshots."""
 
 from __future__ import annotations
 

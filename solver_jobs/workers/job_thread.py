@@ -1,4 +1,4 @@
-"""The thread that takes jobs from the queue to one worker process and its answers back."""
+"""The thread that gives jobs of the queue to one worker process and takes its answers back."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The parent's side of questions: one at a time, in a process that is started anew where it ends.
+"""The parent's side of the task service: one task at a time, in a process that is restarted when it dies.
 
 Whoever has questions of a kind derives a `Task`, which says what comes of one that was ended, and a
 `TaskService` over a process whose body calls `run_tasks`.
@@ -41,7 +41,7 @@ Result = TypeVar("Result")
 
 
 class Task(ABC, Generic[Payload, Known, Result]):
-    """A question that was asked; any thread may wait for its answer or end it.
+    """A submitted task; any thread may wait for its result or cancel it.
 
     Args:
         task: what the process is given.
@@ -114,7 +114,7 @@ TaskT = TypeVar("TaskT", bound=Task[Any, Any, Any])
 
 
 class TaskService(Generic[TaskT]):
-    """Answers questions in a process of their own, one after the other.
+    """Runs tasks in a process of its own, one after the other.
 
     Args:
         name: of what answers, as in a sentence: "pattern solver".

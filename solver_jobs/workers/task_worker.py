@@ -1,4 +1,4 @@
-"""The worker's side of questions: one answer after the other, and no longer than its parent lives."""
+"""The worker's side of the task service: one task after the other, for as long as the parent lives."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Report = Callable[[Any], bool]
 
 @dataclass(frozen=True, eq=False)
 class Submit:
-    """To the worker: answer this."""
+    """To the worker: do this task."""
 
     number: int
     task: Any
@@ -24,14 +24,14 @@ class Submit:
 
 @dataclass(frozen=True)
 class Cancel:
-    """To the worker: end this question, with what is known or as cancelled."""
+    """To the worker: end this task, with what is known or as cancelled."""
 
     number: int
 
 
 @dataclass(frozen=True, eq=False)
 class Progress:
-    """From the worker: what is known in the middle of a question."""
+    """From the worker: progress of a task."""
 
     number: int
     known: Any
@@ -48,7 +48,7 @@ class Answer:
 
 
 def run_tasks(pipe: Connection, work: Callable[[Any, Report], Any]) -> None:
-    """Answers questions until the parent's end of the pipe closes.
+    """Runs tasks until the parent's end of the pipe closes.
 
     Args:
         pipe: the worker's end.

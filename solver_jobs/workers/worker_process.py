@@ -1,4 +1,4 @@
-"""The parent's hold on one worker process."""
+"""One worker process, as its parent drives it."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ from app.bench.robot.processes import (
 from app.bench.robot.stop import stop_latencies
 from app.cameras.setup_schema import SetupDocument
 from app.vision.footage import PICTURES
-from app.vision.services import open_vision_services, seen
+from app.vision.services import ask, open_vision_services
 from app.vision.tracking import track_video
 from app.vision.video_io import use_one_thread
 from app.vision.worker import LookAt, Source
@@ -95,7 +95,7 @@ def _looking(film: Film) -> Row:
             begun = time.perf_counter()
             width = 1280
             look = LookAt(Source(film.folder, 40), 0, setup.colours, setup.limits, setup, True, width)
-            found = seen(vision.near, look, 30.0)
+            found = ask(vision.near, look, 30.0)
             if found["chosen"] is None:
                 raise StateError("A foot was not found in the film.", "video")
             if number:  # the first starts the process

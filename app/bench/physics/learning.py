@@ -1,4 +1,4 @@
-"""How well physics that was fitted to the published trials foretells gaits that were left out."""
+"""How well physics that was fitted to the published trials predicts gaits that were left out."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def bench_learning(reference: Path | None = None, points: int = POINTS) -> list[
 def _ways(content: dict[str, Any]) -> list[Row]:
     return [
         {
-            "foretold by": way["title"],
+            "predicted by": way["title"],
             "distance_off_cm": round(way["error_cm"], 2),
             "angle_off_deg": None if way["error_deg"] is None else round(way["error_deg"], 1),
             "angles": way["angles"],

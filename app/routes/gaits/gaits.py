@@ -111,7 +111,7 @@ def _copy(gait: Gait, name: str | None) -> Gait:
 
 @router.get("/{gait_id}")
 async def read_gait(gait_id: str, studio: TheStudio) -> dict[str, Any]:
-    """The gait's document as it is on the desk."""
+    """The gait's document as it is now."""
     return await on_command_thread(studio, lambda: gait_content(studio.gaits.open_gait(gait_id).gait))
 
 
@@ -130,7 +130,7 @@ async def edit_gait(
     label: Annotated[str, Query(max_length=120)] = "Edit",
     revision: int | None = None,
 ) -> dict[str, Any]:
-    """Puts a changed document on the desk as one undo step."""
+    """Changes the document, as one undo step."""
     body = await _document(request)
 
     def edit() -> OpenGait:
@@ -188,7 +188,7 @@ async def restore(gait_id: str, studio: TheStudio) -> dict[str, Any]:
 
 @router.post("/{gait_id}/live", response_model=dict[str, Any])
 async def live(gait_id: str, request: Request, studio: TheStudio) -> JSONResponse:
-    """What the gait, or a changed document of it, would amount to; the desk stays as it is."""
+    """The plan of the gait, or of a changed document of it; nothing is changed."""
     asked = _asked(await _document(request))
     gait = await on_command_thread(studio, lambda: studio.gaits.open_gait(gait_id).gait)
     # As a finished answer: the framework's own way through every number takes longer than all the rest.

@@ -92,7 +92,7 @@ async def difference(gait_id: str, number: int, studio: TheStudio, to: int | Non
 
 @router.post("/{number}/restore")
 async def restore_version(gait_id: str, number: int, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
-    """Puts a version's document on the desk again, as an edit that can be undone."""
+    """Makes a version's document the present one again, as an edit that can be undone."""
     return await changed(studio, lambda: studio.gaits.restore_version(gait_id, number, author))
 
 

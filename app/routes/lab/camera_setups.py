@@ -19,7 +19,7 @@ from app.cameras.setup_schema import (
     Side,
 )
 from app.studio.studio import Studio
-from app.vision.services import seen
+from app.vision.services import ask
 from app.vision.worker import (
     BoardIn,
     LensOf,
@@ -169,7 +169,7 @@ async def picture_in(request: Request) -> bytes:
 async def board_of(studio: Studio, task: BoardIn) -> dict[str, Any]:
     """Looks for a checkerboard."""
     found: dict[str, Any] = await run_in_threadpool(
-        lambda: seen(studio.lab.vision.boards, task, BOARD_SECONDS)
+        lambda: ask(studio.lab.vision.boards, task, BOARD_SECONDS)
     )
     return found
 
@@ -195,7 +195,7 @@ async def make_lens(lens: LensRequest, studio: TheStudio) -> dict[str, Any]:
             raise InputError(f"{board.name} has corners outside its picture. Look for it again.", "boards")
     task = LensOf(boards, size, (lens.columns, lens.rows))
     found: dict[str, Any] = await run_in_threadpool(
-        lambda: seen(studio.lab.vision.boards, task, BOARD_SECONDS)
+        lambda: ask(studio.lab.vision.boards, task, BOARD_SECONDS)
     )
     each = iter(found.pop("each"))
     return {
@@ -215,7 +215,7 @@ async def straighten(asked: Straightening, studio: TheStudio) -> dict[str, Any]:
 
     def straight() -> bytes:
         task = Straighten(Source(file=_content(asked.picture)), asked.lens.value())
-        file: bytes = seen(studio.lab.vision.near, task, BOARD_SECONDS)
+        file: bytes = ask(studio.lab.vision.near, task, BOARD_SECONDS)
         return file
 
     return {"picture": await run_in_threadpool(lambda: data_url(straight()))}

@@ -11,7 +11,7 @@ from starlette.concurrency import run_in_threadpool
 from app.cameras.setup_schema import Colours, LimitsDocument, SetupDocument
 from app.studio.studio import Studio
 from app.videos.service import LOOK_SECONDS
-from app.vision.services import seen
+from app.vision.services import ask
 from app.vision.worker import LookAt, Source
 from core.vision.setup import FEET, TrackingSetup
 
@@ -50,7 +50,7 @@ async def look_at(studio: Studio, source: Source, look: LookRequest) -> dict[str
         look.shows == "mask",
         look.most,
     )
-    found: dict[str, Any] = await run_in_threadpool(lambda: seen(studio.lab.vision.near, task, LOOK_SECONDS))
+    found: dict[str, Any] = await run_in_threadpool(lambda: ask(studio.lab.vision.near, task, LOOK_SECONDS))
     return found
 
 

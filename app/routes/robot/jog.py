@@ -66,7 +66,7 @@ class Target(BaseModel):
     """Strokes to begin with, of previews only; the measured ones where none are given."""
 
     def wish(self, look: Look | None = None) -> JogRequest:
-        """The steps for the desk.
+        """The steps as values.
 
         Raises:
             InputError: there is no such robot, or the strokes are not its.

@@ -15,7 +15,7 @@ from app.videos.files import Upload
 from app.videos.service import VideoService
 from app.vision.footage import PICTURES
 from app.vision.recording_file import Recording, RecordingWriter
-from app.vision.services import VisionServices, VisionTask, seen
+from app.vision.services import VisionServices, VisionTask, ask
 from app.vision.video_io import jpeg, read_picture
 from app.vision.worker import FactsOf
 from core.errors import FootfallError, InputError, StateError
@@ -151,7 +151,7 @@ def test_an_answer_that_cannot_be_kept_is_told_and_the_next_one_comes(
     look = vision.near.ask(VisionTask(facts, done=broken, failed=broken_again))
     with pytest.raises(StateError):
         look.result(60.0)
-    assert seen(vision.near, facts, 60.0).count == 3
+    assert ask(vision.near, facts, 60.0).count == 3
     assert len(failures) == 1
 
 
@@ -172,4 +172,4 @@ def test_an_answer_that_does_not_come_in_time_is_a_sentence(
     service: VideoService, vision: VisionServices
 ) -> None:
     with pytest.raises(StateError, match="the computer is busy"):
-        seen(vision.near, FactsOf(service.files.path(recorded(service, 3))), 0.0)
+        ask(vision.near, FactsOf(service.files.path(recorded(service, 3))), 0.0)

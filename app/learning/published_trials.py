@@ -21,7 +21,7 @@ from core.physics.parameters import PhysicsSet
 from core.physics.problem import SimulationProblem
 from core.robot.kinematics import free_strokes
 from core.robot.model import RobotModel
-from core.trials.travel import Displacement, MeasuredWalk
+from core.trials.displacement import Displacement, MeasuredWalk
 from core.wire.trajectory_csv import parse_trajectory_csv
 from core.wire.waypoint_merging import plan_of_knots
 from core.wire.waypoints import Waypoints

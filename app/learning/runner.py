@@ -9,7 +9,7 @@ from typing import Protocol
 from core.errors import SimulationCancelledError
 from core.identification.learning import Task, Walk
 from core.physics.parameters import PhysicsSet
-from core.trials.travel import Displacement
+from core.trials.displacement import Displacement
 
 
 class BatchHandle(Protocol):

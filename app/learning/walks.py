@@ -14,7 +14,7 @@ from core.arrays import Floats
 from core.errors import InputError
 from core.identification.learning import Walk
 from core.physics.problem import SimulationProblem
-from core.trials.travel import Displacement, track_displacement, walk_of_trials
+from core.trials.displacement import Displacement, track_displacement, walk_of_trials
 
 LEAST_WAY = 0.003
 """A plan whose feet go no further has no direction, m."""

@@ -12,7 +12,7 @@ from typing import Any
 from app.store.database import Database
 from app.store.video_store import VideoStore
 from app.videos.files import MOST_RECORDED, Upload, VideoFiles
-from app.vision.footage import PICTURES, Facts
+from app.vision.frame_source import PICTURES, Facts
 from app.vision.services import VisionServices, VisionTask, ask
 from app.vision.worker import FactsOf, PictureOf, Source
 from core.errors import FootfallError, InputError, NotFoundError, StateError

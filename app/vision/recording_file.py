@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from app.vision.footage import PICTURES, TABLE, Facts
+from app.vision.frame_source import PICTURES, TABLE, Facts
 from app.vision.video_io import Picture, read_picture
 from core.arrays import Floats
 from core.errors import InputError

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from app.vision.blobs import find_feet
-from app.vision.footage import FrameSource
+from app.vision.frame_source import FrameSource
 from app.vision.recording_file import Recording
 from app.vision.video_io import VideoFile
 from core.arrays import Bools, Floats

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from app.vision.footage import Facts
+from app.vision.frame_source import Facts
 from app.vision.opencv import cv2
 from core.errors import InputError
 from core.vision.image_header import require_readable

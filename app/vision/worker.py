@@ -22,7 +22,7 @@ from app.vision.blobs import (
     shown_mask,
 )
 from app.vision.checkerboard import board_corners, lens_of_corners, straightened
-from app.vision.footage import Facts, FrameSource
+from app.vision.frame_source import Facts, FrameSource
 from app.vision.tracking import VideoTrack, open_frames, track_video
 from app.vision.video_io import (
     Picture,

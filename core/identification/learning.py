@@ -23,7 +23,7 @@ from core.identification.parameters import (
 from core.identification.surrogate import Surrogate, fit_surrogate
 from core.physics.parameters import PhysicsSet
 from core.physics.problem import SimulationProblem
-from core.trials.travel import Displacement, MeasuredWalk, pooled_spread
+from core.trials.displacement import Displacement, MeasuredWalk, pooled_spread
 
 POINTS = 40
 """Sets of parameters at which every gait is simulated; a quadratic surface of seven has 36 coefficients."""

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from core.errors import SimulationCancelledError, StateError
 from core.identification.learning import Walk
 from core.physics.parameters import PhysicsSet
-from core.trials.travel import Displacement
+from core.trials.displacement import Displacement
 from solver_jobs.workers.batch_simulation_worker import BatchTask, run_batch_simulation_worker
 from solver_jobs.workers.spawning import BACKGROUND_NICENESS
 from solver_jobs.workers.task_service import Task, TaskService

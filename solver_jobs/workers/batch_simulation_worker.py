@@ -8,7 +8,7 @@ from multiprocessing.connection import Connection
 from core.errors import CheckError
 from core.identification.learning import Walk
 from core.physics.parameters import PhysicsSet
-from core.trials.travel import Displacement, motion_displacement
+from core.trials.displacement import Displacement, motion_displacement
 from solver_jobs.workers.task_worker import Report, run_tasks
 
 

@@ -24,7 +24,7 @@ from app.bench.robot.processes import (
 )
 from app.bench.robot.stop import stop_latencies
 from app.cameras.setup_schema import SetupDocument
-from app.vision.footage import PICTURES
+from app.vision.frame_source import PICTURES
 from app.vision.services import ask, open_vision_services
 from app.vision.tracking import track_video
 from app.vision.video_io import use_one_thread

@@ -32,7 +32,7 @@ from app.studio.studio import Studio
 from app.trials.service import TrialDescription
 from app.videos.files import MOST_BYTES, Upload
 from app.videos.tracking_service import TrackOrder
-from app.vision.footage import PICTURES
+from app.vision.frame_source import PICTURES
 from app.vision.worker import BoardIn, Source
 from app.web.dependencies import TheAuthor, on_command_thread, studio_of
 from core.errors import FootfallError

@@ -12,7 +12,7 @@ import pytest
 from app.bench.page.film import Film, draw_film, stepping_feet
 from app.cameras.address import CameraAddress
 from app.cameras.process import CameraError, CameraProcess
-from app.vision.footage import PICTURES
+from app.vision.frame_source import PICTURES
 from app.vision.recorder import RecordOrder
 from app.vision.recording_file import Recording, read_table
 from core.errors import InputError

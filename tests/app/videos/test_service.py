@@ -13,7 +13,7 @@ from app.store.video_store import VideoStore
 from app.videos import service as video_desk
 from app.videos.files import Upload
 from app.videos.service import VideoService
-from app.vision.footage import PICTURES
+from app.vision.frame_source import PICTURES
 from app.vision.recording_file import Recording, RecordingWriter
 from app.vision.services import VisionServices, VisionTask, ask
 from app.vision.video_io import jpeg, read_picture

@@ -11,7 +11,7 @@ from core.identification.design import space_filling_points
 from core.identification.parameters import FIT_PARAMETERS, box, physics_at
 from core.identification.surrogate import fit_surrogate
 from core.physics.parameters import physics_set
-from core.trials.travel import motion_displacement, track_displacement
+from core.trials.displacement import motion_displacement, track_displacement
 from core.vision.track import FootTrack
 
 

@@ -19,7 +19,12 @@ from core.identification.learning import (
 )
 from core.identification.parameters import FIT_PARAMETERS, physics_at
 from core.physics.parameters import PhysicsSet, physics_set
-from core.trials.travel import Displacement, MeasuredWalk, pooled_spread, walk_of_trials
+from core.trials.displacement import (
+    Displacement,
+    MeasuredWalk,
+    pooled_spread,
+    walk_of_trials,
+)
 from tests.support.trials.few_draws import few_draws
 
 __all__ = ["few_draws"]

@@ -11,7 +11,7 @@ from app.store.database import Database
 from core.errors import SimulationCancelledError
 from core.identification.learning import Walk
 from core.physics.parameters import PhysicsSet, physics_set
-from core.trials.travel import Displacement, MeasuredWalk
+from core.trials.displacement import Displacement, MeasuredWalk
 from tests.support.simulated_walk import walk_problem
 from tests.support.studio_process import wait_for
 

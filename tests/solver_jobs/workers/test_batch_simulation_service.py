@@ -9,7 +9,7 @@ import pytest
 from core.errors import SimulationCancelledError
 from core.identification.learning import Walk
 from core.physics.parameters import physics_set
-from core.trials.travel import Displacement, MeasuredWalk
+from core.trials.displacement import Displacement, MeasuredWalk
 from solver_jobs import BatchSimulator
 from solver_jobs.workers.batch_simulation_worker import walked
 from tests.support.solvers.rigs import problem_of_strokes, resting

@@ -368,7 +368,7 @@ class RobotBridge:
     def _tell(self) -> None:
         now = self._clock()
         with self._lock:
-            revision, readings = self._session.revision, self._session.watch.readings
+            revision, readings = self._session.revision, self._session.monitor.readings
             fresh = readings != self._told_readings and now - self._told_at >= TELEMETRY_PERIOD
             if revision == self._told_revision and not fresh:
                 return

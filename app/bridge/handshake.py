@@ -39,20 +39,20 @@ class Handshake:
         """The board boots once more; its memory is empty and needs no other flush."""
         self.began = now
 
-    def flush_due(self, line: Line, watch: TelemetryMonitor) -> bool:
+    def flush_due(self, line: Line, monitor: TelemetryMonitor) -> bool:
         """Whether this line shows that the robot's loop runs and it is time for the flush."""
-        return self.flushed_at is None and isinstance(line, NewData) and watch.readings > 0
+        return self.flushed_at is None and isinstance(line, NewData) and monitor.readings > 0
 
-    def flushed(self, now: float, watch: TelemetryMonitor) -> None:
+    def flushed(self, now: float, monitor: TelemetryMonitor) -> None:
         """The flush went out."""
         self.began = self.flushed_at = now
-        watch.idle_lines = 0
+        monitor.idle_lines = 0
 
-    def normalise(self, now: float, watch: TelemetryMonitor) -> bool:
+    def normalise(self, now: float, monitor: TelemetryMonitor) -> bool:
         """Whether the flush has had its effect and the robot idles."""
         if self.flushed_at is None or now < self.flushed_at + FLUSH_TIME:
             return False
-        return watch.idle_lines >= GOOD_LINES
+        return monitor.idle_lines >= GOOD_LINES
 
     def overdue(self, now: float) -> bool:
         """Whether the robot has taken too long."""

@@ -42,13 +42,13 @@ class RobotLink(StateLog, ABC):
 
     Attributes:
         device: what is or was connected.
-        watch: what the robot's lines tell.
+        monitor: what the robot's lines tell.
     """
 
     def __init__(self, gate: WriteGate) -> None:
         super().__init__()
         self.device: str | None = None
-        self.watch = TelemetryMonitor(0.0)
+        self.monitor = TelemetryMonitor(0.0)
         self._gate = gate
         self._stop = StopProcedure(self, gate)
         self._handshake = Handshake(0.0)
@@ -73,7 +73,7 @@ class RobotLink(StateLog, ABC):
         self._stop.restart(now)
         self._hung_up = False
         self._reader = LineReader()
-        self.watch = TelemetryMonitor(now)
+        self.monitor = TelemetryMonitor(now)
         self.become(now, f"{device} was opened.", CONNECTING, link=LinkState.CONNECTING)
 
     def refused(self, device: str, reason: str) -> None:
@@ -100,9 +100,9 @@ class RobotLink(StateLog, ABC):
 
     def received(self, data: bytes, now: float) -> None:
         """Bytes came from the robot."""
-        self.watch.heard(now)
+        self.monitor.heard(now)
         for line in self._reader.feed(data):
-            self.watch.see(line, now)
+            self.monitor.see(line, now)
             self._see(line, now)
 
     def tick(self, now: float) -> None:
@@ -127,10 +127,10 @@ class RobotLink(StateLog, ABC):
         self.become(now, "The board restarted.", self.sentence, link=LinkState.CONNECTING)
 
     def _open_up(self, line: Line, now: float) -> None:
-        if self._handshake.normalise(now, self.watch):
+        if self._handshake.normalise(now, self.monitor):
             self._become_ready(now)
-        elif self._handshake.flush_due(line, self.watch):
-            self._handshake.flushed(now, self.watch)
+        elif self._handshake.flush_due(line, self.monitor):
+            self._handshake.flushed(now, self.monitor)
             try:
                 self._gate.flush()
             except RobotError as error:
@@ -147,19 +147,19 @@ class RobotLink(StateLog, ABC):
         self.become(now, "The robot answers.", sentence, link=LinkState.READY, robot=robot)
 
     def _check_silence(self, now: float) -> None:
-        silence = now - self.watch.last_byte
+        silence = now - self.monitor.last_byte
         if self.link is LinkState.READY and silence > SILENCE_LIMIT:
             self._lose(silent_sentence(silence, SILENCE_LIMIT, self._place), now)
         elif self.link is LinkState.CONNECTING and self._handshake.overdue(now):
             if self._handshake.flushed_at is None:
-                sentence = stranger_sentence(self.device, START_LIMIT, talks=self.watch.talks)
+                sentence = stranger_sentence(self.device, START_LIMIT, talks=self.monitor.talks)
             else:
                 sentence = restless_sentence(self.device, START_LIMIT)
             self._lose(sentence, now)
 
     def _check_stop(self, now: float) -> None:
         try:
-            self._stop.check(now, still=self.watch.stands_still(now), may_send=not self._hung_up)
+            self._stop.check(now, still=self.monitor.stands_still(now), may_send=not self._hung_up)
         except RobotError as error:
             self.hung_up(error.sentence, now)
 
@@ -188,7 +188,7 @@ class RobotLink(StateLog, ABC):
         if begun:
             self._stop.begin(now, cause=without_remedy(sentence))
         self._drop_run(now)
-        self.watch.idle_lines = 0
+        self.monitor.idle_lines = 0
         self.last_error = sentence
         self.become(now, sentence, sentence, link=LinkState.LOST, robot=robot)
         if begun and not self._hung_up:

@@ -57,7 +57,7 @@ class RobotStateMachine(RobotLink):
 
     def snapshot(self, now: float) -> RobotSnapshot:
         """Everything there is to show."""
-        strokes = self.watch.strokes_mm
+        strokes = self.monitor.strokes_mm
         return RobotSnapshot(
             link=self.link,
             robot=self.robot,
@@ -65,10 +65,10 @@ class RobotStateMachine(RobotLink):
             strokes=None if strokes is None else tuple(s / 1000.0 for s in strokes),
             run=None if self._run is None else self._run.progress(now),
             stop_text=self._stop.text,
-            unknown_lines=self.watch.unknown_lines,
+            unknown_lines=self.monitor.unknown_lines,
             device=self.device,
             last_error=self.last_error,
-            measured_scan=self.watch.longest_scan,
+            measured_scan=self.monitor.longest_scan,
             number=next(self._numbers),
             jog=None if self._jog is None else self._jog.progress(),
         )
@@ -76,9 +76,9 @@ class RobotStateMachine(RobotLink):
     def tick(self, now: float) -> None:
         """Time has passed: silence, standing still, deadlines."""
         super().tick(now)
-        if self._delivery is not None and self.watch.strokes_mm is not None:
-            self._delivery.check(now, self.watch.strokes_mm)
-            self._settle_delivery(now)
+        if self._delivery is not None and self.monitor.strokes_mm is not None:
+            self._delivery.check(now, self.monitor.strokes_mm)
+            self._finish_delivery(now)
 
     # Wishes
 
@@ -121,7 +121,7 @@ class RobotStateMachine(RobotLink):
         """Moves motors by steps that a person chose, from where an armed robot stands still."""
         self.require_link("jogged")
         self.require_robot(RobotState.ARMED, remedy="Arm the robot, then jog it.")
-        if not self.watch.stands_still(now):
+        if not self.monitor.stands_still(now):
             raise StateError("The robot does not stand still yet. Wait until it does, then jog it.")
         self._jog = Jog(plan, self._measured(), by)
         self._run = None
@@ -170,7 +170,7 @@ class RobotStateMachine(RobotLink):
         states = (RobotState.STOPPED, RobotState.FAULT, RobotState.STOPPING)
         self.require_robot(*states, remedy="There is nothing to clear.")
         self._stop.require_settled(now)
-        if not self.watch.stands_still(now):
+        if not self.monitor.stands_still(now):
             raise StateError("The robot does not stand still yet. Wait until it does, then clear.")
         measured = self._measured()
         target = tuple(round(min(max(s, LOWEST_MM), HIGHEST_MM), 4) for s in measured)
@@ -187,7 +187,7 @@ class RobotStateMachine(RobotLink):
         super()._see(line, now)
         if self._delivery is not None:
             self._delivery.see(line)
-            self._settle_delivery(now)
+            self._finish_delivery(now)
 
     def _send_next(self, now: float) -> None:
         if self._run is None:
@@ -222,7 +222,7 @@ class RobotStateMachine(RobotLink):
         except RobotError as error:
             self.hung_up(error.sentence, now)
 
-    def _settle_delivery(self, now: float) -> None:
+    def _finish_delivery(self, now: float) -> None:
         delivery = self._delivery
         if delivery is None:
             return
@@ -239,7 +239,7 @@ class RobotStateMachine(RobotLink):
 
     def _fail(self, failure: str, now: float) -> None:
         place = f" {self._place[0].upper()}{self._place[1:]}." if self._place else ""
-        self._fault(f"{failure}{place} The robot said last: {_words(self.watch.last_line)}.", now)
+        self._fault(f"{failure}{place} The robot said last: {_words(self.monitor.last_line)}.", now)
 
     def _go_on_running(self, now: float) -> None:
         run = self._run
@@ -298,12 +298,12 @@ class RobotStateMachine(RobotLink):
         return f"stopped by {by}"
 
     def _measured(self) -> tuple[float, ...]:
-        if self.watch.strokes_mm is None:
+        if self.monitor.strokes_mm is None:
             raise StateError("The robot has not told its strokes yet. Wait for its telemetry.")
-        return self.watch.strokes_mm
+        return self.monitor.strokes_mm
 
     def _measured_now(self, now: float) -> tuple[float, ...]:
-        age = now - self.watch.last_reading
+        age = now - self.monitor.last_reading
         if age > STALE_TIME:
             raise StateError(
                 f"The robot has not told its strokes for {age:.1f} s (limit {STALE_TIME} s). Wait for its "

@@ -49,18 +49,18 @@ class OptimisationService:
 
     Args:
         job_repository: the list of jobs.
-        runner: the worker processes.
+        job_queue: the worker processes.
         on_result: told of a checked result: motion hash and content to keep.
     """
 
     def __init__(
         self,
         job_repository: JobRepository,
-        runner: JobQueue,
+        job_queue: JobQueue,
         on_result: Callable[[str, dict[str, Any]], None],
     ) -> None:
         self._job_repository = job_repository
-        self._runner = runner
+        self._job_queue = job_queue
         self._take_result = on_result
         self._origins: dict[str, JobOrigin] = {}
         self._iterate_motions: OrderedDict[str, tuple[Trajectory, ...]] = OrderedDict()
@@ -84,7 +84,7 @@ class OptimisationService:
         if kind is JobKind.TIMING:
             problem = timing_problem(gait, problem)
         origin = JobOrigin(open_gait.id, gait, asked_hash(gait), problem)
-        job_id = self._runner.submit(problem, gait.name, kind)
+        job_id = self._job_queue.submit(problem, gait.name, kind)
         self._origins[job_id] = origin
         return self._job_repository.begin(job_id, KIND_WORDS[kind], origin.gait_id, gait.name, origin.motion)
 
@@ -92,7 +92,7 @@ class OptimisationService:
         """Asks a job to end; one that ended already stays as it is."""
         content = self._job_repository.content(job_id)
         if content["state"] not in ENDED:
-            self._runner.cancel(job_id)
+            self._job_queue.cancel(job_id)
         return content
 
     def changed(self, job: Job) -> dict[str, Any] | None:

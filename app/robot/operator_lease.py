@@ -48,7 +48,7 @@ class OperatorLease:
         self._lease = Lease(clock)
         self._beat_seconds = beat
         self._lock = threading.Lock()
-        self._last_deed = object()
+        self._last_action = object()
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._beat_on, name="robot lease", daemon=True)
         self._thread.start()
@@ -72,15 +72,15 @@ class OperatorLease:
         who = person(author)
         with self._lock:
             taken = self._lease.admit(who, is_idle=self._is_idle, is_away=self._is_away)
-            deed = self._last_deed = object()
+            action = self._last_action = object()
         try:
             yield
         except Exception:
             if taken:
-                self._let_go(who, deed)
+                self._let_go(who, action)
             raise
         if ends:
-            self._let_go(who, deed, to_asker=False)
+            self._let_go(who, action, to_asker=False)
         else:
             self._changed()
 
@@ -165,11 +165,11 @@ class OperatorLease:
             wish()
         self._changed()
 
-    def _let_go(self, who: Person, deed: object, *, to_asker: bool = True) -> None:
+    def _let_go(self, who: Person, action: object, *, to_asker: bool = True) -> None:
         """Takes the robot from who did a deed, unless somebody did more with it since."""
         with self._lock:
             holder = self._lease.now.holder
-            if holder is not None and holder.page == who.page and deed is self._last_deed:
+            if holder is not None and holder.page == who.page and action is self._last_action:
                 (self._lease.release if to_asker else self._lease.drop)(who)
         self._changed()
 

@@ -82,8 +82,8 @@ class Studio:
         self.live = LivePreview(self._solver)
         self._pattern_solvers = tuple(PatternSolver() for _ in range(PATTERN_PROCESSES))
         self.patterns = PatternSearchService(self._pattern_solvers, self._tell_page)
-        self._travellers = tuple(BatchSimulator() for _ in range(LEARNING_PROCESSES))
-        self.learning = LearningService(self._database, self._travellers)
+        self._batch_simulators = tuple(BatchSimulator() for _ in range(LEARNING_PROCESSES))
+        self.learning = LearningService(self._database, self._batch_simulators)
         self.simulations = SimulationRepository(
             SimulationStore(self._database), self._simulated, self.learning.sets.physics
         )
@@ -97,9 +97,9 @@ class Studio:
         self._plans = Planner(self.commands, self.gaits)
         self._list = GaitSummaries(self.gaits)
         self.commands.tell(self.summaries)
-        self._runner = JobQueue(self._job_changed, warm_up=_likely_problem())
+        self._job_queue = JobQueue(self._job_changed, warm_up=_likely_problem())
         self.job_repository = JobRepository(self._database)
-        self.jobs = OptimisationService(self.job_repository, self._runner, self._take_result)
+        self.jobs = OptimisationService(self.job_repository, self._job_queue, self._take_result)
         self._simulator = Simulator()
         self._simulating = SimulationService(
             self._simulator, self.job_repository, self.simulations, self.commands.tell, self._show_simulation
@@ -139,15 +139,15 @@ class Studio:
             return
         self._closed.set()
         self.robot.close()
-        self._runner.close()
+        self._job_queue.close()
         self._solver.close()
         for solver in self._pattern_solvers:
             solver.close()
         self._simulator.close()
         self._simulating.close()
         self.learning.close()
-        for traveller in self._travellers:
-            traveller.close()
+        for simulator in self._batch_simulators:
+            simulator.close()
         self.lab.close()
         self._trial_simulations.close()
         self._plans.close()

@@ -33,7 +33,7 @@ NEARLY = 0.05
 misses nothing, and IPOPT starts there once more."""
 
 _structures = CompiledProblemCache()
-_memory = WarmStarts()
+_warm_starts = WarmStarts()
 
 
 def solve_motion(
@@ -106,7 +106,7 @@ class _Solve:
 
     def run(self, resume: bool, doubtful: bool) -> MotionResult:
         """Attempts from every start, then the search for the nearest motion."""
-        compiled = self._structure()
+        compiled = self._compiled()
         broken = self._search.broken_constants(compiled)
         if broken:
             sentences = tuple(broken_pose(one) for one in broken)
@@ -117,10 +117,10 @@ class _Solve:
         if attempt.word not in (SUCCEEDED, STOPPED):
             return self._nearest(compiled, attempt)
         if attempt.word == SUCCEEDED and resume:
-            _memory.keep(compiled, self._problem, attempt.end)
+            _warm_starts.keep(compiled, self._problem, attempt.end)
         return self._ended(attempt)
 
-    def _structure(self, *, elastic: bool = False) -> CompiledProblem:
+    def _compiled(self, *, elastic: bool = False) -> CompiledProblem:
         compiled, seconds = _structures.get(self._problem, elastic=elastic)
         self._build_seconds += seconds
         return compiled
@@ -128,7 +128,7 @@ class _Solve:
     def _attempt(self, compiled: CompiledProblem, resume: bool) -> Attempt:
         """From one start after the other, until one of them ends in a motion or is cancelled."""
         search = self._search
-        last = _memory.near(compiled, self._problem) if resume else None
+        last = _warm_starts.near(compiled, self._problem) if resume else None
         if last is not None:
             attempt = search.attempt(compiled, last, compiled.warm_solver)
             if attempt.word in (SUCCEEDED, STOPPED):
@@ -152,7 +152,7 @@ class _Solve:
         return self._infeasible(nearest)
 
     def _elastic(self) -> Attempt:
-        return self._search.attempt(self._structure(elastic=True), self._search.drawing)
+        return self._search.attempt(self._compiled(elastic=True), self._search.drawing)
 
     def _missing(self, nearest: Attempt) -> MotionResult | None:
         """What the nearest motion says by itself: cancelled, or a demand that is missed by far; else None."""

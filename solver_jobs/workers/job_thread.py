@@ -75,14 +75,14 @@ class JobThread:
     """One worker process and the thread that feeds it.
 
     Args:
-        board: where work comes from.
+        source: where work comes from.
         worker: the process.
         time_limit: longest a job may run, s.
     """
 
-    def __init__(self, board: JobSource, worker: WorkerProcess, time_limit: float) -> None:
+    def __init__(self, source: JobSource, worker: WorkerProcess, time_limit: float) -> None:
         self.worker = worker
-        self._board = board
+        self._source = source
         self._time_limit = time_limit
         self._thread = threading.Thread(target=self._run, name="footfall-jobs", daemon=True)
 
@@ -97,7 +97,7 @@ class JobThread:
     def _run(self) -> None:
         try:
             self._start_worker()
-            while (job := self._board.next_job()) is not None:
+            while (job := self._source.next_job()) is not None:
                 self._attend(job)
         finally:
             self.worker.kill()
@@ -115,7 +115,7 @@ class JobThread:
             try:
                 self._serve(job, running)
             except WorkerEndedError:
-                if running.heard or self._board.closing:
+                if running.heard or self._source.closing:
                     raise
                 # The process had ended while it stood by; the job deserves a living one.
                 self._serve(job, running)
@@ -133,7 +133,7 @@ class JobThread:
     def _serve(self, job: Job, running: _RunningJob) -> None:
         self.worker.ensure_started()
         self.worker.send(Work(job.id, job.problem, job.kind))
-        while not self._board.closing and not self._advance(running):
+        while not self._source.closing and not self._advance(running):
             pass
 
     def _advance(self, running: _RunningJob) -> bool:
@@ -155,14 +155,14 @@ class JobThread:
         return self._stop_where_due(running, now)
 
     def _publish(self, running: _RunningJob, now: float) -> None:
-        if len(self._board.job(running.job).progress) != len(running.iterates):
+        if len(self._source.job(running.job).progress) != len(running.iterates):
             running.published = now
-            self._board.update(running.job, lambda job: replace(job, progress=tuple(running.iterates)))
+            self._source.update(running.job, lambda job: replace(job, progress=tuple(running.iterates)))
 
     def _stop_where_due(self, running: _RunningJob, now: float) -> bool:
         if running.stop_sent is None:
             running.timed_out = now > running.deadline
-            if running.timed_out or self._board.job(running.job).state is JobState.CANCELLING:
+            if running.timed_out or self._source.job(running.job).state is JobState.CANCELLING:
                 running.stop_sent = now
                 self.worker.send(Stop(running.job))
             return False
@@ -186,9 +186,9 @@ class JobThread:
         state, sentence = STATE_OF_STATUS[result.status], result_sentence(result)
         if state is JobState.CANCELLED:
             state, sentence = self._stopped(running)
-        self._board.update(running.job, lambda job: replace(job, result=result))
+        self._source.update(running.job, lambda job: replace(job, result=result))
         self._end(running, state, sentence)
 
     def _end(self, running: _RunningJob, state: JobState, sentence: str) -> None:
-        job = replace(self._board.job(running.job), progress=tuple(running.iterates))
-        self._board.end(job, state, sentence)
+        job = replace(self._source.job(running.job), progress=tuple(running.iterates))
+        self._source.end(job, state, sentence)

@@ -40,7 +40,7 @@ def jog_plan(robot: VirtualRobot, *steps: JogStep) -> JogPlan:
 def armed(profile: ProfileName = ProfileName.PUBLISHED) -> VirtualRobot:
     robot = VirtualRobot(profile)
     robot.arm()
-    robot.until(lambda s: robot.session.watch.stands_still(robot.now))
+    robot.until(lambda s: robot.session.monitor.stands_still(robot.now))
     return robot
 
 
@@ -66,7 +66,7 @@ def test_a_jog_moves_one_motor_in_small_moves_and_leaves_the_robot_armed(profile
 def test_a_jog_may_follow_a_jog_and_then_a_run() -> None:
     robot = armed()
     for _ in range(2):
-        robot.until(lambda s: robot.session.watch.stands_still(robot.now))
+        robot.until(lambda s: robot.session.monitor.stands_still(robot.now))
         robot.session.jog(jog_plan(robot), "Ada", robot.now)
         assert robot.until_robot(RobotState.ARMED, RobotState.FAULT).robot is RobotState.ARMED
     robot.session.send(make_plan([[4.0] * 12]), "Ada", robot.now)

@@ -65,7 +65,7 @@ def test_a_faults_stop_that_is_never_heard_is_said_and_may_be_cleared(robot: Vir
     assert snapshot.robot is RobotState.FAULT
     assert "motor 5" in snapshot.sentence
     assert "power switch" in snapshot.sentence
-    robot.until(lambda _: robot.session.watch.stands_still(robot.now))
+    robot.until(lambda _: robot.session.monitor.stands_still(robot.now))
     robot.session.clear("Ada", robot.now)
     assert robot.snapshot.sentence.startswith("The robot has not confirmed the stop. Clearing")
 
@@ -177,7 +177,7 @@ def test_a_stop_stands_that_comes_while_one_which_was_not_confirmed_is_cleared(
     robot.to_robot = losing(1000)
     robot.stop()
     robot.until(lambda s: NOT_STOPPED in s.sentence)
-    robot.until(lambda _: robot.session.watch.stands_still(robot.now))
+    robot.until(lambda _: robot.session.monitor.stands_still(robot.now))
     robot.to_robot = bytes
     robot.session.clear("Ada", robot.now)
     robot.until(lambda _: robot.sent[-1].startswith(last))

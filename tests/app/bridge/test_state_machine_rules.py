@@ -95,7 +95,7 @@ class CommandQueue(RuleBasedStateMachine):
         return len(fields) == 12 and all(LOWEST_MM <= field <= HIGHEST_MM for field in fields)
 
     def is_where_it_stands(self, data: bytes) -> bool:
-        measured_mm = np.clip(self.robot.session.watch.strokes_mm or (), LOWEST_MM, HIGHEST_MM)
+        measured_mm = np.clip(self.robot.session.monitor.strokes_mm or (), LOWEST_MM, HIGHEST_MM)
         return self.is_in_range(data) and data == encode_waypoint((measured_mm / 1000.0).tolist(), 1.0)
 
     def wish(self, deed: Callable[[], object]) -> bool:

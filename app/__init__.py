@@ -1,1 +1,1 @@
-"""What happens: state, time, threads, browsers and cables."""
+"""Everything with state, time, threads, browsers and cables; its own file starts the command line."""

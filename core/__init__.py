@@ -1,1 +1,1 @@
-"""What is true: pure mathematics and values of walking delta robots; numpy only."""
+"""Pure mathematics and values, with numpy alone; its own files are arrays, errors and findings."""

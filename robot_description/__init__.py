@@ -1,1 +1,1 @@
-"""What the robot is: parameters, and the builder that makes meshes and URDF from them."""
+"""One parameters file for each robot, and the builder that makes URDF and meshes from it."""

@@ -1,4 +1,4 @@
-"""What is computed: optimisation problems, solvers and the worker processes that run them.
+"""Solvers and their worker processes, behind one public face.
 
 This is the public face. Importing it loads no solver; `solve_motion` loads it when it is called.
 """

@@ -1,4 +1,4 @@
-"""Benchmarks behind the figures in the documentation; they measure and never judge."""
+"""All benchmarks by name; they print the figures that the documentation quotes."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Cameras of this computer: their processes, their setups."""
+"""Cameras of this computer: their processes and their setups."""

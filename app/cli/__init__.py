@@ -1,4 +1,4 @@
-"""The command line: every command's words, exit status and output."""
+"""The command line: the commands, their arguments, output and exit status."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What every part of app may use: the version, free names, JSON without infinities."""
+"""Small values that every folder of app may use: the version, free names, JSON without infinities."""

@@ -1,1 +1,1 @@
-"""The gait document as JSON: schema, reading and writing, migrations."""
+"""The gait document as JSON: schema, reading, writing, and migrations of older versions."""

@@ -1,1 +1,1 @@
-"""The robot's end of the cable: the firmware in virtual time, its board, its faults."""
+"""The robot's end of the cable: the firmware in virtual time, its board and its faults."""

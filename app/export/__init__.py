@@ -1,1 +1,1 @@
-"""A gait and its plan in other people's forms: files to keep, print, share and read elsewhere."""
+"""A gait or its plan in other file formats, and gaits from other programs' files."""

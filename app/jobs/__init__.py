@@ -1,1 +1,1 @@
-"""The list of jobs, and optimisations in it."""
+"""The list of jobs, and optimisations as jobs."""

@@ -1,1 +1,1 @@
-"""Learning parameters of the physics from trials, and the named sets of them."""
+"""Learning physics parameters from trials, and the named sets of them."""

@@ -1,1 +1,1 @@
-"""Searches for footfall patterns, one a page."""
+"""Searches for footfall patterns, one at a time for each page."""

@@ -1,1 +1,1 @@
-"""From a gait document to a checked plan: what is shown, judged and sent."""
+"""From a gait document to its plan: trajectory, waypoints, and the verified result of a solver."""

@@ -1,1 +1,1 @@
-"""The robot as the studio sees it: verbs, operator lease, jog, live recording of a run."""
+"""The robot as the studio uses it: actions, operator lease, jog, and the record of each run."""

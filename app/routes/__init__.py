@@ -1,1 +1,1 @@
-"""The web edge: HTTP and web sockets over the studio."""
+"""HTTP routes and web sockets that belong to no group: events, jobs, robots and the 3D scene."""

@@ -1,1 +1,1 @@
-"""Runs that were kept: what they were to do, what they did, and their files."""
+"""The archive of runs: reading them, their figures, and their files."""

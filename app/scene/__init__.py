@@ -1,4 +1,4 @@
-"""The 3D scenes: Viser servers on loopback, each with a robot's nodes, and the poses of plans."""
+"""The 3D scenes: Viser servers on loopback, the robot's nodes in them, and the poses of plans."""
 
 from app.scene.overlay import overlay_table, plan_poses
 from app.scene.poses import PoseBlob, pose_frames

@@ -1,1 +1,1 @@
-"""The web application assembled, and its process."""
+"""The web application, put together from the routes, and its process."""

@@ -1,1 +1,1 @@
-"""The one state owner: its command queue, and the events that it publishes."""
+"""The one thread that owns the studio's state, its command queue, and the events for the pages."""

@@ -1,1 +1,1 @@
-"""Physics of a plan as a job: what is asked, what is kept, what is shown."""
+"""Physics simulations of plans: the jobs, the stored results, and their view."""

@@ -1,1 +1,1 @@
-"""What is kept: gait files in the data folder, everything else in one SQLite file."""
+"""Everything on disk: gait files in the data folder, and all the rest in one SQLite file."""

@@ -1,1 +1,1 @@
-"""The studio: every service behind one command queue, and what it publishes to the pages."""
+"""The studio: it creates and connects all services, and publishes changes to the pages."""

@@ -1,1 +1,1 @@
-"""Trials of the real robot: foot tracks out of videos, kept beside runs and gaits."""
+"""Trials of the real robot: foot tracks, compared with the plan and the simulation."""

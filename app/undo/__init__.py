@@ -1,1 +1,1 @@
-"""A document's history: its log, who may undo what, three-way merge."""
+"""The undo history of a document: its steps, whose they are, and the three-way merge."""

@@ -1,1 +1,1 @@
-"""Videos and camera recordings: upload, tracking as a job, recording with a run."""
+"""Videos and camera recordings: upload, tracking as a job, recording together with a run."""

@@ -1,1 +1,1 @@
-"""Pictures to foot positions: blobs, tracking, checkerboards, and the processes that do it."""
+"""From pictures to foot positions: blobs, checkerboards, tracking, and the processes that do it."""

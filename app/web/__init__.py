@@ -1,1 +1,1 @@
-"""The HTTP edge without routes: access rules, errors, body limit, page assembly, Viser proxy."""
+"""The HTTP layer below the routes: access rules, errors, body limit, and the assembly of the page."""

@@ -1,1 +1,1 @@
-"""The verdict: one rule family a file."""
+"""The rules that a plan must keep before it can be approved, and the verdict."""

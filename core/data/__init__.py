@@ -1,1 +1,1 @@
-"""Gaits and segment definitions that come with the program, as data."""
+"""The tables that come with the program, such as gaits, segments and physics parameters, and their loader."""

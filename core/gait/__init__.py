@@ -1,1 +1,1 @@
-"""The document that a person edits."""
+"""The gait document that a person edits, and transitions between gaits."""

@@ -1,1 +1,1 @@
-"""Physics parameters from trials (system identification)."""
+"""Fitting physics parameters to trials of the real robot (system identification)."""

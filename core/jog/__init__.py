@@ -1,1 +1,1 @@
-"""Steps by hand."""
+"""Moving one motor, one foot or the body by hand, with a check of each step."""

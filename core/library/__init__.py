@@ -1,1 +1,1 @@
-"""The gaits that come with the program, sequences of them, and new ones."""
+"""The gaits, patterns and sequences that come with the program, and new gaits."""

@@ -1,1 +1,1 @@
-"""Trajectories, and what follows from any of them: timeline, balance, speeds, heading."""
+"""Trajectories and contact timelines, and what follows from them, such as speeds and stability margins."""

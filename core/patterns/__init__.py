@@ -1,1 +1,1 @@
-"""Footfall patterns: who stands when, as a problem, its rules, and an independent judge of answers."""
+"""Footfall patterns: the problem, its rules, and an independent checker of patterns."""

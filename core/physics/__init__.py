@@ -1,1 +1,1 @@
-"""What a physics simulation is asked and what it answers; the engine itself lives with the solvers."""
+"""Simulation problems with their parameters, and the figures and findings of a simulated motion."""

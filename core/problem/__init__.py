@@ -1,1 +1,1 @@
-"""The optimisation problem as a value, its first guess, and the independent checker."""
+"""The optimisation problem as a value, its initial guess, and the independent checker of its solutions."""

@@ -1,1 +1,1 @@
-"""From a recording to a gait."""
+"""Recorded trajectories and waypoint files as gaits."""

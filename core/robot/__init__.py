@@ -1,1 +1,1 @@
-"""The mechanism: parameters, leg, ring of legs, coupled actuators."""
+"""The mechanism: parameters, kinematics of one leg and of all legs, coupled motors."""

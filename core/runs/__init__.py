@@ -1,1 +1,1 @@
-"""What a run's bytes say."""
+"""Figures of a recorded run: measured strokes, iterations and poses out of the robot's lines."""

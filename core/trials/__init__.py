@@ -1,1 +1,1 @@
-"""What a real robot did: foot tracks, how far it went, and when each iteration ended."""
+"""How far a real robot went, computed from its foot tracks."""

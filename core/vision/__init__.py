@@ -1,1 +1,1 @@
-"""Camera geometry and tracks."""
+"""Camera geometry, and foot tracks over time."""

@@ -1,1 +1,1 @@
-"""What is sent: waypoints, merging, the wire's messages and times."""
+"""Waypoints, how they are merged, and the messages and times of the robot's protocol."""

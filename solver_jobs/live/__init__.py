@@ -1,1 +1,1 @@
-"""The live tier: the motion as one convex programme, fast enough to run while a finger drags."""
+"""The live tier: the motion as one convex program, fast enough to solve during a drag."""

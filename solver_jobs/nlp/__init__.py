@@ -1,1 +1,1 @@
-"""The exact tier: one nonlinear programme, IPOPT."""
+"""The exact tier: the whole motion as one nonlinear program, solved by IPOPT."""

@@ -1,1 +1,1 @@
-"""The physics engine's side: MuJoCo is imported in this folder and nowhere else."""
+"""The physics simulation; MuJoCo is imported here and nowhere else."""

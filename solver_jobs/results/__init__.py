@@ -1,1 +1,1 @@
-"""The results that the solvers hand out."""
+"""The result types that the optimisers return."""

@@ -1,1 +1,1 @@
-"""Answers that need both tiers."""
+"""Computations that use both tiers: starting the exact one from the live one, remedies, the frontier."""

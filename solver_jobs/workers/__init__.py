@@ -1,1 +1,1 @@
-"""Processes: one kind of worker, one kind of service, the job queue."""
+"""Worker processes, the services that talk to them, and the queue of jobs."""

@@ -1,1 +1,1 @@
-"""Browser benchmarks."""
+"""Benchmarks of the page in a browser, and of video tracking."""

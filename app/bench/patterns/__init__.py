@@ -1,1 +1,1 @@
-"""Pattern benchmarks."""
+"""Benchmarks of the search for footfall patterns."""

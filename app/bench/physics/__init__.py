@@ -1,1 +1,1 @@
-"""Physics benchmarks."""
+"""Benchmarks of simulation and of learning."""

@@ -1,1 +1,1 @@
-"""Bridge and emulator benchmarks."""
+"""Benchmarks of the bridge and the emulator."""

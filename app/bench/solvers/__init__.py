@@ -1,1 +1,1 @@
-"""Solver benchmarks."""
+"""Benchmarks of kinematics and of the optimisers."""

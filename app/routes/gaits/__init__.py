@@ -1,1 +1,1 @@
-"""Routes of gaits: documents, versions, approvals, exports, sequences and simulations."""
+"""HTTP routes of gaits: documents, versions, approvals, exports, sequences and simulations."""

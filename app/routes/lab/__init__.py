@@ -1,1 +1,1 @@
-"""Routes of the laboratory: trials, cameras, videos and learning from trials."""
+"""HTTP routes of trials, cameras, videos and learning."""

@@ -1,1 +1,1 @@
-"""Routes of the footfall-pattern search."""
+"""HTTP routes of the search for footfall patterns."""

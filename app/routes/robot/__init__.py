@@ -1,1 +1,1 @@
-"""Routes of the robot: verbs, jog, faults of the emulated one, and the archive of runs."""
+"""HTTP routes of the robot: actions, jog, faults of the emulator, and the archive of runs."""

@@ -1,1 +1,1 @@
-"""Trials as one printable HTML file."""
+"""Reports on trials, each one printable HTML file."""

@@ -1,0 +1,82 @@
+"""The source code as files, folders and imports, for the tests of the architecture."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator, Sequence
+from functools import cache
+from pathlib import PurePosixPath
+
+from tests.support.studio_process import PROJECT
+
+PARTS = ("core", "robot_description", "solver_jobs", "app")
+STATIC = "app/static"
+PAGE_CODE = (".js", ".css", ".html")
+
+_JS_COMMENT = re.compile(r"^[ \t]*(?:/\*.*?\*/|//[^\n]*)", re.MULTILINE | re.DOTALL)
+_JS_IMPORT = re.compile(
+    r"""^(?:import|export)\s[^;"']*?from\s*["']([^"']+)["']|^import\s*["']([^"']+)["']"""
+    r"""|\bimport\(\s*["'`]([^"'`]+)["'`]""",
+    re.MULTILINE,
+)
+
+
+def files(*suffixes: str) -> list[str]:
+    """Every file of the program with one of these suffixes, at any depth."""
+    return sorted(
+        str(path.relative_to(PROJECT))
+        for part in PARTS
+        for path in (PROJECT / part).rglob("*")
+        if path.suffix in suffixes and "__pycache__" not in path.parts
+    )
+
+
+def folder_of(path: str) -> str:
+    """The folder that a file stands in."""
+    return str(PurePosixPath(path).parent)
+
+
+@cache
+def imports(path: str) -> tuple[str, ...]:
+    """What a Python file imports, by full names; imports within functions count too."""
+    return tuple(_imports((PROJECT / path).read_text()))
+
+
+def _imports(text: str) -> Iterator[str]:
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.level:
+            yield f"relative:{node.module}"
+        elif isinstance(node, ast.ImportFrom):
+            full = (f"{node.module}.{alias.name}" for alias in node.names)
+            yield from (name if is_module(name) else str(node.module) for name in full)
+        elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith("import_module"):
+            yield from (str(word.value) for word in node.args if isinstance(word, ast.Constant))
+
+
+def is_module(name: str) -> bool:
+    """Whether a dotted name is a file or a folder of this project."""
+    place = PROJECT / name.replace(".", "/")
+    return place.is_dir() or place.with_suffix(".py").is_file()
+
+
+def folders_imported(path: str) -> set[str]:
+    """The folders of this project that a Python or JavaScript file imports from."""
+    if path.endswith(".js"):
+        return {folder_of(target) for target in js_imports(path, (PROJECT / path).read_text())}
+    own = [name.replace(".", "/") for name in imports(path) if name.split(".")[0] in PARTS]
+    return {place if (PROJECT / place).is_dir() else folder_of(place) for place in own}
+
+
+def js_imports(path: str, text: str) -> list[str]:
+    """The files that a module of the page imports; types that a comment names do not count."""
+    targets = [next(filter(None, found)) for found in _JS_IMPORT.findall(_JS_COMMENT.sub("", text))]
+    folder = (PROJECT / path).parent
+    return [str((folder / target).resolve().relative_to(PROJECT.resolve())) for target in targets]
+
+
+def listed(offenders: Sequence[str]) -> str:
+    """Offenders as the message of a failed test, one a line."""
+    return "\n".join(("", *offenders))

@@ -1,1 +1,1 @@
-r"""Browser tests of `app\/static\/cameras`."""
+"""Browser tests of `app/static/cameras`."""

@@ -1,1 +1,1 @@
-r"""Browser tests of `app\/static\/check`."""
+"""Browser tests of `app/static/check`."""

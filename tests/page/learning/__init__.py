@@ -1,1 +1,1 @@
-r"""Browser tests of `app\/static\/learning`."""
+"""Browser tests of `app/static/learning`."""

@@ -1,1 +1,1 @@
-r"""Browser tests of `app\/static\/optimise`."""
+"""Browser tests of `app/static/optimise`."""

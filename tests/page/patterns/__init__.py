@@ -1,1 +1,1 @@
-r"""Browser tests of `app\/static\/patterns`."""
+"""Browser tests of `app/static/patterns`."""

@@ -1,1 +1,1 @@
-r"""Browser tests of `app\/static\/plots`."""
+"""Browser tests of `app/static/plots`."""

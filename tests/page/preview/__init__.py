@@ -1,1 +1,1 @@
-r"""Browser tests of `app\/static\/preview`."""
+"""Browser tests of `app/static/preview`."""

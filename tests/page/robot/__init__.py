@@ -1,1 +1,1 @@
-r"""Browser tests of `app\/static\/robot`."""
+"""Browser tests of `app/static/robot`."""

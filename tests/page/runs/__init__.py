@@ -1,1 +1,1 @@
-r"""Browser tests of `app\/static\/runs`."""
+"""Browser tests of `app/static/runs`."""

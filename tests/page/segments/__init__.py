@@ -1,1 +1,1 @@
-r"""Browser tests of `app\/static\/segments`."""
+"""Browser tests of `app/static/segments`."""

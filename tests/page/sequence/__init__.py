@@ -1,1 +1,1 @@
-r"""Browser tests of `app\/static\/sequence`."""
+"""Browser tests of `app/static/sequence`."""

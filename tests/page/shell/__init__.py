@@ -1,1 +1,1 @@
-r"""Browser tests of `app\/static\/shell`."""
+"""Browser tests of `app/static/shell`."""

@@ -1,1 +1,1 @@
-r"""Browser tests of `app\/static\/state`."""
+"""Browser tests of `app/static/state`."""

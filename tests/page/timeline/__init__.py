@@ -1,1 +1,1 @@
-r"""Browser tests of `app\/static\/timeline`."""
+"""Browser tests of `app/static/timeline`."""

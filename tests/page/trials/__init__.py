@@ -1,1 +1,1 @@
-r"""Browser tests of `app\/static\/trials`."""
+"""Browser tests of `app/static/trials`."""

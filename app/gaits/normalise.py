@@ -1,4 +1,4 @@
-"""Applies the consequences of an edit: locks, and agreement of timeline and segment table."""
+"""Applies the consequences of an edit: locks, timeline and segment table, held feet, recorded motion."""
 
 from __future__ import annotations
 
@@ -6,16 +6,17 @@ from dataclasses import replace
 
 import numpy as np
 
+from app.documents.gait_json import asked_hash
 from app.gaits.sequence_documents import normalise_sequence
-from app.gaits.settling_held import normalise_held_feet
-from app.gaits.settling_results import normalise_results
 from core.arrays import Bools
 from core.errors import StateError
 from core.gait.gait import Gait, with_iterations
-from core.gait.held_feet import HeldFeet
-from core.gait.held_rules import require_swinging
+from core.gait.held_feet import HeldFeet, feet_words
+from core.gait.held_rules import require_swinging, standing_of
 from core.motion.contact_timeline import ContactTimeline
 from core.segments.from_timeline_edit import carried
+
+SET_ASIDE = "The recorded motion of {file} was set aside; the motion is computed now. Undo brings it back."
 
 
 def normalise(before: Gait, after: Gait) -> tuple[Gait, str | None]:
@@ -167,3 +168,83 @@ def _with_locks(before: Gait, after: Gait, implied: ContactTimeline) -> ContactT
         )
     _require_held(drawn.locked & (drawn.stance != implied.stance))
     return replace(implied, locked=drawn.locked)
+
+
+def normalise_held_feet(gait: Gait, notice: str | None, *, is_said: bool) -> tuple[Gait, str | None]:
+    """Takes back that feet are held up which an edit of the timeline has put down there.
+
+    Args:
+        gait: the changed document, normalised in all other respects.
+        notice: what the edit had to set aside so far.
+        is_said: whether the edit itself says which feet are held.
+
+    Returns:
+        The gait, and a sentence where something was set aside.
+
+    Raises:
+        InputError: the edit itself says that a foot is held up which stands there.
+    """
+    if gait.segment_table is not None:
+        return gait, notice
+    if is_said:
+        require_swinging(gait.timeline, gait.held)
+    down = standing_of(gait.timeline, gait.held)
+    if not down.any:
+        return gait, notice
+    start, end = (
+        tuple(foot for foot in held if foot not in stands)
+        for held, stands in ((gait.held.start, down.start), (gait.held.end, down.end))
+    )
+    sentences = [notice]
+    for feet, sample in ((down.start, "first"), (down.end, "last")):
+        if feet:
+            several = len(feet) > 1
+            sentences.append(
+                f"{feet_words(feet).capitalize()} {'stand' if several else 'stands'} at the {sample} sample "
+                f"now, so {'they are' if several else 'it is'} no longer held up there."
+            )
+    return replace(gait, held=HeldFeet(start, end)), " ".join(filter(None, sentences))
+
+
+def normalise_results(before: Gait, after: Gait, notice: str | None = None) -> tuple[Gait, str | None]:
+    """Sets a recorded motion aside where the edit asks for another one, and keeps the right provenance.
+
+    Args:
+        before: the document as it was.
+        after: the changed document, normalised in all other respects.
+        notice: what the edit had to set aside so far.
+
+    Returns:
+        The gait, and a sentence where something was set aside.
+    """
+    recording = before.recorded
+    if recording is not None and after.recorded in (None, recording) and asks_anew(before, after):
+        sentences = (notice, SET_ASIDE.format(file=recording.file))
+        after, notice = replace(after, recorded=None), " ".join(filter(None, sentences))
+    return _with_provenance(before, after), notice
+
+
+def asks_anew(before: Gait, after: Gait) -> bool:
+    """Whether an edit asks for another motion: more than words, orientation and locks were changed."""
+    timeline = replace(after.timeline, locked=before.timeline.locked) if _same_size(before, after) else None
+    same = replace(
+        after,
+        name=before.name,
+        notes=before.notes,
+        orientation=before.orientation,
+        provenance=before.provenance,
+        timeline=timeline or after.timeline,
+    )
+    return same != before
+
+
+def _same_size(before: Gait, after: Gait) -> bool:
+    return before.timeline.stance.shape == after.timeline.stance.shape
+
+
+def _with_provenance(before: Gait, after: Gait) -> Gait:
+    """Results are the server's: a page that does not know one yet cannot undo it by its next edit."""
+    own = after.provenance
+    if own == before.provenance or (own is not None and own.motion == asked_hash(after)):
+        return after
+    return replace(after, provenance=before.provenance)

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from app.documents.gait_json import gait_from_content
-from app.gaits.normalise import normalise, require_locks
-from app.gaits.settling_results import asks_anew
+from app.gaits.normalise import asks_anew, normalise, require_locks
 from app.undo.history import Step
 from core.errors import FootfallError, StateError
 from core.gait.gait import Gait

@@ -206,7 +206,7 @@ def normalise_held_feet(gait: Gait, notice: str | None, *, is_said: bool) -> tup
     return replace(gait, held=HeldFeet(start, end)), " ".join(filter(None, sentences))
 
 
-def normalise_results(before: Gait, after: Gait, notice: str | None = None) -> tuple[Gait, str | None]:
+def normalise_results(before: Gait, after: Gait, notice: str | None) -> tuple[Gait, str | None]:
     """Sets a recorded motion aside where the edit asks for another one, and keeps the right provenance.
 
     Args:

@@ -22,7 +22,7 @@ CABLE = ("app.bridge", "app.emulator")
 
 ONE_MODULE = {
     "cv2": "app/vision/opencv.py",
-    "mcap": "app/runs/mcap_file.py",
+    "mcap": "app/runs/export.py",
     "serial": "app/bridge/transport.py",
 }
 """Packages that one module alone imports."""

@@ -10,7 +10,7 @@ from fastapi.responses import Response
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.concurrency import run_in_threadpool
 
-from app.runs.csv_file import run_csv
+from app.runs.export import run_csv, run_mcap
 from app.runs.motion import measured_trajectory
 from app.scene.ghost import ghost_blob
 from app.store.run_store import RunFilter
@@ -96,8 +96,6 @@ async def csv_of_run(run: str, studio: TheStudio) -> Response:
 @router.get("/{run}/run.mcap", response_class=Response)
 async def mcap_of_run(run: str, studio: TheStudio) -> Response:
     """The run as MCAP: strokes, commands, states and raw bytes."""
-    from app.runs.mcap_file import run_mcap  # only who asks for it waits for the package
-
     content = await run_in_threadpool(lambda: run_mcap(studio.runs.record(run)))
     return _file(content, f"run-{run}.mcap", "application/octet-stream")
 

@@ -15,8 +15,7 @@ from mcap.reader import make_reader
 from app.bridge.states import Direction, LinkState, RobotState, Transition
 from app.emulator.emulated_robot import EmulatedRobot
 from app.robot.run_recorder import RunRecorder
-from app.runs.csv_file import run_csv
-from app.runs.mcap_file import run_mcap
+from app.runs.export import run_csv, run_mcap
 from app.runs.motion import measured_trajectory
 from app.runs.service import RunService
 from app.store.database import Database

@@ -1,20 +1,20 @@
-"""A run as MCAP, for Foxglove and other viewers of recordings: JSON messages with their schemas.
-
-Times of messages are the wall clock's at the run's beginning plus the monotonic time since.
-"""
+"""A run as a file: CSV, and MCAP for Foxglove and other viewers of recordings."""
 
 from __future__ import annotations
 
 import base64
 import io
 import json
+import math
 from collections.abc import Iterator
-from typing import Any
-
-from mcap.writer import Writer
+from typing import TYPE_CHECKING, Any
 
 from app.common.version import VERSION
 from app.runs.record import RunRecord
+from core.wire.messages import MOTORS
+
+if TYPE_CHECKING:
+    from mcap.writer import Writer
 
 _NUMBERS = {"type": "array", "items": {"type": "number"}, "minItems": 12, "maxItems": 12}
 _SECONDS = {"type": "number", "description": "s since the run began"}
@@ -48,8 +48,29 @@ _CHANNELS: dict[str, dict[str, Any]] = {
 _Message = tuple[float, str, dict[str, Any]]
 
 
+def run_csv(record: RunRecord) -> str:
+    """Time in s since the run began, the robot's state, commanded and measured strokes in mm.
+
+    What was commanded is empty before the first message.
+    """
+    names = [f"{kind}_h{motor + 1}" for kind in ("commanded", "measured") for motor in range(MOTORS)]
+    lines = [",".join(["t", "state", *names])]
+    series = record.series
+    rows = zip(series.times, record.states_told, record.commanded_mm, series.measured_mm, strict=True)
+    for time, state, commanded, measured in rows:
+        numbers = ["" if math.isnan(value) else f"{value:.4f}" for value in (*commanded, *measured)]
+        lines.append(",".join([f"{time:.4f}", state, *numbers]))
+    return "\n".join(lines) + "\n"
+
+
 def run_mcap(record: RunRecord) -> bytes:
-    """The run's file: measured and commanded strokes, states, raw bytes, and the record as metadata."""
+    """The run's file: measured and commanded strokes, states, raw bytes, and the record as metadata.
+
+    It holds JSON messages with their schemas. Their times are the wall clock's at the run's beginning plus
+    the monotonic time since.
+    """
+    from mcap.writer import Writer  # only who asks for it waits for the package
+
     stream = io.BytesIO()
     writer = Writer(stream)
     writer.start(profile="", library=f"footfall-studio {VERSION}")

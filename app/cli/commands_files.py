@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 
 from app.cli.commands_gait import optimise
-from app.cli.methods import Method
+from app.cli.gait_options import Method
 from app.cli.output import end_on_sigterm, note, show
 from app.documents.gait_json import gait_content, parse_gait
 from app.documents.trajectory_json import trajectory_content

@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from app.cli.gait_options import asked_gait, returns_anew
-from app.cli.methods import Method
+from app.cli.gait_options import Method, asked_gait, returns_anew
 from app.cli.output import end_on_sigterm, show
 from app.export.trajectory_files import write_trajectory
 from core.errors import InputError

@@ -10,8 +10,7 @@ from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
-from app.cli.gait_options import asked_gait
-from app.cli.methods import SOLVERS, Method
+from app.cli.gait_options import SOLVERS, Method, asked_gait
 from app.cli.output import end_on_sigterm, note, show
 from app.documents.gait_json import gait_schema
 from app.export.trajectory_files import write_trajectory

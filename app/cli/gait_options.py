@@ -1,9 +1,11 @@
-"""From the words of the command line to the gait that is asked."""
+"""From the words of the command line to the gait that is asked, and to the method that solves it."""
 
 from __future__ import annotations
 
 from argparse import Namespace
+from collections.abc import Callable
 from dataclasses import replace
+from enum import StrEnum
 from pathlib import Path
 
 import numpy as np
@@ -22,8 +24,23 @@ from core.gait.gait import (
 from core.library.library import library, optimised_entry
 from core.library.new_gait import with_robot
 from core.motion.heading_profile import HeadingProfile
-from core.problem.motion_problem import Boundary
+from core.problem.motion_problem import Boundary, MotionProblem
 from core.robot.model import load_robot
+from solver_jobs import MotionResult, solve_exact, solve_live
+
+
+class Method(StrEnum):
+    """Which tier gives the answer."""
+
+    LIVE = "live"
+    NLP = "nlp"
+
+
+SOLVERS: dict[Method, Callable[[MotionProblem], MotionResult]] = {
+    Method.LIVE: solve_live,
+    Method.NLP: solve_exact,
+}
+"""How each method solves a problem in this process."""
 
 _OPTIONS = (
     "clearance",

@@ -32,7 +32,7 @@ from app.cli.argument_types import (
     whole,
     words_of,
 )
-from app.cli.methods import Method
+from app.cli.gait_options import Method
 from app.common.version import VERSION
 from app.emulator.faults import Fault
 from app.emulator.profiles import ProfileName

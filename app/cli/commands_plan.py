@@ -17,9 +17,8 @@ from core.checks.checked_plan import CheckedPlan, checked_plan
 from core.checks.rules import check_plan
 from core.errors import CheckError, FootfallError, InfeasibleError
 from core.findings import Verdict
-from core.gait.gait import Gait
+from core.gait.gait import Gait, SequencePart
 from core.gait.manual_motion import manual_motion
-from core.gait.sequence_part import SequencePart
 from core.library.new_gait import with_robot
 from core.library.sequence import (
     chain_runs,

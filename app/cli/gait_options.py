@@ -13,14 +13,8 @@ import numpy as np
 from app.documents.gait_json import parse_gait
 from app.export.trajectory_files import read_text
 from core.errors import InputError
-from core.gait.gait import (
-    Gait,
-    GaitOptions,
-    drawn_timeline,
-    heading_step,
-    with_iterations,
-    with_return,
-)
+from core.gait.gait import Gait, drawn_timeline, heading_step, with_iterations, with_return
+from core.gait.options import GaitOptions
 from core.library.library import library, optimised_entry
 from core.library.new_gait import with_robot
 from core.motion.heading_profile import HeadingProfile

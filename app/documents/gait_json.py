@@ -22,11 +22,11 @@ from app.documents.gait_schema import (
 )
 from app.documents.migrations import VERSION, migrated
 from core.errors import InputError
-from core.gait.gait import Gait, GaitOptions
+from core.gait.gait import Gait, SequencePart
 from core.gait.held_feet import HeldFeet
+from core.gait.options import GaitOptions
 from core.gait.provenance import Provenance
 from core.gait.recording import Recording
-from core.gait.sequence_part import SequencePart
 from core.motion.contact_timeline import ContactTimeline, bits_from_rows, rows_from_bits
 from core.robot.model import RobotModel, load_robot
 from core.segments.segment_table import (

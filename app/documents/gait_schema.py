@@ -6,7 +6,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from core.gait.gait import GaitOptions, Orientation
+from core.gait.gait import Orientation
+from core.gait.options import GaitOptions
 from core.gait.recording import RecordingForm
 from core.motion.heading_profile import HeadingProfile
 from core.problem.motion_problem import Boundary, Cost, Workspace

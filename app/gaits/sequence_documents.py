@@ -8,8 +8,7 @@ from enum import StrEnum
 
 from app.documents.gait_json import motion_hash, require_size
 from core.errors import FootfallError, InputError
-from core.gait.gait import Gait
-from core.gait.sequence_part import SequencePart
+from core.gait.gait import Gait, SequencePart
 from core.library.sequence import DERIVED, derived, sequence_gait
 
 GaitOf = Callable[[str], Gait]

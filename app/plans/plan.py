@@ -21,14 +21,10 @@ from core.checks.rules import check_plan
 from core.checks.simulation import Simulated
 from core.errors import CheckError, FootfallError, InputError
 from core.findings import Verdict
-from core.gait.gait import (
-    Gait,
-    GaitOptions,
-    motion_problem,
-    resting_poses,
-)
+from core.gait.gait import Gait, motion_problem, resting_poses
 from core.gait.held_feet import HeldFeet, held_sentence
 from core.gait.manual_motion import manual_motion, stance_slip
+from core.gait.options import GaitOptions
 from core.gait.provenance import Provenance
 from core.gait.recording import Recording, RecordingForm
 from core.motion.balance import balance_margins

@@ -9,12 +9,8 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.studio.studio import Studio
 from app.web.dependencies import changed, studio_of
-from core.gait.gait import (
-    MOST_NAME,
-    Gait,
-    GaitOptions,
-    Orientation,
-)
+from core.gait.gait import MOST_NAME, Gait, Orientation
+from core.gait.options import GaitOptions
 from core.library.new_gait import (
     DEFAULT_STEP,
     default_phase_knots,

@@ -10,7 +10,7 @@ import numpy as np
 
 from core.arrays import Floats
 from core.errors import InfeasibleError, InputError
-from core.gait.gait import GaitOptions
+from core.gait.options import GaitOptions
 from core.gait.transition import feet_transition
 from core.motion.contact_timeline import SAME_INTERVAL
 from core.motion.trajectory import Trajectory

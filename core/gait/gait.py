@@ -12,19 +12,17 @@ from core.arrays import Bools, Floats
 from core.errors import InputError
 from core.gait.held_feet import HeldFeet, held_height
 from core.gait.held_rules import require_feet, require_repeatable, require_rest
+from core.gait.options import GaitOptions
 from core.gait.provenance import Provenance
 from core.gait.recording import Recording
-from core.gait.sequence_part import MOST_PARTS, SequencePart
 from core.motion.contact_timeline import ContactTimeline, timeline_from_order
 from core.motion.heading_profile import HeadingProfile, heading_profile, return_knots
 from core.motion.trajectory import quarter_turn
 from core.problem.motion_problem import (
     Boundary,
-    Cost,
     MotionLimits,
     MotionProblem,
     RestPose,
-    Workspace,
     maps_onto_itself,
     standing_pose,
 )
@@ -35,8 +33,10 @@ from core.segments.segment_table import SegmentTable
 
 MAX_STEP = 0.2
 """Larger steps an iteration than any workspace here, m; a guard against mm given for m."""
-
-
+MOST_TIMES = 20
+"""How often a part of a sequence may run."""
+MOST_PARTS = 40
+"""How many parts a sequence may have."""
 MOST_NAME, MOST_NOTES = 120, 20_000
 """Characters that a gait's name and notes may have."""
 
@@ -51,76 +51,6 @@ class Orientation(StrEnum):
 
 
 _ROLES = {Orientation.FB: ("FR", "FL", "BL", "BR"), Orientation.FBS: ("F", "L", "B", "R")}
-
-
-_OPTION_BOUNDS: dict[str, tuple[float, float, float, str]] = {
-    "clearance": (1000.0, 0.0, 20.0, " mm"),
-    "margin": (1000.0, -50.0, 50.0, " mm"),
-    "body_speed": (1000.0, 0.5, 1000.0, " mm/s"),
-    "plane_height": (1000.0, 30.0, 100.0, " mm"),
-    "end_plane_height": (1000.0, 30.0, 100.0, " mm"),
-    "friction": (1.0, 0.01, 10.0, ""),
-    "motor_speed": (1000.0, 0.5, 1000.0, " mm/s"),
-    "motor_acceleration": (1000.0, 0.5, 10000.0, " mm/s²"),
-    "merge": (1000.0, 0.0, 5.0, " mm"),
-    "stop_bound": (1.0, 0.8, 10.0, " s"),
-}
-"""Factor from SI to what a person reads, least, most, unit."""
-
-
-@dataclass(frozen=True)
-class GaitOptions:
-    """What the optimiser is asked, and how its answer is sent, SI; defaults as in the contract.
-
-    Args:
-        clearance: how high the highest knot of each swing is at least.
-        margin: how far inside the support polygon the centre of pressure stays.
-        body_speed: limit of the body's speed.
-        plane_height: actuator plane at the start.
-        end_plane_height: actuator plane at the goal; None as at the start.
-        workspace: which form of reach holds.
-        cost: what is minimised.
-        phase_knots: knots of each stance phase and of each swing of a drawn timeline.
-        closing_knots: knots after the last swing of a drawn timeline.
-        friction: coefficient of each foot's friction cone; None for none.
-        motor_speed: limit of each motor's speed; None for none.
-        motor_acceleration: limit of each motor's acceleration; None for none.
-        boundary: from rest to rest, or a cycle.
-        turning: when a gait with yaw turns the body.
-        merge: distance in motor space within which waypoints are left out; 0 for one waypoint a knot.
-        stop_bound: how long the robot may be deaf for Stop, s; None for as long as a move takes.
-    """
-
-    clearance: float = 0.003
-    margin: float = 0.0
-    body_speed: float = 0.015
-    plane_height: float = 0.0535
-    workspace: Workspace = Workspace.STROKE
-    cost: Cost = Cost.GOAL
-    phase_knots: int = 5
-    closing_knots: int = 5
-    end_plane_height: float | None = None
-    friction: float | None = None
-    motor_speed: float | None = None
-    motor_acceleration: float | None = None
-    boundary: Boundary = Boundary.REST
-    turning: HeadingProfile = HeadingProfile.STEADY
-    merge: float = 0.001
-    stop_bound: float | None = 1.0
-
-    def __post_init__(self) -> None:
-        for name, (factor, lower, upper, unit) in _OPTION_BOUNDS.items():
-            if getattr(self, name) is None:
-                continue
-            value = getattr(self, name) * factor
-            if not (np.isfinite(value) and lower <= value <= upper):
-                words = name.replace("_", " ")
-                raise InputError(
-                    f"The {words} is {value:g}{unit}; it must lie between {lower:g} and {upper:g}{unit}.",
-                    name,
-                )
-        if self.phase_knots < 2 or self.closing_knots < 0:
-            raise InputError("phase_knots must be at least 2 and closing_knots at least 0.", "phase_knots")
 
 
 @dataclass(frozen=True)
@@ -222,6 +152,33 @@ class Gait:
             return ring_roles(legs, heading_angle(self.orientation) + self.quarter_turns * np.pi / 2)
         names = _ROLES[self.orientation]
         return tuple(names[(foot - self.quarter_turns) % 4] for foot in range(4))
+
+
+@dataclass(frozen=True)
+class SequencePart:
+    """A gait and how often it runs.
+
+    Args:
+        gait: a copy of it, so that the sequence is complete by itself.
+        times: how often it runs.
+        source: id of the gait that it was copied from; None where that is not known.
+    """
+
+    gait: Gait
+    times: int = 1
+    source: str | None = None
+
+    def __post_init__(self) -> None:
+        if not 1 <= self.times <= MOST_TIMES:
+            raise InputError(
+                f"“{self.gait.name}” runs {self.times} times in the sequence; it must be 1 to {MOST_TIMES}.",
+                "times",
+            )
+        if self.gait.sequence:
+            raise InputError(
+                f"“{self.gait.name}” is a sequence; a part must be a single gait. Add its parts instead.",
+                "sequence",
+            )
 
 
 def _require_text(field_name: str, text: str, most: int) -> None:

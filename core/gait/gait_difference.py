@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from core.arrays import Floats
-from core.gait.gait import Gait, GaitOptions
+from core.gait.gait import Gait, SequencePart
 from core.gait.held_feet import feet_words
-from core.gait.sequence_part import SequencePart
+from core.gait.options import GaitOptions
 from core.motion.timeline_difference import timeline_difference
 from core.robot.model import load_robot
 from core.segments.segment_difference import table_difference

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Bools
-from core.gait.gait import GaitOptions
+from core.gait.options import GaitOptions
 from core.motion.contact_timeline import ContactTimeline
 from core.motion.heading_profile import eased
 from core.motion.trajectory import Trajectory

@@ -13,14 +13,8 @@ import numpy as np
 
 from core.data.tables import data_table
 from core.errors import InputError
-from core.gait.gait import (
-    Gait,
-    GaitOptions,
-    Orientation,
-    heading_step,
-    with_return,
-)
-from core.gait.sequence_part import SequencePart
+from core.gait.gait import Gait, Orientation, SequencePart, heading_step, with_return
+from core.gait.options import GaitOptions
 from core.library.patterns import LibraryPattern, library_pattern
 from core.library.sequence import sequence_gait
 from core.motion.contact_timeline import ContactTimeline, timeline_from_order, timeline_from_rows

@@ -8,14 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.errors import InputError
-from core.gait.gait import (
-    Gait,
-    GaitOptions,
-    Orientation,
-    heading_angle,
-    heading_step,
-)
+from core.gait.gait import Gait, Orientation, heading_angle, heading_step
 from core.gait.held_feet import HeldFeet
+from core.gait.options import GaitOptions
 from core.library.sequence import derived
 from core.motion.contact_timeline import MAX_SAMPLES, timeline_from_order
 from core.robot.model import RobotModel

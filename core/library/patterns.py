@@ -6,12 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from core.arrays import Bools
-from core.gait.gait import (
-    Gait,
-    GaitOptions,
-    Orientation,
-    heading_step,
-)
+from core.gait.gait import Gait, Orientation, heading_step
+from core.gait.options import GaitOptions
 from core.motion.contact_timeline import bits_from_rows
 from core.patterns.limits import own_balance
 from core.patterns.problem import PatternProblem, PatternRules, PatternWeights

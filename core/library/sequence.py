@@ -14,15 +14,10 @@ from core.gait.chain import (
     Piece,
     chain,
 )
-from core.gait.gait import (
-    Gait,
-    GaitOptions,
-    motion_problem,
-    with_iterations,
-)
+from core.gait.gait import MOST_TIMES, Gait, SequencePart, motion_problem, with_iterations
 from core.gait.held_feet import HeldFeet
 from core.gait.manual_motion import manual_motion
-from core.gait.sequence_part import MOST_TIMES, SequencePart
+from core.gait.options import GaitOptions
 from core.gait.transition import straight
 from core.motion.contact_timeline import MAX_SAMPLES, ContactTimeline
 from core.motion.trajectory import Trajectory

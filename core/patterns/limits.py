@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.gait.gait import Gait, GaitOptions
+from core.gait.gait import Gait
+from core.gait.options import GaitOptions
 from core.patterns.problem import BalanceModel, PatternRules
 from core.problem.motion_problem import MotionLimits
 from core.robot.leg import strokes_from_foot

@@ -8,13 +8,9 @@ import numpy as np
 
 from core.arrays import Bools, Floats
 from core.errors import InputError
-from core.gait.gait import (
-    MOST_NAME,
-    Gait,
-    GaitOptions,
-    Orientation,
-)
+from core.gait.gait import MOST_NAME, Gait, Orientation
 from core.gait.held_feet import HeldFeet
+from core.gait.options import GaitOptions
 from core.motion.contact_timeline import ContactTimeline
 from core.motion.heading_profile import HeadingProfile
 from core.patterns.sides import PatternSide, require_alike

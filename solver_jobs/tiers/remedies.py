@@ -9,12 +9,8 @@ from itertools import permutations
 import numpy as np
 
 from core.errors import FootfallError
-from core.gait.gait import (
-    Gait,
-    GaitOptions,
-    drawn_timeline,
-    motion_problem,
-)
+from core.gait.gait import Gait, drawn_timeline, motion_problem
+from core.gait.options import GaitOptions
 from core.motion.contact_timeline import Swing
 from core.problem.motion_problem import MotionLimits, Workspace
 from core.robot.model import RobotModel

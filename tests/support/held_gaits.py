@@ -6,13 +6,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from core.gait.gait import (
-    Gait,
-    GaitOptions,
-    Orientation,
-    drawn_timeline,
-)
+from core.gait.gait import Gait, Orientation, drawn_timeline
 from core.gait.held_feet import HeldFeet
+from core.gait.options import GaitOptions
 from core.motion.contact_timeline import timeline_from_rows
 from core.robot.model import load_robot
 

@@ -8,11 +8,11 @@ from datetime import UTC, datetime
 import numpy as np
 from hypothesis import strategies as st
 
-from core.gait.gait import Gait, GaitOptions, Orientation
+from core.gait.gait import Gait, Orientation, SequencePart
 from core.gait.held_feet import HeldFeet
+from core.gait.options import GaitOptions
 from core.gait.provenance import Provenance
 from core.gait.recording import Recording, RecordingForm
-from core.gait.sequence_part import SequencePart
 from core.motion.contact_timeline import ContactTimeline
 from core.motion.heading_profile import HeadingProfile
 from core.problem.motion_problem import Boundary, Cost, Workspace

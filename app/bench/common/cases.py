@@ -8,13 +8,8 @@ from itertools import product
 
 import numpy as np
 
-from core.gait.gait import (
-    Gait,
-    GaitOptions,
-    drawn_timeline,
-    heading_step,
-    with_return,
-)
+from core.gait.gait import Gait, drawn_timeline, heading_step, with_return
+from core.gait.options import GaitOptions
 from core.library.library import appendix_orders, library
 from core.problem.motion_problem import Workspace
 from core.robot.model import load_robot

@@ -15,13 +15,8 @@ from app.bench.common.measure import (
     seconds_of,
 )
 from app.bench.solvers.live import grouped_gait
-from core.gait.gait import (
-    Gait,
-    GaitOptions,
-    drawn_timeline,
-    heading_step,
-    motion_problem,
-)
+from core.gait.gait import Gait, drawn_timeline, heading_step, motion_problem
+from core.gait.options import GaitOptions
 from core.library.library import library
 from core.motion.contact_timeline import ContactTimeline
 from core.problem.motion_problem import MotionProblem

@@ -10,14 +10,8 @@ import numpy as np
 
 from app.bench.common.measure import Row, milliseconds
 from app.plans.verified_result import verify
-from core.gait.gait import (
-    Gait,
-    GaitOptions,
-    Orientation,
-    drawn_timeline,
-    heading_step,
-    motion_problem,
-)
+from core.gait.gait import Gait, Orientation, drawn_timeline, heading_step, motion_problem
+from core.gait.options import GaitOptions
 from core.library.library import library
 from core.motion.contact_timeline import ContactTimeline
 from core.problem.motion_problem import MotionProblem

@@ -10,13 +10,8 @@ from pydantic import BaseModel, ConfigDict, Field
 from app.gaits.open_gait import OpenGait
 from app.gaits.sequence_documents import AskedPart, made_sequence, refreshed
 from app.studio.studio import Studio
-from app.web.dependencies import (
-    TheAuthor,
-    changed,
-    on_command_thread,
-    studio_of,
-)
-from core.gait.sequence_part import MOST_PARTS, MOST_TIMES
+from app.web.dependencies import TheAuthor, changed, on_command_thread, studio_of
+from core.gait.gait import MOST_NAME, MOST_NOTES, MOST_PARTS, MOST_TIMES
 
 router = APIRouter(prefix="/api", tags=["sequences"])
 TheStudio = Annotated[Studio, Depends(studio_of)]
@@ -34,9 +29,9 @@ class NewSequence(BaseModel):
     """A name, and the gaits that follow each other; a sequence among them stands for its parts."""
 
     model_config = ConfigDict(extra="forbid")
-    name: str = Field(max_length=120)
+    name: str = Field(max_length=MOST_NAME)
     parts: list[NewPart] = Field(min_length=1, max_length=MOST_PARTS)
-    notes: str = Field(default="", max_length=20_000)
+    notes: str = Field(default="", max_length=MOST_NOTES)
 
 
 @router.post("/sequences", status_code=201)

@@ -37,8 +37,7 @@ from app.store.database import Database
 from app.store.gait_files import GaitFiles
 from app.undo.history import Author
 from core.errors import CheckError, InputError
-from core.gait.gait import Gait, motion_problem
-from core.gait.sequence_part import SequencePart
+from core.gait.gait import Gait, SequencePart, motion_problem
 from core.library.library import library
 from core.library.new_gait import with_robot
 from core.library.sequence import derived, run_of, sequence_gait

@@ -10,8 +10,7 @@ import pytest
 
 from app.documents.gait_json import gait_content
 from app.emulator.emulated_robot import EmulatedRobot
-from core.gait.gait import Gait
-from core.gait.sequence_part import SequencePart
+from core.gait.gait import Gait, SequencePart
 from core.library.library import library
 from core.library.sequence import sequence_gait
 from core.wire.trajectory_csv import parse_trajectory_csv

@@ -13,8 +13,7 @@ from app.gaits.service import GaitService
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
 from app.studio.studio import Studio
-from core.gait.gait import motion_problem
-from core.gait.sequence_part import SequencePart
+from core.gait.gait import SequencePart, motion_problem
 from core.library.library import library
 from core.library.sequence import sequence_gait
 from core.robot.model import load_robot

@@ -10,17 +10,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.gait.gait import (
-    Gait,
-    GaitOptions,
-    Orientation,
-    drawn_timeline,
-    with_iterations,
-)
+from core.gait.gait import Gait, Orientation, SequencePart, drawn_timeline, with_iterations
 from core.gait.gait_difference import OPTION_WORDS, gait_difference
 from core.gait.held_feet import HeldFeet
+from core.gait.options import GaitOptions
 from core.gait.recording import Recording, RecordingForm
-from core.gait.sequence_part import SequencePart
 from core.library.library import library
 from core.motion.heading_profile import HeadingProfile
 from core.problem.motion_problem import Boundary, Cost, Workspace

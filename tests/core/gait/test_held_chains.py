@@ -10,9 +10,9 @@ import pytest
 
 from core.errors import InputError
 from core.gait.chain import Chain, Piece, chain
-from core.gait.gait import Gait, GaitOptions, motion_problem
+from core.gait.gait import Gait, SequencePart, motion_problem
 from core.gait.held_feet import HeldFeet
-from core.gait.sequence_part import SequencePart
+from core.gait.options import GaitOptions
 from core.library.sequence import run_of, sequence_gait
 from core.motion.trajectory import Trajectory
 from core.problem.motion_check import check_motion

@@ -8,13 +8,8 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.gait.gait import (
-    Gait,
-    GaitOptions,
-    drawn_timeline,
-    motion_problem,
-    with_return,
-)
+from core.gait.gait import Gait, drawn_timeline, motion_problem, with_return
+from core.gait.options import GaitOptions
 from core.library.library import (
     SAMPLE_TIME,
     Group,

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from core.errors import InfeasibleError, InputError
 from core.gait.chain import Chain, Piece, chain
-from core.gait.gait import Gait, GaitOptions, motion_problem
+from core.gait.gait import Gait, SequencePart, motion_problem
 from core.gait.manual_motion import manual_motion
-from core.gait.sequence_part import SequencePart
+from core.gait.options import GaitOptions
 from core.gait.transition import feet_transition
 from core.library.library import library, optimised_entry
 from core.library.sequence import (

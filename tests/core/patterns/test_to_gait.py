@@ -12,14 +12,9 @@ from hypothesis import strategies as st
 from app.documents.gait_json import gait_content, gait_from_content
 from core.arrays import Bools
 from core.errors import InputError
-from core.gait.gait import (
-    Gait,
-    GaitOptions,
-    Orientation,
-    heading_step,
-    motion_problem,
-)
+from core.gait.gait import Gait, Orientation, heading_step, motion_problem
 from core.gait.held_feet import HeldFeet
+from core.gait.options import GaitOptions
 from core.library.library import library, library_patterns
 from core.motion.contact_timeline import bits_from_rows, rows_from_bits, timeline_from_rows
 from core.patterns.to_gait import (

@@ -8,12 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from core.gait.gait import (
-    GaitOptions,
-    drawn_timeline,
-    heading_step,
-    motion_problem,
-)
+from core.gait.gait import drawn_timeline, heading_step, motion_problem
+from core.gait.options import GaitOptions
 from core.library.library import library
 from core.motion.contact_timeline import ContactTimeline, timeline_from_order
 from core.motion.heading_profile import HeadingProfile

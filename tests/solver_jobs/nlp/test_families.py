@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from core.gait.gait import GaitOptions, heading_step, motion_problem
+from core.gait.gait import heading_step, motion_problem
+from core.gait.options import GaitOptions
 from core.library.library import library
 from core.motion.contact_timeline import timeline_from_order
 from core.motion.heading_profile import HeadingProfile

@@ -11,12 +11,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from core.gait.gait import (
-    Gait,
-    GaitOptions,
-    heading_step,
-    motion_problem,
-)
+from core.gait.gait import Gait, heading_step, motion_problem
+from core.gait.options import GaitOptions
 from core.library.library import library
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import Workspace

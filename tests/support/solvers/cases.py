@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from core.gait.gait import GaitOptions, heading_step, motion_problem
+from core.gait.gait import heading_step, motion_problem
+from core.gait.options import GaitOptions
 from core.library.library import Group, group_ids, library
 from core.problem.motion_problem import Cost, MotionProblem, Workspace
 from core.robot.model import load_robot

@@ -13,7 +13,6 @@ from core.arrays import Bools
 from core.errors import InputError
 from core.gait.gait import Gait
 from core.motion.contact_timeline import bits_from_rows
-from core.patterns.finishing import finishing_length
 from core.patterns.limits import balance_model, walkable
 from core.patterns.problem import (
     FREE,
@@ -30,6 +29,7 @@ from core.patterns.sides import PatternSide
 from core.patterns.sources import (
     LimbState,
     completion_problem,
+    finishing_length,
     periodic_problem,
     transition_problem,
     with_locked_cells,

@@ -11,10 +11,9 @@ from core.errors import InputError
 from core.gait.gait import Gait
 from core.library.library import library
 from core.motion.contact_timeline import timeline_from_rows
-from core.patterns.finishing import finished_phases, finishing_length
 from core.patterns.problem import FREE, PatternProblem, PatternRules
 from core.patterns.sides import PatternSide
-from core.patterns.sources import transition_problem
+from core.patterns.sources import finished_phases, finishing_length, transition_problem
 
 WALK, AMBLE = library()["walk"].gait, library()["amble"].gait
 

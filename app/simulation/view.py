@@ -17,8 +17,7 @@ from core.physics.metrics import (
     rotations,
     soles,
 )
-from core.physics.motion import SimulatedMotion
-from core.physics.plan_axis import plan_times
+from core.physics.motion import SimulatedMotion, plan_times
 from core.physics.problem import SimulationProblem
 from core.physics.report import SimulationReport
 from core.physics.variations import VariedRun

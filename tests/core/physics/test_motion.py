@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.physics.plan_axis import plan_times
+from core.physics.motion import plan_times
 from tests.support.simulated_walk import SAMPLES_A_MOVE, followed, walk_problem
 
 

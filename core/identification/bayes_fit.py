@@ -12,9 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.arrays import Bools, Floats
-from core.identification.design import space_filling_points
 from core.identification.parameters import FitParameter, box
-from core.identification.surrogate import Surrogate
+from core.identification.surrogate import Surrogate, space_filling_points
 
 DRAWS = 16_000
 """Points drawn of what is thought before the trials."""

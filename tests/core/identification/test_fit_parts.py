@@ -7,9 +7,8 @@ import pytest
 
 from core.errors import CheckError
 from core.identification.baseline import baseline_left_out
-from core.identification.design import space_filling_points
 from core.identification.parameters import FIT_PARAMETERS, box, physics_at
-from core.identification.surrogate import fit_surrogate
+from core.identification.surrogate import fit_surrogate, space_filling_points
 from core.physics.parameters import physics_set
 from core.trials.displacement import motion_displacement, track_displacement
 from core.vision.track import FootTrack

@@ -21,6 +21,7 @@ from app.plans.verified_result import VerifiedResult, verify
 from core.errors import InputError, StateError
 from core.gait.gait import Gait, motion_problem
 from core.gait.provenance import Provenance
+from core.library.library import library
 from core.motion.trajectory import Trajectory
 from core.problem.motion_problem import MotionProblem
 from core.robot.model import load_robot
@@ -188,3 +189,9 @@ def _iterate_content(iterate: Any) -> dict[str, Any]:
         "primal": values["primal_infeasibility"],
         "dual": values["dual_infeasibility"],
     }
+
+
+def likely_problem() -> MotionProblem:
+    """The problem that is likely to be asked first, for workers to warm up with."""
+    gait = next(iter(library().values())).gait
+    return motion_problem(gait, load_robot(gait.robot))

@@ -44,36 +44,35 @@ class JobRequest(BaseModel):
 @router.post("", status_code=202)
 async def submit(job: JobRequest, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
     """Starts the optimisation of a gait as it is now, the search for its fastest timing, or a simulation."""
+    commands = studio.job_commands
     if job.kind == "simulate":
         content = await on_planned(
-            studio, job.gait, lambda: studio.submit_simulation(job.gait, job.physics, job.variations)
+            studio, job.gait, lambda: commands.submit_simulation(job.gait, job.physics, job.variations)
         )
         return {"id": content["id"]}
     kind = JobKind.TIMING if job.kind == "timing" else JobKind.MOTION
-    content = await on_command_thread(studio, lambda: studio.submit_job(job.gait, kind, author))
+    content = await on_command_thread(studio, lambda: commands.submit_job(job.gait, kind, author))
     return {"id": content["id"]}
 
 
 @router.get("")
 async def list_jobs(studio: TheStudio) -> dict[str, Any]:
     """The newest jobs, newest first."""
-    return {
-        "jobs": await on_command_thread(
-            studio, lambda: [studio.job_view(c) for c in studio.job_repository.contents()]
-        )
-    }
+    return {"jobs": await on_command_thread(studio, studio.publisher.job_views)}
 
 
 @router.get("/{job_id}")
 async def read_job(job_id: str, studio: TheStudio) -> dict[str, Any]:
     """A job with its course so far."""
-    return await on_command_thread(studio, lambda: studio.job_view(studio.job_repository.content(job_id)))
+    return await on_command_thread(
+        studio, lambda: studio.publisher.job_view(studio.job_repository.content(job_id))
+    )
 
 
 @router.delete("/{job_id}")
 async def cancel(job_id: str, studio: TheStudio) -> dict[str, Any]:
     """Cancels a job; one that has ended stays as it is."""
-    return await on_command_thread(studio, lambda: studio.cancel_job(job_id))
+    return await on_command_thread(studio, lambda: studio.job_commands.cancel_job(job_id))
 
 
 @router.get("/{job_id}/course/{number}")

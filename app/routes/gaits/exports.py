@@ -91,7 +91,7 @@ async def import_gait(
     )
 
     def create() -> OpenGait:
-        taken = {summary["name"] for summary in studio.summaries()}
+        taken = {summary["name"] for summary in studio.publisher.summaries()}
         gait = replace(described.gait, name=free_name(described.gait.name, taken))
         return studio.gaits.create(gait)
 

@@ -76,7 +76,7 @@ async def _document(request: Request) -> bytes:
 @router.get("")
 async def list_gaits(studio: TheStudio) -> dict[str, Any]:
     """Built-in and saved gaits."""
-    return {"gaits": await on_command_thread(studio, studio.summaries)}
+    return {"gaits": await on_command_thread(studio, studio.publisher.summaries)}
 
 
 @router.get(f"/{ROUTE}")
@@ -118,7 +118,7 @@ async def read_gait(gait_id: str, studio: TheStudio) -> dict[str, Any]:
 @router.get("/{gait_id}/view")
 async def view_gait(gait_id: str, studio: TheStudio) -> dict[str, Any]:
     """The gait with its plan, verdict and approval."""
-    return await on_planned(studio, gait_id, lambda: studio.view(gait_id))
+    return await on_planned(studio, gait_id, lambda: studio.publisher.view(gait_id))
 
 
 @router.put("/{gait_id}", openapi_extra=_DOCUMENT)
@@ -146,8 +146,8 @@ async def delete_gait(gait_id: str, studio: TheStudio) -> dict[str, Any]:
     def delete() -> dict[str, Any]:
         instead = studio.gaits.delete(gait_id)
         if instead is not None:
-            studio.publish_soon(instead.id)
-        studio.publish_list()
+            studio.publisher.publish_soon(instead.id)
+        studio.publisher.publish_list()
         return {"deleted": gait_id}
 
     return await on_command_thread(studio, delete)
@@ -212,7 +212,7 @@ async def check(gait_id: str, studio: TheStudio) -> dict[str, Any]:
 
     def checked() -> dict[str, Any]:
         open_gait = studio.gaits.check(gait_id)
-        studio.publish_gait(open_gait)
+        studio.publisher.publish_gait(open_gait)
         if open_gait.verdict is None:
             raise StateError("The check gave no verdict.", "check")
         return verdict_view(open_gait.verdict)
@@ -227,7 +227,7 @@ async def approve(gait_id: str, approval: Approve, studio: TheStudio) -> dict[st
     def approved() -> dict[str, Any]:
         request = ApprovalRequest(approval.by, approval.verdict_hash, approval.accept_warnings)
         open_gait = studio.gaits.approve(gait_id, request)
-        studio.publish_gait(open_gait)
+        studio.publisher.publish_gait(open_gait)
         if open_gait.approval is None:
             raise StateError("The approval was not recorded.", "approve")
         return approval_view(open_gait.approval)

@@ -63,5 +63,5 @@ async def refresh_sequence(
 @router.post("/gaits/{gait_id}/sequence/optimise", status_code=202)
 async def optimise_parts(gait_id: str, studio: TheStudio) -> dict[str, Any]:
     """Starts the exact tier for each part that has no exact motion yet."""
-    views = await on_command_thread(studio, lambda: studio.submit_parts(gait_id))
+    views = await on_command_thread(studio, lambda: studio.job_commands.submit_parts(gait_id))
     return {"jobs": [view["id"] for view in views]}

@@ -53,7 +53,7 @@ async def name_version(gait_id: str, naming: Naming, studio: TheStudio, author: 
     def keep() -> dict[str, Any]:
         open_gait = studio.gaits.open_gait(gait_id)
         row = studio.gaits.versions.keep(open_gait, VersionKind.NAMED, author, naming.name)
-        studio.publish_gait(open_gait)
+        studio.publisher.publish_gait(open_gait)
         return _line(row, open_gait, row.motion)
 
     return await on_planned(studio, gait_id, keep)

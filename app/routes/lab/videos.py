@@ -228,5 +228,5 @@ async def track(video: str, asked: TrackRequest, studio: TheStudio, author: TheA
         asked.run,
     )
     order = TrackOrder(video, asked.setup, words, planned)
-    content = await on_command_thread(studio, lambda: studio.submit_tracking(order))
+    content = await on_command_thread(studio, lambda: studio.job_commands.submit_tracking(order))
     return {"id": content["id"]}

@@ -92,7 +92,7 @@ async def create_gait(use: PatternUse, studio: TheStudio) -> dict[str, Any]:
     gait = await _gait(studio, use)
 
     def create() -> OpenGait:
-        taken = {summary["name"] for summary in studio.summaries()}
+        taken = {summary["name"] for summary in studio.publisher.summaries()}
         return studio.gaits.create(replace(gait, name=free_name(gait.name, taken)))
 
     return await changed(studio, create)

@@ -147,8 +147,10 @@ async def _told(studio: Studio) -> list[dict[str, Any]]:
 
     def act() -> None:
         gait = studio.gaits.open_gait("trial-0001").gait
-        studio.publish_gait(studio.gaits.edit("trial-0001", replace(gait, name="Better"), "Name", None))
-        studio.publish_gait(studio.gaits.create(replace(gait, name="Another")))
+        studio.publisher.publish_gait(
+            studio.gaits.edit("trial-0001", replace(gait, name="Better"), "Name", None)
+        )
+        studio.publisher.publish_gait(studio.gaits.create(replace(gait, name="Another")))
 
     await asyncio.wrap_future(studio.call(act))
     events: list[dict[str, Any]] = []

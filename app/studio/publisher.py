@@ -1,0 +1,194 @@
+"""What the pages are shown: gaits with their plans, the list of gaits, jobs, trials and the robot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from concurrent.futures import Future
+from typing import Any
+
+from app.common.version import VERSION
+from app.documents.gait_json import asked_hash
+from app.gaits.open_gait import OpenGait
+from app.gaits.planner import Planner
+from app.gaits.sequence_documents import source_states
+from app.gaits.service import GaitService
+from app.gaits.summaries import GaitSummaries
+from app.gaits.views import gait_view, steps_view
+from app.jobs.repository import JobRepository
+from app.plans.sequence_plan import run_motions
+from app.session.command_queue import log_failure
+from app.session.event_hub import EventHub
+from app.simulation.repository import SimulationRepository
+from app.simulation.service import KIND as SIMULATE
+from app.videos.tracking_service import KIND as TRACK
+from core.errors import FootfallError
+from core.gait.gait import Gait
+
+Content = dict[str, Any]
+
+
+class Publisher:
+    """Makes the views of what changed and sends them to the pages; for the session's thread.
+
+    `tell_page`, `publish_trial` and `publish_robot` may be called from any thread.
+
+    Args:
+        hub: the pages.
+        gaits: the gaits.
+        plans: makes the plan that a view needs.
+        simulations: the simulations that are kept.
+        job_repository: the list of jobs.
+    """
+
+    def __init__(
+        self,
+        hub: EventHub,
+        gaits: GaitService,
+        plans: Planner,
+        simulations: SimulationRepository,
+        job_repository: JobRepository,
+    ) -> None:
+        self._hub = hub
+        self._gaits = gaits
+        self._plans = plans
+        self._simulations = simulations
+        self._job_repository = job_repository
+        self._list = GaitSummaries(gaits)
+        self._simulated_as: dict[str, frozenset[str]] = {}
+        self._told_sources: dict[str, tuple[int, list[str]]] = {}
+
+    def hello(self, robot: Content) -> Content:
+        """The first event of every page: everything that it renders from.
+
+        Args:
+            robot: the robot's view.
+        """
+        return {
+            "type": "hello",
+            "version": VERSION,
+            "gaits": self.summaries(),
+            "jobs": self.job_views(),
+            "robot": robot,
+        }
+
+    def summaries(self) -> list[Content]:
+        """The list of gaits."""
+        return self._list.lines()
+
+    def view(self, gait_id: str) -> Content:
+        """A gait with its plan."""
+        is_first = gait_id not in self._simulated_as
+        view = self._gait_view(self._gaits.open_gait(gait_id))
+        if is_first:
+            self._publish_jobs(gait_id)
+        return view
+
+    def _gait_view(self, open_gait: OpenGait) -> Content:
+        plan = self._gaits.plan(open_gait.id)
+        self._simulated_as[open_gait.id] = self._simulations.keys_of(plan)
+        view = gait_view(open_gait, plan, self._hub.pages())
+        return view | {
+            "simulation": self._simulations.standing(open_gait.id, plan),
+            "sources": self._sources(open_gait),
+            "version": self._gaits.versions.newest_number(open_gait.id),
+        }
+
+    def _sources(self, open_gait: OpenGait) -> list[str]:
+        return [state.value for state in source_states(open_gait.gait, self._glanced)]
+
+    def _glanced(self, gait_id: str) -> Gait:
+        """A gait that is not opened for it, which reads its whole history."""
+        return self._gaits.glance(gait_id)[0]
+
+    def job_views(self) -> list[Content]:
+        """The newest jobs, newest first."""
+        return [self.job_view(content) for content in self._job_repository.contents()]
+
+    def job_view(self, content: Content) -> Content:
+        """A job, and whether it is of the gait as it is now; None where its plan is not made yet."""
+        if content["kind"] == TRACK:
+            return {**content, "fresh": None}
+        if content["kind"] == SIMULATE:
+            keys = self._simulated_as.get(content["gait"])
+            return {**content, "fresh": None if keys is None else content["motion"] in keys}
+        try:
+            gait = self._glanced(content["gait"])
+            fresh = content["motion"] in (run_motions(gait) if gait.sequence else {asked_hash(gait)})
+        except FootfallError:  # it is gone, or its file is damaged
+            fresh = False
+        return {**content, "fresh": fresh}
+
+    def publish_soon(self, gait_id: str, shown: Future[Content] | None = None) -> None:
+        """Shows a gait to every page once its plan is known.
+
+        Args:
+            gait_id: which gait.
+            shown: where its view goes; None where nobody waits for it.
+        """
+        if shown is None:
+            shown = Future()
+            shown.add_done_callback(log_failure)
+        self._plans.after(gait_id, lambda: self.publish_gait(self._gaits.open_gait(gait_id)), shown)
+
+    def publish_all_soon(self, gaits: Iterable[OpenGait]) -> None:
+        """Shows gaits to every page, each once its plan is known."""
+        for open_gait in gaits:
+            self.publish_soon(open_gait.id)
+
+    def publish_gait(self, open_gait: OpenGait) -> Content:
+        """Shows a changed gait to every page, with the jobs that it touches; pages keep their lists."""
+        view = self._gait_view(open_gait)
+        self._hub.publish({"type": "gait", "view": view})
+        if not self._list.has(open_gait.id):
+            self.publish_list()
+        self._publish_jobs(open_gait.id)
+        for sequence in self._gaits.sequences_with(open_gait.id):
+            self._publish_sources(sequence)
+        return view
+
+    def publish_list(self) -> None:
+        """Shows the list of gaits to every page."""
+        self._hub.publish({"type": "gaits", "gaits": self.summaries()})
+
+    def _publish_sources(self, sequence: OpenGait) -> None:
+        """Shows which parts of a sequence differ from their gaits, if that is new."""
+        sources = self._sources(sequence)
+        if self._told_sources.get(sequence.id) != (sequence.revision, sources):
+            self._told_sources[sequence.id] = (sequence.revision, sources)
+            told = {"id": sequence.id, "revision": sequence.revision, "sources": sources}
+            self._hub.publish({"type": "sources", **told})
+
+    def publish_steps(self, page: str) -> None:
+        """Shows what can be undone of the gaits that a page edited, which follows from who is there."""
+        for open_gait in self._gaits.touched_by(page):
+            steps = {"id": open_gait.id, "revision": open_gait.revision}
+            self._hub.publish({"type": "steps", **steps, **steps_view(open_gait, self._hub.pages())})
+
+    def publish_job(self, content: Content) -> Content:
+        """Shows a job to every page, and returns its view."""
+        view = self.job_view(content)
+        self._hub.publish({"type": "job", "job": view})
+        return view
+
+    def _publish_jobs(self, gait_id: str) -> None:
+        for content in self._job_repository.contents():
+            if content["gait"] == gait_id:
+                self.publish_job(content)
+
+    def publish_simulation(self, content: Content) -> None:
+        """Shows a simulation's job, and once it is done its gait, which has another simulation now."""
+        if content["state"] == "done":
+            self.publish_soon(content["gait"])
+        self.publish_job(content)
+
+    def publish_trial(self, change: Content) -> None:
+        """Shows every page that a trial changed."""
+        self._hub.publish({"type": "trial", "trial": change})
+
+    def publish_robot(self, view: Content) -> None:
+        """Shows the robot to every page."""
+        self._hub.publish({"type": "robot", "robot": view})
+
+    def tell_page(self, page: str, event: Content) -> None:
+        """Sends an event to one page."""
+        self._hub.publish(event, page)

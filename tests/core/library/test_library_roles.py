@@ -7,10 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.gait.gait import Gait, Orientation
+from core.gait.gait import Gait, Orientation, ring_roles
 from core.library.library import library, optimised_entry
 from core.library.new_gait import with_robot
-from core.robot.leg_names import ring_roles
 from core.robot.model import load_robot
 
 MODEL = load_robot("deltawalker")

@@ -20,8 +20,6 @@ from app.videos.tracking_service import TrackingService, TrackOrder
 from core.errors import StateError
 from solver_jobs import JobKind
 
-_SCRIPT = Author()
-
 Content = dict[str, Any]
 
 
@@ -59,7 +57,7 @@ class JobCommands:
         self._tracks = tracks
         self._publisher = publisher
 
-    def submit_job(self, gait_id: str, kind: JobKind = JobKind.MOTION, author: Author = _SCRIPT) -> Content:
+    def submit_job(self, gait_id: str, kind: JobKind, author: Author) -> Content:
         """Starts an optimisation, or the search for the fastest timing.
 
         What is optimised is computed from then on: a recorded motion is set aside, by an edit of the author.
@@ -88,7 +86,7 @@ class JobCommands:
         contents = [self._jobs.submit(replace(open_gait, gait=run)) for run in runs]
         return [self._publisher.publish_job(content) for content in contents]
 
-    def submit_simulation(self, gait_id: str, physics: str | None = None, variations: int = 0) -> Content:
+    def submit_simulation(self, gait_id: str, physics: str | None, variations: int) -> Content:
         """Starts a simulation of what would be sent of a gait; its plan is made.
 
         Args:

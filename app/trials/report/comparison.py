@@ -19,9 +19,6 @@ from core.errors import InputError
 MOST_BANDS = 40
 """Gaits whose trials are drawn; the file would be too large to read."""
 
-BandOf = Callable[[Sequence[str]], dict[str, Any]]
-"""Trials over each other by their ids (`app.trials.bands.band_content`)."""
-
 _KEY = "Each trial thin, their mean solid, the plan dotted; in the robot's frame, cm. Their ends lie apart by"
 
 

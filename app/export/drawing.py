@@ -8,6 +8,9 @@ from dataclasses import dataclass
 from enum import StrEnum
 from itertools import pairwise
 
+INK, QUIET, GRID, SHEET = "#1b2430", "#667085", "#e3e6eb", "#ffffff"
+"""Colours of lines and words, of lesser ones, of the grid and of the ground."""
+
 
 class Anchor(StrEnum):
     """Which end of a text stands at its place."""

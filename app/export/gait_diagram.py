@@ -8,12 +8,12 @@ from itertools import groupby
 
 import numpy as np
 
-from app.export.drawing import Anchor, Box, Dot, Drawing, Rule, Shape, Words, hatching
+from app.export.drawing import INK, QUIET, SHEET, Anchor, Box, Dot, Drawing, Rule, Shape, Words, hatching
 from core.arrays import Bools
 from core.gait.gait import Gait
 from core.robot.model import RobotModel
 
-INK, QUIET, GRID, STANCE, LOCKED, SHEET = "#1b2430", "#667085", "#d5dae2", "#eceef2", "#8b5cf6", "#ffffff"
+GRID, STANCE, LOCKED = "#d5dae2", "#eceef2", "#8b5cf6"
 WIDTH, LEFT, RIGHT = 1120.0, 104.0, 76.0
 TOP, BARE_TOP = 96.0, 40.0
 """Above the first row: with name and facts, and without them, px."""

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.export.drawing import Anchor, Dot, Drawing, Rule, Shape, Trace, Words
+from app.export.drawing import GRID, INK, QUIET, SHEET, Anchor, Dot, Drawing, Rule, Shape, Trace, Words
 from core.arrays import Floats
 
-INK, QUIET, GRID, SHEET = "#1b2430", "#667085", "#e3e6eb", "#ffffff"
 SIZE, EDGE, HEAD = 300.0, 30.0, 26.0
 """Side of the plot, space for numbers at the left and below, and for the title, px."""
 RIGHT = 12.0

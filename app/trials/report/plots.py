@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from app.export.drawing import Anchor, Dot, Drawing, Rule, Shape, Trace, Words, dashed
+from app.export.drawing import GRID, QUIET, SHEET, Anchor, Dot, Drawing, Rule, Shape, Trace, Words, dashed
 from app.trials.figures import CM
 from core.arrays import Bools, Floats
 from core.vision.track import FootTrack
 
-QUIET, GRID, SHEET, UNSEEN = "#667085", "#e3e6eb", "#ffffff", "#9aa3b2"
+UNSEEN = "#9aa3b2"
 SIZE, EDGE = 300.0, 26.0
 WIDE, TALL = 640.0, 170.0
 MOST_POINTS = 800

@@ -22,6 +22,7 @@ from app.web.dependencies import (
     studio_of,
 )
 from core.errors import InputError
+from core.gait.gait import MOST_NAME
 from core.gait.recording import MOST_FILE_NAME
 
 router = APIRouter(prefix="/api/gaits", tags=["gaits"])
@@ -75,7 +76,7 @@ async def import_gait(
     request: Request,
     studio: TheStudio,
     file: Annotated[str, Query(min_length=1, max_length=MOST_FILE_NAME)] = NO_FILE,
-    name: Annotated[str | None, Query(max_length=120)] = None,
+    name: Annotated[str | None, Query(max_length=MOST_NAME)] = None,
     sample_time: Annotated[float | None, Query(gt=0)] = None,
     robot: Annotated[str | None, Query(max_length=80)] = None,
 ) -> dict[str, Any]:

@@ -91,7 +91,7 @@ async def create_gait(
     request: Request,
     studio: TheStudio,
     copy_of: Annotated[str | None, Query(max_length=80)] = None,
-    name: Annotated[str | None, Query(max_length=120)] = None,
+    name: Annotated[str | None, Query(max_length=MOST_NAME)] = None,
 ) -> dict[str, Any]:
     """Saves a new gait from a document, or from a copy of another."""
     body = await _document(request)

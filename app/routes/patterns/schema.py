@@ -6,12 +6,12 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from core.patterns.problem import MOST_LEGS, MOST_SAMPLES, PatternRules, PatternWeights
+from core.gait.gait import MOST_NAME
+from core.patterns.problem import MOST_LEGS, MOST_SAMPLES
+from core.patterns.sources import F_RULES, F_WEIGHTS
 
 MOST_COUNT, MOST_SECONDS = 20, 120.0
 """Patterns and s that may be asked for."""
-
-_F, _W = PatternRules(), PatternWeights()
 
 Number = Annotated[int | None, Field(ge=0, le=MOST_SAMPLES)]
 Limb = Annotated[int, Field(ge=0, lt=MOST_LEGS)]
@@ -26,22 +26,22 @@ class _Asked(BaseModel):
 class AskedRules(_Asked):
     """The rules' numbers, the thesis's by default; null switches a rule off. `balance` is a margin in m."""
 
-    shortest_swing: Number = _F.shortest_swing
-    feet_down: Number = _F.feet_down
-    feet_down_each_side: Number = _F.feet_down_each_side
-    workload: Number = _F.workload
-    limb_changes: Number = _F.limb_changes
-    shortest_stance: Number = _F.shortest_stance
-    least_swing: Number = _F.least_swing
-    balance: float | None = _F.balance
+    shortest_swing: Number = F_RULES.shortest_swing
+    feet_down: Number = F_RULES.feet_down
+    feet_down_each_side: Number = F_RULES.feet_down_each_side
+    workload: Number = F_RULES.workload
+    limb_changes: Number = F_RULES.limb_changes
+    shortest_stance: Number = F_RULES.shortest_stance
+    least_swing: Number = F_RULES.least_swing
+    balance: float | None = F_RULES.balance
 
 
 class AskedWeights(_Asked):
     """What a change costs; whole numbers."""
 
-    sample_changes: int = _W.sample_changes
-    limb_changes: int = _W.limb_changes
-    drawing: int = _W.drawing
+    sample_changes: int = F_WEIGHTS.sample_changes
+    limb_changes: int = F_WEIGHTS.limb_changes
+    drawing: int = F_WEIGHTS.drawing
 
 
 class _Question(_Asked):
@@ -97,4 +97,4 @@ class PatternUse(_Asked):
 
     question: Question
     feet: Rows
-    name: str | None = Field(default=None, max_length=120)
+    name: str | None = Field(default=None, max_length=MOST_NAME)

@@ -15,14 +15,12 @@ from starlette.concurrency import run_in_threadpool
 from app.bridge.run_range import RunRange
 from app.studio.studio import Studio
 from app.undo.history import Author
-from app.web.dependencies import TheAuthor, on_planned, studio_of
+from app.web.dependencies import MOST_NAME, TheAuthor, on_planned, studio_of
 
 router = APIRouter(prefix="/api/robot", tags=["robot"])
 TheStudio = Annotated[Studio, Depends(studio_of)]
 
 SOMEBODY = "somebody on the page"
-MOST_NAME = 80
-"""Characters of a person's name."""
 
 
 class ActorBody(BaseModel):

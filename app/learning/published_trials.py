@@ -13,6 +13,7 @@ import numpy as np
 
 from app.learning.walks import heading_of
 from app.simulation.problem import way_problem
+from app.trials.figures import CM
 from core.errors import InputError
 from core.identification.learning import Walk
 from core.motion.trajectory import Trajectory
@@ -31,7 +32,6 @@ KINDS = {"A": ("walk", "Walk"), "B": ("ambl", "Amble"), "C": ("mtri", "S-Gait"),
 COLUMNS = ("dx", "dy", "dist")
 ITERATIONS, TRIALS = 3, 3
 """Of the published trials (thesis 5.3.2)."""
-CM = 100.0
 _ROW = re.compile(r"Traj([A-D])([a-d])(_.*)?")
 
 

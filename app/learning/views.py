@@ -8,10 +8,10 @@ from typing import Any
 
 from app.common.json_values import finite
 from app.simulation.problem import physics_content
+from app.trials.figures import CM
 from core.identification.learning import Learned, Prediction
 from core.identification.parameters import FitParameter
 
-CM = 100.0
 WAYS = {
     "as planned": "As planned",
     "default": "Physics, usual parameters",

@@ -15,6 +15,7 @@ from core.trials.movement import Movement, foot_movements, mean_movement
 from core.vision.track import FootTrack
 
 CM = 100.0
+"""Centimetres in a metre."""
 
 
 def movement_content(movement: Movement) -> dict[str, float]:

@@ -24,16 +24,13 @@ from solver_jobs.workers.nlp_worker import (
     Stop,
     Work,
 )
-from solver_jobs.workers.worker_process import WorkerEndedError, WorkerProcess
+from solver_jobs.workers.worker_process import POLL_SECONDS, WorkerEndedError, WorkerProcess
 
 GRACE_SECONDS = 1.0
 """How long a worker may take to stop when asked; then it is ended."""
 
 PUBLISH_SECONDS = 0.05
 """Progress is published no more often; the course itself is kept whole."""
-
-POLL_SECONDS = 0.02
-"""How soon a cancel or a limit is noticed."""
 
 _log = logging.getLogger(__name__)
 

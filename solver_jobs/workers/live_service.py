@@ -25,11 +25,10 @@ from solver_jobs.workers.live_worker import (
     run_live_worker,
 )
 from solver_jobs.workers.spawning import start_process
+from solver_jobs.workers.worker_process import JOIN_SECONDS
 
 _log = logging.getLogger(__name__)
 
-JOIN_SECONDS = 5.0
-"""How long a killed process may take to be gone."""
 LOAD_SECONDS = 20.0
 """How long a process may take for its answer that was started in the place of one that had ended."""
 

@@ -25,12 +25,9 @@ from solver_jobs.workers.task_worker import (
     Progress,
     Submit,
 )
-from solver_jobs.workers.worker_process import WorkerEndedError, WorkerProcess
+from solver_jobs.workers.worker_process import POLL_SECONDS, WorkerEndedError, WorkerProcess
 
 _log = logging.getLogger(__name__)
-
-POLL_SECONDS = 0.02
-"""How soon a wish to end is noticed."""
 
 SILENCE_SECONDS = 120.0
 """A process that tells nothing for so long is stuck, where a question does not say otherwise."""

@@ -10,6 +10,8 @@ from typing import Any
 from solver_jobs.workers.nlp_worker import run_worker
 from solver_jobs.workers.spawning import NICENESS, start_process
 
+POLL_SECONDS = 0.02
+"""How soon a wish to end is noticed."""
 JOIN_SECONDS = 5.0
 """How long a killed process may take to be gone."""
 

@@ -9,14 +9,12 @@ from typing import Any
 import numpy as np
 
 from app.cli.gait_options import Method, asked_gait, returns_anew
-from app.cli.output import end_on_sigterm, show
+from app.cli.output import INFEASIBLE, end_on_sigterm, show
 from app.export.trajectory_files import write_trajectory
 from core.errors import InputError
 from core.gait.gait import Gait, drawn_timeline
 from core.robot.model import load_robot
 from solver_jobs import Frontier, FrontierSearch
-
-INFEASIBLE = 3
 
 
 def run_frontier(options: Namespace) -> int:

@@ -9,6 +9,7 @@ from contextlib import suppress
 from typing import Any
 
 from app.cli.output import (
+    INFEASIBLE,
     Interrupted,
     end_on_sigterm,
     ignore_interrupts,
@@ -33,7 +34,7 @@ from core.patterns.problem import (
 )
 from solver_jobs import shortest_problem, solve_pattern
 
-INFEASIBLE, FAILED = 3, 4
+FAILED = 4
 TICK_SECONDS = 0.1
 """Between looks for Ctrl-C."""
 NOTHING: dict[str, Any] = {"objective": None, "limb_changes": None, "score": None, "pattern": []}

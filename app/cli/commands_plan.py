@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from app.cli.commands_gait import optimise
-from app.cli.output import note, show, verdict_lines
+from app.cli.output import NOT_FIT, note, show, verdict_lines
 from app.documents.gait_json import parse_gait
 from app.export.trajectory_files import read_text, read_trajectory, write_waypoints
 from app.gaits.views import verdict_view
@@ -35,7 +35,6 @@ from core.wire.waypoint_path import estimate_seconds
 from core.wire.waypoints import format_waypoint_csv
 from solver_jobs import SolveStatus, solve_live
 
-NOT_FIT = 4
 ROBOT = "deltawalker"
 
 

@@ -15,6 +15,7 @@ from typing import Any
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPlan
 from app.cli.output import (
     INTERRUPTED,
+    NOT_FIT,
     end_on_sigterm,
     note,
     show,
@@ -34,7 +35,6 @@ from core.robot.model import load_robot
 LOOK_SECONDS = 0.2
 """How often an emulated robot is looked at for fault states."""
 ROBOT_FAILED = 5
-NOT_FIT = 4
 
 
 def run_serve(options: Namespace) -> int:

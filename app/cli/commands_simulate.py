@@ -11,8 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from app.cli.commands_plan import NOT_FIT, ROBOT, trajectory_of
+from app.cli.commands_plan import ROBOT, trajectory_of
 from app.cli.output import (
+    NOT_FIT,
     Interrupted,
     end_on_sigterm,
     note,

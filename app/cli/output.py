@@ -13,6 +13,8 @@ from typing import Any
 from app.common.json_values import finite
 from core.findings import SendCost, Severity, Verdict
 
+INFEASIBLE, NOT_FIT = 3, 4
+"""Exit status of a command that found no motion or pattern, and of one whose check failed."""
 INTERRUPTED = 130
 """Exit status of a command that Ctrl-C or SIGTERM ended."""
 

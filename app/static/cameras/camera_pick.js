@@ -6,7 +6,7 @@ const SHARE = 0.6;
 const LEAST = 0.15;
 
 /** Hue, saturation and value, 0 to 1, as OpenCV defines them. */
-export function hsv([red, green, blue]) {
+function hsv([red, green, blue]) {
   const [high, low] = [Math.max(red, green, blue), Math.min(red, green, blue)];
   const spread = high - low;
   if (!spread) return [0, 0, high / 255];

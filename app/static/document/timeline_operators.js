@@ -77,7 +77,7 @@ export function turnedRows(rows, quarterTurns) {
   return rows.map((_, foot) => rows[(((foot - by) % rows.length) + rows.length) % rows.length]);
 }
 
-export const firstLocked = ({ timeline }) => {
+const firstLocked = ({ timeline }) => {
   const foot = (timeline.locked ?? []).findIndex((row) => row.includes("1"));
   return foot < 0 ? null : [foot, timeline.locked[foot].indexOf("1")];
 };

@@ -16,7 +16,7 @@ const WORDS = {
 const times = (count, word) => `${count} ${word}${count === 1 ? "" : "s"}`;
 
 /** "4 changes · 8 of single limbs": a pattern's score in words. */
-export function scoreWords({ sample_changes: changes, limb_changes: single, redrawn }, kept) {
+function scoreWords({ sample_changes: changes, limb_changes: single, redrawn }, kept) {
   return [times(changes, "change"), `${single} of single limbs`, kept && `${times(redrawn, "cell")} redrawn`].filter(Boolean).join(" · ");
 }
 

@@ -80,7 +80,7 @@ export function ruleOf({ rules }, { rule, usual, first = usual }) {
 }
 
 /** The rules as they are sent: SI, null for off. */
-export function rulesOf(state) {
+function rulesOf(state) {
   return Object.fromEntries(RULES.map((one) => {
     const { value, on } = ruleOf(state, one);
     return [one.rule, on ? (one.scale ? Number((value * one.scale).toPrecision(9)) : value) : null];

@@ -5,7 +5,7 @@ import { lane } from "../lib/latest_only.js";
 import { shownPlan } from "../state/store.js";
 import { report } from "../lib/toasts.js";
 
-export const SIMULATE = "simulate";
+const SIMULATE = "simulate";
 
 /** The simulation of the shown gait, also one of an older version; null where there is none, or it is not there yet. */
 export function simulationOf({ simulation, view }) {

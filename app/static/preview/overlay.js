@@ -6,7 +6,7 @@
  */
 
 /** Height of the floor under a robot with shoes, m. */
-export const SHOD_FLOOR = -0.018;
+const SHOD_FLOOR = -0.018;
 const GAP = 0.0004;
 const RING_RADIUS = 0.0125;
 const RING_PIECES = 20;
@@ -56,7 +56,7 @@ export function sampleAt(times, time) {
 }
 
 /** Colour of a support polygon by its margin (m). */
-export function marginColour(margin, caution) {
+function marginColour(margin, caution) {
   if (margin < 0) return BAD;
   return margin < caution ? CAUTION : GOOD;
 }

@@ -23,8 +23,8 @@
  *   "end"    the playhead reached the end without a loop; "state" follows.
  */
 
-export const SLOWEST = 0.1;
-export const FASTEST = 10;
+const SLOWEST = 0.1;
+const FASTEST = 10;
 
 const held = (value, low, high) => Math.min(Math.max(value, low), high);
 

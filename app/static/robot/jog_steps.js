@@ -4,7 +4,7 @@
 export const PARTS = [["motor", "Motor"], ["foot", "Foot"], ["body", "Body"]];
 
 /** Longest single step, mm. */
-export const LONGEST_MM = 20;
+const LONGEST_MM = 20;
 
 const AXES = ["x", "y", "z"];
 const NOTHING_MM = 1e-9;

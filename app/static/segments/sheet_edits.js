@@ -8,7 +8,7 @@ const plural = (count, word) => `${count} ${word}${count > 1 ? "s" : ""}`;
 const span = ([first, last]) => (first === last ? `${first + 1}` : `${first + 1}–${last + 1}`);
 
 /** "foot 2, segments 3–5" */
-export function rangeName(sheet, { rows, feet }) {
+function rangeName(sheet, { rows, feet }) {
   const foot = feet[0] === feet[1] ? `foot ${feet[0] + 1}` : `feet ${span(feet)}`;
   if (rows[1] < sheet.count) return `${foot}, segment${rows[0] === rows[1] ? "" : "s"} ${span(rows)}`;
   return `${foot}, ${rowName(sheet, rows[0])}${rows[0] === rows[1] ? "" : ` to ${rowName(sheet, rows[1])}`}`;

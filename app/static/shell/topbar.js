@@ -22,7 +22,7 @@ const ROBOT_TONES = {
 };
 
 export const robotTone = (robot) => ROBOT_TONES[robot?.robot] ?? "quiet";
-export const linkTone = (robot) => LINK_TONES[robot?.link] ?? "quiet";
+const linkTone = (robot) => LINK_TONES[robot?.link] ?? "quiet";
 
 /** True where the socket tells that a stop was taken, though nobody answered it. */
 const isStopped = ({ connected, robot }) => connected && ["stopping", "stopped"].includes(robot?.robot);

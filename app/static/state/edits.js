@@ -30,7 +30,7 @@ export function paintCells(document, cells, swing) {
 }
 
 /** Name of the undo entry for painted cells: "Foot 3, samples 8–12 to swing". */
-export function paintLabel(cells, swing) {
+function paintLabel(cells, swing) {
   const value = swing ? "swing" : "stance";
   const feet = [...new Set(cells.map(([foot]) => foot + 1))].sort((a, b) => a - b);
   const samples = cells.map(([, sample]) => sample + 1);

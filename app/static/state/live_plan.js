@@ -15,7 +15,7 @@ const HELD_MS = 600;
 const MOST_TRIES = 3;
 
 /** Whether the page shows an edit that the server's view does not have yet. */
-export const editUnderWay = ({ view, pending, gesture }) => Boolean(view) && (gesture !== null || pending.length > 0);
+const editUnderWay = ({ view, pending, gesture }) => Boolean(view) && (gesture !== null || pending.length > 0);
 
 /** What stands for a plan where a document makes none. */
 function refusedPlan(sentence) {

@@ -1,6 +1,7 @@
 /** The approvals that a gait ever had, which one stands, and what changed from one to another. */
 
 import { api } from "../api/gaits.js";
+import { sentences } from "../lib/difference.js";
 import { h } from "../lib/dom.js";
 import { clockTime, fixed, shortHash } from "../lib/format.js";
 import { turns } from "../lib/latest_only.js";
@@ -25,11 +26,6 @@ function item(record, compare) {
     h("span", { class: "quiet", text: figuresText(record), title: warnings.join("\n") || null }),
     h("span", { class: "where" }, h("span", { class: "mono", text: shortHash(waypoints), title: waypoints }),
       h("button", { class: "link", text: "compare", "aria-label": `Compare the approval by ${by}, ${clockTime(when)}`, on: { click: () => compare(record) } })));
-}
-
-function sentences(groups) {
-  if (!groups.length) return [h("p", { class: "quiet", text: "Nothing is different." })];
-  return groups.flatMap(({ title, sentences: list }) => [h("h4", { text: title }), h("ul", {}, ...list.map((text) => h("li", { text })))]);
 }
 
 /** Builds the part; it is empty while the gait has never been approved. */

@@ -2,6 +2,7 @@
 
 import { api } from "../api/gaits.js";
 import { dialogFrame, openDialog } from "../lib/dialogs.js";
+import { sentences } from "../lib/difference.js";
 import { byId, h, onPress, setAllowed, setAttribute } from "../lib/dom.js";
 import { clockTime } from "../lib/format.js";
 import { turns } from "../lib/latest_only.js";
@@ -19,12 +20,6 @@ function option(version, choose) {
     on: { click: () => choose(version.number) } },
     h("span", { class: "version-title" }, h("span", { class: "number quiet", text: String(version.number) }), h("b", { text: titleOf(version) })),
     h("span", { class: "version-when quiet", text: [clockTime(version.made), detail].filter(Boolean).join(" · ") }));
-}
-
-/** What is different, in groups of sentences. */
-function sentences(groups) {
-  if (!groups.length) return [h("p", { class: "quiet", text: "Nothing is different." })];
-  return groups.flatMap(({ title, sentences: list }) => [h("h4", { text: title }), h("ul", {}, ...list.map((text) => h("li", { text })))]);
 }
 
 function parts(id) {

@@ -130,11 +130,6 @@ class RunStore:
         """What the run was to do; None where it was not kept."""
         return self._content("run_plan", run)
 
-    def put_plan(self, run: str, content: dict[str, Any]) -> None:
-        """Stores what a run is to do."""
-        with self._database.writing() as connection:
-            _put_content(connection, "run_plan", run, content)
-
     def begin(self, content: dict[str, Any], plan: dict[str, Any] | None) -> None:
         """Stores a run that begins, and what it is to do, together."""
         with self._database.writing() as connection:

@@ -74,25 +74,23 @@ def keep_run(database: Database, by: str = "Ada", gait: str = "walk", day: int =
     done, run, log = ran(), secrets.token_hex(6), RunStore(database)
     seconds = done.robot.now - done.began
     started = STARTED + day * 86400.0
-    database.put_run(
-        {
-            "id": run,
-            "gait": gait,
-            "gait_name": gait.capitalize(),
-            "waypoints_hash": done.way.waypoints.content_hash,
-            "by": by,
-            "started": started,
-            "started_monotonic": done.began,
-            "ended": started + seconds,
-            "state": "done",
-            "sentence": "The last waypoint was reached.",
-            "reached": done.way.waypoints.count,
-            "count": done.way.waypoints.count,
-            "seconds": seconds,
-        }
-    )
+    content = {
+        "id": run,
+        "gait": gait,
+        "gait_name": gait.capitalize(),
+        "waypoints_hash": done.way.waypoints.content_hash,
+        "by": by,
+        "started": started,
+        "started_monotonic": done.began,
+        "ended": started + seconds,
+        "state": "done",
+        "sentence": "The last waypoint was reached.",
+        "reached": done.way.waypoints.count,
+        "count": done.way.waypoints.count,
+        "seconds": seconds,
+    }
     plan = Plan(PlanSource.MANUAL, "", ROBOT, done.trajectory, done.way, None)
-    log.put_plan(run, run_plan_content(plan, done.way, done.approval))
+    log.begin(content, run_plan_content(plan, done.way, done.approval))
     words = {True: Direction.TO_ROBOT.value, False: Direction.FROM_ROBOT.value}
     database.add_bytes([(run, piece.time, words[piece.to_robot], piece.data) for piece in done.robot.pieces])
     log.add_states([(run, one.time, one.link.value, one.robot.value, one.cause) for one in done.changes])

@@ -2,6 +2,9 @@
 
 import { authorHeaders } from "./author.js";
 
+/** Status of a change that somebody else's came before. */
+export const CONFLICT = 409;
+
 export class ApiError extends Error {
   /**
    * @param {string} message sentence for the user

@@ -2,9 +2,8 @@
 
 import { watchable } from "../state/store.js";
 import { report, toast } from "../lib/toasts.js";
+import { CONFLICT } from "../api/gaits.js";
 import { setupApi } from "../api/videos.js";
-
-const CONFLICT = 409;
 
 /** Whether two setups say the same. */
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);

@@ -1,10 +1,9 @@
 /** The figures of a simulation as people read them: one table of the whole, one of the feet, and what the rules found. */
 
 import { h } from "../lib/dom.js";
-import { fixed, mm } from "../lib/format.js";
+import { MOTORS, fixed, mm } from "../lib/format.js";
 import { planTimeOf } from "../plots/simulation.js";
 
-const MOTORS = 3;
 const degrees = (radians, decimals = 1) => fixed((radians * 180) / Math.PI, decimals);
 
 /** A button to a moment of the simulated robot; `after` stands behind its time. */

@@ -14,7 +14,7 @@ import { allFeet, isWhole, lengthOf, wordsOf, wholeOf } from "./region.js";
 import { FOLLOWS, isSequence } from "./sequence_edits.js";
 
 const MOST_ITERATIONS = 20;
-const MOST_SAMPLES = 2000;
+export const MOST_SAMPLES = 2000;
 
 const sampleCount = ({ timeline }) => timeline.feet[0].length;
 const swingCount = (row) => row.split("1").filter(Boolean).length;

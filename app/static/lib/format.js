@@ -1,5 +1,8 @@
 /** Numbers and words for people: units, rounding, times of day. */
 
+/** Motors of a leg. */
+export const MOTORS = 3;
+
 const MINUS = "\u2212";
 
 /** A number with a fixed count of decimals and a true minus sign. */

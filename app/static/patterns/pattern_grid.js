@@ -3,10 +3,8 @@
 import { rovingFocus } from "../timeline/cells.js";
 import { h, setAttribute, setText } from "../lib/dom.js";
 import { mountPatternDrawing } from "./pattern_drawing.js";
-import { buildRow, fitRow } from "../timeline/timeline_rows.js";
+import { DENSE, buildRow, fitRow } from "../timeline/timeline_rows.js";
 
-/** With more columns the cells stand without gaps. */
-const DENSE = 140;
 
 const FIXED_WORDS = { end: "given by a gait", limb: "locked limb", drawn: "drawn", given: "locked" };
 

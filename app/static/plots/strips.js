@@ -1,8 +1,6 @@
 /** What each strip plot shows: its series, its limits, and the figure at the playhead. */
 
-import { fixed } from "../lib/format.js";
-
-const MOTORS = 3;
+import { MOTORS, fixed } from "../lib/format.js";
 
 const known = (values) => values.filter((value) => value !== null && Number.isFinite(value));
 const columns = (rows, count, seriesOf) => (rows ? Array.from({ length: count(rows[0]) }, (_, at) => seriesOf(rows, at)) : null);

@@ -7,10 +7,10 @@ import { planUpdates, polygonUpdates, pressureAt, sampleAt, troubleUpdates } fro
 import { shellUpdate } from "./shells.js";
 import { visibleMessage } from "./viser_client.js";
 
-const COM = "/overlay/com";
+export const COM = "/overlay/com";
 const COP = "/overlay/cop";
 const SHELLS = "/robot/body/reach";
-const STILL = 1e-7;
+export const STILL = 1e-7;
 
 /** Marks of a fixed name by the part that shows or hides them; swings and footholds have a mark a foot. */
 const PARTS = {

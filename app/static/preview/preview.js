@@ -41,7 +41,7 @@
 
 import { Ghosts } from "./viser_ghosts.js";
 import { fineLooks } from "./looks.js";
-import { Marks } from "./marks.js";
+import { COM, Marks, STILL } from "./marks.js";
 import { floorOf } from "./overlay.js";
 import { PoseTable, VALUES_A_NODE } from "./poses.js";
 import { ServerRoute } from "./server_route.js";
@@ -51,10 +51,8 @@ import { ViserClient, cameraMessages, poseMessages, visibleMessage } from "./vis
 
 const FIRST_ROBOT = "deltawalker";
 const BODY = "/robot/body";
-const COM = "/overlay/com";
 const WATCH_MS = 250;
 const DIRECT_PATIENCE_MS = 8000;
-const STILL = 1e-7;
 const STRAY = 1e-5;
 const SETTLING_LOOKS = new Set([2, 4, 8]);
 const TARGET = [0, 0, 0.034];

@@ -1,10 +1,9 @@
 /** The 12 measured strokes as bars in the feet's colours, with a mark where the waypoint wants each motor. */
 
 import { h, setText } from "../lib/dom.js";
-import { fixed } from "../lib/format.js";
+import { MOTORS, fixed } from "../lib/format.js";
 
 const STROKE_MM = 20;
-const MOTORS = 3;
 
 function footRow(foot) {
   const bars = Array.from({ length: MOTORS }, (_, motor) => {

@@ -1,9 +1,8 @@
 /** Tables of a run's figures, and of two runs beside each other. */
 
 import { h } from "../lib/dom.js";
-import { fixed, seconds } from "../lib/format.js";
+import { MOTORS, fixed, seconds } from "../lib/format.js";
 
-const MOTORS = 3;
 const owner = (motor) => `foot ${Math.floor(motor / MOTORS) + 1}, motor ${(motor % MOTORS) + 1}`;
 
 function table(caption, help, head, rows) {

@@ -1,8 +1,7 @@
 /** Changes of the segment table: each gives `{change, label, kept, moved}` (see `commit`), `change` from sheet to sheet, or `{reason}`. */
 
+import { MOST_SAMPLES } from "../document/operations.js";
 import { errorSentence, errorsOf, placeAfter, placeBefore, rowName, waitAt, walked } from "../document/segment_sheet.js";
-
-const MOST_SAMPLES = 2000;
 
 const plural = (count, word) => `${count} ${word}${count > 1 ? "s" : ""}`;
 const span = ([first, last]) => (first === last ? `${first + 1}` : `${first + 1}–${last + 1}`);

@@ -7,13 +7,12 @@
  * Every act is of the gait that was shown when it was done: it reaches that one, also where another is shown by then.
  */
 
-import { api } from "../api/gaits.js";
+import { CONFLICT, api } from "../api/gaits.js";
 import { undoDraft } from "./segment_draft.js";
 import { FOLLOWS, isSequence } from "../document/sequence_edits.js";
 import { acceptView, shownDocument } from "./store.js";
 import { report, toast } from "../lib/toasts.js";
 
-const STALE = 409;
 const REFUSED = 422;
 const MOST_TRIES = 8;
 const NO_ANSWER = 0;
@@ -55,7 +54,7 @@ export function createEdits(store) {
     try {
       return await api.put(gait, document, batch.at(-1).label, view.revision);
     } catch (error) {
-      if (error.status !== STALE || error.where !== "revision" || tries === MOST_TRIES) throw error;
+      if (error.status !== CONFLICT || error.where !== "revision" || tries === MOST_TRIES) throw error;
       if (isShown(gait)) acceptView(store, await api.view(gait));
       return put(gait, batch, tries + 1);
     }
@@ -78,7 +77,7 @@ export function createEdits(store) {
     } catch (error) {
       if (error.status === NO_ANSWER) return false;
       const isStanding = batch.every((edit) => store.state.pending.includes(edit));
-      if (isStanding && drawing && [REFUSED, STALE].includes(error.status)) keep(batch, error.message);
+      if (isStanding && drawing && [REFUSED, CONFLICT].includes(error.status)) keep(batch, error.message);
       else {
         settle(batch, { formError: drawing ? null : error.message });
         if (drawing || !isShown(gait)) report(error);

@@ -7,10 +7,7 @@ import { mountRuler } from "./ruler.js";
 import { mountSelection } from "../state/selection.js";
 import { previewedDocument, shownDocument, shownPlan } from "../state/store.js";
 import { mountTimelineInput } from "./timeline_input.js";
-import { buildRow, drawRow, findingsByCell, fitRow } from "./timeline_rows.js";
-
-/** With more columns in the window the cells stand without gaps. */
-const DENSE = 140;
+import { DENSE, buildRow, drawRow, findingsByCell, fitRow } from "./timeline_rows.js";
 
 function showNote(store, edits) {
   const note = byId("edit-note");

@@ -3,6 +3,9 @@
 import { h, setAttribute, setText } from "../lib/dom.js";
 import { partOf } from "../document/swings.js";
 
+/** With more columns in the window the cells stand without gaps. */
+export const DENSE = 140;
+
 const name = (foot, sample, swing, locked) => `foot ${foot + 1}, sample ${sample + 1}: ${swing ? "swing" : "stance"}${locked ? ", locked" : ""}`;
 
 const buildCell = (_, sample) => h("div", { role: "gridcell", class: "cell", tabindex: "-1", "aria-colindex": sample + 1, "aria-selected": "false" });

@@ -1,9 +1,8 @@
 /** A trial as the studio keeps it, followed while it is shown: changed here one after the other, and elsewhere at any time. */
 
 import { announce, report, toast } from "../lib/toasts.js";
+import { CONFLICT } from "../api/gaits.js";
 import { trialApi } from "../api/trials.js";
-
-const CONFLICT = 409;
 
 /**
  * Follows a trial.

@@ -1,10 +1,10 @@
 /** Colours of the feet, tuned on a picture: what has the colour stays lit, and every spot says why it is a foot or is none. */
 
-import { drawSpots, spotNumbers } from "./camera_drawing.js";
+import { drawSpots, spotNumbers } from "./camera_overlay.js";
 import { limitFields, shareField } from "./camera_fields.js";
 import { hueRange } from "./camera_hue.js";
-import { colourPicking } from "./camera_picking.js";
-import { FOOT_NAMES } from "./camera_words.js";
+import { colourPicking } from "./camera_colour_picker.js";
+import { FOOT_NAMES } from "./camera_labels.js";
 import { h, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { measured } from "../state/live_plan.js";

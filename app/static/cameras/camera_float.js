@@ -1,6 +1,6 @@
 /** A camera's live picture in a corner of the 3D scene, so that the robot is seen while it walks. */
 
-import { cameraTone, cameraWord } from "./camera_words.js";
+import { cameraTone, cameraWord } from "./camera_labels.js";
 import { remember } from "../lib/check_menu.js";
 import { byId, h, icon, setText } from "../lib/dom.js";
 import { streamOf } from "../api/videos.js";

@@ -1,6 +1,6 @@
 /** The lens: pictures of a checkerboard, which of them show it, how well they agree, and the picture straightened. */
 
-import { LEAST_BOARDS, boardBook, boardRow, boardSources } from "./camera_boards.js";
+import { LEAST_BOARDS, boardBook, boardRow, boardSources } from "./camera_checkerboards.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { announce, attempt } from "../lib/toasts.js";

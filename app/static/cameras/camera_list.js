@@ -1,7 +1,7 @@
 /** The server's cameras: what each sees, which setup it has, whether it records with the run, and its live picture. */
 
-import { drawFeet } from "./camera_drawing.js";
-import { FOOT_NAMES, USES, cameraTone, cameraWord } from "./camera_words.js";
+import { drawFeet } from "./camera_overlay.js";
+import { FOOT_NAMES, USES, cameraTone, cameraWord } from "./camera_labels.js";
 import { toggleFloat } from "./camera_float.js";
 import { newSetup, openSetup } from "./camera_setup.js";
 import { h, setText } from "../lib/dom.js";

@@ -4,7 +4,7 @@ import { feetPart } from "./camera_feet.js";
 import { lensPart } from "./camera_lens.js";
 import { placePart } from "./camera_place.js";
 import { setupDraft } from "./camera_draft.js";
-import { setupWords } from "./camera_words.js";
+import { setupWords } from "./camera_labels.js";
 import { h, setText } from "../lib/dom.js";
 import { attempt, toast } from "../lib/toasts.js";
 import { setupApi } from "../api/videos.js";

@@ -15,7 +15,7 @@ import { tracksParts } from "../trials/trial_tracks.js";
 
 function addStyles() {
   const sheet = (name) => h("link", { rel: "stylesheet", href: new URL(name, import.meta.url).pathname });
-  document.head.append(sheet("../trials/trials.css"), sheet("../trials/trial_beside.css"));
+  document.head.append(sheet("../trials/trials.css"), sheet("../trials/trial_comparison.css"));
 }
 
 /** The panel with what stands in it; `begin()` tells later whether something else was asked for. */

@@ -1,7 +1,7 @@
 /** Drawing what one wants into a pattern: a click, a drag or a key fixes cells; the search finds the others anew. */
 
 import { cellOf } from "../timeline/cells.js";
-import { drawnCells, withCells } from "./pattern_question.js";
+import { drawnCells, withCells } from "./pattern_problem.js";
 import { announce, toast } from "../lib/toasts.js";
 
 const REFUSALS = {

@@ -1,7 +1,7 @@
 /** Which limbs walk: for a gait of some limbs each limb's part, for a transition the limbs that are locked. */
 
 import { h, setAllowed, setAttribute, setText } from "../lib/dom.js";
-import { limbsOf, ROLES } from "./pattern_question.js";
+import { limbsOf, ROLES } from "./pattern_problem.js";
 
 const HELP = { walks: "takes steps", held: "held up, for another task", broken: "does not move any more; it is held up", stands: "stays on the ground" };
 

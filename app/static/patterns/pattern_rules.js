@@ -1,7 +1,7 @@
 /** Rules and weights of the pattern search: each with a switch and its number, and the thesis's own beside it. */
 
 import { h, setText } from "../lib/dom.js";
-import { RULES, ruleOf, WEIGHTS } from "./pattern_question.js";
+import { RULES, ruleOf, WEIGHTS } from "./pattern_problem.js";
 
 const MOST_WEIGHT = 100000;
 

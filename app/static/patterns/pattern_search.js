@@ -3,9 +3,9 @@
 import { api } from "../api/gaits.js";
 import { lane } from "../lib/latest_only.js";
 import { measured } from "../state/live_plan.js";
-import { asked, bodyOf, lengthOf, limbsOf } from "./pattern_question.js";
+import { asked, bodyOf, lengthOf, limbsOf } from "./pattern_problem.js";
 import { timelineOf } from "./pattern_gaits.js";
-import { patternShown } from "./pattern_shown.js";
+import { patternShown } from "./pattern_grid_model.js";
 import { runIsOn, shownDocument } from "../state/store.js";
 import { attempt } from "../lib/toasts.js";
 

@@ -1,17 +1,17 @@
 /** The pattern search: its controls in the right column, and in the lower part the gaits with the pattern between them. */
 
 import { byId, h, setAttribute, setText, svg } from "../lib/dom.js";
-import { patternActs } from "./pattern_acts.js";
-import { patternAnswer } from "./pattern_answer.js";
+import { patternActs } from "./pattern_actions.js";
+import { patternAnswer } from "./pattern_result.js";
 import { patternFields } from "./pattern_fields.js";
-import { patternGait } from "./pattern_gait.js";
+import { patternGait } from "./pattern_gait_strip.js";
 import { mountPatternGaits, timelineOf, transitionGaits } from "./pattern_gaits.js";
 import { patternGrid } from "./pattern_grid.js";
 import { patternPlayhead } from "./pattern_playhead.js";
-import { createQuestion, drawnCells, limbsOf, withCells } from "./pattern_question.js";
+import { createQuestion, drawnCells, limbsOf, withCells } from "./pattern_problem.js";
 import { patternRules } from "./pattern_rules.js";
 import { mountSearch } from "./pattern_search.js";
-import { patternShown } from "./pattern_shown.js";
+import { patternShown } from "./pattern_grid_model.js";
 import { shownDocument } from "../state/store.js";
 import { toast } from "../lib/toasts.js";
 

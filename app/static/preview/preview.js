@@ -40,8 +40,8 @@
  */
 
 import { Ghosts } from "./viser_ghosts.js";
-import { fineLooks } from "./looks.js";
-import { COM, Marks, STILL } from "./marks.js";
+import { fineLooks } from "./shadow.js";
+import { Marks } from "./marks.js";
 import { floorOf } from "./overlay.js";
 import { PoseTable, VALUES_A_NODE } from "./poses.js";
 import { ServerRoute } from "./server_route.js";

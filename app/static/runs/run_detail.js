@@ -67,7 +67,7 @@ const file = (run, form, text, help) => h("a", { href: `/api/runs/${encodeURICom
 /** What cameras recorded with the run: a line that comes later than the page. */
 function recordedPart(id, open) {
   const place = h("div");
-  import("../cameras/camera_recorded.js").then(({ recordedLine }) => place.replaceWith(recordedLine(id, open))).catch(report);
+  import("../cameras/camera_recordings.js").then(({ recordedLine }) => place.replaceWith(recordedLine(id, open))).catch(report);
   return place;
 }
 

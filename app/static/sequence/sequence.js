@@ -6,7 +6,7 @@ import { fixed, mm } from "../lib/format.js";
 import { freeName } from "../document/gait_names.js";
 import { selectGait } from "../shell/gait_list.js";
 import { jobIsOn } from "../shell/job_list.js";
-import { betweenParts } from "./sequence_between.js";
+import { betweenParts } from "./sequence_transitions.js";
 import { added, isSequence } from "../document/sequence_edits.js";
 import { partRows } from "./sequence_rows.js";
 import { acceptView, runIsOn, shownDocument, shownPlan } from "../state/store.js";

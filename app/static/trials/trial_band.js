@@ -3,9 +3,9 @@
 import { h, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { attempt } from "../lib/toasts.js";
-import { besideApi } from "./trial_beside.js";
+import { besideApi } from "./trial_comparison.js";
 import { ground, legend, points } from "./trial_plot.js";
-import { wayFrame } from "./trial_way.js";
+import { wayFrame } from "./trial_displacement.js";
 
 /** The studio lays so many over each other; of more, the newest are chosen. */
 const MOST_TOGETHER = 20;

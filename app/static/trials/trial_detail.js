@@ -4,13 +4,13 @@ import { h, onPress } from "../lib/dom.js";
 import { clockTime, fixed } from "../lib/format.js";
 import { attempt } from "../lib/toasts.js";
 import { trialApi } from "../api/trials.js";
-import { besidePart } from "./trial_beside.js";
-import { followTrial } from "./trial_kept.js";
+import { besidePart } from "./trial_comparison.js";
+import { followTrial } from "./trial_sync.js";
 import { notePart } from "./trial_note.js";
 import { photosPart } from "./trial_photos.js";
 import { pathPlot } from "./trial_plot.js";
 import { sourcePart } from "./trial_source.js";
-import { wayPlot } from "./trial_way.js";
+import { wayPlot } from "./trial_displacement.js";
 
 function table(caption, help, head, rows) {
   return h("table", { class: "run-table", title: help }, h("caption", { text: caption }),

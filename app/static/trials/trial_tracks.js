@@ -4,7 +4,7 @@ import { recalled, remember } from "../lib/check_menu.js";
 import { h, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { attempt } from "../lib/toasts.js";
-import { besideApi } from "./trial_beside.js";
+import { besideApi } from "./trial_comparison.js";
 
 const LAYER = "trial-tracks";
 /** How the robots stood, and what the rings are. */

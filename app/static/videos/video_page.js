@@ -1,7 +1,7 @@
 /** One video in the panel, beside its picture: a camera setup is chosen or made, and its feet are tracked into a trial. */
 
 import { newSetup, openSetup } from "../cameras/camera_setup.js";
-import { setupWords } from "../cameras/camera_words.js";
+import { setupWords } from "../cameras/camera_labels.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { attempt, toast } from "../lib/toasts.js";
 import { walkFields } from "../trials/trial_form.js";

@@ -1,6 +1,6 @@
 /** Kept videos in a list, and a file on its way to the studio. */
 
-import { lengthWords, sizeWords } from "../cameras/camera_words.js";
+import { lengthWords, sizeWords } from "../cameras/camera_labels.js";
 import { h, setText } from "../lib/dom.js";
 import { clockTime, fixed } from "../lib/format.js";
 import { report, toast } from "../lib/toasts.js";

@@ -3,11 +3,11 @@
  * selected segments.
  */
 
-import { openChooser } from "./sheet_chooser.js";
-import { addLinkRow, fillDown, insertRow, paste, removeRows, setName, setWaits } from "./sheet_edits.js";
+import { openChooser } from "./segment_sheet_chooser.js";
+import { addLinkRow, fillDown, insertRow, paste, removeRows, setName, setWaits } from "./segment_sheet_edits.js";
 import { commit, shownSheet } from "../state/segment_draft.js";
 import { rowsOf, samplesOf } from "../document/segment_sheet.js";
-import { namesFrom, textOf } from "./sheet_text.js";
+import { namesFrom, textOf } from "./segment_sheet_text.js";
 import { announce, toast } from "../lib/toasts.js";
 
 const ordered = (a, b) => [Math.min(a, b), Math.max(a, b)];

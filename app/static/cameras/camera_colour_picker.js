@@ -1,6 +1,6 @@
 /** Picking a foot's colour: its button is pressed, then the foot is clicked in the picture. */
 
-import { rangeAt } from "./camera_pick.js";
+import { rangeAt } from "./camera_colour_range.js";
 import { h } from "../lib/dom.js";
 import { toast } from "../lib/toasts.js";
 

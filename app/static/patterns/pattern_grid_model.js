@@ -1,7 +1,7 @@
 /** What the grid shows: the pattern that is looked at, and which of its cells are fixed for which reason. */
 
 import { timelineOf } from "./pattern_gaits.js";
-import { drawnCells, limbsOf } from "./pattern_question.js";
+import { drawnCells, limbsOf } from "./pattern_problem.js";
 import { shownDocument } from "../state/store.js";
 
 /** Limbs that do one thing all along in both gaits: a transition leaves them so. */

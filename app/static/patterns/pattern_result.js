@@ -2,8 +2,8 @@
 
 import { h, onPress, setAllowed, setAttribute, setText, svg } from "../lib/dom.js";
 import { fixed, seconds } from "../lib/format.js";
-import { picture } from "./pattern_gait.js";
-import { relaxed, ruleOf, RULES } from "./pattern_question.js";
+import { picture } from "./pattern_gait_strip.js";
+import { relaxed, ruleOf, RULES } from "./pattern_problem.js";
 import { announce, toast } from "../lib/toasts.js";
 
 const WORDS = {

@@ -3,7 +3,7 @@
 import { api } from "../api/gaits.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { turns } from "../lib/latest_only.js";
-import { bodyOf, limbsOf, ruleOf, RULES } from "./pattern_question.js";
+import { bodyOf, limbsOf, ruleOf, RULES } from "./pattern_problem.js";
 import { shownDocument } from "../state/store.js";
 import { announce, attempt, toast } from "../lib/toasts.js";
 

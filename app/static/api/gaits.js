@@ -91,7 +91,7 @@ export const api = {
   approvalDifference: (id, number, to = null) => request("GET", `${gait(id)}/approvals/${number}/difference${to === null ? "" : `?to=${to}`}`),
   run: (id, { first, iterations }) => request("GET", `${gait(id)}/run?from=${first}&iterations=${iterations}`),
   optimiseParts: (id) => request("POST", `${gait(id)}/sequence/optimise`),
-  madeTable: (document) => request("POST", "/api/tables/made", { document }),
+  createTable: (document) => request("POST", "/api/tables/made", { document }),
   poseTable: (body) => request("POST", "/api/tables/pose", body),
   tableRepairs: (body) => request("POST", "/api/tables/repairs", body),
   poses: async (id, plan) => (await answer("GET", `${gait(id)}/poses?plan=${encodeURIComponent(plan)}`)).arrayBuffer(),

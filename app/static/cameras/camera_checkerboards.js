@@ -5,10 +5,10 @@ import { fixed } from "../lib/format.js";
 import { attempt } from "../lib/toasts.js";
 import { cameraApi, setupApi, videoApi } from "../api/videos.js";
 
-export const LEAST_BOARDS = 3;
+export const LEAST_CHECKERBOARDS = 3;
 
 /** One picture of the board: whether it was found, and how far the lens leaves it off. */
-export function boardRow(board, rms, { remove, show }) {
+export function checkerboardRow(board, rms, { remove, show }) {
   const words = board.found ? (rms === undefined || rms === null ? "found" : `${fixed(rms, 2)} px`) : "not found";
   const picture = board.picture ? h("img", { src: board.picture, alt: "" }) : h("i");
   return h("li", { data: { found: board.found } },
@@ -18,7 +18,7 @@ export function boardRow(board, rms, { remove, show }) {
 }
 
 /** The pictures of the board that were taken or chosen, each once, and the lens that follows from them. */
-export function boardBook({ changed, found }) {
+export function checkerboardBook({ changed, found }) {
   let [boards, figures] = [[], new Map()];
   let number = 0;
   const corners = { columns: 8, rows: 5 };
@@ -27,7 +27,7 @@ export function boardBook({ changed, found }) {
     const asked = ++number;
     figures = new Map();
     changed();
-    if (boards.filter((board) => board.found).length < LEAST_BOARDS) return;
+    if (boards.filter((board) => board.found).length < LEAST_CHECKERBOARDS) return;
     const answer = await setupApi.lens({ ...corners, boards: boards.map(({ picture: _, ...board }) => board) });
     if (asked !== number) return;
     answer.boards.forEach(({ rms_px: rms }, index) => figures.set(boards[index], rms));
@@ -57,7 +57,7 @@ export function boardBook({ changed, found }) {
 }
 
 /** Ways to pictures of the board: files, frames of the shown video, what the camera sees. */
-export function boardSources(stage, book, status) {
+export function checkerboardSources(stage, book, status) {
   const { source } = stage;
   const files = h("input", { type: "file", multiple: true, accept: "image/*", "aria-label": "Pictures of the board" });
   const spread = h("button", { type: "button", text: "Frames of this video", title: "24 pictures, evenly over the video" });

@@ -1,6 +1,6 @@
 /** Colours of the feet, tuned on a picture: what has the colour stays lit, and every spot says why it is a foot or is none. */
 
-import { drawSpots, spotNumbers } from "./camera_overlay.js";
+import { drawBlobs, blobNumbers } from "./camera_overlay.js";
 import { limitFields, shareField } from "./camera_fields.js";
 import { hueRange } from "./camera_hue.js";
 import { colourPicking } from "./camera_colour_picker.js";
@@ -22,12 +22,12 @@ function footButtons(choose) {
   };
 }
 
-function spotWords({ area, fill, fit, reason }, number, isChosen) {
+function blobText({ area, fill, fit, reason }, number, isChosen) {
   return h("li", { data: { fit: isChosen ? "chosen" : fit ? "fit" : "refused" } }, h("b", { text: String(number) }), h("span", { class: "number", text: `${fixed(area, 0)} px², filled ${fixed(fill * 100, 0)} %` }),
     h("span", { class: isChosen ? "" : "quiet", text: isChosen ? "taken as the foot" : reason ?? "smaller than the one that is taken" }));
 }
 
-function feetWords(feet) {
+function feetText(feet) {
   const words = (one) => (one === null ? "not seen" : one.place_cm ? `${fixed(one.place_cm[0], 1)}, ${fixed(one.place_cm[1], 1)} cm` : "seen");
   return feet.map((one, index) => h("li", { data: { foot: index + 1 } }, h("i", { class: "foot-dot", "aria-hidden": "true" }), h("span", { text: FOOT_NAMES[index] }), h("span", { class: one ? "number" : "number why", text: words(one) })));
 }
@@ -41,8 +41,8 @@ function findings() {
       const fit = answer.spots.filter((spot) => spot.fit).length;
       const count = answer.spots.length + answer.more;
       setText(head, count ? `${count} ${count === 1 ? "spot has" : "spots have"} this colour, ${fit} could be a foot.` : `Nothing in this picture has the colour of foot ${foot + 1}.`);
-      spots.replaceChildren(...answer.spots.map((spot, index) => spotWords(spot, index + 1, index === answer.chosen)), ...(answer.more ? [h("li", { class: "quiet", text: `and ${answer.more} smaller` })] : []));
-      feet.replaceChildren(...feetWords(answer.feet));
+      spots.replaceChildren(...answer.spots.map((spot, index) => blobText(spot, index + 1, index === answer.chosen)), ...(answer.more ? [h("li", { class: "quiet", text: `and ${answer.more} smaller` })] : []));
+      feet.replaceChildren(...feetText(answer.feet));
     },
   };
 }
@@ -73,7 +73,7 @@ function colourFields(change, changeLimits) {
  */
 export function feetPart(draft, stage) {
   let [foot, isOn, since, hasMask] = [0, false, null, true];
-  const [found, number] = [findings(), spotNumbers(stage.picture)];
+  const [found, number] = [findings(), blobNumbers(stage.picture)];
 
   function change(patch, last = true) {
     since ??= performance.now();
@@ -98,7 +98,7 @@ export function feetPart(draft, stage) {
     if (!isOn) return null;
     await stage.picture.show(answer.picture, answer.size);
     if (!isOn) return null;
-    drawSpots(stage.picture.drawing, answer);
+    drawBlobs(stage.picture.drawing, answer);
     number(answer.spots);
     found.show(answer, foot);
     since = null;

@@ -1,6 +1,6 @@
 /** A camera's live picture in a corner of the 3D scene, so that the robot is seen while it walks. */
 
-import { cameraTone, cameraWord } from "./camera_labels.js";
+import { cameraTone, cameraLabel } from "./camera_labels.js";
 import { remember } from "../lib/check_menu.js";
 import { byId, h, icon, setText } from "../lib/dom.js";
 import { streamOf } from "../api/videos.js";
@@ -76,7 +76,7 @@ function build(store, id) {
     title.setAttribute("aria-label", `Camera ${camera.name}, moved by the arrow keys, sized by plus and minus`);
     setText(name, camera.name);
     dot.dataset.tone = cameraTone(camera);
-    setText(word, cameraWord(camera));
+    setText(word, cameraLabel(camera));
     const gone = camera.state === "unplugged";
     setText(note, gone ? camera.sentence : "");
     image.hidden = gone;

@@ -8,13 +8,13 @@ const TONES = { live: "good", starting: "accent", idle: "quiet", unplugged: "bad
 const STATES = { live: "live", starting: "starting", idle: "there", unplugged: "unplugged" };
 
 export const cameraTone = ({ state }) => TONES[state] ?? "quiet";
-export const cameraWord = ({ state, recording }) => (recording ? "recording" : STATES[state] ?? state);
+export const cameraLabel = ({ state, recording }) => (recording ? "recording" : STATES[state] ?? state);
 
 /** What a setup still lacks, in one line. */
-export const setupWords = ({ ready, missing }) => (ready ? "Complete." : missing.join(" "));
+export const setupText = ({ ready, missing }) => (ready ? "Complete." : missing.join(" "));
 
 /** Seconds as minutes and seconds. */
-export const lengthWords = (seconds) => (seconds < 60 ? `${seconds.toFixed(1)} s` : `${Math.floor(seconds / 60)} min ${Math.round(seconds % 60)} s`);
+export const durationText = (seconds) => (seconds < 60 ? `${seconds.toFixed(1)} s` : `${Math.floor(seconds / 60)} min ${Math.round(seconds % 60)} s`);
 
 /** Bytes as megabytes. */
-export const sizeWords = (bytes) => `${(bytes / 1e6).toFixed(bytes < 1e7 ? 1 : 0)} MB`;
+export const sizeText = (bytes) => `${(bytes / 1e6).toFixed(bytes < 1e7 ? 1 : 0)} MB`;

@@ -1,6 +1,6 @@
 /** The lens: pictures of a checkerboard, which of them show it, how well they agree, and the picture straightened. */
 
-import { LEAST_BOARDS, boardBook, boardRow, boardSources } from "./camera_checkerboards.js";
+import { LEAST_CHECKERBOARDS, checkerboardBook, checkerboardRow, checkerboardSources } from "./camera_checkerboards.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { announce, attempt } from "../lib/toasts.js";
@@ -15,7 +15,7 @@ function cornersField(name, value, changed) {
   return { input, label: h("label", {}, h("span", { text: name }), input) };
 }
 
-function lensWords({ lens }) {
+function lensText({ lens }) {
   if (!lens) return "No lens: straight lines must be straight in the picture.";
   if (lens.rms_px === null) return "The lens was given without its figures.";
   return `The pictures agree within ${fixed(lens.rms_px, 2)} px${lens.boards ? `, ${lens.boards} of them` : ""}.${lens.rms_px > SHARP_PX ? " That is much: take sharper pictures, the board flat." : ""}`;
@@ -71,11 +71,11 @@ export function lensPart(draft, stage) {
   const straight = straightening(draft, stage);
   const without = h("button", { type: "button", class: "link", text: "Without a lens", on: { click: () => draft.change({ lens: null }) } });
 
-  const book = boardBook({
-    changed: () => showBoards(),
+  const book = checkerboardBook({
+    changed: () => showCheckerboards(),
     found: ({ lens, size }) => {
       draft.change({ lens, size });
-      announce(lensWords({ lens }));
+      announce(lensText({ lens }));
     },
   });
   const [columns, rows] = [["Inner corners, one side", "columns"], ["Inner corners, other side", "rows"]].map(([name, key]) => cornersField(name, book.corners[key], ({ target }) => {
@@ -84,16 +84,16 @@ export function lensPart(draft, stage) {
     book.clear();
   }));
 
-  function showBoards() {
+  function showCheckerboards() {
     const acts = { remove: attempt((board) => book.remove(board)), show: (board) => { shown = { board, frame: stage.frame }; stage.refresh(); } };
-    list.replaceChildren(...book.boards.map((board) => boardRow(board, book.rmsOf(board), acts)));
+    list.replaceChildren(...book.boards.map((board) => checkerboardRow(board, book.rmsOf(board), acts)));
     const count = book.boards.filter(({ found }) => found).length;
-    if (book.boards.length && count < LEAST_BOARDS) setText(words, `The board is found in ${count} of ${book.boards.length} pictures; at least ${LEAST_BOARDS} are needed, flat, whole and sharp.`);
+    if (book.boards.length && count < LEAST_CHECKERBOARDS) setText(words, `The board is found in ${count} of ${book.boards.length} pictures; at least ${LEAST_CHECKERBOARDS} are needed, flat, whole and sharp.`);
     else show(draft.state);
   }
 
   function show({ setup }) {
-    setText(words, lensWords(setup));
+    setText(words, lensText(setup));
     straight.show(setup);
     without.hidden = !setup.lens;
   }
@@ -103,14 +103,14 @@ export function lensPart(draft, stage) {
     return straight.of(shown?.board.picture ?? pictureOf(stage.source, frame));
   }
 
-  draft.watch(({ setup }) => [setup.lens], (state) => { if (isOn) { showBoards(); show(state); } });
+  draft.watch(({ setup }) => [setup.lens], (state) => { if (isOn) { showCheckerboards(); show(state); } });
   return {
     element: h("div", { class: "camera-part" },
       h("p", { class: "quiet", text: "Wide lenses bend straight lines. Pictures of a checkerboard in different places and slopes tell by how much; without them, go on with Place." }),
-      columns.label, rows.label, boardSources(stage, book, status), status, list, words, h("div", { class: "camera-row" }, straight.button, without)),
+      columns.label, rows.label, checkerboardSources(stage, book, status), status, list, words, h("div", { class: "camera-row" }, straight.button, without)),
     enter() {
       isOn = true;
-      showBoards();
+      showCheckerboards();
       show(draft.state);
       stage.fetches(fetching);
     },

@@ -1,7 +1,7 @@
 /** The server's cameras: what each sees, which setup it has, whether it records with the run, and its live picture. */
 
 import { drawFeet } from "./camera_overlay.js";
-import { FOOT_NAMES, USES, cameraTone, cameraWord } from "./camera_labels.js";
+import { FOOT_NAMES, USES, cameraTone, cameraLabel } from "./camera_labels.js";
 import { toggleFloat } from "./camera_float.js";
 import { newSetup, openSetup } from "./camera_setup.js";
 import { h, setText } from "../lib/dom.js";
@@ -53,7 +53,7 @@ function cameraRow(store, id, { watch, setUp }) {
     dot.dataset.tone = cameraTone(camera);
     setText(name, camera.name);
     element.setAttribute("aria-label", camera.name);
-    setText(word, cameraWord(camera));
+    setText(word, cameraLabel(camera));
     setText(sentence, camera.state === "unplugged" ? camera.sentence : "");
     use.value = camera.use;
     [[use, "seen"], [setup, "setup"], [records.input, "record with the run"]].forEach(([one, text]) => one.setAttribute("aria-label", `${camera.name}, ${text}`));

@@ -14,13 +14,13 @@ export function drawFeet(drawing, feet) {
 }
 
 /** A ring around every spot of a foot's colour, and crosses on the feet. */
-export function drawSpots(drawing, { spots, chosen, feet }) {
+export function drawBlobs(drawing, { spots, chosen, feet }) {
   drawFeet(drawing, feet);
   drawing.prepend(...spots.map(({ pixel: [cx, cy], radius, fit }, index) => svg("circle", { class: `camera-spot ${index === chosen ? "chosen" : fit ? "fit" : "refused"}`, cx, cy, r: Math.max(radius, LEAST_RADIUS) })));
 }
 
 /** Numbers beside the spots, as they stand in the list; what it gives back shows those of other spots. */
-export function spotNumbers(picture) {
+export function blobNumbers(picture) {
   let labels = [];
   const put = () => labels.forEach(({ element, place }) => {
     const [x, y] = picture.toScreen(place);

@@ -60,7 +60,7 @@ function axisNames(picture) {
   };
 }
 
-function fitWords({ view }, count) {
+function fitText({ view }, count) {
   if (!view) return count < 4 ? "" : "These points tell no plane.";
   if (count === 4) return `Four points always fit: a fifth shows how well. A pixel is ${fixed(view.mm_per_pixel, 2)} mm.`;
   return `Points lie within ${fixed(view.worst_mm, 2)} mm; a pixel is ${fixed(view.mm_per_pixel, 2)} mm.`;
@@ -148,7 +148,7 @@ export function placePart(draft, stage) {
     drawGrid(stage.picture.drawing, draft.state);
     showAxes(answer.view?.grid);
     setText(ask, asking(preset.value, setup.points));
-    setText(fit, fitWords(answer, setup.points.length));
+    setText(fit, fitText(answer, setup.points.length));
     clear.hidden = setup.points.length === 0;
   }
 

@@ -8,7 +8,7 @@ import { videoApi } from "../api/videos.js";
 import "../pictures/picture_style.js";
 
 /** Tells of a trial that a run's recording led to; trials of other origin are known to who made them. */
-export const tellTrial = attempt(async (id, open) => {
+export const announceTrial = attempt(async (id, open) => {
   const trial = await trialApi.read(id);
   if (!trial.run || !trial.source?.camera) return;
   toast(`The run of ${trial.gait_name} was recorded: ${fixed(trial.figures.distance, 1)} of ${fixed(trial.expected_cm, 1)} cm.${trial.plan?.astray_sentence ? ` ${trial.plan.astray_sentence}` : ""}`, { action: { label: "Trial of this run", act: () => open({ trial: id }) } });
@@ -16,7 +16,7 @@ export const tellTrial = attempt(async (id, open) => {
 
 /** Tells once what is to be known of a recording, such as why there is no trial of it. */
 const told = new Set();
-export function tellRecording({ id, name, sentence }, open) {
+export function announceRecording({ id, name, sentence }, open) {
   if (told.has(id)) return;
   told.add(id);
   toast(`Recording of ${name}: ${sentence}`, { action: { label: "Open the recording", act: () => open({ video: id }) } });
@@ -27,7 +27,7 @@ export function tellRecording({ id, name, sentence }, open) {
  * @param {string} run
  * @param {(wanted: {trial: string}|{video: string}) => void} open
  */
-export function recordedLine(run, open) {
+export function recordingLine(run, open) {
   const line = h("div", { class: "run-recorded", role: "group", "aria-label": "Recorded with this run" });
   const link = (text, wanted, title) => h("button", { class: "link", text, title, on: { click: () => open(wanted) } });
   attempt(async () => {

@@ -4,7 +4,7 @@ import { feetPart } from "./camera_feet.js";
 import { lensPart } from "./camera_lens.js";
 import { placePart } from "./camera_place.js";
 import { setupDraft } from "./camera_draft.js";
-import { setupWords } from "./camera_labels.js";
+import { setupText } from "./camera_labels.js";
 import { h, setText } from "../lib/dom.js";
 import { attempt, toast } from "../lib/toasts.js";
 import { setupApi } from "../api/videos.js";
@@ -95,7 +95,7 @@ export function openSetup(page, { answer, source, frame = 0, back }) {
   const state = h("p", { class: "camera-state", role: "status", "aria-label": "Setup state" });
   draft.watch(({ answer: now, kept, revision, trouble }) => [now, kept, revision, trouble], ({ answer: now, kept, revision, trouble }) => {
     const keeping = kept ? `Kept, version ${revision}.` : trouble ? `The last change is not kept: ${trouble}` : "Being kept…";
-    state.replaceChildren(h("span", { class: "dot", data: { tone: trouble ? "bad" : now.ready ? "good" : "caution" } }), h("span", { text: `${setupWords(now)} ${keeping}` }));
+    state.replaceChildren(h("span", { class: "dot", data: { tone: trouble ? "bad" : now.ready ? "good" : "caution" } }), h("span", { text: `${setupText(now)} ${keeping}` }));
   });
   const leave = attempt(async () => {
     await draft.settled();

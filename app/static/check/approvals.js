@@ -4,7 +4,7 @@ import { api } from "../api/gaits.js";
 import { sentences } from "../lib/difference.js";
 import { h } from "../lib/dom.js";
 import { clockTime, fixed, shortHash } from "../lib/format.js";
-import { turns } from "../lib/latest_only.js";
+import { ticket } from "../lib/latest_only.js";
 import { attempt } from "../lib/toasts.js";
 
 const NOW = "the gait as it is";
@@ -36,7 +36,7 @@ export function approvalHistory(store) {
   const element = h("div", { class: "approvals", hidden: true }, h("h3", { text: "Approvals" }), list, difference);
   let records = [];
   let chosen = null;
-  const [beginShow, beginRefresh] = [turns(), turns()];
+  const [beginShow, beginRefresh] = [ticket(), ticket()];
 
   const show = attempt(async () => {
     const isOld = beginShow();

@@ -19,7 +19,7 @@ function greatestMotor(values) {
   return { foot: Math.floor(at / MOTORS), motor: at % MOTORS, value: all[at] };
 }
 
-const motorWords = ({ foot, motor }) => `foot ${foot + 1}, motor ${motor + 1}`;
+const motorText = ({ foot, motor }) => `foot ${foot + 1}, motor ${motor + 1}`;
 
 function rows(simulation, goToTime) {
   const { report } = simulation;
@@ -33,8 +33,8 @@ function rows(simulation, goToTime) {
     ["Heading", `${degrees(report.heading)} of ${degrees(report.planned_heading)}`, "°", null, "How far it turns, and by the plan"],
     ["Largest tilt", degrees(report.max_tilt), "°", at(report.max_tilt_time, "largest tilt"), "Angle between the body's axis and the vertical"],
     ["Smallest margin", mm(report.min_margin), "mm", at(report.min_margin_time, "smallest margin"), "Of the robot's centre of mass from the edge of the feet that carry load; below 0 the soles' width alone holds it"],
-    ["Motor behind", mm(behind.value, 2), "mm", at(report.motor_error_times[behind.foot][behind.motor], "motor behind"), `Largest distance of a motor from the firmware's ramp: ${motorWords(behind)}`],
-    ["Motor at limit", fixed(force.value * 100, 0), "%", force.value > 0 ? at(report.peak_force_times[force.foot][force.motor], "motor at its limit") : null, `Part of the time at which a motor's force is at its limit: ${motorWords(force)}`],
+    ["Motor behind", mm(behind.value, 2), "mm", at(report.motor_error_times[behind.foot][behind.motor], "motor behind"), `Largest distance of a motor from the firmware's ramp: ${motorText(behind)}`],
+    ["Motor at limit", fixed(force.value * 100, 0), "%", force.value > 0 ? at(report.peak_force_times[force.foot][force.motor], "motor at its limit") : null, `Part of the time at which a motor's force is at its limit: ${motorText(force)}`],
   ];
 }
 
@@ -59,7 +59,7 @@ function findingItem(simulation, finding, goToTime) {
 }
 
 /** Word and tone of a simulation. */
-function simulatedWords({ report, findings }) {
+export function simulationText({ report, findings }) {
   if (report.fell) return ["Falls over", "bad"];
   if (report.ended_early) return ["Ended early", "bad"];
   if (findings.some(({ severity }) => severity === "error")) return ["Tips", "bad"];
@@ -74,7 +74,7 @@ function simulatedWords({ report, findings }) {
  */
 export function reportParts(simulation, goToTime) {
   const { report, findings, physics } = simulation;
-  const [word, tone] = simulatedWords(simulation);
+  const [word, tone] = simulationText(simulation);
   return [
     h("div", { class: "simulated-line", role: "status", "aria-label": "Simulated" }, h("span", { class: "dot", data: { tone } }), h("b", { text: word }),
       h("span", { class: "quiet number", text: physics.title, title: `Friction ${fixed(physics.friction, 2)}; ran ${fixed(report.realtime_factor, 0)} × as fast as the robot` })),

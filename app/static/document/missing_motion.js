@@ -8,7 +8,7 @@ function rowsOf(lack, contact) {
 }
 
 /** "foot,sample" to `{sentence, tone, first, last}`; the worst lack wins. */
-export function lacksByCell(plan) {
+export function missingMotionByCell(plan) {
   const found = new Map();
   (plan?.live?.lacks ?? []).forEach((lack, rank) => {
     for (const foot of rowsOf(lack, plan.contact)) {
@@ -22,4 +22,4 @@ export function lacksByCell(plan) {
 }
 
 /** What the preview marks: the lacks with where each phase begins and ends. */
-export const troubleOf = (plan) => plan?.live?.lacks ?? [];
+export const missingMotionOf = (plan) => plan?.live?.lacks ?? [];

@@ -10,7 +10,7 @@ import { drawnRows, isDrawn, repeatedRows } from "./drawn_timeline.js";
 import { heldMirrored, heldReversed, heldTurned } from "./held_feet.js";
 import { inserted, removed, repeated, stretched } from "./lengths.js";
 import { blockOf, heldBack, mirrored, mirroredFeet, reversed, shifted, stretchedInPlace, toStance, turnedRows, withBlock, withLocks } from "./timeline_operators.js";
-import { allFeet, isWhole, lengthOf, wordsOf, wholeOf } from "./region.js";
+import { allFeet, isWhole, lengthOf, regionText, wholeOf } from "./region.js";
 import { FOLLOWS, isSequence } from "./sequence_edits.js";
 
 const MOST_ITERATIONS = 20;
@@ -22,7 +22,7 @@ const counted = (count, one) => `${count} ${one}${count === 1 ? "" : "s"}`;
 const seconds = (document, samples) => `${(Math.max(0, samples - 1) * document.timeline.sample_time).toFixed(1)} s`;
 
 /** What of a region does not fit behind a sample, in words; null where all of it does. */
-const clippedWords = (over) => (over > 0 ? `The last ${counted(over, "sample")} would lie behind the end and are left out.` : null);
+const clippedText = (over) => (over > 0 ? `The last ${counted(over, "sample")} would lie behind the end and are left out.` : null);
 
 const lengthNote = (before, after) =>
   `The timeline goes from ${sampleCount(before)} to ${counted(sampleCount(after), "sample")} (${seconds(after, sampleCount(after))}).`;
@@ -58,7 +58,7 @@ function stretch({ document, region, words, amount }) {
   const apply = (now) => (grows ? stretched : stretchedInPlace)(now, region, amount);
   const after = apply(document);
   const [first] = region.samples;
-  const clipped = grows ? null : clippedWords(first + amount - sampleCount(document));
+  const clipped = grows ? null : clippedText(first + amount - sampleCount(document));
   const note = grows ? lengthNote(document, after) : (clipped ?? `Samples ${first + 1}–${first + amount}.`);
   return {
     apply, note, clipped, label: `Stretch ${words} to ${counted(amount, "sample")}`, reason: grows && amount < lengthOf(region) ? vanishing(document, after) : null,
@@ -104,7 +104,7 @@ function duplicate({ document, region, words }) {
   const rest = sampleCount(document) - 1 - last;
   if (rest <= 0) return { reason: "There is no room behind it: the selection ends with the timeline. Repeat makes the timeline longer." };
   const apply = (now) => withBlock(now, [region.feet[0], last + 1], blockOf(now, region));
-  const clipped = clippedWords(lengthOf(region) - rest);
+  const clipped = clippedText(lengthOf(region) - rest);
   return {
     apply, clipped, label: `Duplicate ${words}`, selection: { ...region, samples: [last + 1, Math.min(last + lengthOf(region), sampleCount(document) - 1)] },
     note: clipped ?? `A copy from sample ${last + 2} on.`,
@@ -173,7 +173,7 @@ const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 export function outcomeOf(id, { document, region, mirror: map }, amount) {
   if (isSequence(document)) return { reason: FOLLOWS };
   const chosen = region ?? wholeOf(document);
-  const context = { document, region: chosen, mirror: map, amount, words: wordsOf(document, chosen) };
+  const context = { document, region: chosen, mirror: map, amount, words: regionText(document, chosen) };
   const found = OPERATIONS[id].outcome(context);
   if (found.reason) return { reason: found.reason };
   const after = found.document === undefined ? found.apply(document) : found.document;

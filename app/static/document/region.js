@@ -42,7 +42,7 @@ export const isWhole = (document, region) => allFeet(document, region) && length
 const range = (one, many, [first, last]) => (first === last ? `${one} ${first + 1}` : `${many} ${first + 1}–${last + 1}`);
 
 /** In words, counted from 1: "foot 3, samples 6–10". */
-export function wordsOf(document, region) {
+export function regionText(document, region) {
   if (isWhole(document, region)) return "the whole timeline";
   const feet = allFeet(document, region) ? "all feet" : range("foot", "feet", region.feet);
   return lengthOf(region) === document.timeline.feet[0].length ? `all of ${feet}` : `${feet}, ${range("sample", "samples", region.samples)}`;

@@ -13,7 +13,7 @@ const transposed = (rows) => (rows[0] ?? []).map((_, index) => rows.map((row) =>
 export const ownRow = ({ legs, shift }, foot) => mod(foot - shift, legs);
 
 /** The sheet of a document, or null where it has no segment table. */
-export function sheetOf(document) {
+export function segmentSheetOf(document) {
   const table = document?.segment_table;
   if (!table) return null;
   const legs = table.feet.length;

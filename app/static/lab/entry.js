@@ -54,10 +54,10 @@ export function mountTrialEntry(store, opening) {
     open(trialWanted);
   });
   store.watch(({ trialMade }) => [trialMade], attempt(async ({ trialMade }) => {
-    if (trialMade?.id) (await import("../cameras/camera_recordings.js")).tellTrial(trialMade.id, open);
+    if (trialMade?.id) (await import("../cameras/camera_recordings.js")).announceTrial(trialMade.id, open);
   }));
   store.watch(({ videoChanged }) => [videoChanged], attempt(async ({ videoChanged }) => {
-    if (videoChanged?.run && videoChanged.state === "kept" && videoChanged.sentence) (await import("../cameras/camera_recordings.js")).tellRecording(videoChanged, open);
+    if (videoChanged?.run && videoChanged.state === "kept" && videoChanged.sentence) (await import("../cameras/camera_recordings.js")).announceRecording(videoChanged, open);
   }));
   return () => Boolean(panel?.leave());
 }

@@ -2,7 +2,7 @@
 
 import { h, icon } from "../lib/dom.js";
 import { selectGait } from "../shell/gait_list.js";
-import { turns } from "../lib/latest_only.js";
+import { ticket } from "../lib/latest_only.js";
 import { runIsOn } from "../state/store.js";
 import { openTab } from "../lib/tabs.js";
 import { attempt, toast } from "../lib/toasts.js";
@@ -24,7 +24,7 @@ function buildPanel() {
   const close = h("button", { class: "plain icon-only", "aria-label": "Close trials", title: "Close (Esc)" }, icon("close"));
   const panel = h("section", { class: "runs-panel", "aria-label": "Trials", hidden: true }, h("header", {}, h("h2", { text: "Trials" }), close), body);
   document.querySelector("aside.right").append(panel);
-  const begin = turns();
+  const begin = ticket();
   let left = () => {};
 
   function leaveContent() {
@@ -33,10 +33,10 @@ function buildPanel() {
     act();
   }
 
-  /** `whenLeft` is called when other content comes, or the panel closes. */
-  function show(content, whenLeft = () => {}) {
+  /** `onLeave` is called when other content comes, or the panel closes. */
+  function show(content, onLeave = () => {}) {
     leaveContent();
-    left = whenLeft;
+    left = onLeave;
     panel.hidden = false;
     document.body.toggleAttribute("data-runs", true);
     body.replaceChildren(content);

@@ -22,7 +22,7 @@ function addStyles() {
 /** A time that is only known roughly. */
 const aboutTime = (seconds) => (seconds < 90 ? `${fixed(seconds, 0)} s` : seconds < 5400 ? `${fixed(seconds / 60, 0)} min` : `${fixed(seconds / 3600, 1)} h`);
 
-function progressWords({ state, done, total, left_seconds: left = null }) {
+function progressText({ state, done, total, left_seconds: left = null }) {
   if (state !== "running") return "cancelling";
   return `${done} of ${total} simulations${left === null ? "" : `, about ${aboutTime(left)} left`}`;
 }
@@ -37,13 +37,13 @@ function progressPart(cancel) {
       const { done, total } = course;
       bar.style.transform = `scaleX(${done / Math.max(total, 1)})`;
       setText(source, course.source && `Learning from ${course.source}`);
-      setText(text, progressWords(course));
+      setText(text, progressText(course));
     },
     say(sentence) { setText(text, sentence); },
   };
 }
 
-function courseRow(course, open) {
+function jobRow(course, open) {
   const words = [h("span", { class: "run-line" }, h("b", { text: course.source }), h("span", { text: course.state })),
     h("span", { class: "run-line quiet" }, h("span", { text: [course.by, clockTime(course.made)].filter(Boolean).join(" · ") }))];
   if (course.state !== "done") return h("li", { title: course.sentence }, h("div", { class: "run-row" }, ...words, h("span", { class: "quiet", text: course.sentence })));
@@ -57,7 +57,7 @@ function setRow(set, remove) {
 
 /**
  * Opens learning in the panel of trials.
- * @param {{store: object, show: (element: Element, whenLeft?: () => void) => void, begin: () => () => boolean, all: () => void}} page
+ * @param {{store: object, show: (element: Element, onLeave?: () => void) => void, begin: () => () => boolean, all: () => void}} page
  *   `begin` begins something that is shown; what it gives says whether something else was asked for since
  */
 export async function openLearning(page) {
@@ -78,7 +78,7 @@ export async function openLearning(page) {
     show(h("div", { class: "run-all learning" }, h("button", { class: "link", text: "All trials", on: { click: all } }),
       h("div", { class: "run-line run-title" }, h("b", { text: "Learn from trials" })), h("p", { class: "quiet", text: PURPOSE }),
       ...(followed ? [followed.element] : [trialChoice(trials, start), tableChoice(start)]),
-      ...rows("Courses of learning", "Learned", ended.map((course) => courseRow(course, open))),
+      ...rows("Courses of learning", "Learned", ended.map((course) => jobRow(course, open))),
       ...rows("Sets of physics parameters", "Sets", sets.map((set) => setRow(set, remove)))), leave);
     followed?.begin();
   });

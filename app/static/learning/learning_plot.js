@@ -29,7 +29,7 @@ function legend(foretold) {
 }
 
 /** @param {{gaits: object[], foretold: object[]}} result of a course */
-export function foretoldPlot({ gaits, foretold }) {
+export function predictionPlot({ gaits, foretold }) {
   const drawn = MARKS.map((one) => ({ ...one, way: foretold.find(({ name }) => name === one.name) }));
   const measured = gaits.map(({ distance_cm: distance }) => distance);
   const all = [...measured, ...drawn.flatMap(({ way }) => way.distances_cm)];

@@ -2,7 +2,7 @@
 
 import { h } from "../lib/dom.js";
 import { clockTime, compact, fixed } from "../lib/format.js";
-import { foretoldPlot } from "./learning_plot.js";
+import { predictionPlot } from "./learning_plot.js";
 
 const UNKNOWN = "not identifiable";
 const figure = (value) => (value === 0 ? "0" : compact(value));
@@ -21,7 +21,7 @@ function parameterRow({ title, unit, default: usual, fitted, low, high, is_ident
 
 const parameterTable = ({ parameters }) => table("Parameters", "Fitted values with one standard deviation below and above; what the trials cannot tell stays as it was", ["", "usual", "fitted"], parameters.map(parameterRow));
 
-const wayTable = ({ foretold }) => table("How far foretold travel is off", "Mean over gaits, without sign. A gait that is left out is foretold by what was fitted to the others", ["", "cm", "°"],
+const predictionTable = ({ foretold }) => table("How far foretold travel is off", "Mean over gaits, without sign. A gait that is left out is foretold by what was fitted to the others", ["", "cm", "°"],
   foretold.map(({ title, error_cm: distance, error_deg: angle, angles, falls }) => h("tr", falls ? { title: `Of a gait that falls the whole way counts, and no angle: the angle is a mean of ${angles}` } : {},
     h("th", { scope: "row", text: falls ? `${title} (${falls} fall, angle of ${angles})` : title }), h("td", { text: fixed(distance, 2) }), h("td", { text: fixed(angle) }))));
 
@@ -57,7 +57,7 @@ export function learnedResult(course, { back, keep }) {
     h("button", { class: "link", text: "Learn from trials", on: { click: back } }),
     h("div", { class: "run-line run-title" }, h("b", { text: `Learned from ${course.source}` })),
     h("p", { class: "quiet", text: [course.by, clockTime(course.made), `${result.simulations} simulations`].filter(Boolean).join(" · ") }),
-    h("p", { text: course.sentence }), parameterTable(result), wayTable(result), foretoldPlot(result),
+    h("p", { text: course.sentence }), parameterTable(result), predictionTable(result), predictionPlot(result),
     h("details", { class: "run-states" }, h("summary", { text: "Every gait" }), gaitTable(result)), cutNote(result),
     keeping(course, keep));
 }

@@ -13,7 +13,7 @@ import { attempt, toast } from "./toasts.js";
  *   asked whenever the menu opens: why the entry cannot be used now
  * @returns {{element: HTMLElement, add: (entry: object, at?: number) => void}} `add` puts another entry at a place, or last
  */
-export function actMenu({ name, help, entries }) {
+export function actionMenu({ name, help, entries }) {
   const items = [];
   const button = h("button", { class: "link menu-button", "aria-haspopup": "menu", "aria-expanded": "false", title: help, text: name });
   const menu = h("div", { class: "menu", role: "menu", "aria-label": name, data: { arrows: "" }, hidden: true });

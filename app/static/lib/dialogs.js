@@ -45,7 +45,7 @@ export function askName(title, sentence, value = "") {
 }
 
 /** Asks before something that moves the robot; resolves to true or null. */
-export function confirmAct(title, sentence, label) {
+export function confirmAction(title, sentence, label) {
   return openDialog((close) => dialogFrame(title, close, () => close(true), h("p", { text: sentence }),
     h("div", { class: "buttons" },
       h("button", { type: "button", text: "Leave it", on: { click: () => close(null) } }),

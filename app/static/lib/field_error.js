@@ -7,7 +7,7 @@ let count = 0;
 /**
  * Builds the sentence's place; hidden while there is none.
  * @param {HTMLElement} control whose text it is about
- * @returns {{element: HTMLElement, say: (sentence: string|null) => void, isSaid: () => boolean}}
+ * @returns {{element: HTMLElement, say: (sentence: string|null) => void, hasError: () => boolean}}
  */
 export function refusalOf(control) {
   count += 1;
@@ -15,7 +15,7 @@ export function refusalOf(control) {
   const element = h("small", { id, class: "field-error", role: "alert", hidden: true });
   return {
     element,
-    isSaid: () => !element.hidden,
+    hasError: () => !element.hidden,
     say(sentence) {
       element.hidden = !sentence;
       element.textContent = sentence ?? "";

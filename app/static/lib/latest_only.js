@@ -3,7 +3,7 @@
  * @param {(value: any) => Promise<void>} work must not reject
  * @returns {(value: any) => void} offers a value to be worked on
  */
-export function lane(work) {
+export function latestOnly(work) {
   let busy = false;
   let next = null;
 
@@ -27,7 +27,7 @@ export function lane(work) {
  * Answers may come in another order than their questions.
  * @returns {() => () => boolean} begins a question; what it gives says whether a later one was begun since
  */
-export function turns() {
+export function ticket() {
   let turn = 0;
   return () => {
     const mine = (turn += 1);

@@ -61,14 +61,14 @@ function draw(progress) {
     ...gridLines(scale), ...iterationLabels(progress, scale), ...curve(progress, "objective", scale), ...curve(progress, "primal", scale));
 }
 
-function stateWords(job) {
+function stateText(job) {
   const stale = isOlder(job);
   const figures = job.result ? ` · ${job.result.iterations} iterations · ${seconds(job.result.solve_seconds)} s` : "";
   return `${stale ? "older version" : job.state}${figures}`;
 }
 
 /** The iteration that is looked at, else the last one. */
-function lookedAt(progress, job, iterate) {
+function shownPoint(progress, job, iterate) {
   return iterate?.job === job?.id && iterate ? progress.find(({ iteration }) => iteration === iterate.number) : progress.at(-1);
 }
 
@@ -88,12 +88,12 @@ export function mountConvergence(store, section) {
     const job = jobOf(now);
     const progress = job?.progress ?? [];
     const stale = isOlder(job);
-    setText(state, job ? stateWords(job) : "");
+    setText(state, job ? stateText(job) : "");
     state.title = job?.sentence ?? "";
     state.dataset.toneText = stale ? "caution" : job ? jobTone(job) : "";
     line.hidden = progress.length > 0;
     setText(line, job ? job.sentence : "The curve of the last optimisation stays here.");
-    const point = lookedAt(progress, job, now.iterate);
+    const point = shownPoint(progress, job, now.iterate);
     setText(last.objective, compact(point?.objective));
     setText(last.primal, compact(point?.primal));
     plot.hidden = progress.length === 0;

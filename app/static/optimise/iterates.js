@@ -3,11 +3,11 @@
 import { api } from "../api/gaits.js";
 import { h, setText } from "../lib/dom.js";
 import { jobIsOn, jobOf } from "../shell/job_list.js";
-import { lane } from "../lib/latest_only.js";
+import { latestOnly } from "../lib/latest_only.js";
 import { report } from "../lib/toasts.js";
 
 /** Appends the slider to a section and keeps it current. */
-export function mountCourse(store, section) {
+export function mountIterates(store, section) {
   const slider = h("input", { type: "range", id: "iteration", min: 0, step: 1, "aria-label": "Iteration" });
   const number = h("span", { class: "number" });
   const back = h("button", { text: "Back to the plan", hidden: true });
@@ -16,7 +16,7 @@ export function mountCourse(store, section) {
   section.append(row, gone);
 
   const leave = () => { if (store.state.iterate) store.set({ iterate: null }); };
-  const offer = lane(async ({ job, at }) => {
+  const offer = latestOnly(async ({ job, at }) => {
     const isWanted = () => jobOf(store.state)?.id === job && Number(slider.value) === at;
     try {
       const plan = await api.iterate(job, at);

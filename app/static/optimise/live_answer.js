@@ -5,7 +5,7 @@ import { fixed, mm } from "../lib/format.js";
 import { jobOf } from "../shell/job_list.js";
 import { shownPlan } from "../state/store.js";
 
-const WORDS = {
+const TEXTS = {
   live: ["Feasible", "good"], optimised: ["Optimised", "good"], manual: ["By hand", "good"], sequence: ["Sequence", "good"], iterate: ["An iteration, not the plan", "caution"],
   recorded: ["Recorded", "good"],
 };
@@ -13,7 +13,7 @@ const FAMILIES = {
   body_torque: "Balance", margin: "Margin", workspace: "Reach", foot_speed: "Speed", body_speed: "Body speed", clearance: "Clearance",
   body_height: "Body height", boundary: "Start and goal", motor_speed: "Motor speed", motor_acceleration: "Acceleration", friction: "Friction",
 };
-const SHOWN_LACKS = 3;
+const SHOWN_MISSING = 3;
 const ROUNDING_M = 1e-6;
 const FOR_EVERY_MOTION = /^This is proven/;
 
@@ -27,7 +27,7 @@ export function planState(plan) {
   if (plan.source === "recorded" && plan.refusal) return ["Recorded, out of reach", "bad"];
   if (plan.source === "manual" && plan.refusal) return ["By hand, out of reach", "bad"];
   if (plan.source === "manual" && plan.balance < -ROUNDING_M) return ["By hand, off balance", "caution"];
-  return WORDS[plan.source] ?? [plan.source, "quiet"];
+  return TEXTS[plan.source] ?? [plan.source, "quiet"];
 }
 
 const TIER = { live: "live", optimised: "exact" };
@@ -55,7 +55,7 @@ export function statusLine() {
 /** Whose the lack is: feet counted from 1. */
 const feetOf = ({ feet }) => (feet.length === 0 ? "" : feet.length === 1 ? `foot ${feet[0] + 1}` : `edge ${feet.map((foot) => foot + 1).join("–")}`);
 
-function lackItem(lack, plan, goTo) {
+function missingMotionItem(lack, plan, goTo) {
   const from = plan.times[lack.first];
   const place = [FAMILIES[lack.family] ?? lack.family, feetOf(lack)].filter(Boolean).join(", ");
   return h("li", { title: lack.sentence },
@@ -65,10 +65,10 @@ function lackItem(lack, plan, goTo) {
 }
 
 /** The worst lacks, and the others under a fold. */
-function lackList(lacks, plan, goTo) {
-  const items = lacks.map((lack) => lackItem(lack, plan, goTo));
-  const list = h("ul", { class: "lacks", role: "list", "aria-label": "What is missing" }, ...items.slice(0, SHOWN_LACKS));
-  const rest = items.slice(SHOWN_LACKS);
+function missingMotionList(lacks, plan, goTo) {
+  const items = lacks.map((lack) => missingMotionItem(lack, plan, goTo));
+  const list = h("ul", { class: "lacks", role: "list", "aria-label": "What is missing" }, ...items.slice(0, SHOWN_MISSING));
+  const rest = items.slice(SHOWN_MISSING);
   if (!rest.length) return [list];
   return [list, h("details", { class: "lacks-more" }, h("summary", { text: `${rest.length} more` }), h("ul", { class: "lacks", role: "list" }, ...rest))];
 }
@@ -95,14 +95,14 @@ function liveParts(state, plan, edits, goTo) {
     h("p", { class: "first", title: explanation.join(" ") }, first, text && h("span", { class: "quiet", text: ` (${text})`, title: closing })),
     ...remedyParts(edits, state.remedies),
   ];
-  return { head, details: lacks.length ? lackList(lacks, plan, goTo) : [] };
+  return { head, details: lacks.length ? missingMotionList(lacks, plan, goTo) : [] };
 }
 
 /**
  * Keeps the reason and the ways out in sight at the lower edge of the panel, where the fields leave them no room above it.
  * What is missing in detail may lie below the edge; a field that is gone to comes to stand above the answer.
  */
-function keepInSight(element, details) {
+function keepVisible(element, details) {
   const panel = byId("sections");
   const measure = () => {
     const hang = element.hidden ? 0 : element.getBoundingClientRect().bottom - details.getBoundingClientRect().top;
@@ -117,7 +117,7 @@ function keepInSight(element, details) {
 export function liveAnswer(edits, goTo) {
   const [head, details] = [h("div", {}), h("div", { class: "why-details" })];
   const element = h("div", { class: "box-note why-not", role: "region", "aria-label": "Why it is infeasible", data: { tone: "bad" }, hidden: true }, head, details);
-  keepInSight(element, details);
+  keepVisible(element, details);
   return {
     element,
     show(state) {

@@ -1,7 +1,7 @@
 /** The notes of the gait: kept, as an edit, when the field is left; what is refused stays, with the sentence under it. */
 
 import { h } from "../lib/dom.js";
-import { historyAct } from "../state/fields.js";
+import { historyAction } from "../state/fields.js";
 import { refusalOf } from "../lib/field_error.js";
 
 const MOST = 20_000;
@@ -30,7 +30,7 @@ function shownText(area, refusal) {
 /** The keys of the field: the page's undo while nothing is typed, Escape, and Save with what stands here. */
 function mountNoteKeys(area, edits, { text, keep, giveUp }) {
   area.addEventListener("keydown", (event) => {
-    const act = text.isTyped() ? null : historyAct(event, edits);
+    const act = text.isTyped() ? null : historyAction(event, edits);
     if (act) {
       event.preventDefault();
       act();
@@ -77,7 +77,7 @@ export function notesField(store, edits) {
     const { selected } = store.state;
     const notes = area.value;
     refusal.say(refusedNotes(notes));
-    if (refusal.isSaid() || !edits.shown()) return undefined;
+    if (refusal.hasError() || !edits.shown()) return undefined;
     known = notes;
     text.take();
     await edits.edit((document) => ({ ...document, notes }), "Notes");

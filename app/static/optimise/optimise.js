@@ -3,7 +3,7 @@
 import { jobAnswer, liveAnswer, statusLine } from "./live_answer.js";
 import { api } from "../api/gaits.js";
 import { mountConvergence } from "./convergence.js";
-import { mountCourse } from "./iterates.js";
+import { mountIterates } from "./iterates.js";
 import { byId, h, onPress, setAllowed } from "../lib/dom.js";
 import { makeGait } from "../shell/gait_menu.js";
 import { selectGait } from "../shell/gait_list.js";
@@ -42,8 +42,8 @@ export function mountOptimise(store, edits, goTo) {
   const { robot, order, main, more } = questions(store, edits, attempt((other, document) => makeGait(store, show, presetFor(other, document))));
   const fields = [robot, order, ...main, ...more];
   const status = statusLine();
-  const goToLack = ({ first, last, feet }) => goTo({ sample: Math.floor((first + last) / 2), foot: feet.length === 1 ? feet[0] : null });
-  const answers = [liveAnswer(edits, goToLack), jobAnswer()];
+  const goToMissing = ({ first, last, feet }) => goTo({ sample: Math.floor((first + last) / 2), foot: feet.length === 1 ? feet[0] : null });
+  const answers = [liveAnswer(edits, goToMissing), jobAnswer()];
   const timing = timingAnswer(store, edits);
   const error = h("p", { class: "box-note", role: "alert", data: { tone: "bad" }, hidden: true });
   const section = byId("optimise");
@@ -53,7 +53,7 @@ export function mountOptimise(store, edits, goTo) {
     h("details", { class: "more" }, h("summary", {}, "More", changed), h("div", { class: "fields" }, ...more.map(({ element }) => element))),
     h("div", { class: "solve" }, exactButton(store), timingButton(store)), timingNote(store), timing.element, h("p", { class: "why", text: TIERS }));
   mountConvergence(store, section);
-  const course = mountCourse(store, section);
+  const course = mountIterates(store, section);
 
   store.watch(({ view, pending, gesture, formError }) => [view, pending, gesture, formError], (state) => {
     const document = shownDocument(state);

@@ -2,7 +2,7 @@
 
 import { api } from "../api/gaits.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
-import { turns } from "../lib/latest_only.js";
+import { ticket } from "../lib/latest_only.js";
 import { bodyOf, limbsOf, ruleOf, RULES } from "./pattern_problem.js";
 import { shownDocument } from "../state/store.js";
 import { announce, attempt, toast } from "../lib/toasts.js";
@@ -10,7 +10,7 @@ import { announce, attempt, toast } from "../lib/toasts.js";
 const LABEL = "Complete the drawing";
 const BALANCE = RULES.find(({ rule }) => rule === "balance");
 /** What to do where a pattern makes no motion: only what is on the panel and not yet done. */
-function fallsWords(state) {
+function adviceText(state) {
   const ways = [
     state.mode === "transition" && !state.walkable && "ask for swings that the feet can do",
     !ruleOf(state, BALANCE).on && "switch the balance margin on among the rules",
@@ -21,7 +21,7 @@ function fallsWords(state) {
   return `The live optimiser finds no motion for it. ${words[0].toUpperCase()}${words.slice(1)}.`;
 }
 
-const adviceFor = (plan, state) => (plan.live?.status === "infeasible" ? ` ${fallsWords(state)}` : " Play shows it walking.");
+const adviceFor = (plan, state) => (plan.live?.status === "infeasible" ? ` ${adviceText(state)}` : " Play shows it walking.");
 
 /** The pattern that stands in the grid, or why there is none to be used. */
 function usable({ answer, running, chosen, asking }) {
@@ -39,7 +39,7 @@ const nothingToDraw = (pattern, document) => (pattern?.feet.join() === document?
  * @param {object} question
  * @param {{edits: object, playback: Playback, show: (id: string) => Promise<void>}} page
  */
-export function patternActs(store, question, { edits, playback, show }) {
+export function patternActions(store, question, { edits, playback, show }) {
   const make = h("button", { class: "primary", text: "Make gait" });
   const walk = h("button", { text: "Walk it" });
   const element = h("div", { class: "pattern-acts" }, walk, make);
@@ -51,7 +51,7 @@ export function patternActs(store, question, { edits, playback, show }) {
     return { question: bodyOf(question.state, { gait: store.state.selected, limbs, document: store.state.pending.length ? document : null, drawing: null, isFree: () => false }), feet: pattern.feet };
   }
 
-  const begin = turns();
+  const begin = ticket();
   /** Ends the walk, also one that is only asked for. */
   const leave = () => {
     begin();
@@ -85,7 +85,7 @@ export function patternActs(store, question, { edits, playback, show }) {
     if (isOld() || store.state.selected !== selected) return;
     if (!plan.times.length) throw new Error(plan.refusal?.sentence ?? "This pattern makes no motion.");
     store.set({ iterate: { job: null, number: null, pattern: true, plan: { ...plan, note: `The pattern, not the open gait. ${plan.note}` } } });
-    if (plan.live?.status === "infeasible") toast(`What is shown does not keep every limit. ${fallsWords(question.state)}`);
+    if (plan.live?.status === "infeasible") toast(`What is shown does not keep every limit. ${adviceText(question.state)}`);
     playback.toStart();
     playback.play();
   });

@@ -1,6 +1,6 @@
 /** The ways to the pattern search, which is loaded when it is first opened: its tab, and the menu of the open gait. */
 
-import { actMenu } from "../lib/action_menu.js";
+import { actionMenu } from "../lib/action_menu.js";
 import { byId } from "../lib/dom.js";
 import { runIsOn } from "../state/store.js";
 import { onTab, openTab } from "../lib/tabs.js";
@@ -53,7 +53,7 @@ export function mountPatternEntry(store, page) {
   });
 
   const go = (mode) => { wanted = mode; openTab("patterns"); };
-  const menu = actMenu({ name: "Pattern", help: "Footfall patterns found by a solver, beginning with this gait", entries: ENTRIES.map(({ mode, ...entry }) => ({ ...entry, act: () => go(mode) })) });
+  const menu = actionMenu({ name: "Pattern", help: "Footfall patterns found by a solver, beginning with this gait", entries: ENTRIES.map(({ mode, ...entry }) => ({ ...entry, act: () => go(mode) })) });
   byId("gait-tools").append(menu.element);
 
   let first = true;

@@ -20,7 +20,7 @@ export function picture({ timeline, held }, hatch) {
 }
 
 /** "feet 1, 2, 4 stand, foot 3 swings": the state at a sample. */
-export function stateWords(feet, sample) {
+export function stateText(feet, sample) {
   const names = (value) => feet.flatMap((row, foot) => (row[sample] === value ? [foot + 1] : []));
   const [standing, swinging] = [names("1"), names("0")];
   const one = (list, word) => `${list.length > 1 ? "feet" : "foot"} ${list.join(", ")} ${word}${list.length > 1 ? "" : "s"}`;
@@ -35,7 +35,7 @@ const clamp = (sample, count) => Math.min(Math.max(sample, 0), count - 1);
  * @param {{side: "from"|"to", name: string, help: string, choose: (gait: string) => void, move: (sample: number) => void}} options
  * @returns {{element: HTMLElement, show: (shown: {gaits: object[], gait: string, document: object|null, sample: number}) => void}}
  */
-export function patternGait({ side, name, help, choose, move }) {
+export function patternGaitStrip({ side, name, help, choose, move }) {
   const select = h("select", { "aria-label": name, title: help, on: { change: () => choose(select.value) } });
   const words = h("span", { class: "quiet pattern-state" });
   const image = svg("svg", { preserveAspectRatio: "none", class: "pattern-picture", "aria-hidden": "true" });
@@ -90,7 +90,7 @@ export function patternGait({ side, name, help, choose, move }) {
     }
     cursor.style.left = `${(100 * at) / count}%`;
     cursor.style.width = `${100 / count}%`;
-    const state = stateWords(feet, at);
+    const state = stateText(feet, at);
     setText(words, `sample ${at + 1} of ${count} · ${fixed(at * step)} s · ${state}`);
     setAttribute(strip, "aria-valuemax", count);
     setAttribute(strip, "aria-valuenow", at + 1);

@@ -6,7 +6,7 @@ import { mountPatternDrawing } from "./pattern_drawing.js";
 import { DENSE, buildRow, fitRow } from "../timeline/timeline_rows.js";
 
 
-const FIXED_WORDS = { end: "given by a gait", limb: "locked limb", drawn: "drawn", given: "locked" };
+const FIXED_TEXTS = { end: "given by a gait", limb: "locked limb", drawn: "drawn", given: "locked" };
 
 function drawCell(cell, { foot, sample, value, fixed, changed }) {
   const word = value === null ? "not known" : value ? "stance" : "swing";
@@ -14,7 +14,7 @@ function drawCell(cell, { foot, sample, value, fixed, changed }) {
   cell.toggleAttribute("data-locked", fixed !== null);
   setAttribute(cell, "data-fixed", fixed);
   cell.toggleAttribute("data-preview", changed);
-  cell.setAttribute("aria-label", `foot ${foot + 1}, sample ${sample + 1}: ${word}${fixed ? `, ${FIXED_WORDS[fixed]}` : ""}${changed ? ", not as drawn" : ""}`);
+  cell.setAttribute("aria-label", `foot ${foot + 1}, sample ${sample + 1}: ${word}${fixed ? `, ${FIXED_TEXTS[fixed]}` : ""}${changed ? ", not as drawn" : ""}`);
 }
 
 function drawRow(line, foot, shown, role) {
@@ -33,7 +33,7 @@ function drawRow(line, foot, shown, role) {
 
 /**
  * Builds the grid.
- * @param {object} question of `createQuestion`
+ * @param {object} question of `createProblem`
  * @param {{lockLimb: (foot: number) => void}} acts what a click on a row's name does
  * @returns {{element: HTMLElement, show: (shown: object) => void, cancel: () => boolean}} `show` takes `legs`, `samples`,
  *   `rows` (of 1 and 0, or null while nothing is known), `fixed(foot, sample)` (why, or null), `fixedValue(foot, sample)`,

@@ -56,7 +56,7 @@ function rowsOf({ answer, running, chosen, looked }, { legs, samples }) {
  * @param {object} store
  * @param {object} question
  */
-export function patternShown(store, question) {
+export function patternGridModel(store, question) {
   if (!store.state.view) return null;
   const source = SOURCES[question.state.mode](store, question);
   if (!source) return null;

@@ -67,7 +67,7 @@ function keep(state) {
 export const asked = (state) => Object.keys(INITIAL).map((name) => state[name]).concat([state.freed]);
 
 /** Creates the state of the panel, which is watched like the page's store. */
-export function createQuestion() {
+export function createProblem() {
   const question = watchable({ ...recalled(), ...FLEETING });
   question.watch(asked, keep);
   return question;
@@ -106,7 +106,7 @@ export const lengthOf = ({ mode, samples, shortest, cycle }) => (mode === "limbs
 
 /**
  * The question as it is sent.
- * @param {object} state of `createQuestion`
+ * @param {object} state of `createProblem`
  * @param {{gait: string, limbs: string[], document: object|null, drawing: string[]|null, isFree: Function}} page the open
  *   gait, what its limbs do, its document where an edit is under way, the rows to keep where that can be, and which cells
  *   are not given: what was drawn elsewhere waits until the pattern is longer again

@@ -6,7 +6,7 @@ import { picture } from "./pattern_gait_strip.js";
 import { relaxed, ruleOf, RULES } from "./pattern_problem.js";
 import { announce, toast } from "../lib/toasts.js";
 
-const WORDS = {
+const TEXTS = {
   optimal: ["Optimal", "good", "nothing better keeps the rules"],
   feasible: ["Feasible", "caution", "it keeps the rules; a better one may exist"],
   infeasible: ["Infeasible", "caution", "no pattern keeps all rules"],
@@ -16,7 +16,7 @@ const WORDS = {
 const times = (count, word) => `${count} ${word}${count === 1 ? "" : "s"}`;
 
 /** "4 changes · 8 of single limbs": a pattern's score in words. */
-function scoreWords({ sample_changes: changes, limb_changes: single, redrawn }, kept) {
+export function scoreText({ sample_changes: changes, limb_changes: single, redrawn }, kept) {
   return [times(changes, "change"), `${single} of single limbs`, kept && `${times(redrawn, "cell")} redrawn`].filter(Boolean).join(" · ");
 }
 
@@ -36,7 +36,7 @@ function progressBox(search) {
       if (!running) return;
       const { objective, bound, seconds: past } = running;
       const known = objective !== null && objective !== undefined;
-      setText(text, `Searching for ${seconds(past ?? 0)} s · ${known ? `best ${scoreWords(running.pattern, false)} · score ${fixed(objective, 0)}, at least ${fixed(bound, 0)} · gap ${gapOf(running)} %` : "no pattern yet"}`);
+      setText(text, `Searching for ${seconds(past ?? 0)} s · ${known ? `best ${scoreText(running.pattern, false)} · score ${fixed(objective, 0)}, at least ${fixed(bound, 0)} · gap ${gapOf(running)} %` : "no pattern yet"}`);
       bar.style.transform = `scaleX(${known && objective > 0 ? Math.min(Math.max(bound, 0) / objective, 1) : 0})`;
       setAllowed(useNow, known ? null : "No pattern is found yet.", "Take the best pattern yet and search no further");
     },
@@ -91,7 +91,7 @@ function alternatives(question, look) {
   });
   list.addEventListener("pointerleave", () => look(null));
   const item = (pattern, index, kept) => h("li", { role: "option", id: `pattern-${index}`, on: { click: () => choose(index), pointerenter: () => look(index) } },
-    h("span", { class: "number", text: String(index + 1) }), thumbnail(pattern.feet), h("span", { text: scoreWords(pattern, kept) }), h("span", { class: "number quiet", text: fixed(pattern.score, 0), title: "The weighted sum; smaller is better" }));
+    h("span", { class: "number", text: String(index + 1) }), thumbnail(pattern.feet), h("span", { text: scoreText(pattern, kept) }), h("span", { class: "number quiet", text: fixed(pattern.score, 0), title: "The weighted sum; smaller is better" }));
   return {
     element,
     show({ answer, chosen, keep, mode }) {
@@ -111,14 +111,14 @@ function alternatives(question, look) {
  * @param {{useNow: Function, cancel: Function}} search
  * @param {(index: number|null) => void} look shows one of the best patterns for a moment, or the chosen one again
  */
-export function patternAnswer(question, search, look) {
+export function patternResult(question, search, look) {
   const [dot, word, sentence, time] = [h("span", { class: "dot" }), h("b"), h("span", { class: "quiet" }), h("span", { class: "number quiet" })];
   const line = h("div", { class: "pattern-line", role: "status", "aria-label": "Pattern found" }, dot, word, sentence, time);
   const error = h("p", { class: "box-note", role: "alert", data: { tone: "bad" }, hidden: true });
   const [progress, clash, best] = [progressBox(search), clashBox(question), alternatives(question, look)];
   question.watch(({ answer, running, error: refusal, chosen, asking, keep, mode }) => [answer, running, refusal, chosen, asking, keep, mode], (state) => {
     const { answer, running } = state;
-    const [text, tone, meaning] = running ? ["Searching", "accent", ""] : answer ? WORDS[answer.status] : [state.asking ? "Searching" : "No pattern", "quiet", ""];
+    const [text, tone, meaning] = running ? ["Searching", "accent", ""] : answer ? TEXTS[answer.status] : [state.asking ? "Searching" : "No pattern", "quiet", ""];
     const pattern = answer?.patterns[state.chosen];
     dot.dataset.tone = tone;
     setText(word, text);

@@ -1,11 +1,11 @@
 /** Asks the studio for the pattern whenever the question changes; the newest question wins, each page has its own. */
 
 import { api } from "../api/gaits.js";
-import { lane } from "../lib/latest_only.js";
+import { latestOnly } from "../lib/latest_only.js";
 import { measured } from "../state/live_plan.js";
 import { asked, bodyOf, lengthOf, limbsOf } from "./pattern_problem.js";
 import { timelineOf } from "./pattern_gaits.js";
-import { patternShown } from "./pattern_grid_model.js";
+import { patternGridModel } from "./pattern_grid_model.js";
 import { runIsOn, shownDocument } from "../state/store.js";
 import { attempt } from "../lib/toasts.js";
 
@@ -24,7 +24,7 @@ export function shownRows({ answer, running, chosen }) {
 /**
  * Keeps the answer current while the panel is open.
  * @param {object} store the page's
- * @param {object} question of `createQuestion`
+ * @param {object} question of `createProblem`
  * @param {() => boolean} isOpen
  * @returns {{ask: () => void, cancel: () => Promise<void>, useNow: () => Promise<void>}}
  */
@@ -35,7 +35,7 @@ export function mountSearch(store, question, isOpen) {
   /** The best pattern comes first; those after it are asked for once nobody has changed the question for a moment. */
   let [timer, silence, isMore, sent] = [0, 0, false, null];
   /** What was asked last, with the documents that it was about. */
-  let posed = null;
+  let submitted = null;
 
   /** Rows to keep: what is shown now, where it has the length; a gait's own drawing is kept by itself. */
   function drawingFor() {
@@ -47,7 +47,7 @@ export function mountSearch(store, question, isOpen) {
     const { state } = store;
     const document = shownDocument(state);
     const about = { robot: document.robot, legs: document.timeline.feet.length };
-    const shown = patternShown(store, question);
+    const shown = patternGridModel(store, question);
     return bodyOf(question.state, {
       isFree: (limb, sample) => !shown || shown.isFree(limb, sample),
       gait: state.selected, limbs: limbsOf(question.state, about), document: state.pending.length ? document : null, drawing: drawingFor() });
@@ -57,13 +57,13 @@ export function mountSearch(store, question, isOpen) {
     .map((gait) => timelineOf(store, question, gait)).map((document) => document && JSON.stringify(question.state.mode === "limbs" ? aboutLimbs(document) : document));
 
   /** The question without the gait's name where only what the gait is like matters. */
-  const posedBody = (now) => JSON.stringify(question.state.mode === "limbs" ? { ...now, gait: null } : now);
+  const submittedBody = (now) => JSON.stringify(question.state.mode === "limbs" ? { ...now, gait: null } : now);
 
   /** Whether the question that stands is not the one that was asked last; a document that was not at hand is the same. */
   function isNew() {
     const { answer, asking, error } = question.state;
-    if (!posed || error || (!asking && (!answer || answer.status === "cancelled"))) return true;
-    return posed.body !== posedBody(body()) || documents().some((one, index) => one && posed.documents[index] && one !== posed.documents[index]);
+    if (!submitted || error || (!asking && (!answer || answer.status === "cancelled"))) return true;
+    return submitted.body !== submittedBody(body()) || documents().some((one, index) => one && submitted.documents[index] && one !== submitted.documents[index]);
   }
 
   function take({ id, state, progress, result, sentence }) {
@@ -89,7 +89,7 @@ export function mountSearch(store, question, isOpen) {
 
   const hear = attempt(async (id) => { if (id === newest && id !== ended) take(await api.pattern(id)); });
 
-  const offer = lane(async (what) => {
+  const offer = latestOnly(async (what) => {
     isMore = Boolean(what.more);
     if (!isMore) [since, sent] = [what.since, what.body];
     current = what.number;
@@ -111,18 +111,18 @@ export function mountSearch(store, question, isOpen) {
     clearTimeout(timer);
     question.set({ asking: true });
     const now = body();
-    posed = { body: posedBody(now), documents: documents() };
+    submitted = { body: submittedBody(now), documents: documents() };
     offer({ body: { ...now, count: 1 }, since: performance.now(), number: latest });
   }
 
   /** Another gait was opened, or a gait was edited: what was found and chosen stays where that is another matter. */
-  const askIfNew = () => { if (isOpen() && store.state.view && isNew()) ask(); };
+  const submitIfNew = () => { if (isOpen() && store.state.view && isNew()) ask(); };
 
   question.watch(asked, ask);
-  question.watch(({ documents: known }) => [known], () => { if (posed) askIfNew(); });
-  store.watch(({ view, pending }) => [view?.id, view?.revision, pending.length], askIfNew);
+  question.watch(({ documents: known }) => [known], () => { if (submitted) submitIfNew(); });
+  store.watch(({ view, pending }) => [view?.id, view?.revision, pending.length], submitIfNew);
   store.watch(({ pattern }) => [pattern], ({ pattern }) => { if (pattern) take(pattern); });
 
   const tell = (act) => attempt(async () => { if (question.state.running) await act(question.state.running.id); });
-  return { ask: askIfNew, cancel: tell(api.cancelPattern), useNow: tell(api.usePattern) };
+  return { ask: submitIfNew, cancel: tell(api.cancelPattern), useNow: tell(api.usePattern) };
 }

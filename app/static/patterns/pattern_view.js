@@ -1,17 +1,17 @@
 /** The pattern search: its controls in the right column, and in the lower part the gaits with the pattern between them. */
 
 import { byId, h, setAttribute, setText, svg } from "../lib/dom.js";
-import { patternActs } from "./pattern_actions.js";
-import { patternAnswer } from "./pattern_result.js";
+import { patternActions } from "./pattern_actions.js";
+import { patternResult } from "./pattern_result.js";
 import { patternFields } from "./pattern_fields.js";
-import { patternGait } from "./pattern_gait_strip.js";
+import { patternGaitStrip } from "./pattern_gait_strip.js";
 import { mountPatternGaits, timelineOf, transitionGaits } from "./pattern_gaits.js";
 import { patternGrid } from "./pattern_grid.js";
 import { patternPlayhead } from "./pattern_playhead.js";
-import { createQuestion, drawnCells, limbsOf, withCells } from "./pattern_problem.js";
+import { createProblem, drawnCells, limbsOf, withCells } from "./pattern_problem.js";
 import { patternRules } from "./pattern_rules.js";
 import { mountSearch } from "./pattern_search.js";
-import { patternShown } from "./pattern_grid_model.js";
+import { patternGridModel } from "./pattern_grid_model.js";
 import { shownDocument } from "../state/store.js";
 import { toast } from "../lib/toasts.js";
 
@@ -36,7 +36,7 @@ const hatch = () => svg("svg", { class: "sprite", "aria-hidden": "true" }, svg("
   svg("line", { x1: 0, y1: 0, x2: 0, y2: 0.4, "stroke-width": 0.22, class: "pattern-hatch-line" }))));
 
 function gaitParts(store, question) {
-  const part = (side, name) => patternGait({ side, name, help: `The gait that the transition leads ${side}`,
+  const part = (side, name) => patternGaitStrip({ side, name, help: `The gait that the transition leads ${side}`,
     choose: (gait) => question.set({ [side]: { gait, sample: 0 } }), move: (sample) => question.set({ [side]: { ...question.state[side], sample } }) });
   const parts = { from: part("from", "Gait A"), to: part("to", "Gait B") };
   return {
@@ -91,14 +91,14 @@ function lowerPart(store, question, lock) {
       if (!shown) return;
       grid.show(shown);
       element.dataset.feet = shown.legs;
-      setText(note, `${shown.samples} samples · ${fixedWords(question.state)}`);
+      setText(note, `${shown.samples} samples · ${drawnText(question.state)}`);
       above.show(parts.from.cursorAt(), 50 / shown.samples);
       below.show(parts.to.cursorAt(), 100 - 50 / shown.samples);
     },
   };
 }
 
-function fixedWords(state) {
+function drawnText(state) {
   const count = Object.keys(drawnCells(state)).length;
   return count ? `${count} cell${count > 1 ? "s" : ""} drawn` : "click a cell to draw what you want";
 }
@@ -110,19 +110,19 @@ function fixedWords(state) {
  * @returns {Promise<{open: (mode: string|null) => void, close: () => void, cancel: () => boolean}>}
  */
 export async function mountPatterns(store, page) {
-  const question = createQuestion();
+  const question = createProblem();
   let open = false;
   const isOpen = () => open;
   const gaits = mountPatternGaits(store, question, isOpen);
   const search = mountSearch(store, question, isOpen);
-  const shown = () => patternShown(store, question);
+  const shown = () => patternGridModel(store, question);
   const lock = limbLocking(store, question, shown);
   const lower = lowerPart(store, question, lock);
   patternPlayhead(store, question, page.playback, lower.lanes);
   const fields = patternFields(store, question, lock);
-  const acts = patternActs(store, question, page);
+  const acts = patternActions(store, question, page);
   const panel = h("div", { class: "pattern-panel", role: "tabpanel", id: "patterns", "aria-labelledby": "tab-patterns" },
-    h("div", { class: "pattern-scroll" }, fields.element, ...patternAnswer(question, search, (looked) => question.set({ looked })), ...patternRules(question)), acts.element);
+    h("div", { class: "pattern-scroll" }, fields.element, ...patternResult(question, search, (looked) => question.set({ looked })), ...patternRules(question)), acts.element);
   await withStyles();
   byId("chart").after(lower.element);
   document.querySelector("aside.right").append(panel);

@@ -2,7 +2,7 @@
 
 import { h, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
-import { lane } from "../lib/latest_only.js";
+import { latestOnly } from "../lib/latest_only.js";
 import { pictureView } from "./picture_view.js";
 import { pictureOf } from "../api/videos.js";
 import "./picture_style.js";
@@ -70,7 +70,7 @@ export function openStage(source, frame = 0, lost = () => {}) {
     lost(why);
   }
 
-  const offer = lane(async (number) => {
+  const offer = latestOnly(async (number) => {
     if (closed) return;
     try {
       const next = await fetching(number);

@@ -128,7 +128,7 @@ function nearest({ content, scale }, index, height) {
   return near.reduce((best, one) => (best === null || away(one) < away(best) ? one : best), null);
 }
 
-function hoverWords({ kind }, { content: { low, high } }, { series, value }, time) {
+function hoverText({ kind }, { content: { low, high } }, { series, value }, time) {
   const limit = high !== null && value > high + ROUNDING ? `, limit ${fixed(high)}` : low !== null && value < low - ROUNDING ? `, limit ${fixed(low)}` : "";
   return [ownerOf(series), `${fixed(value)} ${kind.unit}${limit}`, `${fixed(time)} s`].filter(Boolean).join(" · ");
 }
@@ -151,7 +151,7 @@ function mountHover(store, rows) {
     const around = byId("plots").getBoundingClientRect();
     const across = (acrossOf(axis, [plan.times[index]]).x[0] / WIDTH) * box.width;
     hover.hidden = false;
-    setText(words, hoverWords(row, row.drawn, found, plan.times[index]));
+    setText(words, hoverText(row, row.drawn, found, plan.times[index]));
     hover.dataset.foot = found.series.foot === null ? "" : String(found.series.foot + 1);
     hover.toggleAttribute("data-left", across > box.width - 190);
     hover.toggleAttribute("data-below", box.top - around.top < NEAR_PX * 2 + 10);

@@ -1,7 +1,7 @@
 /** The simulation of the shown gait: fetched once, laid over the plan as long as it is of the very plan. */
 
 import { api } from "../api/gaits.js";
-import { lane } from "../lib/latest_only.js";
+import { latestOnly } from "../lib/latest_only.js";
 import { shownPlan } from "../state/store.js";
 import { report } from "../lib/toasts.js";
 
@@ -47,7 +47,7 @@ export function traceOf(simulation) {
 
 /** Keeps the store's `simulation` that of the shown gait. */
 export function followSimulation(store) {
-  const offer = lane(async (key) => {
+  const offer = latestOnly(async (key) => {
     try {
       const simulation = await api.simulation(key);
       if (store.state.view?.simulation?.key === key) store.set({ simulation });

@@ -19,7 +19,7 @@ function greatest(values) {
 const footAndValue = (top, foot, unit) => (top ? `foot ${foot(top.at) + 1}: ${fixed(top.value)} ${unit}` : "–");
 /** Of a robot whose motors share actuators the real ones, over the plane of the standing feet; null where there is none. */
 const heightsAt = ({ real_heights_mm: real, feet }, index) => real?.[index] ?? (feet?.[index] ?? []).map((foot) => foot[2] * 1000);
-const mmAsked = (value) => (value ? value * 1000 : null);
+const mmRequested = (value) => (value ? value * 1000 : null);
 
 /**
  * The strips in their order. `of(plan, options)` gives what is drawn, or null with `lack` as the reason: `series` of {foot,
@@ -32,7 +32,7 @@ export const STRIPS = [
     help: "Distance of the centre of mass from the edge of the support polygon, in mm; below 0 it tips",
     of: (plan, options) => (plan.margin ? {
       series: [{ foot: null, motor: null, valueAt: (index) => (plan.margin[index] === null ? null : plan.margin[index] * 1000) }],
-      low: 0, high: null, wanted: mmAsked(options?.margin), most: 1,
+      low: 0, high: null, wanted: mmRequested(options?.margin), most: 1,
     } : null),
     now: ({ margin }, index) => ((margin?.[index] ?? null) === null ? "–" : `${fixed(margin[index] * 1000)} mm`),
     isBad: ({ margin }, index) => (margin?.[index] ?? 0) < 0,
@@ -65,7 +65,7 @@ export const STRIPS = [
     key: "motor_speeds", name: "Motor speeds", unit: "mm/s", shown: false, lack: "No strokes: the plan is out of the legs' reach.",
     help: "Speed of every motor in mm/s, a colour a foot, with what a motor can do",
     of: ({ motor_speeds_mm_s: speeds, speed_limits_mm_s: limits }, options) =>
-      (speeds ? { series: aMotor(speeds), low: null, high: limits.motor, wanted: mmAsked(options?.motor_speed), floor: 0 } : null),
+      (speeds ? { series: aMotor(speeds), low: null, high: limits.motor, wanted: mmRequested(options?.motor_speed), floor: 0 } : null),
     now: ({ motor_speeds_mm_s: speeds }, index) => footAndValue(greatest(speeds?.[index] ?? []), (at) => Math.floor(at / MOTORS), "mm/s"),
   },
 ];

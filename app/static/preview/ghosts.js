@@ -3,7 +3,7 @@
 import { api } from "../api/gaits.js";
 import { checkMenu, recalled, remember } from "../lib/check_menu.js";
 import { byId } from "../lib/dom.js";
-import { lane } from "../lib/latest_only.js";
+import { latestOnly } from "../lib/latest_only.js";
 import { simulationOver } from "../plots/simulation.js";
 
 const KINDS = {
@@ -29,7 +29,7 @@ function versionOf(kind, state) {
 /** Keeps one ghost current: fetched once a version, shown while it is wanted. */
 function follow(store, preview, kind, menu, isOn) {
   let shown = null;
-  const offer = lane(async ({ id, of, key }) => {
+  const offer = latestOnly(async ({ id, of, key }) => {
     let poses = null;
     try {
       poses = await (kind === "measured" ? api.runGhost(of) : kind === "simulated" ? api.simulatedGhost(of.split(" ")[0]) : api.ghost(id, of));

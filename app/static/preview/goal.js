@@ -107,7 +107,7 @@ function place(element, [x, y]) {
 }
 
 /** Whether the floor is seen flat enough for a place on it to be pointed at. */
-function isSeen(points) {
+function isVisible(points) {
   if (points.includes(null)) return false;
   const heights = points.map(([, y]) => y);
   return Math.max(...heights) - Math.min(...heights) > FLATTEST_PX;
@@ -118,7 +118,7 @@ function draw(parts, floor, goal, document) {
   const around = (degrees, radius) => floor.toStage([goal.x + radius * Math.cos(radians(degrees)), goal.y + radius * Math.sin(radians(degrees))]);
   const [start, end, knob] = [floor.toStage([0, 0]), floor.toStage([goal.x, goal.y]), around(goal.heading, goal.radius)];
   const corners = Array.from({ length: RING_CORNERS }, (_, index) => around((360 * index) / RING_CORNERS, goal.radius));
-  if (!isSeen(corners) || !start || !end) return false;
+  if (!isVisible(corners) || !start || !end) return false;
   parts.ring.setAttribute("d", `${pathOf(corners)}Z`);
   parts.way.setAttribute("d", pathOf([start, end]));
   parts.look.setAttribute("d", pathOf([around(goal.heading, goal.radius * 0.86), knob]));
@@ -142,7 +142,7 @@ function describe(parts, document) {
   parts.turn.setAttribute("aria-valuetext", `turn ${fixed(turn)}°`);
 }
 
-function stepWay(edits, preview) {
+function stepDrag(edits, preview) {
   const arrows = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
   return {
     name: (document) => `Goal to ${fixed(stepLength(document) * 1000)} mm`,
@@ -168,7 +168,7 @@ function stepWay(edits, preview) {
   };
 }
 
-function turnWay(edits, preview, goal) {
+function turnDrag(edits, preview, goal) {
   const held = (degrees) => Math.min(Math.max(degrees, -MOST_TURN), MOST_TURN);
   const angleAt = (pointer) => {
     const at = floorOf(preview)?.ofPointer(pointer);
@@ -214,7 +214,7 @@ export function mountGoal(store, edits, preview) {
   const layer = byId("goal");
   let goal = null;
   let drawn = null;
-  const cancels = [movable(parts.goal, store, edits, stepWay(edits, preview)), movable(parts.turn, store, edits, turnWay(edits, preview, () => goal))];
+  const cancels = [movable(parts.goal, store, edits, stepDrag(edits, preview)), movable(parts.turn, store, edits, turnDrag(edits, preview, () => goal))];
 
   function follow() {
     requestAnimationFrame(follow);

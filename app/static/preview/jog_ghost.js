@@ -1,7 +1,7 @@
 /** The target of a jog as a quiet second robot in 3D, with its body where the shown plan has it at the playhead. */
 
 import { api } from "../api/gaits.js";
-import { lane } from "../lib/latest_only.js";
+import { latestOnly } from "../lib/latest_only.js";
 import { shownPlan } from "../state/store.js";
 
 const KIND = "jog";
@@ -26,7 +26,7 @@ function stepped({ x, y, heading }, steps) {
 /** Follows the target. */
 export function mountJogGhost(store, preview, playback) {
   let shown = null;
-  const offer = lane(async ({ target, key }) => {
+  const offer = latestOnly(async ({ target, key }) => {
     let poses = null;
     try {
       poses = await api.jogGhost(target);

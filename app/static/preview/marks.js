@@ -26,10 +26,10 @@ export class Marks {
   #caution = 0.003;
   #theme = "light";
   #visible = { polygon: true, com: true, cop: true, traces: true, footholds: true, trouble: true, robot: true, reach: false };
-  #planSaid = false;
-  #visibleSaid = null;
+  #planSent = false;
+  #visibleSent = null;
   #sample = -1;
-  #shellSaid = null;
+  #shellSent = null;
   #pressure = null;
   #points = new Map();
 
@@ -41,7 +41,7 @@ export class Marks {
   get overlay() { return this.#overlay; }
 
   /** Whether nothing of the plan has been said yet. */
-  get isNew() { return !this.#planSaid; }
+  get isNew() { return !this.#planSent; }
 
   setOverlay(overlay, trouble = this.#trouble) {
     this.#overlay = overlay;
@@ -52,9 +52,9 @@ export class Marks {
 
   setShells(shells) {
     this.#shells = shells;
-    this.#shellSaid = null;
+    this.#shellSent = null;
     this.#sample = -1;
-    this.#planSaid = false;
+    this.#planSent = false;
   }
 
   setCaution(metres) {
@@ -64,7 +64,7 @@ export class Marks {
 
   setDark(dark) {
     this.#theme = dark ? "dark" : "light";
-    this.#planSaid = false;
+    this.#planSent = false;
   }
 
   show(part, visible) {
@@ -75,15 +75,15 @@ export class Marks {
 
   /** The client's scene is a new one: everything has to be said again. */
   forget() {
-    this.#visibleSaid = null;
+    this.#visibleSent = null;
     this.#points.clear();
     this.#again();
   }
 
   #again() {
-    this.#planSaid = false;
+    this.#planSent = false;
     this.#sample = -1;
-    this.#shellSaid = null;
+    this.#shellSent = null;
     this.#pressure = null;
   }
 
@@ -94,8 +94,8 @@ export class Marks {
 
   /** What stays the same all through the plan. */
   #planMessages() {
-    if (this.#planSaid) return [];
-    this.#planSaid = true;
+    if (this.#planSent) return [];
+    this.#planSent = true;
     const lines = this.#overlay ? this.#updates(planUpdates(this.#overlay, this.#theme)) : [];
     return [...lines, ...this.visibleMessages()];
   }
@@ -113,8 +113,8 @@ export class Marks {
   /** The reach changes with the body's height only, which seldom changes. */
   #shellUpdates(sample) {
     const height = this.#shells?.planes[sample];
-    if (!this.#visible.reach || height === undefined || height === this.#shellSaid) return [];
-    this.#shellSaid = height;
+    if (!this.#visible.reach || height === undefined || height === this.#shellSent) return [];
+    this.#shellSent = height;
     return [[SHELLS, shellUpdate(this.#shells, sample)]];
   }
 
@@ -136,8 +136,8 @@ export class Marks {
     messages.push(visibleMessage("/robot", this.#visible.robot));
     // Each of these costs the client a walk over its tree and a frame: only what is new is said.
     const key = JSON.stringify(messages);
-    if (key === this.#visibleSaid) return [];
-    this.#visibleSaid = key;
+    if (key === this.#visibleSent) return [];
+    this.#visibleSent = key;
     return messages;
   }
 

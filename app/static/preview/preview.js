@@ -40,7 +40,7 @@
  */
 
 import { Ghosts } from "./viser_ghosts.js";
-import { fineLooks } from "./shadow.js";
+import { shadowMessages } from "./shadow.js";
 import { Marks } from "./marks.js";
 import { floorOf } from "./overlay.js";
 import { PoseTable, VALUES_A_NODE } from "./poses.js";
@@ -54,7 +54,7 @@ const BODY = "/robot/body";
 const WATCH_MS = 250;
 const DIRECT_PATIENCE_MS = 8000;
 const STRAY = 1e-5;
-const SETTLING_LOOKS = new Set([2, 4, 8]);
+const SETTLING_POLLS = new Set([2, 4, 8]);
 const TARGET = [0, 0, 0.034];
 const VIEW_DISTANCE = 4.6;
 const VIEWS = {
@@ -235,7 +235,7 @@ export class Preview extends EventTarget {
       this.#looks = 0;
       this.#setRoute("direct");
       this.#sharpness.attach();
-      this.#client.push(fineLooks(this.#client));
+      this.#client.push(shadowMessages(this.#client));
       this.#pushAll();
       this.dispatchEvent(new CustomEvent("ready"));
     }
@@ -252,7 +252,7 @@ export class Preview extends EventTarget {
   #settle() {
     if (!this.#bodyNode || this.#client.busy) return;
     this.#looks += 1;
-    if (SETTLING_LOOKS.has(this.#looks)) this.#pushAll();
+    if (SETTLING_POLLS.has(this.#looks)) this.#pushAll();
     else if (this.#shown && this.#table.nodes.some((name, index) => this.#strayed(name, index))) {
       this.#shown = null;
       this.#request();

@@ -13,7 +13,7 @@ const LAMP = "/light/lamp";
  * @param {import("./viser_client.js").ViserClient} client
  * @returns {object[]} none where the client draws in software
  */
-export function fineLooks(client) {
+export function shadowMessages(client) {
   if (client.drawsInSoftware || !client.node(FLOOR)) return [];
   const parts = client.meshes("/robot/").map((name) => client.updateMessage(name, { cast_shadow: true }));
   return [...parts, client.updateMessage(LAMP, { cast_shadow: true }), visibleMessage(FLOOR, true)];

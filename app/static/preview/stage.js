@@ -6,9 +6,9 @@ import { byId, h, setText } from "../lib/dom.js";
 import { fixed, mm } from "../lib/format.js";
 import { mountGhosts } from "./ghosts.js";
 import { mountGoal } from "./goal.js";
-import { troubleOf } from "../document/missing_motion.js";
+import { missingMotionOf } from "../document/missing_motion.js";
 import { mountJogGhost } from "./jog_ghost.js";
-import { lane } from "../lib/latest_only.js";
+import { latestOnly } from "../lib/latest_only.js";
 import { measured, painted } from "../state/live_plan.js";
 import { Preview } from "./preview.js";
 import { extremes } from "../state/plan_samples.js";
@@ -29,7 +29,7 @@ async function openPreview(dark) {
   return preview;
 }
 
-function verdictWords(view, before) {
+function verdictText(view, before) {
   if (view.approval) return ["approved", "good"];
   if (view.verdict) return view.verdict.passed ? ["checked", "good"] : ["check failed", "bad"];
   if (view.revoked && !view.revoked.startsWith("The gait changed")) return ["approval gone", "caution"];
@@ -38,10 +38,10 @@ function verdictWords(view, before) {
 }
 
 /** What the check says of the plan, unless what is shown is not the plan. */
-function checkWords(state, plan) {
+function checkText(state, plan) {
   if (state.iterate) return null;
   if (plan !== state.view.plan) return ["edit under way", "quiet"];
-  return verdictWords(state.view, state.checked[state.view.id]);
+  return verdictText(state.view, state.checked[state.view.id]);
 }
 
 const MARGIN_HELP = "Least distance from the edge of the support polygon: of the centre of pressure where the motion is solved, else of the centre of mass";
@@ -57,7 +57,7 @@ function planNote(state) {
   const failed = plan === view.plan && view.verdict && !view.verdict.passed;
   const [word, tone] = failed ? ["Check failed", "bad"] : planState(plan);
   const infeasible = planState(plan)[0] === "Infeasible";
-  const checked = failed || infeasible ? null : checkWords(state, plan);
+  const checked = failed || infeasible ? null : checkText(state, plan);
   // Of the nearest motion to one that there is not, no figure may look like the plan's.
   const margin = !infeasible && plan.balance !== null;
   const figures = h("div", { class: "figures" }, h("b", { text: word, data: { toneText: tone } }),
@@ -80,12 +80,12 @@ function mountLegend(store) {
 function followPlan(store, playback, preview) {
   let drawn = Promise.resolve();
   let missed = null;
-  const offer = lane(async ({ id, plan, since }) => {
+  const offer = latestOnly(async ({ id, plan, since }) => {
     missed = null;
     try {
       // Drawing without a GPU must not hold up the plots: they are painted first, and so is the pose before.
       const [poses] = await Promise.all([api.poses(id, plan.hash), painted(), drawn]);
-      await preview.loadPoses(poses, troubleOf(plan));
+      await preview.loadPoses(poses, missingMotionOf(plan));
       preview.setTime(playback.time);
       message(null);
       drawn = preview.drawn();

@@ -3,7 +3,7 @@
 import { api } from "../api/gaits.js";
 import { checkMenu, recalled, remember } from "../lib/check_menu.js";
 import { byId } from "../lib/dom.js";
-import { lane } from "../lib/latest_only.js";
+import { latestOnly } from "../lib/latest_only.js";
 import { shownDocument, shownPlan } from "../state/store.js";
 
 /** What the menu shows and hides: its parts of the preview, and how it begins. */
@@ -21,7 +21,7 @@ const NO_PRESSURE = "Not known: this motion has no accelerations. Optimised and 
 
 /** Fetches the reach of the shown plan once it is wanted. */
 function followReach(store, preview, isOn) {
-  const offer = lane(async ({ id, hash, workspace }) => {
+  const offer = latestOnly(async ({ id, hash, workspace }) => {
     try {
       const reach = await api.reach(id, hash, workspace);
       if (shownPlan(store.state)?.hash === hash) preview.setReach(reach);
@@ -51,11 +51,11 @@ export function mountTools(store, preview) {
   byId("fit-view").addEventListener("click", () => preview.setView(byId("camera").value));
 
   const choice = recalled("scene", Object.fromEntries(ENTRIES.map(({ key, shown }) => [key, shown])));
-  const askReach = followReach(store, preview, () => choice.reach);
+  const requestReach = followReach(store, preview, () => choice.reach);
   const apply = ({ key, parts }) => {
     parts.forEach((part) => preview.show(part, choice[key]));
     if (key === "goal") byId("goal").hidden = !choice.goal;
-    if (key === "reach") askReach();
+    if (key === "reach") requestReach();
   };
   const menu = checkMenu({
     id: "show-menu", name: "Show", help: "What is drawn in the 3D preview",

@@ -20,7 +20,7 @@ const rgb = (colour) => [1, 3, 5].map((at) => 255 * (Number.parseInt(colour.slic
 const UNSEEN = rgb(GREY);
 
 /** The line pieces of a foot's way: [points, colours]; where it was not seen they are grey, and every second one is missing. */
-function wayOf(places, filled, colour, height) {
+function pathLine(places, filled, colour, height) {
   const [points, colours] = [[], []];
   let [from, gaps] = [0, 0];
   for (let at = 1; at < places.length; at += 1) {
@@ -105,7 +105,7 @@ export class Tracks {
   #newMessages(height) {
     const shown = [WAYS, MARKS].map((name) => visibleMessage(name, this.#tracks.length > 0));
     if (!this.#tracks.length) return shown;
-    const ways = this.#feet.map(({ places, filled, colour }) => wayOf(places, filled, colour, height));
+    const ways = this.#feet.map(({ places, filled, colour }) => pathLine(places, filled, colour, height));
     const [points, colours] = [0, 1].map((index) => ways.flatMap((way) => way[index]));
     return [this.#client.updateMessage(WAYS, { points: Float32Array.from(points), colors: Uint8Array.from(colours) }), ...shown];
   }

@@ -7,9 +7,9 @@ import { api } from "../api/gaits.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { fixed, seconds } from "../lib/format.js";
 import { jogRows } from "./jog_rows.js";
-import { takePose } from "./jog_pose.js";
+import { poseToSegment } from "./jog_pose.js";
 import { PARTS, handlesOf, withStep } from "./jog_steps.js";
-import { lane } from "../lib/latest_only.js";
+import { latestOnly } from "../lib/latest_only.js";
 import { whyNotHeld } from "../state/lease.js";
 import { needOperator } from "../state/operator.js";
 import { acceptRobot, watchable } from "../state/store.js";
@@ -50,7 +50,7 @@ function showChoice({ parts, foot }, { part, foot: chosen }, feet) {
   foot.hidden = part === "body";
 }
 
-function targetWords({ wired, moves, seconds: takes, stop_seconds: stop, margin_mm: margin, from, residual_mm: residual }, steps) {
+function targetText({ wired, moves, seconds: takes, stop_seconds: stop, margin_mm: margin, from, residual_mm: residual }, steps) {
   if (!steps.length) return BEGINS[from] ?? "";
   const off = Math.max(0, ...(residual ?? []).map(Math.abs));
   if (!wired) return `Shown in the preview only; least squares leave strokes up to ${fixed(off)} mm off.`;
@@ -69,7 +69,7 @@ function whyNotMove({ robot }, answer) {
 
 /** Asks the studio where the steps lead, the newest question only. */
 function asking(own) {
-  return lane(async ({ key, body }) => {
+  return latestOnly(async ({ key, body }) => {
     try {
       const answer = await api.robot("jog", { ...body, preview: true });
       own.set({ asked: key, answer });
@@ -106,7 +106,7 @@ export function jogPart(store, edits) {
   let sent = null;
   const element = h("details", { class: "more jog", role: "group", "aria-label": "Jog" }, h("summary", { text: "Jog: move a motor, a foot or the body by hand" }),
     h("div", {}, choiceRow({ ...parts, size }), rows.element, h("div", { role: "status", "aria-label": "Jog findings" }, parts.findings), parts.target,
-      h("div", { class: "buttons" }, parts.move, parts.back), parts.why, takePose(store, edits)));
+      h("div", { class: "buttons" }, parts.move, parts.back), parts.why, poseToSegment(store, edits)));
 
   element.addEventListener("toggle", () => own.set({ isOpen: element.open }));
   size.addEventListener("change", () => {
@@ -133,7 +133,7 @@ export function jogPart(store, edits) {
     showChoice(parts, now, feet);
     rows.show(handlesOf(now), (answer ?? now.answer)?.handles ?? null, now.size);
     parts.findings.replaceChildren(...(answer?.findings ?? []).map(findingRow));
-    setText(parts.target, answer ? targetWords(answer, now.steps) : "");
+    setText(parts.target, answer ? targetText(answer, now.steps) : "");
     const why = whyNotMove(state, answer);
     setAllowed(parts.move, why, "Moves the robot to the target, slowly and in small moves");
     setText(parts.why, why && !answer?.findings.some(({ sentence }) => sentence === why) ? why : "");

@@ -3,7 +3,7 @@
 import { api } from "../api/gaits.js";
 import { h, onPress, setAllowed } from "../lib/dom.js";
 import { isSequence } from "../document/sequence_edits.js";
-import { draftOf } from "../state/segment_draft.js";
+import { segmentDraftOf } from "../state/segment_draft.js";
 import { shownDocument } from "../state/store.js";
 import { attempt, toast } from "../lib/toasts.js";
 
@@ -15,12 +15,12 @@ function whyNot(state) {
   if (!document) return "No gait is selected.";
   if (isSequence(document)) return "A sequence follows its parts. Choose one of its gaits.";
   if (!document.segment_table) return "This gait has no segment table. Make one under Segments, or choose a gait made by hand.";
-  if (draftOf(state).steps.length) return "The segment table does not fit together yet. Mend it under Segments first.";
+  if (segmentDraftOf(state).steps.length) return "The segment table does not fit together yet. Mend it under Segments first.";
   return state.jog?.pose_mm ? null : "The target cannot be reached, so there is no pose to take.";
 }
 
 /** Builds the button; `edits` makes the change an edit of the gait. */
-export function takePose(store, edits) {
+export function poseToSegment(store, edits) {
   const button = h("button", { class: "wide", text: "Take this pose as a waypoint" });
   const take = attempt(async () => {
     const [document, { selected: gait }] = [shownDocument(store.state), store.state];
@@ -29,6 +29,6 @@ export function takePose(store, edits) {
     toast([`${name} is segment ${segment} of the segment table.`, ...sentences].join(" "), { of: "studio" });
   });
   onPress(button, take, (why) => toast(why));
-  store.watch((state) => [state.view, state.pending, state.gesture, state.tableDrafts, state.jog], (state) => setAllowed(button, whyNot(state), HELP));
+  store.watch((state) => [state.view, state.pending, state.gesture, state.segmentDrafts, state.jog], (state) => setAllowed(button, whyNot(state), HELP));
   return button;
 }

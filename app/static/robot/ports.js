@@ -2,12 +2,12 @@
 
 import { api } from "../api/gaits.js";
 import { h, onPress, setAttribute, setText } from "../lib/dom.js";
-import { lane } from "../lib/latest_only.js";
+import { latestOnly } from "../lib/latest_only.js";
 import { report } from "../lib/toasts.js";
 
 const EMULATOR = "emulator";
 const OTHER = "other";
-const LOOK_AGAIN_MS = 2000;
+const POLL_MS = 2000;
 
 const shortName = (device) => device.replace(/^\/dev\//, "");
 
@@ -52,7 +52,7 @@ export function portChooser(store, connect) {
     setText(words, found.again?.sentence ?? "");
   }
 
-  const look = lane(async () => {
+  const look = latestOnly(async () => {
     try {
       found = await api.ports();
       render();
@@ -82,7 +82,7 @@ export function portChooser(store, connect) {
     select.disabled = fixed;
     setAttribute(select, "title", fixed ? "Disconnect before you choose another robot" : "Which robot to connect");
     clearInterval(timer);
-    timer = robot?.link === "lost" ? setInterval(look, LOOK_AGAIN_MS) : null;
+    timer = robot?.link === "lost" ? setInterval(look, POLL_MS) : null;
     render();
     if (robot && !fixed) look();
   });

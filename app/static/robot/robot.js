@@ -1,17 +1,17 @@
 /** The Robot section: the way from the cable to a finished run, one deliberate act after the other. */
 
 import { api } from "../api/gaits.js";
-import { confirmAct } from "../lib/dialogs.js";
+import { confirmAction } from "../lib/dialogs.js";
 import { byId, h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { fixed, seconds, shortHash } from "../lib/format.js";
 import { jogPart } from "./jog.js";
-import { turns } from "../lib/latest_only.js";
+import { ticket } from "../lib/latest_only.js";
 import { leasePart, whyNotHeld } from "../state/lease.js";
 import { needOperator } from "../state/operator.js";
 import { portChooser } from "./ports.js";
 import { robotFaults } from "./robot_faults.js";
 import { robotLog } from "./robot_log.js";
-import { courseOf, coursePart, isOfCourse } from "./run_range.js";
+import { runRangeOf, runRangePart, isOfRunRange } from "./run_range.js";
 import { commandedStrokes } from "../state/plan_samples.js";
 import { sendControl } from "./send.js";
 import { acceptRobot, planIsOn, runIsOn, stopLimit } from "../state/store.js";
@@ -53,7 +53,7 @@ function progressOf(run) {
 }
 
 /** Check knows no robot; where its number is another one, both stand there with why. */
-function stopWords({ stop_seconds: stop, checked_stop_seconds: checked, scan_seconds: scan }) {
+function stopTimeText({ stop_seconds: stop, checked_stop_seconds: checked, scan_seconds: scan }) {
   if (seconds(stop) === seconds(checked)) return `${seconds(stop)} s`;
   const why = scan === null ? "of all waypoints" : `with the slowest scan known; this robot's took ${seconds(scan)} s`;
   return `${seconds(stop)} s (Check: ${seconds(checked)} s, ${why})`;
@@ -65,7 +65,7 @@ function summaryRows({ runSummary: run, view, selected }) {
   if (run.start_distance_mm !== null && run.start_distance_mm !== undefined) {
     rows.push(["To the start pose", `${fixed(run.start_distance_mm)} mm${run.start_moves ? ` in ${run.start_moves} move${run.start_moves === 1 ? "" : "s"}` : ""}`]);
   }
-  rows.push(["Largest move", `${fixed(run.largest_move_mm)} mm`], ["Stop acts within", stopWords(run)], ["Hash", shortHash(run.waypoints_hash), run.waypoints_hash]);
+  rows.push(["Largest move", `${fixed(run.largest_move_mm)} mm`], ["Stop acts within", stopTimeText(run)], ["Hash", shortHash(run.waypoints_hash), run.waypoints_hash]);
   return rows.flatMap(([name, value, help]) => [h("dt", { text: name }), h("dd", { class: help ? "mono" : null, text: value, title: help ?? null })]);
 }
 
@@ -73,7 +73,7 @@ function build(store) {
   const ports = portChooser(store, () => connect.button.click());
   const connect = robotButton(store, "Connect", "connect", { extra: () => ({ device: ports.value() }), help: CONNECT_WARNING });
   const reset = attempt(async () => {
-    if (await confirmAct("Reset the robot?", "Reset moves all 12 motors to 0.5 mm, at full speed and at the same time.", "Move all motors to 0.5 mm")) await act(store, "reset")();
+    if (await confirmAction("Reset the robot?", "Reset moves all 12 motors to 0.5 mm, at full speed and at the same time.", "Move all motors to 0.5 mm")) await act(store, "reset")();
   });
   return {
     ports, connect,
@@ -96,7 +96,7 @@ function build(store) {
 function assemble({ store, edits, playback }, parts, send) {
   const connect = way(1, parts.ports.offer, h("div", { class: "device" }, parts.ports.element, parts.connect.button, parts.disconnect.button), parts.connectNote);
   const arm = way(2, h("div", { class: "buttons" }, parts.arm.button, parts.clear.button, parts.armNote));
-  const start = way(3, coursePart(store, playback), parts.summary, send.element, parts.sendNote);
+  const start = way(3, runRangePart(store, playback), parts.summary, send.element, parts.sendNote);
   const run = way(4, h("div", { class: "progress" }, parts.bar), parts.progress, parts.later, parts.record,
     h("div", { class: "buttons" }, parts.pause.button, parts.resume.button, parts.reset.button));
   byId("robot").append(h("div", { class: "robot-state" }, parts.dot, parts.word, parts.sentence), leasePart(store),
@@ -105,7 +105,7 @@ function assemble({ store, edits, playback }, parts, send) {
   return { connect, arm, start, run };
 }
 
-function showWay(ways, robot) {
+function showSteps(ways, robot) {
   const ready = robot?.link === "ready";
   const armed = ready && !["unknown", "disarmed", "stopped", "fault", "done"].includes(robot.robot);
   const done = robot?.robot === "done";
@@ -138,7 +138,7 @@ function showRobot(parts, ways, robot) {
   parts.bar.style.transform = `scaleX(${progress?.fraction ?? 0})`;
   setText(parts.progress, progress?.text ?? (before ? `Last run: ${before.gait_name}, ${before.state}.` : "No run yet."));
   setText(parts.record, robot?.record_trouble ?? "");
-  showWay(ways, robot);
+  showSteps(ways, robot);
 }
 
 /** What to know of a run whose gait is no longer as it was approved and sent. */
@@ -155,19 +155,19 @@ function whyNotSend(state) {
   if (!view?.approval) return "Only an approved plan can be sent: check and approve it first.";
   if (whyNotHeld(robot)) return whyNotHeld(robot);
   if (robot.allowed?.send) return robot.allowed.send;
-  if (!runSummary || runSummary.waypoints_hash !== view.approval.waypoints_hash || !isOfCourse(runSummary, state)) return "The summary of this plan is not there yet.";
+  if (!runSummary || runSummary.waypoints_hash !== view.approval.waypoints_hash || !isOfRunRange(runSummary, state)) return "The summary of this plan is not there yet.";
   return runSummary.reason ?? null;
 }
 
 /** Keeps the summary of what would be sent that of the shown plan. */
 function followSummary(store) {
-  const begin = turns();
-  store.watch(({ selected, view, robot, runCourse }) => [selected, runCourse, view?.plan?.waypoints_hash, view?.approval?.waypoints_hash, robot?.link, robot?.robot], async (state) => {
+  const begin = ticket();
+  store.watch(({ selected, view, robot, runRange }) => [selected, runRange, view?.plan?.waypoints_hash, view?.approval?.waypoints_hash, robot?.link, robot?.robot], async (state) => {
     const isOld = begin();
     const { selected, view } = state;
     if (!selected || !view?.plan || view.plan.refusal) return store.set({ runSummary: null });
     try {
-      const summary = await api.run(selected, courseOf(state));
+      const summary = await api.run(selected, runRangeOf(state));
       if (!isOld()) store.set({ runSummary: { ...summary, gait: selected } });
     } catch (error) {
       if (isOld()) return undefined;
@@ -195,7 +195,7 @@ export function mountRobot(store, edits, playback) {
     parts.bars.show(robot?.strokes_mm ?? null, target ?? commandedStrokes(robot, view));
   });
   store.watch((state) => [laterEdit(state)], (state) => setText(parts.later, laterEdit(state)));
-  store.watch(({ robot, view, runSummary, selected, runCourse }) => [robot, view, runSummary, selected, runCourse], (state) => {
+  store.watch(({ robot, view, runSummary, selected, runRange }) => [robot, view, runSummary, selected, runRange], (state) => {
     const reason = whyNotSend(state);
     send.allow(reason);
     setText(parts.sendNote, reason ?? "Hold for a second, or click for a countdown.");

@@ -8,16 +8,16 @@ const HERE = "here";
 const WHOLE = Object.freeze({ first: 0, iterations: 1 });
 
 /** What is chosen for the shown plan; all of it once, where nothing is. */
-export function courseOf({ runCourse, view }) {
-  return runCourse && runCourse.hash === view?.plan?.waypoints_hash ? runCourse : WHOLE;
+export function runRangeOf({ runRange, view }) {
+  return runRange && runRange.hash === view?.plan?.waypoints_hash ? runRange : WHOLE;
 }
 
 /** Whether a summary is of what is chosen. */
-export const isOfCourse = (summary, state) => summary?.from === courseOf(state).first && summary.iterations === courseOf(state).iterations;
+export const isOfRunRange = (summary, state) => summary?.from === runRangeOf(state).first && summary.iterations === runRangeOf(state).iterations;
 
 function choose(store, change) {
   const { view } = store.state;
-  if (view?.plan) store.set({ runCourse: { ...courseOf(store.state), ...change, hash: view.plan.waypoints_hash } });
+  if (view?.plan) store.set({ runRange: { ...runRangeOf(store.state), ...change, hash: view.plan.waypoints_hash } });
 }
 
 function placeName({ waypoint, time }) {
@@ -38,33 +38,33 @@ function showBeginnings(select, places) {
 }
 
 /** Builds the two fields above the run's summary. */
-export function coursePart(store, playback) {
+export function runRangePart(store, playback) {
   const from = h("select", { "aria-label": "Run from", title: "Waypoints with all feet down; the robot goes there slowly first" });
   const times = h("input", { type: "number", min: "1", max: String(MOST_ITERATIONS), step: "1", value: "1", "aria-label": "Times to run" });
   const element = h("div", { class: "run-course" }, h("label", {}, h("span", { text: "From" }), from), h("label", {}, h("span", { text: "×" }), times));
   from.addEventListener("change", () => {
     const { beginnings } = store.state.runSummary;
     choose(store, { first: from.value === HERE ? nearestTo(beginnings, playback.time).waypoint : Number(from.value) });
-    from.value = String(courseOf(store.state).first);
+    from.value = String(runRangeOf(store.state).first);
   });
   times.addEventListener("change", () => {
     const asked = Math.round(Number(times.value));
     const fits = !times.readOnly && asked >= 1 && asked <= MOST_ITERATIONS;
     if (fits) choose(store, { iterations: asked });
-    times.value = String(courseOf(store.state).iterations);
+    times.value = String(runRangeOf(store.state).iterations);
   });
-  store.watch(({ runSummary, runCourse, view, selected }) => [runSummary, runCourse, view?.plan?.waypoints_hash, selected], (state) => {
+  store.watch(({ runSummary, runRange, view, selected }) => [runSummary, runRange, view?.plan?.waypoints_hash, selected], (state) => {
     const { runSummary, selected } = state;
     element.hidden = runSummary?.gait !== selected || !runSummary.beginnings;
     if (element.hidden) return;
     const reason = runSummary.why_not_repeated;
     showBeginnings(from, runSummary.beginnings);
-    from.value = String(courseOf(state).first);
+    from.value = String(runRangeOf(state).first);
     times.readOnly = Boolean(reason);
     setAttribute(times, "aria-disabled", reason ? "true" : null);
     setAttribute(times, "aria-description", reason);
     setAttribute(times, "title", reason ?? `How many times the gait is run, 1 to ${MOST_ITERATIONS}`);
-    if (document.activeElement !== times) times.value = String(courseOf(state).iterations);
+    if (document.activeElement !== times) times.value = String(runRangeOf(state).iterations);
   });
   return element;
 }

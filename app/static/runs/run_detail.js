@@ -4,14 +4,14 @@ import { api } from "../api/gaits.js";
 import { h, onPress, setText } from "../lib/dom.js";
 import { clockTime, fixed, seconds, shortHash } from "../lib/format.js";
 import { runTone } from "./run_list.js";
-import { comparison, durationWords, errorTables } from "./run_tables.js";
+import { comparison, durationSummary, errorTables } from "./run_tables.js";
 import { announce, attempt, report, toast } from "../lib/toasts.js";
 
 const OTHERS = 100;
 
 function facts(run) {
   const rows = [
-    ["By", run.by], ["Started", clockTime(run.started)], ["Duration", durationWords(run)],
+    ["By", run.by], ["Started", clockTime(run.started)], ["Duration", durationSummary(run)],
     ["Reached", run.count === null ? "–" : `${run.reached} of ${run.count}`],
     ["Motors, largest", run.errors ? `${fixed(run.errors.largest_mm, 2)} mm` : "–"],
     ["Body, largest", run.errors ? `${fixed(run.errors.body_largest_mm, 2)} mm` : "–"],
@@ -67,7 +67,7 @@ const file = (run, form, text, help) => h("a", { href: `/api/runs/${encodeURICom
 /** What cameras recorded with the run: a line that comes later than the page. */
 function recordedPart(id, open) {
   const place = h("div");
-  import("../cameras/camera_recordings.js").then(({ recordedLine }) => place.replaceWith(recordedLine(id, open))).catch(report);
+  import("../cameras/camera_recordings.js").then(({ recordingLine }) => place.replaceWith(recordingLine(id, open))).catch(report);
   return place;
 }
 

@@ -3,7 +3,7 @@
 import { api } from "../api/gaits.js";
 import { h, setAttribute, setText } from "../lib/dom.js";
 import { clockTime, fixed, seconds } from "../lib/format.js";
-import { turns } from "../lib/latest_only.js";
+import { ticket } from "../lib/latest_only.js";
 import { attempt } from "../lib/toasts.js";
 
 const TONES = { done: "good", running: "accent", stopped: "caution", stopping: "caution", interrupted: "caution", fault: "bad", lost: "bad", refused: "quiet" };
@@ -57,7 +57,7 @@ export function runList(open) {
   const [count, list] = [h("p", { class: "quiet", role: "status" }), h("ul", { class: "run-list", role: "list", "aria-label": "Runs" })];
   const more = h("button", { class: "link", text: "Older runs", hidden: true });
   let shown = [];
-  const begin = turns();
+  const begin = ticket();
 
   const wanted = (offset) => ({ gait: gait.value, state: state.value, operator: operator.value, since: since.input.value, until: until.input.value, offset, most: PAGE });
 

@@ -51,7 +51,7 @@ export function comparison(one, other) {
 }
 
 /** How long a run took beside what was to be expected of it. */
-export function durationWords({ errors, seconds: elapsed }) {
+export function durationSummary({ errors, seconds: elapsed }) {
   if (!errors || errors.seconds === null) return elapsed === null || elapsed === undefined ? "–" : `${seconds(elapsed)} s`;
   return `${seconds(errors.seconds)} s, expected ${seconds(errors.estimate)} s`;
 }

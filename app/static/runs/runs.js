@@ -3,7 +3,7 @@
 import { api } from "../api/gaits.js";
 import { byId, h, icon, setText } from "../lib/dom.js";
 import { selectGait } from "../shell/gait_list.js";
-import { turns } from "../lib/latest_only.js";
+import { ticket } from "../lib/latest_only.js";
 import { runDetail } from "./run_detail.js";
 import { runList, runRow } from "./run_list.js";
 import { mountTrace } from "./run_trace.js";
@@ -32,7 +32,7 @@ function mountPanel(store, opening) {
   const panel = h("section", { class: "runs-panel", id: "runs", "aria-label": "Runs", hidden: true }, h("header", {}, h("h2", { text: "Runs" }), close), body);
   document.querySelector("aside.right").append(panel);
   const list = runList((id) => open(id));
-  const begin = turns();
+  const begin = ticket();
   let follow = () => {};
 
   function show(content) {
@@ -91,7 +91,7 @@ export function mountRuns(store, opening = () => {}) {
   byId("robot").append(h("button", { class: "link runs-way", text: "Runs that were kept", title: more.title, on: { click: panel.all } }));
   byId("jobs-empty").after(h("div", { class: "runs-head" }, h("h2", { text: "Runs" }), more), list, empty);
 
-  const begin = turns();
+  const begin = ticket();
 
   async function refresh(tries = 0) {
     const isOld = begin();

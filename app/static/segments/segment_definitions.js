@@ -13,7 +13,7 @@ function nameReason(name, taken, what, withoutDash) {
 }
 
 const renamedKey = (map, from, to) => Object.fromEntries(Object.entries(map).map(([name, value]) => [name === from ? to : name, value]));
-const withWords = (words) => (sheet) => ({ ...sheet, words: { ...sheet.words, ...words(sheet.words) } });
+const withDefinitions = (words) => (sheet) => ({ ...sheet, words: { ...sheet.words, ...words(sheet.words) } });
 
 function renamedPosition(segments, axis, from, to) {
   const moved = (position) => {
@@ -112,22 +112,22 @@ function axisPart(sheet, axis, { run, refuse, strokes }) {
       field({
         label: `Name of the ${what} ${name}`, value: name, refuse,
         read: (text) => nameReason(text, Object.keys(without(map, name)), what, axis === "xy")
-          ?? run({ change: withWords((words) => ({ [axis]: renamedKey(words[axis], name, text), segments: renamedPosition(words.segments, axis, name, text) })), label: `Rename ${what} ${name} to ${text}` }),
+          ?? run({ change: withDefinitions((words) => ({ [axis]: renamedKey(words[axis], name, text), segments: renamedPosition(words.segments, axis, name, text) })), label: `Rename ${what} ${name} to ${text}` }),
       }),
       field({
         label: `${help} at ${name}, ${unit === "×" ? "a factor" : unit}`, value: shown(value), unit, refuse,
         read: (text) => {
           const number = numberOf(text);
-          return numberReason(name, number, unit, range) ?? run({ change: withWords((words) => ({ [axis]: { ...words[axis], [name]: stored(number) } })), label: `${name} to ${number}${unit === "mm" ? " mm" : " × the step"}` });
+          return numberReason(name, number, unit, range) ?? run({ change: withDefinitions((words) => ({ [axis]: { ...words[axis], [name]: stored(number) } })), label: `${name} to ${number}${unit === "mm" ? " mm" : " × the step"}` });
         },
       }),
       deletion(`Delete the ${what} ${name}`, user ? `“${user}” uses ${name}; change or delete it first.` : last ? "The last one stays." : null,
-        () => run({ change: withWords((words) => ({ [axis]: without(words[axis], name) })), label: `Delete ${what} ${name}` }), refuse));
+        () => run({ change: withDefinitions((words) => ({ [axis]: without(words[axis], name) })), label: `Delete ${what} ${name}` }), refuse));
   });
   const add = h("button", { class: "link", text: `Add a ${what}`, on: {
     click: () => {
       const name = freshName(Object.keys(map), axis === "xy" ? "Place" : "Height");
-      run({ change: withWords((words) => ({ [axis]: { ...words[axis], [name]: fresh } })), label: `Add ${what} ${name}` });
+      run({ change: withDefinitions((words) => ({ [axis]: { ...words[axis], [name]: fresh } })), label: `Add ${what} ${name}` });
     },
   } });
   return h("div", { class: "axis", role: "group", "aria-label": title }, h("h4", { text: title, title: help }), ...rows, add);
@@ -137,7 +137,7 @@ function segmentRow(sheet, name, { run, refuse }) {
   const segment = sheet.words.segments[name];
   const positions = Object.keys(sheet.words.xy).flatMap((xy) => Object.keys(sheet.words.z).map((z) => `${xy}-${z}`));
   const uses = sheet.rows.flat().filter((one) => one === name).length;
-  const set = (part, label) => run({ change: withWords((words) => ({ segments: { ...words.segments, [name]: { ...words.segments[name], ...part } } })), label });
+  const set = (part, label) => run({ change: withDefinitions((words) => ({ segments: { ...words.segments, [name]: { ...words.segments[name], ...part } } })), label });
   const air = h("input", { type: "checkbox", "aria-label": `${name} is in the air`, title: "In the air" });
   air.checked = segment.swing;
   air.addEventListener("change", () => set({ swing: air.checked }, `${name} ${air.checked ? "in the air" : "on the ground"}`));
@@ -150,7 +150,7 @@ function segmentRow(sheet, name, { run, refuse }) {
     choice({ label: `End of ${name}`, value: segment.end, options: positions, read: (end) => set({ end }, `${name} ends at ${end}`) }),
     air,
     deletion(`Delete the segment ${name}`, uses ? `${name} stands in ${uses} cell${uses > 1 ? "s" : ""} of the table; change them first.` : Object.keys(sheet.words.segments).length === 1 ? "The last one stays." : null,
-      () => run({ change: withWords((words) => ({ segments: without(words.segments, name) })), label: `Delete segment ${name}` }), refuse));
+      () => run({ change: withDefinitions((words) => ({ segments: without(words.segments, name) })), label: `Delete segment ${name}` }), refuse));
 }
 
 function segmentPart(sheet, acts) {
@@ -159,7 +159,7 @@ function segmentPart(sheet, acts) {
     click: () => {
       const name = freshName(names, "Segment");
       const { end: place } = sheet.words.segments[names.at(-1)];
-      acts.run({ change: withWords((words) => ({ segments: { ...words.segments, [name]: { start: place, end: place, swing: false } } })), label: `Add segment ${name}` });
+      acts.run({ change: withDefinitions((words) => ({ segments: { ...words.segments, [name]: { start: place, end: place, swing: false } } })), label: `Add segment ${name}` });
     },
   } });
   return h("div", { class: "axis", role: "group", "aria-label": "Segments" },
@@ -174,7 +174,7 @@ export const isTyped = (control) => control?.matches("input:not([type=checkbox])
  * Fills the panel with a sheet's vocabulary where that changed; the control that had the focus keeps it, and a name or number
  * that is being typed waits for its end. It is filled anew after the key or click at hand, which may take the focus on.
  */
-export function createWords(panel, acts) {
+export function createDefinitions(panel, acts) {
   let shown = "";
   let latest = null;
   let awaited = false;

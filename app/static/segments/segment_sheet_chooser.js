@@ -20,7 +20,7 @@ function option(choice, index) {
  * @param {{text: string, choose: (name: string, way: string|null) => void, close: (isLeft: boolean) => void}} acts `text` is what was typed;
  *   `way` is "right" after Tab, "down" after Enter; `close` follows on every end, and is told whether the focus went elsewhere
  */
-export function openChooser(cell, sheet, [row, foot], { text, choose, close }) {
+export function openSegmentChooser(cell, sheet, [row, foot], { text, choose, close }) {
   const list = h("ul", { role: "listbox", id: "segment-options", "aria-label": "Segments" });
   const input = h("input", {
     role: "combobox", "aria-expanded": "true", "aria-controls": "segment-options", "aria-autocomplete": "list", autocomplete: "off", spellcheck: "false",

@@ -3,7 +3,7 @@
 import { api } from "../api/gaits.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { drawnRows, isDrawn } from "../document/drawn_timeline.js";
-import { lane } from "../lib/latest_only.js";
+import { latestOnly } from "../lib/latest_only.js";
 import { shownDocument } from "../state/store.js";
 import { toast } from "../lib/toasts.js";
 
@@ -22,14 +22,14 @@ function withRoom(document) {
 
 async function made(document) {
   try {
-    return await api.madeTable(document);
+    return await api.createTable(document);
   } catch (error) {
     return { table: null, sentence: error.message };
   }
 }
 
 /** The buttons of a gait without a table, and the sentence why its timeline makes none. */
-export function mountMaking(store, edits) {
+export function mountSegmentSheetCreation(store, edits) {
   const make = h("button", { class: "primary wide", text: "Make a segment table" });
   const why = h("p", { class: "why" });
   const roomy = h("button", { class: "wide", hidden: true });
@@ -37,7 +37,7 @@ export function mountMaking(store, edits) {
   let found = null;
   let offer = null;
 
-  const ask = lane(async ({ id, revision, document }) => {
+  const ask = latestOnly(async ({ id, revision, document }) => {
     const answer = await made(document);
     const other = answer.table ? null : withRoom(document);
     const { table } = other ? await made(other) : { table: null };

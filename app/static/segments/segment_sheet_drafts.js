@@ -1,6 +1,6 @@
 /** Changes of the segment table that do not fit yet, kept in this tab so that a reload brings them back. */
 
-import { draftOf, keptCells, sheetsOf } from "../state/segment_draft.js";
+import { segmentDraftOf, protectedCells, segmentSheetsOf } from "../state/segment_draft.js";
 import { toast } from "../lib/toasts.js";
 
 const keyOf = (id) => `footfall.table-draft.${id}`;
@@ -29,12 +29,12 @@ function write(id, content) {
 const stepOf = ({ label, kept, sheet }) => ({ label, kept, moved: () => null, change: ({ iterations }) => ({ ...sheet, iterations }), restored: true });
 
 /** Keeps the drafts of `store.tableDrafts`, and puts them back when their gait is shown again. */
-export function mountKept(store) {
+export function mountSegmentDrafts(store) {
   const bases = new Map();
 
   function put(id, draft) {
-    const { [id]: _, ...others } = store.state.tableDrafts;
-    store.set({ tableDrafts: draft ? { ...others, [id]: draft } : others });
+    const { [id]: _, ...others } = store.state.segmentDrafts;
+    store.set({ segmentDrafts: draft ? { ...others, [id]: draft } : others });
   }
 
   function drop(view) {
@@ -50,7 +50,7 @@ export function mountKept(store) {
     else put(view.id, { steps: content.steps.map(stepOf) });
   }
 
-  store.watch(({ view, tableDrafts }) => [view, tableDrafts], (state) => {
+  store.watch(({ view, segmentDrafts }) => [view, segmentDrafts], (state) => {
     const { view } = state;
     if (!view) return;
     const [base, before] = [baseOf(view), bases.get(view.id)];
@@ -59,13 +59,13 @@ export function mountKept(store) {
       recall(view, base);
       return;
     }
-    const { steps } = draftOf(state);
+    const { steps } = segmentDraftOf(state);
     // Restored changes are whole sheets, which stand on the table that they were made on; all of them need one.
     if (view.document.segment_table ? base !== before && steps.some(({ restored }) => restored) : steps.length) {
       drop(view);
       return;
     }
-    const sheets = steps.length ? sheetsOf(view.document, steps) : [];
-    write(view.id, steps.length ? { base, steps: steps.map(({ label }, index) => ({ label, kept: keptCells(steps.slice(0, index + 1)), sheet: sheets[index] })) } : null);
+    const sheets = steps.length ? segmentSheetsOf(view.document, steps) : [];
+    write(view.id, steps.length ? { base, steps: steps.map(({ label }, index) => ({ label, kept: protectedCells(steps.slice(0, index + 1)), sheet: sheets[index] })) } : null);
   });
 }

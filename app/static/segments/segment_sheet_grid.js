@@ -36,7 +36,7 @@ function drawCell(cell, sheet, row, foot, error) {
  * @param {HTMLElement} grid
  * @param {() => void} addLink makes the first row of a link
  */
-export function createGrid(grid, addLink) {
+export function createSegmentSheetGrid(grid, addLink) {
   let parts = [];
   let shape = "";
 

@@ -3,9 +3,9 @@
  * selected segments.
  */
 
-import { openChooser } from "./segment_sheet_chooser.js";
+import { openSegmentChooser } from "./segment_sheet_chooser.js";
 import { addLinkRow, fillDown, insertRow, paste, removeRows, setName, setWaits } from "./segment_sheet_edits.js";
-import { commit, shownSheet } from "../state/segment_draft.js";
+import { commit, shownSegmentSheet } from "../state/segment_draft.js";
 import { rowsOf, samplesOf } from "../document/segment_sheet.js";
 import { namesFrom, textOf } from "./segment_sheet_text.js";
 import { announce, toast } from "../lib/toasts.js";
@@ -17,15 +17,15 @@ const held = (value, most) => Math.min(Math.max(value, 0), most);
  * @param {object} store
  * @param {object} edits
  * @param {HTMLElement} grid
- * @param {object} cells see `createGrid`
+ * @param {object} cells see `createSegmentSheetGrid`
  */
-export function mountSheetInput(store, edits, grid, cells) {
+export function mountSegmentSheetInput(store, edits, grid, cells) {
   let [anchor, head] = [[0, 0], [0, 0]];
   let own = null;
   let chooser = null;
   let dragging = false;
   let pressed = false;
-  const sheet = () => shownSheet(store.state);
+  const sheet = () => shownSegmentSheet(store.state);
   const range = () => ({ rows: ordered(anchor[0], head[0]), feet: ordered(anchor[1], head[1]) });
 
   /** Marks the cells, and puts the focus's tab stop on the head. */
@@ -88,7 +88,7 @@ export function mountSheetInput(store, edits, grid, cells) {
     const chosen = { rows: [place[0], place[0]], feet: [place[1], place[1]] };
     const next = { right: [place[0], place[1] + 1], left: [place[0], place[1] - 1], down: [place[0] + 1, place[1]] };
     go(place);
-    chooser = openChooser(cells.cell(place), sheet(), place, {
+    chooser = openSegmentChooser(cells.cell(place), sheet(), place, {
       text,
       choose(name, way) {
         run(setName(sheet(), chosen, name));

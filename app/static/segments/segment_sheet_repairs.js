@@ -2,9 +2,9 @@
 
 import { api } from "../api/gaits.js";
 import { h } from "../lib/dom.js";
-import { commit, draftOf, dropDraft, keptCells, shownSheet } from "../state/segment_draft.js";
-import { errorSentence, errorsOf, ownRow, sheetOf, tableOf } from "../document/segment_sheet.js";
-import { lane } from "../lib/latest_only.js";
+import { commit, segmentDraftOf, dropSegmentDraft, protectedCells, shownSegmentSheet } from "../state/segment_draft.js";
+import { errorSentence, errorsOf, ownRow, segmentSheetOf, tableOf } from "../document/segment_sheet.js";
+import { latestOnly } from "../lib/latest_only.js";
 import { shownDocument } from "../state/store.js";
 import { report } from "../lib/toasts.js";
 
@@ -16,7 +16,7 @@ function offerOf({ foot, first, names, inserted, table }, sheet, document) {
   const words = names.join(", ");
   const label = !names.length ? "Make the link fit" : inserted ? `Insert ${words}` : `${range(first, names.length).replace(/^s/, "S")} to ${words}`;
   const help = inserted ? `New ${range(first, names.length)}; the other feet wait meanwhile` : `Of foot ${own + 1}; nothing else changes but the link where it must`;
-  const mended = sheetOf({ ...document, segment_table: table });
+  const mended = segmentSheetOf({ ...document, segment_table: table });
   const moved = inserted && names.length ? ([row, column]) => [row + (row >= first ? names.length : 0), column] : undefined;
   return { label, help, step: { moved, change: (now) => ({ ...mended, iterations: now.iterations }), label: `Foot ${own + 1}: ${label.charAt(0).toLowerCase()}${label.slice(1)}`, kept: [] } };
 }
@@ -27,11 +27,11 @@ function offerOf({ foot, first, names, inserted, table }, sheet, document) {
  * @param {HTMLElement} note
  * @param {() => void} focus gives the focus back to the grid
  */
-export function mountNote(store, edits, note, focus) {
+export function mountSegmentSheetRepairs(store, edits, note, focus) {
   let offers = [];
   let asked = "";
 
-  const ask = lane(async ({ text, sheet, document, body }) => {
+  const ask = latestOnly(async ({ text, sheet, document, body }) => {
     try {
       const { repairs } = await api.tableRepairs(body);
       if (text !== asked) return;
@@ -43,7 +43,7 @@ export function mountNote(store, edits, note, focus) {
   });
 
   function request(sheet) {
-    const kept = keptCells(draftOf(store.state).steps).map(([row, foot]) => [ownRow(sheet, foot), row]);
+    const kept = protectedCells(segmentDraftOf(store.state).steps).map(([row, foot]) => [ownRow(sheet, foot), row]);
     const body = { table: tableOf(sheet), kept };
     const text = JSON.stringify(body);
     if (text === asked) return;
@@ -54,9 +54,9 @@ export function mountNote(store, edits, note, focus) {
   const act = (does) => () => { does(); focus(); };
 
   function draw() {
-    const sheet = shownSheet(store.state);
+    const sheet = shownSegmentSheet(store.state);
     const errors = sheet ? errorsOf(sheet) : [];
-    const stops = draftOf(store.state).steps.length > 0;
+    const stops = segmentDraftOf(store.state).steps.length > 0;
     note.hidden = errors.length === 0;
     if (note.hidden) {
       note.replaceChildren();
@@ -69,9 +69,9 @@ export function mountNote(store, edits, note, focus) {
     note.replaceChildren(h("p", { text: `${errorSentence(sheet, errors[0])}${more}`, title: after }),
       h("div", { class: "buttons" },
         ...offers.map(({ label, help, step }) => h("button", { text: label, title: help, on: { click: act(() => commit(store, edits, step)) } })),
-        stops && h("button", { text: "Take it back", title: "Back to the gait's table (Ctrl+Z takes one change back)", on: { click: act(() => dropDraft(store)) } })));
+        stops && h("button", { text: "Take it back", title: "Back to the gait's table (Ctrl+Z takes one change back)", on: { click: act(() => dropSegmentDraft(store)) } })));
     request(sheet);
   }
 
-  store.watch((state) => [state.view, state.pending, state.tableDrafts], draw);
+  store.watch((state) => [state.view, state.pending, state.segmentDrafts], draw);
 }

@@ -4,13 +4,13 @@ import { byId, h, setAttribute, setText } from "../lib/dom.js";
 import { numberField } from "../state/fields.js";
 import { fixed } from "../lib/format.js";
 import { setNumber } from "./segment_sheet_edits.js";
-import { commit, draftOf, shownSheet } from "../state/segment_draft.js";
-import { mountKept } from "./segment_sheet_drafts.js";
-import { createGrid } from "./segment_sheet_grid.js";
-import { mountSheetInput } from "./segment_sheet_input.js";
-import { mountMaking } from "./segment_sheet_creation.js";
-import { mountNote } from "./segment_sheet_repairs.js";
-import { createWords, isTyped } from "./segment_definitions.js";
+import { commit, segmentDraftOf, shownSegmentSheet } from "../state/segment_draft.js";
+import { mountSegmentDrafts } from "./segment_sheet_drafts.js";
+import { createSegmentSheetGrid } from "./segment_sheet_grid.js";
+import { mountSegmentSheetInput } from "./segment_sheet_input.js";
+import { mountSegmentSheetCreation } from "./segment_sheet_creation.js";
+import { mountSegmentSheetRepairs } from "./segment_sheet_repairs.js";
+import { createDefinitions, isTyped } from "./segment_definitions.js";
 import { errorsOf } from "../document/segment_sheet.js";
 import { shownDocument } from "../state/store.js";
 import { toast } from "../lib/toasts.js";
@@ -19,7 +19,7 @@ import { toast } from "../lib/toasts.js";
 function numberFields(store, edits, run) {
   const field = (label, name, key, most, help) => numberField(store, edits, {
     label, name, unit: "", min: key === "samples" ? 2 : 1, max: most, step: 1, decimals: 0, whole: true, help,
-    read: () => shownSheet(store.state)?.[key] ?? null, act: (value) => run(setNumber(shownSheet(store.state), key, value)),
+    read: () => shownSegmentSheet(store.state)?.[key] ?? null, act: (value) => run(setNumber(shownSegmentSheet(store.state), key, value)),
   });
   return [
     field("Samples", "Samples a segment", "samples", 200, "Samples of each segment, both its ends included"),
@@ -28,9 +28,9 @@ function numberFields(store, edits, run) {
   ];
 }
 
-function tools(input, toggleWords) {
+function tools(input, toggleDefinitions) {
   const button = (text, title, act) => h("button", { text, title, on: { click: act } });
-  const words = h("button", { text: "Vocabulary", title: "Named positions and segments", "aria-expanded": "false", "aria-controls": "segment-words", on: { click: () => toggleWords(words) } });
+  const words = h("button", { text: "Vocabulary", title: "Named positions and segments", "aria-expanded": "false", "aria-controls": "segment-words", on: { click: () => toggleDefinitions(words) } });
   return h("div", { class: "sheet-tools", role: "toolbar", "aria-label": "Segment table" },
     button("Insert", "A new segment after the selected ones, in which every foot waits (Insert; with Alt before them)", () => input.insert()),
     button("Remove", "Take the selected segments away from every foot (Ctrl+Delete)", () => input.remove()),
@@ -49,9 +49,9 @@ export function mountSegments(store, edits) {
     else commit(store, edits, outcome);
   };
   const strokes = () => store.state.view?.plan.stroke_limits_mm.map((limit) => Number(limit.toFixed(3)));
-  const drawWords = createWords(panel, { run, refuse: toast, strokes });
-  const cells = createGrid(grid, () => input.addLink());
-  const input = mountSheetInput(store, edits, grid, cells);
+  const drawDefinitions = createDefinitions(panel, { run, refuse: toast, strokes });
+  const cells = createSegmentSheetGrid(grid, () => input.addLink());
+  const input = mountSegmentSheetInput(store, edits, grid, cells);
   const numbers = numberFields(store, edits, run);
   const bar = tools(input, (button) => {
     panel.hidden = !panel.hidden;
@@ -67,11 +67,11 @@ export function mountSegments(store, edits) {
     else edits.undo();
   });
   const numberRow = h("div", { class: "sheet-numbers" }, ...numbers.map(({ element }) => element));
-  const making = mountMaking(store, edits);
+  const making = mountSegmentSheetCreation(store, edits);
   byId("segments").replaceChildren(title, notice, making, bar, grid, note, numberRow, panel);
 
   function show(state) {
-    const sheet = shownSheet(state);
+    const sheet = shownSegmentSheet(state);
     const { view } = state;
     making.hidden = Boolean(sheet) || !view;
     for (const part of [bar, numberRow]) part.hidden = !sheet;
@@ -94,7 +94,7 @@ export function mountSegments(store, edits) {
     input.show();
     if (isNew && (input.escape() || hadFocus)) input.focus();
     numbers.forEach((one) => one.show(document));
-    if (!panel.hidden) drawWords(sheet);
+    if (!panel.hidden) drawDefinitions(sheet);
   }
 
   new ResizeObserver(() => grid.style.setProperty("--view", `${byId("sections").clientHeight}px`)).observe(byId("sections"));
@@ -102,10 +102,10 @@ export function mountSegments(store, edits) {
     grid.style.setProperty("--note", `${note.offsetHeight}px`);
     if (input.hasFocus()) document.activeElement.scrollIntoView({ block: "nearest" });
   }).observe(note);
-  mountNote(store, edits, note, input.focus);
-  mountKept(store);
+  mountSegmentSheetRepairs(store, edits, note, input.focus);
+  mountSegmentDrafts(store);
   const parts = (document) => [document?.segment_table, document?.direction, document?.iterations, document?.timeline.sample_time];
-  store.watch((state) => [state.view, state.tableDrafts, ...parts(shownDocument(state))], show);
-  store.watch((state) => [draftOf(state).steps.length > 0], (state) => grid.toggleAttribute("data-draft", draftOf(state).steps.length > 0));
+  store.watch((state) => [state.view, state.segmentDrafts, ...parts(shownDocument(state))], show);
+  store.watch((state) => [segmentDraftOf(state).steps.length > 0], (state) => grid.toggleAttribute("data-draft", segmentDraftOf(state).steps.length > 0));
   return { escape: input.escape };
 }

@@ -19,7 +19,7 @@ export function figuresOf({ travel, turn, duration }) {
 }
 
 /** What the body does between two parts. */
-function moveWords(move, plan) {
+function moveText(move, plan) {
   const rise = plan.body[move.last][2] - plan.body[move.first][2];
   const words = [Math.abs(rise) > 5e-6 && `${rise > 0 ? "up" : "down"} ${mm(Math.abs(rise))} mm`, figuresOf(move)].filter(Boolean);
   const feet = move.feet.map((foot) => foot + 1);
@@ -73,7 +73,7 @@ export function partRow(acts) {
 export function showRow(row, { index, count, part, planned, move, source, plan }) {
   const title = part.gait.name;
   row.lead.hidden = !move;
-  setText(row.lead, move ? moveWords(move, plan) : "");
+  setText(row.lead, move ? moveText(move, plan) : "");
   setText(row.number, String(index + 1));
   setText(row.text, title);
   setAttribute(row.name, "aria-label", `Part ${index + 1} of ${count}: ${title}`);
@@ -81,8 +81,8 @@ export function showRow(row, { index, count, part, planned, move, source, plan }
   setAttribute(row.input, "aria-label", `Times of part ${index + 1}`);
   const isAnother = row.input.dataset.part !== undefined && row.input.dataset.part !== title;
   Object.assign(row.input.dataset, { shown: String(part.times), part: title });
-  if (row.refusal.isSaid() && isAnother) row.giveUp();
-  if (document.activeElement !== row.input && !row.refusal.isSaid()) row.input.value = part.times;
+  if (row.refusal.hasError() && isAnother) row.giveUp();
+  if (document.activeElement !== row.input && !row.refusal.hasError()) row.input.value = part.times;
   setAllowed(row.up, index === 0 ? "It is the first part." : null, `Move ${title} up (Alt+Up)`);
   setAllowed(row.down, index === count - 1 ? "It is the last part." : null, `Move ${title} down (Alt+Down)`);
   setAllowed(row.out, count === 1 ? "A sequence has at least one part; delete the sequence instead." : null, `Take ${title} out (Delete)`);

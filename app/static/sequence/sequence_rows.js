@@ -30,7 +30,7 @@ function rovingNames(rows) {
 }
 
 /** What a part's row does, by its place. */
-function partActs(store, edits, playback, focus) {
+function partActions(store, edits, playback, focus) {
   const document = () => shownDocument(store.state);
   const count = () => document().sequence.length;
   const change = ({ apply, label }) => edits.edit(apply, label);
@@ -77,7 +77,7 @@ export function partRows(store, edits, playback, takeOver) {
   const grid = h("div", { class: "parts-list", role: "grid", "aria-label": "Parts of the sequence" });
   const rows = [];
   const { mark, focus } = rovingNames(rows);
-  const acts = partActs(store, edits, playback, focus);
+  const acts = partActions(store, edits, playback, focus);
 
   function grow(index) {
     const row = partRow({

@@ -18,4 +18,4 @@ async function press({ target }) {
 document.addEventListener("click", press);
 
 /** The top bar is there and sends Stop from now on. */
-export const takeStopOver = () => document.removeEventListener("click", press);
+export const takeOverStop = () => document.removeEventListener("click", press);

@@ -1,6 +1,6 @@
 /** What can be done to the list of gaits and to the gait that is shown: new, import; copy, export, delete with a way back. */
 
-import { actMenu } from "../lib/action_menu.js";
+import { actionMenu } from "../lib/action_menu.js";
 import { api } from "../api/gaits.js";
 import { bringBack, noneDeleted } from "./deleted_gaits.js";
 import { byId, h } from "../lib/dom.js";
@@ -27,7 +27,7 @@ async function exportFile(store, edits, form) {
 /** What the shown view or the list says of the selected gait: the view is the newer one. */
 const lineOf = ({ selected, gaits, view }) => (view?.id === selected ? view : gaits.find(({ id }) => id === selected) ?? null);
 
-function sayDeleted(sentence, id, show) {
+function announceDeleted(sentence, id, show) {
   const restore = attempt(async () => {
     await api.restore(id);
     await show(id);
@@ -45,7 +45,7 @@ async function remove(store, show, deletedHere) {
     deletedHere.delete(selected);
     throw error;
   }
-  sayDeleted(`${name} is deleted.`, selected, show);
+  announceDeleted(`${name} is deleted.`, selected, show);
   if (store.state.selected !== selected) return;
   const next = store.state.gaits.find(({ id }) => id !== selected) ?? null;
   await show(store.state.gaits.some(({ id }) => id === selected) ? selected : next?.id);
@@ -57,7 +57,7 @@ function watchDeleted(store, show, deletedHere) {
   store.watch(({ gaits, selected }) => [gaits, selected], ({ gaits, selected }) => {
     const gone = last && !gaits.some(({ id }) => id === last.id) ? last : null;
     last = gaits.find(({ id }) => id === selected) ?? null;
-    if (gone && !deletedHere.delete(gone.id)) sayDeleted(`${gone.name} was deleted in another tab.`, gone.id, show);
+    if (gone && !deletedHere.delete(gone.id)) announceDeleted(`${gone.name} was deleted in another tab.`, gone.id, show);
   });
 }
 
@@ -87,12 +87,12 @@ export function mountGaitTools(store, edits, show) {
   const deletedHere = new Set();
   const deletion = link("Delete", "Delete this saved gait; it can be brought back", () => remove(store, show, deletedHere));
   watchDeleted(store, show, deletedHere);
-  const news = actMenu({ name: "New", help: "A new gait, or one from a file", entries: [
+  const news = actionMenu({ name: "New", help: "A new gait, or one from a file", entries: [
     { text: "New gait…", help: "Robot, foot order, step and phase lengths", act: attempt(() => makeGait(store, show)) },
     { text: "Import…", help: "Read gaits, trajectories with their companions, waypoints or phase lists", act: () => importFiles(show) },
     { text: "Deleted gaits…", help: "Bring back a gait that was deleted", act: attempt(() => bringBack(show)), refusal: noneDeleted },
   ] });
-  const exports = actMenu({ name: "Export", help: "Write this gait as a file", entries: FORMS.map(([form, text]) => ({ text, help: `Write this gait as ${text}`, act: attempt(() => exportFile(store, edits, form)) })) });
+  const exports = actionMenu({ name: "Export", help: "Write this gait as a file", entries: FORMS.map(([form, text]) => ({ text, help: `Write this gait as ${text}`, act: attempt(() => exportFile(store, edits, form)) })) });
   byId("gait-new").append(news.element);
   byId("gait-tools").append(link("Duplicate", "A copy of this gait under another name", duplicate), exports.element, deletion);
   store.watch((state) => [lineOf(state)?.kind], (state) => { deletion.hidden = lineOf(state)?.kind !== "saved"; });

@@ -88,7 +88,7 @@ function offerTrial(store, job) {
   toast(`${titleOf(job)} is done: there is a trial of it.`, { action: { label: "Open the trial", act: () => store.set({ trialWanted: { trial: job.result.trial } }) } });
 }
 
-function tellEnded(store, before, jobs) {
+function announceEnded(store, before, jobs) {
   for (const job of jobs) {
     const known = before.get(job.id);
     if (!known || !jobIsOn(known) || jobIsOn(job)) continue;
@@ -104,7 +104,7 @@ export function mountJobs(store) {
   const parts = new Map();
   let before = new Map();
   store.watch(({ jobs, shownJob, selected }) => [jobs, shownJob, selected], (state) => {
-    before = tellEnded(store, before, state.jobs);
+    before = announceEnded(store, before, state.jobs);
     const shown = jobOf(state);
     const visible = state.jobs.slice(0, SHOWN);
     const kept = new Set(visible.map(({ id }) => id));

@@ -78,7 +78,7 @@ function mountDragging(edge, now, setTo, keep) {
 }
 
 /** Puts the edge over the lower part. */
-export function mountLowerSize() {
+export function mountSplitter() {
   const lower = byId("chart").parentElement;
   const edge = h("div", { class: "lower-edge", role: "separator", tabindex: "0", "aria-orientation": "horizontal", "aria-label": "Height of timeline and plots",
     "aria-description": HELP, title: `Height of timeline and plots. ${HELP}`, data: { arrows: "" } });

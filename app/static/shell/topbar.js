@@ -3,15 +3,15 @@
 import { sendStop } from "../api/gaits.js";
 import { ownSteps } from "../api/author.js";
 import { byId, h, onPress, setAllowed, setAttribute, setText, stateParts } from "../lib/dom.js";
-import { NOT_TAKEN, takeStopOver } from "./early_stop.js";
-import { sayToStudio } from "../state/server_events.js";
+import { NOT_TAKEN, takeOverStop } from "./early_stop.js";
+import { sendToStudio } from "../state/server_events.js";
 import { clockTime, seconds } from "../lib/format.js";
 import { freeName } from "../document/gait_names.js";
 import { showKeys } from "./key_list.js";
 import { holderSentence } from "../state/lease.js";
 import { changeOperator } from "../state/operator.js";
 import { refusalOf } from "../lib/field_error.js";
-import { draftOf } from "../state/segment_draft.js";
+import { segmentDraftOf } from "../state/segment_draft.js";
 import { acceptRobot, runIsOn, stopLimit } from "../state/store.js";
 import { toast } from "../lib/toasts.js";
 
@@ -35,7 +35,7 @@ export async function stopRobot(store) {
   const button = byId("stop");
   button.dataset.busy = "";
   try {
-    sayToStudio(`stop ${store.state.operator}`);
+    sendToStudio(`stop ${store.state.operator}`);
     acceptRobot(store, await sendStop(store.state.operator));
   } catch {
     if (!isStopped(store.state)) toast(NOT_TAKEN, { tone: "bad", of: "studio" });
@@ -57,7 +57,7 @@ function nameField(store, edits) {
   const refusal = refusalOf(input);
   input.parentElement.append(refusal.element);
   const show = () => {
-    if (refusal.isSaid()) return;
+    if (refusal.hasError()) return;
     input.value = edits.shown()?.name ?? "";
   };
   const giveUp = () => {
@@ -69,7 +69,7 @@ function nameField(store, edits) {
     const current = edits.shown()?.name;
     if (current === undefined) return;
     refusal.say(name === current ? null : refusedName(name, store.state));
-    if (!refusal.isSaid() && name !== current) edits.edit((document) => ({ ...document, name }), `Name to ${name}`);
+    if (!refusal.hasError() && name !== current) edits.edit((document) => ({ ...document, name }), `Name to ${name}`);
     show();
   });
   input.addEventListener("keydown", (event) => {
@@ -82,9 +82,9 @@ function nameField(store, edits) {
 
 function mountName(store, edits) {
   const { input, show } = nameField(store, edits);
-  store.watch((state) => [state.view, state.pending, state.refused, state.tableDrafts], (now) => {
+  store.watch((state) => [state.view, state.pending, state.refused, state.segmentDrafts], (now) => {
     const { view, pending, refused } = now;
-    const unfit = draftOf(now).steps.length > 0;
+    const unfit = segmentDraftOf(now).steps.length > 0;
     show();
     input.size = Math.max(4, input.value.length);
     setAttribute(input, "title", view ? `Name of the gait. Its file stays gaits/${view.id}.json under another name too` : null);
@@ -107,10 +107,10 @@ function mountHistory(store, edits) {
   onPress(undo, edits.undo);
   onPress(redo, edits.redo);
   onPress(save, edits.save);
-  store.watch(({ view, refused, tableDrafts }) => [view, refused, tableDrafts], (state) => {
+  store.watch(({ view, refused, segmentDrafts }) => [view, refused, segmentDrafts], (state) => {
     const { view, refused } = state;
     const own = ownSteps(view);
-    const draft = draftOf(state).steps.at(-1)?.label;
+    const draft = segmentDraftOf(state).steps.at(-1)?.label;
     const label = draft ?? (refused ? "the drawing that was not accepted" : own.undo);
     setText(byId("undo-label"), label ? label.charAt(0).toLowerCase() + label.slice(1) : "");
     setAllowed(undo, label ? null : "Nothing to undo.", `Undo: ${label} (Ctrl+Z)`);
@@ -149,7 +149,7 @@ export function mountTopbar(store, edits) {
   mountStates(store);
   byId("operator").addEventListener("click", () => changeOperator(store));
   byId("help").addEventListener("click", showKeys);
-  takeStopOver();
+  takeOverStop();
   byId("stop").addEventListener("click", () => stopRobot(store));
   store.watch((state) => [stopLimit(state)], (state) => {
     const limit = stopLimit(state);

@@ -5,17 +5,17 @@ import { dialogFrame, openDialog } from "../lib/dialogs.js";
 import { sentences } from "../lib/difference.js";
 import { byId, h, onPress, setAllowed, setAttribute } from "../lib/dom.js";
 import { clockTime } from "../lib/format.js";
-import { turns } from "../lib/latest_only.js";
+import { ticket } from "../lib/latest_only.js";
 import { announce, attempt, toast } from "../lib/toasts.js";
 
-const WORDS = {
+const TEXTS = {
   saved: "Saved", named: "Named", approved: "Approved", automatic: "While editing", "before restore": "Before going back", "before delete": "Before deleting",
 };
-const titleOf = (version) => version.name || WORDS[version.kind];
+const titleOf = (version) => version.name || TEXTS[version.kind];
 
 /** One version in the list. */
 function option(version, choose) {
-  const detail = [version.name ? WORDS[version.kind].toLowerCase() : null, version.by ? `by ${version.by}` : null, version.present ? "as now" : null].filter(Boolean).join(", ");
+  const detail = [version.name ? TEXTS[version.kind].toLowerCase() : null, version.by ? `by ${version.by}` : null, version.present ? "as now" : null].filter(Boolean).join(", ");
   return h("li", { role: "option", id: `version-${version.number}`, "aria-selected": "false", "aria-label": `Version ${version.number}, ${titleOf(version)}, ${clockTime(version.made)}${detail ? `, ${detail}` : ""}`,
     on: { click: () => choose(version.number) } },
     h("span", { class: "version-title" }, h("span", { class: "number quiet", text: String(version.number) }), h("b", { text: titleOf(version) })),
@@ -35,7 +35,7 @@ function parts(id) {
 function panel(store, edits, ui) {
   let versions = [];
   let chosen = null;
-  const [beginDifference, beginRefresh] = [turns(), turns()];
+  const [beginDifference, beginRefresh] = [ticket(), ticket()];
 
   const showDifference = attempt(async () => {
     const isOld = beginDifference();

@@ -7,8 +7,8 @@
  * Every act is of the gait that was shown when it was done: it reaches that one, also where another is shown by then.
  */
 
-import { CONFLICT, api } from "../api/gaits.js";
-import { undoDraft } from "./segment_draft.js";
+import { api } from "../api/gaits.js";
+import { undoSegmentDraft } from "./segment_draft.js";
 import { FOLLOWS, isSequence } from "../document/sequence_edits.js";
 import { acceptView, shownDocument } from "./store.js";
 import { report, toast } from "../lib/toasts.js";
@@ -17,7 +17,7 @@ const REFUSED = 422;
 const MOST_TRIES = 8;
 const NO_ANSWER = 0;
 const RETRY_MS = 1000;
-const KEPT_HERE = "The studio does not answer. Edits stay on this page and are sent as soon as it does.";
+const NOT_ANSWERING = "The studio does not answer. Edits stay on this page and are sent as soon as it does.";
 
 /** Sets cells of the timeline; locked cells keep their value. `cells` are [foot, sample], 0-based. */
 export function paintCells(document, cells, swing) {
@@ -109,13 +109,13 @@ export function createEdits(store) {
   }
 
   function sendLater() {
-    if (!retry) report(new Error(KEPT_HERE));
+    if (!retry) report(new Error(NOT_ANSWERING));
     clearTimeout(retry);
     retry = setTimeout(flush, RETRY_MS);
   }
 
   /** Requests that change the gait reach the studio one at a time, in the order of the acts behind them. */
-  function inTurn(act) {
+  function enqueue(act) {
     acts += 1;
     const mine = turn.then(act).finally(() => { acts -= 1; });
     turn = mine.catch(() => {});
@@ -123,7 +123,7 @@ export function createEdits(store) {
   }
 
   function flush() {
-    sending ??= inTurn(drain).finally(() => { sending = null; });
+    sending ??= enqueue(drain).finally(() => { sending = null; });
     return sending;
   }
 
@@ -151,7 +151,7 @@ export function createEdits(store) {
   }
 
   async function passHistory(gait, verb) {
-    if (verb === "undo" && isShown(gait) && undoDraft(store)) return undefined;
+    if (verb === "undo" && isShown(gait) && undoSegmentDraft(store)) return undefined;
     if (verb === "undo" && isShown(gait) && store.state.pending.length) return dropUnsent();
     try {
       acceptView(store, await api.history(gait, verb));
@@ -180,7 +180,7 @@ export function createEdits(store) {
   /** Resolves once the studio has what was done before, or does not answer. */
   function settled() {
     flush();
-    return inTurn(() => undefined);
+    return enqueue(() => undefined);
   }
 
   /** An act on the gait that is shown now, after what was done to it before. */
@@ -188,7 +188,7 @@ export function createEdits(store) {
     const { selected } = store.state;
     if (!selected) return Promise.resolve();
     flush();
-    return inTurn(() => act(selected, ...values));
+    return enqueue(() => act(selected, ...values));
   }
 
   /** Whether the studio lacks something that was done here, which a reload would lose. */

@@ -43,7 +43,7 @@ const isOutside = (value, { min, max }) => typeof value === "number" && (value <
 const unitOf = ({ unit }) => unit && ` ${unit}`;
 
 /** A page-wide act that the browser would take for its own undo of the text. */
-export function historyAct({ key, ctrlKey, metaKey, shiftKey, altKey }, edits) {
+export function historyAction({ key, ctrlKey, metaKey, shiftKey, altKey }, edits) {
   if (!(ctrlKey || metaKey) || altKey) return null;
   const letter = key.toLowerCase();
   if (letter === "z") return shiftKey ? edits.redo : edits.undo;
@@ -82,10 +82,10 @@ function mountTyping(input, change, field, text, { edits, refusal }) {
     return change.show(value);
   });
   input.addEventListener("change", finish);
-  input.addEventListener("blur", () => { finish(); text.show(!refusal.isSaid()); });
+  input.addEventListener("blur", () => { finish(); text.show(!refusal.hasError()); });
   input.addEventListener("keydown", (event) => {
     const way = { ArrowUp: 1, ArrowDown: -1 }[event.key];
-    const act = historyAct(event, edits);
+    const act = historyAction(event, edits);
     if (act) {
       event.preventDefault();
       const typing = text.dirty();
@@ -162,7 +162,7 @@ export function numberField(store, edits, field) {
     dirty: () => input.validity.badInput || input.value !== written,
     show(always) {
       const shown = textOf(value, field.decimals);
-      if (!always && (refusal.isSaid() || (input === document.activeElement && text.dirty() && input.value !== shown))) return;
+      if (!always && (refusal.hasError() || (input === document.activeElement && text.dirty() && input.value !== shown))) return;
       if (input.value !== shown || input.validity.badInput) input.value = shown;
       written = shown;
     },
@@ -172,7 +172,7 @@ export function numberField(store, edits, field) {
     },
   };
   const giveUp = mountTyping(input, change, field, text, { edits, refusal });
-  store.watch(({ selected }) => [selected], () => { if (refusal.isSaid()) giveUp(); });
+  store.watch(({ selected }) => [selected], () => { if (refusal.hasError()) giveUp(); });
   mountDragging(handle, input, change, field, () => value);
   return {
     element,
@@ -208,14 +208,14 @@ export function textField(store, field) {
     refusal.say(null);
   };
   input.addEventListener("change", () => refusal.say(field.commit(input.value)));
-  input.addEventListener("blur", () => { if (!refusal.isSaid()) write(); });
+  input.addEventListener("blur", () => { if (!refusal.hasError()) write(); });
   input.addEventListener("keydown", ({ key }) => { if (key === "Escape") write(); });
-  store.watch(({ selected }) => [selected], () => { if (refusal.isSaid()) write(); });
+  store.watch(({ selected }) => [selected], () => { if (refusal.hasError()) write(); });
   return {
     element,
     show(shown) {
       last = field.read(shown);
-      if (input !== document.activeElement && !refusal.isSaid()) write();
+      if (input !== document.activeElement && !refusal.hasError()) write();
     },
   };
 }

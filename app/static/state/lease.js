@@ -2,7 +2,7 @@
 
 import { api } from "../api/gaits.js";
 import { pageId } from "../api/author.js";
-import { confirmAct } from "../lib/dialogs.js";
+import { confirmAction } from "../lib/dialogs.js";
 import { h, onPress, setText } from "../lib/dom.js";
 import { needOperator } from "./operator.js";
 import { acceptRobot, runIsOn } from "./store.js";
@@ -40,7 +40,7 @@ function takeOver(store) {
     const { robot } = store.state;
     const run = robot.robot === "paused" ? " The run stays paused until you resume it." : runIsOn(robot) ? " The run goes on, and is yours to pause." : "";
     const sentence = `${robot.lease.name} cannot move the robot any more.${run} Look at the robot before you go on.`;
-    if (await confirmAct("Take the robot over?", sentence, "Take it over")) await handOver(store, "take")();
+    if (await confirmAction("Take the robot over?", sentence, "Take it over")) await handOver(store, "take")();
   });
 }
 

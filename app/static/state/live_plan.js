@@ -5,7 +5,7 @@
 
 import { api } from "../api/gaits.js";
 import { painted } from "../lib/dom.js";
-import { lane } from "../lib/latest_only.js";
+import { latestOnly } from "../lib/latest_only.js";
 import { shownDocument, shownPlan, shownText } from "./store.js";
 
 export { painted };
@@ -15,7 +15,7 @@ const HELD_MS = 600;
 const MOST_TRIES = 3;
 
 /** Whether the page shows an edit that the server's view does not have yet. */
-const editUnderWay = ({ view, pending, gesture }) => Boolean(view) && (gesture !== null || pending.length > 0);
+export const editInProgress = ({ view, pending, gesture }) => Boolean(view) && (gesture !== null || pending.length > 0);
 
 /** What stands for a plan where a document makes none. */
 function refusedPlan(sentence) {
@@ -36,7 +36,7 @@ export async function measured(name, since) {
 
 function mountFollowing(store) {
   let asked = null;
-  const offer = lane(async ({ id, document, since }) => {
+  const offer = latestOnly(async ({ id, document, since }) => {
     let plan;
     try {
       ({ plan } = await api.live(id, { document }));
@@ -44,13 +44,13 @@ function mountFollowing(store) {
     } catch (error) {
       plan = refusedPlan(error.message);
     }
-    if (store.state.selected !== id || !editUnderWay(store.state)) return;
+    if (store.state.selected !== id || !editInProgress(store.state)) return;
     store.set({ live: { id, plan, since } });
     measured("edit to plots", since);
   });
 
   store.watch(({ view, pending, gesture }) => [view, pending, gesture], (state) => {
-    if (!editUnderWay(state)) {
+    if (!editInProgress(state)) {
       asked = null;
       if (state.live) store.set({ live: null });
       return;
@@ -75,7 +75,7 @@ function mountRemedies(store) {
     const wait = (store.state.gesture ? HELD_MS : IDLE_MS) * 2 ** tries;
     timer = setTimeout(() => offer({ id: store.state.view.id, document: shownDocument(store.state), text, tries }), wait);
   };
-  const offer = lane(async ({ id, document, text, tries }) => {
+  const offer = latestOnly(async ({ id, document, text, tries }) => {
     let found;
     try {
       const { remedies, remedies_complete: complete } = await api.live(id, { document, remedies: true });
@@ -97,7 +97,7 @@ function mountRemedies(store) {
 }
 
 /** Keeps the live plan and the remedies of the store current. */
-export function mountLive(store) {
+export function mountLivePlan(store) {
   mountFollowing(store);
   mountRemedies(store);
 }

@@ -10,7 +10,7 @@ const LONGEST_WAIT_MS = 5000;
 let say = () => {};
 
 /** Says something to the studio over the socket, where that is open. */
-export const sayToStudio = (text) => say(text);
+export const sendToStudio = (text) => say(text);
 
 function receive(store, message, onHello) {
   switch (message.type) {

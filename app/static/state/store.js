@@ -3,7 +3,7 @@
  *
  * Everything that several tabs must agree on comes from the server; the rest (`selected`, `shownJob`, `pending`,
  * `left` (edits of gaits that were left before they were sent), `gesture`, `tool`, `selection`, `preview`, `zoom`, `live`, `remedies`,
- * `iterate`, `tableDrafts`, `runCourse`, `jog`, `simulation`, `tracks`, `trialWanted`, `physicsSets`) belongs to this tab alone.
+ * `iterate`, `segmentDrafts`, `runRange`, `jog`, `simulation`, `tracks`, `trialWanted`, `physicsSets`) belongs to this tab alone.
  */
 
 const INITIAL = Object.freeze({
@@ -27,14 +27,14 @@ const INITIAL = Object.freeze({
   iterate: null,
   pattern: null,
   refused: null,
-  tableDrafts: Object.freeze({}),
+  segmentDrafts: Object.freeze({}),
   formError: null,
   shownJob: null,
   checked: Object.freeze({}),
   runSummary: null,
   run: null,
   trace: null,
-  runCourse: null,
+  runRange: null,
   simulation: null,
   tracks: Object.freeze([]),
   jog: null,

@@ -3,7 +3,7 @@
 import { blockFrom, clipboardText, putBlock } from "./clipboard.js";
 import { OPERATIONS, outcomeOf } from "../document/operations.js";
 import { blockOf, heldBack, withBlock } from "../document/timeline_operators.js";
-import { wholeOf, wordsOf } from "../document/region.js";
+import { wholeOf, regionText } from "../document/region.js";
 import { selectedRegion } from "../state/selection.js";
 import { shownDocument } from "../state/store.js";
 import { announce, toast } from "../lib/toasts.js";
@@ -55,7 +55,7 @@ export function createActions({ store, edits, playback, focused }) {
 
   function take() {
     const block = blockOf(document(), region() ?? wholeOf(document()));
-    announce(`Copied ${wordsOf(document(), region() ?? wholeOf(document()))}.`);
+    announce(`Copied ${regionText(document(), region() ?? wholeOf(document()))}.`);
     return block;
   }
 
@@ -77,7 +77,7 @@ export function createActions({ store, edits, playback, focused }) {
     const block = blockOf(document(), cells);
     const outcome = outcomeOf("stance", { ...state(), region: cells });
     if (outcome.reason && outcome.reason !== "Nothing would change.") return toast(outcome.reason);
-    if (!outcome.reason) put({ ...outcome, label: `Cut ${wordsOf(document(), cells)}` });
+    if (!outcome.reason) put({ ...outcome, label: `Cut ${regionText(document(), cells)}` });
     return block;
   }
 
@@ -93,7 +93,7 @@ export function createActions({ store, edits, playback, focused }) {
       feet: [at[0], Math.min(at[0] + block.length, feet.length) - 1],
       samples: [at[1], Math.min(at[1] + block[0].length, feet[0].length) - 1],
     };
-    return put({ apply, clipped: leftOut(document(), at, block), label: `Paste at ${wordsOf(document(), { feet: [at[0], at[0]], samples: [at[1], at[1]] })}`, drawing: true, selection });
+    return put({ apply, clipped: leftOut(document(), at, block), label: `Paste at ${regionText(document(), { feet: [at[0], at[0]], samples: [at[1], at[1]] })}`, drawing: true, selection });
   }
 
   function loop() {
@@ -121,7 +121,7 @@ export function createActions({ store, edits, playback, focused }) {
       store.set({ preview: null });
       return true;
     },
-    scope: (id) => (document() ? wordsOf(document(), stateFor(id).region ?? wholeOf(document())) : ""),
+    scope: (id) => (document() ? regionText(document(), stateFor(id).region ?? wholeOf(document())) : ""),
     state: stateFor,
     take, cut, clear, paste, loop, toggleLock,
     copyNow: () => putBlock(take()),

@@ -7,7 +7,7 @@
 
 import { paintCells } from "../state/edits.js";
 import { heldBack, relocated, withLocks } from "../document/timeline_operators.js";
-import { spanning, wordsOf } from "../document/region.js";
+import { spanning, regionText } from "../document/region.js";
 import { selectedRegion } from "../state/selection.js";
 import { shownDocument } from "../state/store.js";
 import { differing, moved, movedLabel, swingAt } from "../document/swings.js";
@@ -28,7 +28,7 @@ function withSwing(document, foot, from, to) {
 
 export const isLocked = ({ timeline }, [foot, sample]) => timeline.locked?.[foot]?.[sample] === "1";
 
-export function tellLocked([foot, sample]) {
+export function reportLocked([foot, sample]) {
   toast(`Foot ${foot + 1}, sample ${sample + 1} is locked. Shift-drag from a locked cell, or K, unlocks.`);
 }
 
@@ -107,7 +107,7 @@ export function locking(store, edits, start, tap = null) {
 export function lockRegion(edits, document, region, locks) {
   const apply = (now) => withLocks(now, region, locks);
   if (heldBack(document, apply(document))) return;
-  edits.edit(apply, `${locks ? "Lock" : "Unlock"} ${wordsOf(document, region)}`, { drawing: true });
+  edits.edit(apply, `${locks ? "Lock" : "Unlock"} ${regionText(document, region)}`, { drawing: true });
 }
 
 /** Selects a rectangle. */
@@ -140,7 +140,7 @@ export function carrying(store, edits, start, { copies, tap }) {
       const shift = by;
       if (!touched) return tap();
       if (!shift || reason) return store.set({ selection: region });
-      const label = `${copies ? "Copy" : "Move"} ${wordsOf(document, region)} by ${shift > 0 ? "+" : "−"}${Math.abs(shift)}`;
+      const label = `${copies ? "Copy" : "Move"} ${regionText(document, region)} by ${shift > 0 ? "+" : "−"}${Math.abs(shift)}`;
       return edits.edit((now) => relocated(now, region, shift, copies), label, { drawing: true });
     },
     drop: () => store.set({ selection: region }),

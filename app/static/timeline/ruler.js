@@ -13,7 +13,7 @@ function placed(element, left, width = null) {
   return element;
 }
 
-function lackMarks(axis, plan) {
+function missingMotionMarks(axis, plan) {
   return (plan?.live?.lacks ?? []).slice().reverse().map((lack) => {
     const mark = h("b", { class: "lack", title: lack.sentence, data: { tone: lack === plan.live.lacks[0] ? "bad" : "caution" } });
     return placed(mark, columnFraction(axis, lack.first), (lack.last + 1 - lack.first) / axis.shown);
@@ -47,7 +47,7 @@ function loopMark(axis, [start, end]) {
 function draw(state, playback, width) {
   const [axis, plan] = [axisOf(state), shownPlan(state)];
   const loop = playback.loop && (playback.loop[0] > 0 || playback.loop[1] < playback.duration - 1e-9) ? [loopMark(axis, playback.loop)] : [];
-  byId("ruler").replaceChildren(...loop, ...lackMarks(axis, plan), ...ticks(axis, width), ...findingMarks(axis, state.live ? null : state.view?.verdict));
+  byId("ruler").replaceChildren(...loop, ...missingMotionMarks(axis, plan), ...ticks(axis, width), ...findingMarks(axis, state.live ? null : state.view?.verdict));
 }
 
 function mountScrubbing(store, playback) {

@@ -2,7 +2,7 @@
 
 import { axisKey, axisOf } from "../state/time_axis.js";
 import { byId, h } from "../lib/dom.js";
-import { lacksByCell } from "../document/missing_motion.js";
+import { missingMotionByCell } from "../document/missing_motion.js";
 import { mountRuler } from "./ruler.js";
 import { mountSelection } from "../state/selection.js";
 import { previewedDocument, shownDocument, shownPlan } from "../state/store.js";
@@ -33,7 +33,7 @@ function remembered(make) {
 export function mountTimeline(store, edits, playback, reveal) {
   const grid = byId("timeline");
   const marks = h("div", { class: "timeline-marks", "aria-hidden": "true" });
-  const [findingsOf, lacksOf] = [remembered(findingsByCell), remembered(lacksByCell)];
+  const [findingsOf, missingOf] = [remembered(findingsByCell), remembered(missingMotionByCell)];
   let parts = [];
   const input = mountTimelineInput(store, edits, grid, () => parts, reveal);
 
@@ -64,7 +64,7 @@ export function mountTimeline(store, edits, playback, reveal) {
     const { feet, locked } = gait.timeline;
     if (parts.length !== feet.length || parts[0].cells.length !== feet[0].length) fit(feet.length, feet[0].length);
     const before = state.preview ? shownDocument(state).timeline : null;
-    const [findings, lacks] = [findingsOf(state.live ? null : state.view.verdict), lacksOf(shownPlan(state))];
+    const [findings, lacks] = [findingsOf(state.live ? null : state.view.verdict), missingOf(shownPlan(state))];
     parts.forEach((part, foot) => drawRow(part, {
       foot, steps: feet[foot], locked: locked?.[foot], findings, lacks, periodic: gait.options?.boundary === "periodic",
       before: before && { steps: before.feet[foot], locked: before.locked?.[foot] }, role: state.view.roles?.[foot] ?? "",

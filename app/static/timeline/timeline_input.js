@@ -8,8 +8,8 @@
 
 import { axisOf } from "../state/time_axis.js";
 import { cellFinder, cellOf, clamped, nextBorder, rovingFocus } from "./cells.js";
-import { carrying, isLocked, locking, lockRegion, moving, painting, selecting, tellLocked } from "./drags.js";
-import { spanning, wordsOf } from "../document/region.js";
+import { carrying, isLocked, locking, lockRegion, moving, painting, selecting, reportLocked } from "./drags.js";
+import { spanning, regionText } from "../document/region.js";
 import { createSelecting, isSelected } from "../state/selection.js";
 import { FOLLOWS, isSequence } from "../document/sequence_edits.js";
 import { shownDocument } from "../state/store.js";
@@ -60,7 +60,7 @@ export function mountTimelineInput(store, edits, grid, rows, reveal) {
   const isSwing = ([foot, sample]) => document().timeline.feet[foot][sample] === "0";
 
   function toggle(cell) {
-    if (isLocked(document(), cell)) tellLocked(cell);
+    if (isLocked(document(), cell)) reportLocked(cell);
     else edits.paint([cell], !isSwing(cell));
   }
 
@@ -82,7 +82,7 @@ export function mountTimelineInput(store, edits, grid, rows, reveal) {
       return isSelected(store.state, start) ? carrying(store, edits, start, { copies: event.altKey, tap }) : selecting(selection, start);
     }
     selection.clear();
-    if (isLocked(document(), start)) return tellLocked(start);
+    if (isLocked(document(), start)) return reportLocked(start);
     return !isSwing(start) || event.altKey || brush() ? painting(store, edits, start) : moving(store, edits, start, partHeld(start, event.clientX));
   }
 
@@ -167,7 +167,7 @@ export function mountTimelineInput(store, edits, grid, rows, reveal) {
   function extendTo(cell, from) {
     selection.extendTo(cell, from);
     reveal(cell[1]);
-    announce(`Selected: ${wordsOf(document(), store.state.selection)}.`);
+    announce(`Selected: ${regionText(document(), store.state.selection)}.`);
   }
 
   function click(event) {

@@ -3,13 +3,13 @@
 import { h, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { attempt } from "../lib/toasts.js";
-import { besideApi } from "./trial_comparison.js";
+import { comparisonApi } from "./trial_comparison.js";
 import { ground, legend, points } from "./trial_plot.js";
-import { wayFrame } from "./trial_displacement.js";
+import { displacementFrame } from "./trial_displacement.js";
 
 /** The studio lays so many over each other; of more, the newest are chosen. */
 const MOST_TOGETHER = 20;
-const WORDS = { mean: "mean", trial: "each trial", plan: "planned" };
+const TEXTS = { mean: "mean", trial: "each trial", plan: "planned" };
 
 const kindsOf = ({ has_plan: hasPlan }) => ["mean", "trial", ...(hasPlan ? ["plan"] : [])];
 
@@ -34,7 +34,7 @@ function bandFromAbove(band) {
   const text = band.feet.map(({ end_spread_cm: spread }, foot) => `foot ${foot + 1} ends ± ${fixed(spread, 2)} cm`).join("; ");
   return h("figure", { class: "trial-plot" },
     svg("svg", { viewBox: `0 0 ${size} ${size}`, role: "img", "aria-label": `Trials from above: ${text}` }, ...lines, ...drawn),
-    h("figcaption", { class: "quiet" }, `From above in the robot's frame, ${step} cm grid; pale is where the trials lie`, legend(kindsOf(band), WORDS)));
+    h("figcaption", { class: "quiet" }, `From above in the robot's frame, ${step} cm grid; pale is where the trials lie`, legend(kindsOf(band), TEXTS)));
 }
 
 /** How far the feet are along the way, iteration by iteration. */
@@ -43,14 +43,14 @@ function bandOverIterations({ feet, iterations, ...band }) {
   const all = ways.flatMap(({ low, high, plan }) => [...low, ...high, ...(plan ?? [])]);
   const range = all.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [0, 0.1]);
   const count = iterations.at(-1);
-  const { drawing, toX, toY } = wayFrame(range, count, { begin: "cm over iterations", end: String(count) });
+  const { drawing, toX, toY } = displacementFrame(range, count, { begin: "cm over iterations", end: String(count) });
   const xs = iterations.map(toX);
   const line = (kind, foot, values) => svg("polyline", { class: `way-${kind}`, "data-foot": foot + 1, points: points(xs, values.map(toY)) });
   drawing.append(...ways.flatMap((way, foot) => [
     svg("polygon", { class: "spread", "data-foot": foot + 1, points: `${points(xs, way.low.map(toY))} ${points([...xs].reverse(), way.high.map(toY).reverse())}` }),
     ...(way.plan ? [line("plan", foot, way.plan)] : []), ...way.trials.map((one) => line("trial", foot, one)), line("mean", foot, way.mean),
   ]));
-  return h("figure", { class: "trial-plot" }, drawing, h("figcaption", { class: "quiet" }, `Way of each foot along the ${band.has_plan ? "wanted" : "mean"} direction`, legend(kindsOf(band), WORDS)));
+  return h("figure", { class: "trial-plot" }, drawing, h("figcaption", { class: "quiet" }, `Way of each foot along the ${band.has_plan ? "wanted" : "mean"} direction`, legend(kindsOf(band), TEXTS)));
 }
 
 const HELP = "Mean of the trials from begin to end along their direction; how far their ends lie from their mean (root of the mean square); and the plan";
@@ -87,7 +87,7 @@ export async function trialBand(group, { all, open, tracks }) {
 
   const draw = attempt(async () => {
     const ids = chosen();
-    const band = ids.length ? await besideApi.band(ids) : null;
+    const band = ids.length ? await comparisonApi.band(ids) : null;
     if (ids.join() !== chosen().join()) return;
     part?.leave();
     part = band && tracks(ids);

@@ -6,11 +6,11 @@ import { fixed } from "../lib/format.js";
 import { legend } from "./trial_plot.js";
 import { attempt } from "../lib/toasts.js";
 
-const LOOK_MS = 400;
+const POLL_MS = 400;
 
 const trial = (id) => `/api/trials/${encodeURIComponent(id)}`;
 
-export const besideApi = {
+export const comparisonApi = {
   read: (id) => request("GET", `${trial(id)}/beside`),
   simulate: (id) => request("POST", `${trial(id)}/simulation`),
   scene: (id, lap) => request("GET", `${trial(id)}/scene?lap=${lap}`),
@@ -27,7 +27,7 @@ function figures({ rows }) {
     h("tbody", {}, ...rows.map((row) => h("tr", { title: apart(row) }, h("th", { scope: "row" }, legend([row.source])), ...cells(row).map((text) => h("td", { text }))))));
 }
 
-const WORDS = {
+const TEXTS = {
   absent: () => "Physics is asked for what the robot was sent.",
   running: ({ share }) => (share > 0 ? `Physics is at it: ${fixed(share * 100, 0)} %.` : "Physics is asked, after what is simulated now."),
   failed: ({ sentence }) => `No simulated feet: ${sentence} `,
@@ -41,7 +41,7 @@ const WORDS = {
  * @param {(simulated: object|null) => void} shown told of physics' ways once they are there
  * @returns {{element: HTMLElement, refresh: () => Promise<void>, leave: () => void}}
  */
-export function besidePart(id, shown) {
+export function comparisonPart(id, shown) {
   const note = h("p", { class: "quiet", role: "status", "aria-label": "Physics" });
   const again = h("button", { class: "link", text: "Try again", hidden: true });
   const table = h("div");
@@ -50,12 +50,12 @@ export function besidePart(id, shown) {
   let isLeft = false;
 
   function tell(standing) {
-    setText(note, WORDS[standing.state](standing));
+    setText(note, TEXTS[standing.state](standing));
     again.hidden = standing.state !== "failed";
   }
 
   async function refresh() {
-    const beside = await besideApi.read(id);
+    const beside = await comparisonApi.read(id);
     if (isLeft) return;
     table.replaceChildren(figures(beside));
     tell(beside.simulation);
@@ -65,11 +65,11 @@ export function besidePart(id, shown) {
 
   const follow = attempt(async () => {
     clearTimeout(timer);
-    const standing = await besideApi.simulate(id);
+    const standing = await comparisonApi.simulate(id);
     if (isLeft) return;
     if (standing.state === "done") await refresh();
     else tell(standing);
-    if (standing.state === "running") timer = setTimeout(follow, LOOK_MS);
+    if (standing.state === "running") timer = setTimeout(follow, POLL_MS);
   });
 
   again.addEventListener("click", follow);

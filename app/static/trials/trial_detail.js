@@ -4,13 +4,13 @@ import { h, onPress } from "../lib/dom.js";
 import { clockTime, fixed } from "../lib/format.js";
 import { attempt } from "../lib/toasts.js";
 import { trialApi } from "../api/trials.js";
-import { besidePart } from "./trial_comparison.js";
+import { comparisonPart } from "./trial_comparison.js";
 import { followTrial } from "./trial_sync.js";
 import { notePart } from "./trial_note.js";
 import { photosPart } from "./trial_photos.js";
 import { pathPlot } from "./trial_plot.js";
 import { sourcePart } from "./trial_source.js";
-import { wayPlot } from "./trial_displacement.js";
+import { displacementPlot } from "./trial_displacement.js";
 
 function table(caption, help, head, rows) {
   return h("table", { class: "run-table", title: help }, h("caption", { text: caption }),
@@ -93,7 +93,7 @@ export async function trialDetail(store, id, { all, remove, tracks, video }) {
   const [trial, paths] = await Promise.all([trialApi.read(id), trialApi.paths(id)]);
   const sources = { tracked: paths.track, planned: paths.plan, simulated: null };
   const [head, plots, tail] = ["trial-part", "trial-plots", "trial-part"].map((name) => h("div", { class: name }));
-  const beside = besidePart(id, (simulated) => { sources.simulated = simulated; drawPlots(); });
+  const beside = comparisonPart(id, (simulated) => { sources.simulated = simulated; drawPlots(); });
   const scene = tracks([id]);
   const note = notePart(async (text) => { if (!await kept.change({ note: text }, "Note kept.")) note.offer(); });
   let shown = trial;
@@ -106,7 +106,7 @@ export async function trialDetail(store, id, { all, remove, tracks, video }) {
     const moved = async (part, frame) => {
       if (!await kept.change({ ends: shown.parts.map(({ end }, index) => (index === part ? frame : end)) })) drawPlots();
     };
-    keepingMark(plots, () => plots.replaceChildren(pathPlot(sources), wayPlot(sources, shown, moved)));
+    keepingMark(plots, () => plots.replaceChildren(pathPlot(sources), displacementPlot(sources, shown, moved)));
   }
 
   function draw(now) {

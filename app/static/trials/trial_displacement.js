@@ -7,7 +7,7 @@ import { SOURCES, legend, points } from "./trial_plot.js";
 const WAY = { width: 276, height: 96, left: 26, right: 6, top: 8, bottom: 16 };
 
 /** The plot's frame with its axes; `toX` takes 0 to `most`. */
-export function wayFrame([low, high], most, words) {
+export function displacementFrame([low, high], most, words) {
   const inner = WAY.width - WAY.left - WAY.right;
   const toX = (value) => WAY.left + (value / most) * inner;
   const toY = (value) => WAY.height - WAY.bottom - ((value - low) / (high - low)) * (WAY.height - WAY.top - WAY.bottom);
@@ -30,7 +30,7 @@ function directionOf({ feet }) {
 }
 
 /** How far each foot is along a direction, cm. */
-const waysAlong = ({ feet }, [dx, dy]) => feet.map(({ x, y }) => x.map((value, index) => (value - x[0]) * dx + (y[index] - y[0]) * dy));
+const displacementsAlong = ({ feet }, [dx, dy]) => feet.map(({ x, y }) => x.map((value, index) => (value - x[0]) * dx + (y[index] - y[0]) * dy));
 
 /** The tracked frame beside a share of a motion's time: iteration by iteration, since the robot walks by its own clock. */
 function frameAt(share, ends) {
@@ -94,19 +94,19 @@ function handle({ part, end, frames, rate, clock, toX, fromX, top, bottom, moved
  * @param {{frames: number, seconds: number, frame_rate: number, parts: {end: number}[]}} trial
  * @param {(part: number, frame: number) => void} moved
  */
-export function wayPlot(sources, trial, moved) {
+export function displacementPlot(sources, trial, moved) {
   const kinds = SOURCES.filter((kind) => sources[kind]);
   const direction = directionOf(sources.tracked);
   const ends = trial.parts.map(({ end }) => end);
   const drawn = kinds.map((kind) => ({
-    kind, ways: waysAlong(sources[kind], direction),
+    kind, ways: displacementsAlong(sources[kind], direction),
     frames: kind === "tracked" ? sources[kind].frames : sources[kind].shares.map((share) => frameAt(share, ends)),
   }));
   const all = drawn.flatMap(({ ways }) => ways.flat());
   const range = all.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [0, 0.1]);
   const clock = clockOf(sources.tracked, trial.seconds);
   const words = { begin: "cm over time", end: `${fixed(trial.seconds, 0)} s` };
-  const { drawing, toX, toY, fromX } = wayFrame(range, trial.seconds, words);
+  const { drawing, toX, toY, fromX } = displacementFrame(range, trial.seconds, words);
   drawing.append(
     ...drawn.flatMap(({ kind, ways, frames }) => ways.map((way, index) => svg("polyline", { class: `way-${kind}`, "data-foot": index + 1, points: points(frames.map((frame) => toX(clock.timeOf(frame))), way.map(toY)) }))),
     ...ends.slice(0, -1).map((end, part) => handle({ part, end, frames: trial.frames, rate: trial.frame_rate, clock, toX, fromX, top: WAY.top, bottom: WAY.height - WAY.bottom, moved })));

@@ -2,7 +2,7 @@
 
 import { h, svg } from "../lib/dom.js";
 import { clockTime, fixed } from "../lib/format.js";
-import { turns } from "../lib/latest_only.js";
+import { ticket } from "../lib/latest_only.js";
 import { attempt } from "../lib/toasts.js";
 import { trialApi } from "../api/trials.js";
 
@@ -96,7 +96,7 @@ function listParts({ trials, compared }, { open, band }) {
 export async function trialList({ store, open, add, band, videos, cameras, learn }) {
   const first = store.state.trialChanges;
   const body = h("div", { class: "trial-part" });
-  const begin = turns();
+  const begin = ticket();
 
   async function fill() {
     const isOld = begin();

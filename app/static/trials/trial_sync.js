@@ -40,7 +40,7 @@ export function followTrial(store, first, shown) {
   }
 
   /** Does one thing after the other, so that each is made from what the one before led to. */
-  function inTurn(act) {
+  function enqueue(act) {
     last = last.then(act, act);
     return last;
   }
@@ -52,7 +52,7 @@ export function followTrial(store, first, shown) {
   }
 
   const forget = store.watch(({ trialChanges, connected }) => [trialChanges[id], connected], ({ trialChanges, connected }) => {
-    if (connected && trialChanges[id]) inTurn(look);
+    if (connected && trialChanges[id]) enqueue(look);
   });
-  return { change: (changes, done = "") => inTurn(() => send(changes, done)), leave() { isLeft = true; forget(); } };
+  return { change: (changes, done = "") => enqueue(() => send(changes, done)), leave() { isLeft = true; forget(); } };
 }

@@ -4,7 +4,7 @@ import { recalled, remember } from "../lib/check_menu.js";
 import { h, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { attempt } from "../lib/toasts.js";
-import { besideApi } from "./trial_comparison.js";
+import { comparisonApi } from "./trial_comparison.js";
 
 const LAYER = "trial-tracks";
 /** How the robots stood, and what the rings are. */
@@ -23,7 +23,7 @@ function words(tracks) {
  */
 export function tracksParts(store, showGait) {
   let current = null;
-  store.watch(({ selected, gaits }) => [selected, gaits], () => current?.tellGait());
+  store.watch(({ selected, gaits }) => [selected, gaits], () => current?.updateGait());
 
   return (ids) => {
     const box = h("input", { type: "checkbox", "aria-label": "Tracks in 3D" });
@@ -33,7 +33,7 @@ export function tracksParts(store, showGait) {
     const ofLaps = h("label", { hidden: true }, "lap", lap);
     let tracks = [];
 
-    function tellLaps() {
+    function updateLaps() {
       const count = Math.min(...tracks.map(({ laps }) => laps), Infinity);
       ofLaps.hidden = !(count > 1 && count < Infinity);
       if (ofLaps.hidden || lap.length === count) return;
@@ -41,7 +41,7 @@ export function tracksParts(store, showGait) {
     }
 
     /** Says so where another gait is shown than the trials'. */
-    function tellGait() {
+    function updateGait() {
       const { selected, gaits } = store.state;
       const wanted = tracks.map(({ gait }) => gait).find((gait) => gait && gait !== selected);
       const line = gaits.find(({ id }) => id === wanted);
@@ -53,16 +53,16 @@ export function tracksParts(store, showGait) {
 
     const part = {
       element: h("div", { class: "trial-tracks" }, h("div", { class: "tracks-choice" }, h("label", {}, box, "Tracks in 3D"), ofLaps), note, other),
-      tellGait,
+      updateGait,
       refresh: attempt(async () => {
         const wanted = lap.value || "1";
-        const found = box.checked ? await Promise.all(ids.map((id) => besideApi.scene(id, wanted))) : [];
+        const found = box.checked ? await Promise.all(ids.map((id) => comparisonApi.scene(id, wanted))) : [];
         if (current !== part || Boolean(found.length) !== box.checked || wanted !== (lap.value || "1")) return;
         tracks = found;
         note.hidden = !tracks.length;
         if (tracks.length) setText(note, words(tracks));
-        tellLaps();
-        tellGait();
+        updateLaps();
+        updateGait();
         store.set({ tracks });
       }),
       leave() {

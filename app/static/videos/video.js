@@ -8,7 +8,7 @@ import { uploadField, videoRow } from "./video_rows.js";
 
 /**
  * Opens the videos in the trials' panel.
- * @param {object} page `store`, `show(content, whenLeft)`, `begin()` tells later whether something else was asked for, `all` shows the list of trials, `one` a trial
+ * @param {object} page `store`, `show(content, onLeave)`, `begin()` tells later whether something else was asked for, `all` shows the list of trials, `one` a trial
  */
 export const openVideos = attempt(async (page) => {
   const again = () => openVideos(page);

@@ -1,7 +1,7 @@
 /** One video in the panel, beside its picture: a camera setup is chosen or made, and its feet are tracked into a trial. */
 
 import { newSetup, openSetup } from "../cameras/camera_setup.js";
-import { setupWords } from "../cameras/camera_labels.js";
+import { setupText } from "../cameras/camera_labels.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { attempt, toast } from "../lib/toasts.js";
 import { walkFields } from "../trials/trial_form.js";
@@ -21,7 +21,7 @@ function setupChoice({ setups, chosen, changed, edit, make }) {
   const show = () => {
     const one = now();
     change.hidden = !one;
-    setText(state, one ? `${one.setup.name}, version ${one.revision}: ${setupWords(one)}` : "A setup tells the lens, where the platform is in the picture, and the colours of the feet.");
+    setText(state, one ? `${one.setup.name}, version ${one.revision}: ${setupText(one)}` : "A setup tells the lens, where the platform is in the picture, and the colours of the feet.");
     changed(one);
   };
   select.addEventListener("change", show);
@@ -68,7 +68,7 @@ export async function openVideo(page, video, { back, chosen = "", frame = 0, kep
 
   function allow() {
     const setup = choice.now();
-    const why = tracking ? "This video is being tracked." : !setup ? "Choose or make a camera setup first." : setup.ready ? null : setupWords(setup);
+    const why = tracking ? "This video is being tracked." : !setup ? "Choose or make a camera setup first." : setup.ready ? null : setupText(setup);
     setAllowed(track, why, "Follows the four feet through every frame");
   }
 

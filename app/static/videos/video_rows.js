@@ -1,6 +1,6 @@
 /** Kept videos in a list, and a file on its way to the studio. */
 
-import { lengthWords, sizeWords } from "../cameras/camera_labels.js";
+import { durationText, sizeText } from "../cameras/camera_labels.js";
 import { h, setText } from "../lib/dom.js";
 import { clockTime, fixed } from "../lib/format.js";
 import { report, toast } from "../lib/toasts.js";
@@ -8,9 +8,9 @@ import { videoApi } from "../api/videos.js";
 import "../pictures/picture_style.js";
 
 /** Size, rate and length of a video. */
-export const videoFacts = ({ size, rate, seconds, bytes }) => `${size.join(" × ")} px · ${fixed(rate, 1)} frames/s · ${lengthWords(seconds)} · ${sizeWords(bytes)}`;
+export const videoFacts = ({ size, rate, seconds, bytes }) => `${size.join(" × ")} px · ${fixed(rate, 1)} frames/s · ${durationText(seconds)} · ${sizeText(bytes)}`;
 
-const trialsWord = ({ trials }) => (trials.length > 1 ? `has ${trials.length} trials` : trials.length ? "has a trial" : "");
+const trialsText = ({ trials }) => (trials.length > 1 ? `has ${trials.length} trials` : trials.length ? "has a trial" : "");
 
 /** A kept video in the list, with the ways to what was tracked in it. */
 export function videoRow(video, { open, trial }) {
@@ -18,8 +18,8 @@ export function videoRow(video, { open, trial }) {
   const { trials } = video;
   const ways = trials.map(({ id, name }) => h("button", { type: "button", class: "link", text: trials.length > 1 ? `Trial: ${name}` : "Open its trial", title: name, on: { click: () => trial(id) } }));
   return h("li", {}, h("button", { type: "button", class: "run-row", data: { video: video.id }, title: video.sentence || "Track the feet in this video", on: { click: () => open(video) } },
-    h("span", { class: "run-line" }, h("b", { text: video.name }), h("span", { text: lengthWords(video.seconds) })),
-    h("span", { class: "run-line quiet" }, h("span", { text: [clockTime(video.made), state, trialsWord(video)].filter(Boolean).join(" · ") }))), ways.length ? h("div", { class: "video-trials" }, ...ways) : null);
+    h("span", { class: "run-line" }, h("b", { text: video.name }), h("span", { text: durationText(video.seconds) })),
+    h("span", { class: "run-line quiet" }, h("span", { text: [clockTime(video.made), state, trialsText(video)].filter(Boolean).join(" · ") }))), ways.length ? h("div", { class: "video-trials" }, ...ways) : null);
 }
 
 /** A field for a file, which is sent when it is chosen, with its progress and Cancel. */
@@ -34,7 +34,7 @@ function buildUpload() {
 
   function progress(share, size) {
     bar.style.transform = `scaleX(${share})`;
-    setText(words, share < 1 ? `${fixed(share * 100, 0)} % of ${sizeWords(size)} sent` : "Sent; the studio looks at it…");
+    setText(words, share < 1 ? `${fixed(share * 100, 0)} % of ${sizeText(size)} sent` : "Sent; the studio looks at it…");
   }
 
   async function send() {

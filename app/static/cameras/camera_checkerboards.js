@@ -24,12 +24,12 @@ export function checkerboardBook({ changed, found }) {
   const corners = { columns: 8, rows: 5 };
 
   async function compute() {
-    const asked = ++number;
+    const request = ++number;
     figures = new Map();
     changed();
     if (boards.filter((board) => board.found).length < LEAST_CHECKERBOARDS) return;
     const answer = await setupApi.lens({ ...corners, boards: boards.map(({ picture: _, ...board }) => board) });
-    if (asked !== number) return;
+    if (request !== number) return;
     answer.boards.forEach(({ rms_px: rms }, index) => figures.set(boards[index], rms));
     found(answer);
     changed();

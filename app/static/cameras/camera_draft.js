@@ -27,8 +27,8 @@ export function setupDraft(first) {
   const store = watchable({ id: first.id, revision: first.revision, setup: first.setup, answer: first, kept: true, trouble: null });
   let [working, checking, settled] = [false, false, []];
 
-  function take(answer, asked) {
-    store.set({ answer, revision: answer.revision || store.state.revision, kept: Boolean(answer.id) && same(asked, store.state.setup) });
+  function take(answer, requested) {
+    store.set({ answer, revision: answer.revision || store.state.revision, kept: Boolean(answer.id) && same(requested, store.state.setup) });
   }
 
   async function keep() {
@@ -52,11 +52,11 @@ export function setupDraft(first) {
   async function check() {
     if (checking) return;
     checking = true;
-    let asked = null;
-    while (!working && !store.state.kept && asked !== store.state.setup) {
-      asked = store.state.setup;
+    let requested = null;
+    while (!working && !store.state.kept && requested !== store.state.setup) {
+      requested = store.state.setup;
       try {
-        take(await setupApi.check(asked), asked);
+        take(await setupApi.check(requested), requested);
       } catch {
         break;
       }

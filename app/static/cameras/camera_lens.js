@@ -85,8 +85,8 @@ export function lensPart(draft, stage) {
   }));
 
   function showCheckerboards() {
-    const acts = { remove: attempt((board) => book.remove(board)), show: (board) => { shown = { board, frame: stage.frame }; stage.refresh(); } };
-    list.replaceChildren(...book.boards.map((board) => checkerboardRow(board, book.rmsOf(board), acts)));
+    const actions = { remove: attempt((board) => book.remove(board)), show: (board) => { shown = { board, frame: stage.frame }; stage.refresh(); } };
+    list.replaceChildren(...book.boards.map((board) => checkerboardRow(board, book.rmsOf(board), actions)));
     const count = book.boards.filter(({ found }) => found).length;
     if (book.boards.length && count < LEAST_CHECKERBOARDS) setText(words, `The board is found in ${count} of ${book.boards.length} pictures; at least ${LEAST_CHECKERBOARDS} are needed, flat, whole and sharp.`);
     else show(draft.state);

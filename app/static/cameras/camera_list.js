@@ -75,7 +75,7 @@ function cameraRow(store, id, { watch, setUp }) {
  * @param {object} store
  * @param {{watch: (camera: object) => void, setUp: (camera: object) => void}} acts
  */
-export function cameraList(store, acts) {
+export function cameraList(store, actions) {
   const list = h("ul", { class: "camera-list", role: "list", "aria-label": "Cameras" });
   const empty = h("p", { class: "teach", text: `The studio has no camera. ${HELP}`, hidden: true });
   const rows = new Map();
@@ -86,7 +86,7 @@ export function cameraList(store, acts) {
     for (const [id, row] of rows) if (!cameras.some((camera) => camera.id === id)) { row.element.remove(); rows.delete(id); }
     cameras.forEach((camera) => {
       if (!rows.has(camera.id)) {
-        rows.set(camera.id, cameraRow(store, camera.id, acts));
+        rows.set(camera.id, cameraRow(store, camera.id, actions));
         list.append(rows.get(camera.id).element);
       }
       rows.get(camera.id).show(camera, setups ?? []);

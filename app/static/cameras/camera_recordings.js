@@ -15,10 +15,10 @@ export const announceTrial = attempt(async (id, open) => {
 });
 
 /** Tells once what is to be known of a recording, such as why there is no trial of it. */
-const told = new Set();
+const announced = new Set();
 export function announceRecording({ id, name, sentence }, open) {
-  if (told.has(id)) return;
-  told.add(id);
+  if (announced.has(id)) return;
+  announced.add(id);
   toast(`Recording of ${name}: ${sentence}`, { action: { label: "Open the recording", act: () => open({ video: id }) } });
 }
 

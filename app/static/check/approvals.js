@@ -10,12 +10,12 @@ import { attempt } from "../lib/toasts.js";
 const NOW = "the gait as it is";
 
 function figuresText({ figures, warnings }) {
-  const said = [
+  const texts = [
     figures.waypoints && `${figures.waypoints} waypoints, ${fixed(figures.seconds)} s`,
     warnings.length && `${warnings.length} warning${warnings.length > 1 ? "s" : ""} seen`,
     figures.simulated && "simulated",
   ];
-  return said.filter(Boolean).join(" · ");
+  return texts.filter(Boolean).join(" · ");
 }
 
 function item(record, compare) {

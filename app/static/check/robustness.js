@@ -21,7 +21,7 @@ function cell(run, number) {
 }
 
 /** Arrows go from cell to cell; the one that has the focus is said below the map. */
-function mountKeys(list, said) {
+function mountKeys(list, description) {
   list.addEventListener("keydown", (event) => {
     const step = { ArrowLeft: -1, ArrowRight: 1, ArrowUp: -COLUMNS, ArrowDown: COLUMNS }[event.key];
     const cells = [...list.children];
@@ -33,15 +33,15 @@ function mountKeys(list, said) {
     cells.forEach((one) => { one.tabIndex = one === to ? 0 : -1; });
     to.focus();
   });
-  for (const kind of ["focusin", "pointerover"]) list.addEventListener(kind, ({ target }) => { if (target.matches(".variation")) setText(said, target.title); });
+  for (const kind of ["focusin", "pointerover"]) list.addEventListener(kind, ({ target }) => { if (target.matches(".variation")) setText(description, target.title); });
 }
 
 /** Builds the map. */
 export function robustness() {
-  const [share, list, said] = [h("b"), h("ul", { class: "variations", role: "list", "aria-label": "Variations" }), h("p", { class: "why said" })];
-  const element = h("div", { class: "robustness", hidden: true }, h("h3", { text: "Variations" }), h("p", {}, share), list, said);
+  const [share, list, description] = [h("b"), h("ul", { class: "variations", role: "list", "aria-label": "Variations" }), h("p", { class: "why said" })];
+  const element = h("div", { class: "robustness", hidden: true }, h("h3", { text: "Variations" }), h("p", {}, share), list, description);
   list.style.setProperty("--columns", COLUMNS);
-  mountKeys(list, said);
+  mountKeys(list, description);
   let known = null;
   return {
     element,
@@ -52,7 +52,7 @@ export function robustness() {
       known = variations;
       const walking = variations.runs.filter(({ walks }) => walks).length;
       setText(share, `${walking} of ${variations.count} walk (${fixed((100 * walking) / variations.count, 0)} %)`);
-      setText(said, "Friction, masses, motor speed, one weak motor, 1° of slope and softer legs, by chance. Point at a cell.");
+      setText(description, "Friction, masses, motor speed, one weak motor, 1° of slope and softer legs, by chance. Point at a cell.");
       list.replaceChildren(...variations.runs.map(cell));
     },
   };

@@ -33,21 +33,21 @@ function progressPart(cancel) {
   const element = h("div", {}, source, h("div", { class: "simulating" }, h("div", { class: "progress" }, bar), h("button", { text: "Cancel", "aria-label": "Cancel learning", on: { click: cancel } })), text);
   return {
     element,
-    show(course) {
-      const { done, total } = course;
+    show(job) {
+      const { done, total } = job;
       bar.style.transform = `scaleX(${done / Math.max(total, 1)})`;
-      setText(source, course.source && `Learning from ${course.source}`);
-      setText(text, progressText(course));
+      setText(source, job.source && `Learning from ${job.source}`);
+      setText(text, progressText(job));
     },
-    say(sentence) { setText(text, sentence); },
+    showError(sentence) { setText(text, sentence); },
   };
 }
 
-function jobRow(course, open) {
-  const words = [h("span", { class: "run-line" }, h("b", { text: course.source }), h("span", { text: course.state })),
-    h("span", { class: "run-line quiet" }, h("span", { text: [course.by, clockTime(course.made)].filter(Boolean).join(" · ") }))];
-  if (course.state !== "done") return h("li", { title: course.sentence }, h("div", { class: "run-row" }, ...words, h("span", { class: "quiet", text: course.sentence })));
-  return h("li", {}, h("button", { class: "run-row", title: course.sentence, on: { click: () => open(course.id) } }, ...words));
+function jobRow(job, open) {
+  const words = [h("span", { class: "run-line" }, h("b", { text: job.source }), h("span", { text: job.state })),
+    h("span", { class: "run-line quiet" }, h("span", { text: [job.by, clockTime(job.made)].filter(Boolean).join(" · ") }))];
+  if (job.state !== "done") return h("li", { title: job.sentence }, h("div", { class: "run-row" }, ...words, h("span", { class: "quiet", text: job.sentence })));
+  return h("li", {}, h("button", { class: "run-row", title: job.sentence, on: { click: () => open(job.id) } }, ...words));
 }
 
 function setRow(set, remove) {
@@ -69,28 +69,28 @@ export async function openLearning(page) {
 
   const list = attempt(async () => {
     const isOld = begin();
-    const [{ trials }, courses, sets] = await Promise.all([trialApi.list(), learningApi.courses(), learningApi.sets()]);
+    const [{ trials }, jobs, sets] = await Promise.all([trialApi.list(), learningApi.courses(), learningApi.sets()]);
     if (isOld()) return;
-    const on = courses.find(({ state }) => OPEN.has(state));
-    const ended = courses.filter(({ state }) => !OPEN.has(state));
+    const on = jobs.find(({ state }) => OPEN.has(state));
+    const ended = jobs.filter(({ state }) => !OPEN.has(state));
     const rows = (label, head, items) => (items.length ? [h("h2", { text: head }), h("ul", { class: "run-list", role: "list", "aria-label": label }, ...items)] : []);
     const followed = on && following(on);
     show(h("div", { class: "run-all learning" }, h("button", { class: "link", text: "All trials", on: { click: all } }),
       h("div", { class: "run-line run-title" }, h("b", { text: "Learn from trials" })), h("p", { class: "quiet", text: PURPOSE }),
       ...(followed ? [followed.element] : [trialChoice(trials, start), tableChoice(start)]),
-      ...rows("Courses of learning", "Learned", ended.map((course) => jobRow(course, open))),
+      ...rows("Courses of learning", "Learned", ended.map((job) => jobRow(job, open))),
       ...rows("Sets of physics parameters", "Sets", sets.map((set) => setRow(set, remove)))), leave);
     followed?.begin();
   });
 
-  function following(course) {
-    const progress = progressPart(attempt(async () => progress.show(await learningApi.cancel(course.id))));
-    progress.show(course);
+  function following(job) {
+    const progress = progressPart(attempt(async () => progress.show(await learningApi.cancel(job.id))));
+    progress.show(job);
     let wait = POLL_MS;
-    const again = () => { timer = setTimeout(look, wait); };
-    async function look() {
+    const again = () => { timer = setTimeout(poll, wait); };
+    async function poll() {
       try {
-        const now = await learningApi.course(course.id);
+        const now = await learningApi.course(job.id);
         if (timer === null) return;
         if (OPEN.has(now.state)) {
           progress.show(now);
@@ -103,7 +103,7 @@ export async function openLearning(page) {
         else await list();
       } catch (error) {
         if (timer === null) return;
-        progress.say(error.message);
+        progress.showError(error.message);
         if (error.status === 0) {
           wait = Math.min(2 * wait, MOST_POLL_MS);
           again();
@@ -126,8 +126,8 @@ export async function openLearning(page) {
   const start = attempt((wanted) => changed(() => learningApi.start(wanted)));
   const open = attempt(async (id) => {
     const isOld = begin();
-    const course = await learningApi.course(id);
-    if (!isOld()) show(learnedResult(course, { back: list, keep }), leave);
+    const job = await learningApi.course(id);
+    if (!isOld()) show(learnedResult(job, { back: list, keep }), leave);
   });
 
   const keep = attempt(async ({ id }, name) => {

@@ -17,7 +17,7 @@ const MARKS = [
   { name: "left out", mark: (x, y) => svg("circle", { class: "said-left-out", r: 3.4, cx: x, cy: y }) },
 ];
 
-function words(x, y, text, anchor = "middle") {
+function label(x, y, text, anchor = "middle") {
   const element = svg("text", { x, y, "text-anchor": anchor });
   element.textContent = text;
   return element;
@@ -25,28 +25,28 @@ function words(x, y, text, anchor = "middle") {
 
 function legend(foretold) {
   return h("span", { class: "said-legend" }, ...MARKS.map(({ name, mark }) => h("span", {},
-    svg("svg", { viewBox: "0 0 10 10", "aria-hidden": "true" }, mark(5, 5)), foretold.find((way) => way.name === name).title)));
+    svg("svg", { viewBox: "0 0 10 10", "aria-hidden": "true" }, mark(5, 5)), foretold.find((prediction) => prediction.name === name).title)));
 }
 
 /** @param {{gaits: object[], foretold: object[]}} result of a course */
 export function predictionPlot({ gaits, foretold }) {
-  const drawn = MARKS.map((one) => ({ ...one, way: foretold.find(({ name }) => name === one.name) }));
+  const drawn = MARKS.map((one) => ({ ...one, prediction: foretold.find(({ name }) => name === one.name) }));
   const measured = gaits.map(({ distance_cm: distance }) => distance);
-  const all = [...measured, ...drawn.flatMap(({ way }) => way.distances_cm)];
+  const all = [...measured, ...drawn.flatMap(({ prediction }) => prediction.distances_cm)];
   const [low, high] = [Math.floor(Math.min(...all)), Math.ceil(Math.max(...all))];
   const scale = (from, to) => (value) => Number((from + ((value - low) / Math.max(high - low, 1)) * (to - from)).toFixed(1));
   const toX = scale(SIZE.left, SIZE.width - SIZE.right);
   const toY = scale(SIZE.height - SIZE.bottom, SIZE.top);
   const ticks = gridPlaces(low, high, gridStep((high - low) * TICK_ROOM));
-  const said = gaits.map(({ name, distance_cm: distance }, place) => `${name}: ${fixed(distance)} measured, ${drawn.map(({ way }) => `${fixed(way.distances_cm[place])} ${way.title}`).join(", ")}`);
+  const values = gaits.map(({ name, distance_cm: distance }, place) => `${name}: ${fixed(distance)} measured, ${drawn.map(({ prediction }) => `${fixed(prediction.distances_cm[place])} ${prediction.title}`).join(", ")}`);
   return h("figure", { class: "trial-plot" },
-    svg("svg", { viewBox: `0 0 ${SIZE.width} ${SIZE.height}`, class: "said-plot", role: "img", "aria-label": `Distances in cm. ${said.join("; ")}` },
+    svg("svg", { viewBox: `0 0 ${SIZE.width} ${SIZE.height}`, class: "said-plot", role: "img", "aria-label": `Distances in cm. ${values.join("; ")}` },
       ...ticks.flatMap((tick) => [
         svg("line", { class: "grid", x1: toX(tick), x2: toX(tick), y1: toY(low), y2: toY(high) }),
         svg("line", { class: "grid", x1: toX(low), x2: toX(high), y1: toY(tick), y2: toY(tick) }),
-        words(toX(tick), SIZE.height - SIZE.bottom + 12, String(tick)), words(SIZE.left - 5, toY(tick) + 3, String(tick), "end")]),
+        label(toX(tick), SIZE.height - SIZE.bottom + 12, String(tick)), label(SIZE.left - 5, toY(tick) + 3, String(tick), "end")]),
       svg("line", { class: "right-line", x1: toX(low), y1: toY(low), x2: toX(high), y2: toY(high) }),
-      words((SIZE.left + SIZE.width) / 2, SIZE.height - 4, "measured, cm"),
-      ...drawn.flatMap(({ way, mark }) => measured.map((value, place) => mark(toX(value), toY(way.distances_cm[place]))))),
+      label((SIZE.left + SIZE.width) / 2, SIZE.height - 4, "measured, cm"),
+      ...drawn.flatMap(({ prediction, mark }) => measured.map((value, place) => mark(toX(value), toY(prediction.distances_cm[place]))))),
     h("figcaption", { class: "quiet" }, h("span", { text: "Foretold over measured distance, cm; on the line it was foretold rightly" }), legend(foretold)));
 }

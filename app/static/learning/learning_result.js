@@ -13,10 +13,10 @@ function table(caption, help, head, rows) {
     h("thead", {}, h("tr", {}, ...head.map((text) => h("th", { scope: "col", text })))), h("tbody", {}, ...rows));
 }
 
-function parameterRow({ title, unit, default: usual, fitted, low, high, is_identifiable: told, effect, left }) {
+function parameterRow({ title, unit, default: usual, fitted, low, high, is_identifiable: isIdentifiable, effect, left }) {
   const help = `Through its range it changes a gait by up to ${fixed(effect)} spreads of a trial; ${fixed(left * 100, 0)} % of what was unknown of it is left`;
   return h("tr", { title: help }, h("th", { scope: "row", text: title }), h("td", { text: withUnit(usual, unit) }),
-    told ? h("td", {}, h("b", { text: figure(fitted) }), h("span", { class: "quiet range", text: `${figure(low)} to ${figure(high)}` })) : h("td", { class: "quiet", text: UNKNOWN }));
+    isIdentifiable ? h("td", {}, h("b", { text: figure(fitted) }), h("span", { class: "quiet range", text: `${figure(low)} to ${figure(high)}` })) : h("td", { class: "quiet", text: UNKNOWN }));
 }
 
 const parameterTable = ({ parameters }) => table("Parameters", "Fitted values with one standard deviation below and above; what the trials cannot tell stays as it was", ["", "usual", "fitted"], parameters.map(parameterRow));
@@ -26,8 +26,8 @@ const predictionTable = ({ foretold }) => table("How far foretold travel is off"
     h("th", { scope: "row", text: falls ? `${title} (${falls} fall, angle of ${angles})` : title }), h("td", { text: fixed(distance, 2) }), h("td", { text: fixed(angle) }))));
 
 function gaitTable({ gaits, foretold }) {
-  const way = (name) => foretold.find((one) => one.name === name).distances_cm;
-  const columns = [gaits.map((gait) => gait.distance_cm), way("as planned"), way("default"), way("left out")];
+  const distances = (name) => foretold.find((one) => one.name === name).distances_cm;
+  const columns = [gaits.map((gait) => gait.distance_cm), distances("as planned"), distances("default"), distances("left out")];
   return table("Gaits, cm", "Distance by the published definition", ["", "real", "plan", "usual", "left out"],
     gaits.map(({ name }, place) => h("tr", {}, h("th", { scope: "row", text: name }), ...columns.map((values) => h("td", { text: fixed(values[place]) })))));
 }
@@ -39,10 +39,10 @@ function cutNote({ gaits }) {
   return h("p", { class: "quiet learned-cut", title: cut.map(({ name, cut_mm: most }) => `${name}: ${fixed(most)} mm`).join("\n"), text: `The strokes of ${cut.length} of ${gaits.length} gaits were cut to the motors’ range, at most by ${fixed(cut[0].cut_mm)} mm (${cut[0].name}).` });
 }
 
-function keeping(course, keep) {
-  if (!course.result.parameters.some((one) => one.is_identifiable)) return h("p", { class: "box-note", text: "These trials tell none of the parameters, so there is nothing to keep. More gaits, or more trials of each, may tell more." });
+function keeping(job, keep) {
+  if (!job.result.parameters.some((one) => one.is_identifiable)) return h("p", { class: "box-note", text: "These trials tell none of the parameters, so there is nothing to keep. More gaits, or more trials of each, may tell more." });
   const name = h("input", { "aria-label": "Name of the set", placeholder: "Name, such as the floor", maxlength: "80", required: true });
-  return h("form", { class: "learned-keep", on: { submit: (event) => { event.preventDefault(); keep(course, name.value); } } }, name,
+  return h("form", { class: "learned-keep", on: { submit: (event) => { event.preventDefault(); keep(job, name.value); } } }, name,
     h("button", { class: "primary", text: "Keep as a set", title: "Offered in Simulate under Physics, by name and version; nothing uses it before it is chosen there" }));
 }
 
@@ -51,13 +51,13 @@ function keeping(course, keep) {
  * @param {object} course
  * @param {{back: () => void, keep: (course: object, name: string) => void}} acts
  */
-export function learnedResult(course, { back, keep }) {
-  const { result } = course;
+export function learnedResult(job, { back, keep }) {
+  const { result } = job;
   return h("div", { class: "run-detail" },
     h("button", { class: "link", text: "Learn from trials", on: { click: back } }),
-    h("div", { class: "run-line run-title" }, h("b", { text: `Learned from ${course.source}` })),
-    h("p", { class: "quiet", text: [course.by, clockTime(course.made), `${result.simulations} simulations`].filter(Boolean).join(" · ") }),
-    h("p", { text: course.sentence }), parameterTable(result), predictionTable(result), predictionPlot(result),
+    h("div", { class: "run-line run-title" }, h("b", { text: `Learned from ${job.source}` })),
+    h("p", { class: "quiet", text: [job.by, clockTime(job.made), `${result.simulations} simulations`].filter(Boolean).join(" · ") }),
+    h("p", { text: job.sentence }), parameterTable(result), predictionTable(result), predictionPlot(result),
     h("details", { class: "run-states" }, h("summary", { text: "Every gait" }), gaitTable(result)), cutNote(result),
-    keeping(course, keep));
+    keeping(job, keep));
 }

@@ -16,7 +16,7 @@ export function refusalOf(control) {
   return {
     element,
     hasError: () => !element.hidden,
-    say(sentence) {
+    setError(sentence) {
       element.hidden = !sentence;
       element.textContent = sentence ?? "";
       setAttribute(control, "aria-invalid", sentence ? "true" : null);

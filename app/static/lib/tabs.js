@@ -13,11 +13,11 @@ const TABS = [...NAMES, "patterns"];
 const sectionOf = (name) => (name === "segments" && !byId("sequence").hidden ? byId("sequence") : byId(name));
 
 const place = { name: NAMES[0], offset: 0, scroll: 0 };
-let told = () => {};
+let onOpened = () => {};
 
 /** `act` is told of each tab that is opened. */
 export function onTab(act) {
-  told = act;
+  onOpened = act;
 }
 
 function keepPlace() {
@@ -29,7 +29,7 @@ function keepPlace() {
 
 /** Brings a section to the top. */
 export function openTab(name) {
-  told(name);
+  onOpened(name);
   mark(name);
   if (!NAMES.includes(name)) return;
   Object.assign(place, { name, offset: 0 });

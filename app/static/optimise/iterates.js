@@ -11,7 +11,7 @@ export function mountIterates(store, section) {
   const slider = h("input", { type: "range", id: "iteration", min: 0, step: 1, "aria-label": "Iteration" });
   const number = h("span", { class: "number" });
   const back = h("button", { text: "Back to the plan", hidden: true });
-  const row = h("div", { class: "course" }, h("label", { class: "quiet", for: "iteration", text: "Iteration", title: "Shows the motion at an iteration in 3D and plots; 0 is the start" }), slider, number, back);
+  const row = h("div", { class: "iterates" }, h("label", { class: "quiet", for: "iteration", text: "Iteration", title: "Shows the motion at an iteration in 3D and plots; 0 is the start" }), slider, number, back);
   const gone = h("p", { class: "why" });
   section.append(row, gone);
 

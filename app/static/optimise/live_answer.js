@@ -55,18 +55,18 @@ export function statusLine() {
 /** Whose the lack is: feet counted from 1. */
 const feetOf = ({ feet }) => (feet.length === 0 ? "" : feet.length === 1 ? `foot ${feet[0] + 1}` : `edge ${feet.map((foot) => foot + 1).join("–")}`);
 
-function missingMotionItem(lack, plan, goTo) {
-  const from = plan.times[lack.first];
-  const place = [FAMILIES[lack.family] ?? lack.family, feetOf(lack)].filter(Boolean).join(", ");
-  return h("li", { title: lack.sentence },
-    h("button", { class: "link", "aria-label": `Go to ${place}, ${fixed(from)} s`, on: { click: () => goTo(lack) } },
+function missingMotionItem(missing, plan, goTo) {
+  const from = plan.times[missing.first];
+  const place = [FAMILIES[missing.family] ?? missing.family, feetOf(missing)].filter(Boolean).join(", ");
+  return h("li", { title: missing.sentence },
+    h("button", { class: "link", "aria-label": `Go to ${place}, ${fixed(from)} s`, on: { click: () => goTo(missing) } },
       `${place}, ${fixed(from)} s`),
-    h("b", { class: "number", text: `${fixed(lack.amount, lack.amount < 1 ? 2 : 1)} ${lack.unit}` }));
+    h("b", { class: "number", text: `${fixed(missing.amount, missing.amount < 1 ? 2 : 1)} ${missing.unit}` }));
 }
 
 /** The worst lacks, and the others under a fold. */
 function missingMotionList(lacks, plan, goTo) {
-  const items = lacks.map((lack) => missingMotionItem(lack, plan, goTo));
+  const items = lacks.map((missing) => missingMotionItem(missing, plan, goTo));
   const list = h("ul", { class: "lacks", role: "list", "aria-label": "What is missing" }, ...items.slice(0, SHOWN_MISSING));
   const rest = items.slice(SHOWN_MISSING);
   if (!rest.length) return [list];

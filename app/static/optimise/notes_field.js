@@ -22,7 +22,7 @@ function shownText(area, refusal) {
     write(text) {
       if (area.value !== text) area.value = text;
       written = area.value;
-      refusal.say(null);
+      refusal.setError(null);
     },
   };
 }
@@ -55,7 +55,7 @@ export function notesField(store, edits) {
   function show({ notes }) {
     if (notes === known) return;
     known = notes;
-    if (text.isTyped()) refusal.say(MEANWHILE);
+    if (text.isTyped()) refusal.setError(MEANWHILE);
     else text.write(notes);
   }
 
@@ -68,7 +68,7 @@ export function notesField(store, edits) {
   function bringBack(shown, notes, reason) {
     show(shown);
     if (!text.isTyped()) area.value = notes;
-    refusal.say(reason);
+    refusal.setError(reason);
     store.set({ formError: null });
   }
 
@@ -76,7 +76,7 @@ export function notesField(store, edits) {
     if (!text.isTyped()) return text.write(known);
     const { selected } = store.state;
     const notes = area.value;
-    refusal.say(refusedNotes(notes));
+    refusal.setError(refusedNotes(notes));
     if (refusal.hasError() || !edits.shown()) return undefined;
     known = notes;
     text.take();

@@ -10,7 +10,7 @@ import { selectGait } from "../shell/gait_list.js";
 import { jobIsOn } from "../shell/job_list.js";
 import { presetFor } from "../shell/new_gait.js";
 import { originLine } from "./origin.js";
-import { questions } from "./optimiser_options.js";
+import { optimiserOptions } from "./optimiser_options.js";
 import { shownDocument, shownPlan } from "../state/store.js";
 import { timingAnswer, timingButton, timingNote } from "./timing.js";
 import { attempt, toast } from "../lib/toasts.js";
@@ -39,7 +39,7 @@ function exactButton(store) {
  */
 export function mountOptimise(store, edits, goTo) {
   const show = (id) => selectGait(store, id);
-  const { robot, order, main, more } = questions(store, edits, attempt((other, document) => makeGait(store, show, presetFor(other, document))));
+  const { robot, order, main, more } = optimiserOptions(store, edits, attempt((other, document) => makeGait(store, show, presetFor(other, document))));
   const fields = [robot, order, ...main, ...more];
   const status = statusLine();
   const goToMissing = ({ first, last, feet }) => goTo({ sample: Math.floor((first + last) / 2), foot: feet.length === 1 ? feet[0] : null });
@@ -53,7 +53,7 @@ export function mountOptimise(store, edits, goTo) {
     h("details", { class: "more" }, h("summary", {}, "More", changed), h("div", { class: "fields" }, ...more.map(({ element }) => element))),
     h("div", { class: "solve" }, exactButton(store), timingButton(store)), timingNote(store), timing.element, h("p", { class: "why", text: TIERS }));
   mountConvergence(store, section);
-  const course = mountIterates(store, section);
+  const iterates = mountIterates(store, section);
 
   store.watch(({ view, pending, gesture, formError }) => [view, pending, gesture, formError], (state) => {
     const document = shownDocument(state);
@@ -68,7 +68,7 @@ export function mountOptimise(store, edits, goTo) {
   store.watch(({ selected, view }) => [selected, view?.revision], () => store.set({ formError: null }));
   store.watch((state) => [shownPlan(state), state.remedies, state.jobs, state.shownJob], (state) => answers.forEach((answer) => answer.show(state)));
   store.watch(({ jobs, selected, view }) => [jobs, selected, view?.document], (state) => timing.show(state));
-  return { cancel: () => fields.some((field) => field.cancel?.()) || course.leave() };
+  return { cancel: () => fields.some((field) => field.cancel?.()) || iterates.leave() };
 }
 
 /** Of an infeasible plan no margin: a bare number beside the word would read as what is lacking. */

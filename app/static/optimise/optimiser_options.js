@@ -124,7 +124,7 @@ function phaseFields(store, edits) {
  * @param {(robot: object, document: object) => void} makeNew asks for a new gait for a robot with other legs
  * @returns {{robot: object, order: object, main: object[], more: object[]}} fields with `element` and `show(document)`
  */
-export function questions(store, edits, makeNew) {
+export function optimiserOptions(store, edits, makeNew) {
   const number = (field) => numberField(store, edits, field);
   const choice = (field) => choiceField(edits, field);
   return {

@@ -24,9 +24,9 @@ function adviceText(state) {
 const adviceFor = (plan, state) => (plan.live?.status === "infeasible" ? ` ${adviceText(state)}` : " Play shows it walking.");
 
 /** The pattern that stands in the grid, or why there is none to be used. */
-function usable({ answer, running, chosen, asking }) {
-  if (running || asking) return [null, "The search is not finished."];
-  const pattern = answer?.patterns[chosen] ?? null;
+function usable({ result, running, chosen, waiting }) {
+  if (running || waiting) return [null, "The search is not finished."];
+  const pattern = result?.patterns[chosen] ?? null;
   return [pattern, pattern ? null : "There is no pattern yet."];
 }
 
@@ -36,19 +36,19 @@ const nothingToDraw = (pattern, document) => (pattern?.feet.join() === document?
 /**
  * Builds the buttons.
  * @param {object} store
- * @param {object} question
+ * @param {object} problem
  * @param {{edits: object, playback: Playback, show: (id: string) => Promise<void>}} page
  */
-export function patternActions(store, question, { edits, playback, show }) {
+export function patternActions(store, problem, { edits, playback, show }) {
   const make = h("button", { class: "primary", text: "Make gait" });
   const walk = h("button", { text: "Walk it" });
   const element = h("div", { class: "pattern-acts" }, walk, make);
 
   function body() {
     const document = shownDocument(store.state);
-    const limbs = limbsOf(question.state, { robot: document.robot, legs: document.timeline.feet.length });
-    const [pattern] = usable(question.state);
-    return { question: bodyOf(question.state, { gait: store.state.selected, limbs, document: store.state.pending.length ? document : null, drawing: null, isFree: () => false }), feet: pattern.feet };
+    const limbs = limbsOf(problem.state, { robot: document.robot, legs: document.timeline.feet.length });
+    const [pattern] = usable(problem.state);
+    return { question: bodyOf(problem.state, { gait: store.state.selected, limbs, document: store.state.pending.length ? document : null, drawing: null, isFree: () => false }), feet: pattern.feet };
   }
 
   const begin = ticket();
@@ -58,10 +58,10 @@ export function patternActions(store, question, { edits, playback, show }) {
     if (store.state.iterate?.pattern) store.set({ iterate: null });
   };
 
-  const made = attempt(async () => {
+  const makeGait = attempt(async () => {
     leave();
     const { selected: gait } = store.state;
-    if (question.state.mode === "drawing") {
+    if (problem.state.mode === "drawing") {
       const { document } = await api.patternDocument(body());
       await edits.edit((now) => ({ ...now, timeline: { ...now.timeline, feet: document.timeline.feet }, ...(document.held ? { held: document.held } : {}) }), LABEL, { drawing: true, gait });
       announce("The drawing is completed. Undo takes it back.");
@@ -70,10 +70,10 @@ export function patternActions(store, question, { edits, playback, show }) {
     const view = await api.patternGait(body());
     await show(view.id);
     document.querySelector('#gaits [aria-current="true"]')?.scrollIntoView({ block: "nearest" });
-    toast(`${view.name} is made and open.${adviceFor(view.plan, question.state)}`, { of: "studio" });
+    toast(`${view.name} is made and open.${adviceFor(view.plan, problem.state)}`, { of: "studio" });
   });
 
-  const walked = attempt(async () => {
+  const toggleWalk = attempt(async () => {
     if (store.state.iterate?.pattern) {
       playback.pause();
       leave();
@@ -85,21 +85,21 @@ export function patternActions(store, question, { edits, playback, show }) {
     if (isOld() || store.state.selected !== selected) return;
     if (!plan.times.length) throw new Error(plan.refusal?.sentence ?? "This pattern makes no motion.");
     store.set({ iterate: { job: null, number: null, pattern: true, plan: { ...plan, note: `The pattern, not the open gait. ${plan.note}` } } });
-    if (plan.live?.status === "infeasible") toast(`What is shown does not keep every limit. ${adviceText(question.state)}`);
+    if (plan.live?.status === "infeasible") toast(`What is shown does not keep every limit. ${adviceText(problem.state)}`);
     playback.toStart();
     playback.play();
   });
 
-  onPress(make, made, (why) => toast(why));
-  onPress(walk, walked, (why) => toast(why));
+  onPress(make, makeGait, (why) => toast(why));
+  onPress(walk, toggleWalk, (why) => toast(why));
   // What walks is the pattern that stood there when it was begun.
-  question.watch(({ answer, chosen, running, mode }) => [answer, chosen, running, mode], leave);
+  problem.watch(({ result, chosen, running, mode }) => [result, chosen, running, mode], leave);
 
   return {
     element, leave,
     show() {
-      const [pattern, why] = usable(question.state);
-      const isDrawing = question.state.mode === "drawing";
+      const [pattern, why] = usable(problem.state);
+      const isDrawing = problem.state.mode === "drawing";
       const whyNot = why ?? (isDrawing ? nothingToDraw(pattern, shownDocument(store.state)) : null);
       setText(make, isDrawing ? LABEL : "Make gait");
       setAllowed(make, whyNot, isDrawing ? "Draws the pattern into the open gait, as one edit that Undo takes back" : "A new gait in the list, which is opened; Delete takes it away again");

@@ -20,14 +20,14 @@ function finder(lines) {
 
 /**
  * Wires pointer and keyboard.
- * @param {{question: object, grid: HTMLElement, lines: () => object[], roving: object, shown: () => object}} parts
+ * @param {{problem: object, grid: HTMLElement, lines: () => object[], roving: object, shown: () => object}} parts
  * @returns {{cancel: () => boolean}} `cancel` ends a drag and takes back what it drew
  */
-export function mountPatternDrawing({ question, grid, lines, roving, shown }) {
+export function mountPatternDrawing({ problem, grid, lines, roving, shown }) {
   let drag = null;
   const valueOf = ([foot, sample]) => (lines()[foot].cells[sample].dataset.state === "swing" ? 0 : 1);
   const isKnown = ([foot, sample]) => lines()[foot].cells[sample].dataset.state !== "free";
-  const isDrawn = (cell) => cell.join(",") in drawnCells(question.state);
+  const isDrawn = (cell) => cell.join(",") in drawnCells(problem.state);
   const refusal = ([foot, sample]) => REFUSALS[shown().fixed(foot, sample)] ?? null;
 
   /** What a gesture that begins at a cell does to each cell: gives it a value, or frees it (null). */
@@ -39,14 +39,14 @@ export function mountPatternDrawing({ question, grid, lines, roving, shown }) {
   }
 
   function draw(cells, act) {
-    const drawn = { ...drawnCells(question.state) };
+    const drawn = { ...drawnCells(problem.state) };
     for (const cell of cells) {
       if (refusal(cell)) continue;
       const value = act(cell);
       if (value === null) delete drawn[cell.join(",")];
       else if (value !== undefined) drawn[cell.join(",")] = value;
     }
-    question.set(withCells(question.state, drawn));
+    problem.set(withCells(problem.state, drawn));
   }
 
   function touch(cell, keeps) {
@@ -71,7 +71,7 @@ export function mountPatternDrawing({ question, grid, lines, roving, shown }) {
       toast(why);
       return;
     }
-    drag = { pointer: event.pointerId, before: drawnCells(question.state), act: actFor(cell, event.shiftKey), last: cell, cellAt: finder(lines()) };
+    drag = { pointer: event.pointerId, before: drawnCells(problem.state), act: actFor(cell, event.shiftKey), last: cell, cellAt: finder(lines()) };
     grid.setPointerCapture(event.pointerId);
     event.preventDefault();
     draw([cell], drag.act);
@@ -87,7 +87,7 @@ export function mountPatternDrawing({ question, grid, lines, roving, shown }) {
 
   function cancel() {
     if (!drag) return false;
-    question.set(withCells(question.state, drag.before));
+    problem.set(withCells(problem.state, drag.before));
     drag = null;
     return true;
   }

@@ -16,8 +16,8 @@ const TEACH = {
 };
 const [LEAST, MOST] = [2, 240];
 
-function modes(question) {
-  const buttons = Object.entries(MODES).map(([mode, [text, title]]) => h("button", { text, title, "aria-pressed": "false", data: { mode }, on: { click: () => question.set({ mode }) } }));
+function modes(problem) {
+  const buttons = Object.entries(MODES).map(([mode, [text, title]]) => h("button", { text, title, "aria-pressed": "false", data: { mode }, on: { click: () => problem.set({ mode }) } }));
   return { element: h("div", { class: "segmented pattern-modes", role: "group", "aria-label": "Kind of pattern" }, ...buttons), show: ({ mode }) => buttons.forEach((button) => setAttribute(button, "aria-pressed", String(button.dataset.mode === mode))) };
 }
 
@@ -37,23 +37,23 @@ function check(text, title, take) {
 /**
  * Builds the fields.
  * @param {object} store
- * @param {object} question
+ * @param {object} problem
  * @param {(foot: number) => void} lock locks a limb of the transition, or unlocks it
  */
-export function patternFields(store, question, lock) {
+export function patternFields(store, problem, lock) {
   let shown = null;
   const about = () => {
     const document = store.state.view && shownDocument(store.state);
     return document ? { robot: document.robot, legs: document.timeline.feet.length, roles: store.state.view.roles ?? [] } : null;
   };
-  const choice = modes(question);
-  const samples = lengthField("Length", "Of the transition, with its two boundary samples", (value) => question.set({ samples: value }));
-  const cycle = lengthField("Length of a cycle", "After so many samples the pattern repeats", (value) => question.set({ cycle: value }));
-  const shortest = check("Shortest that works", "The search chooses the length: as few samples as the rules allow", (on) => question.set({ shortest: on, ...(on || !shown ? {} : { samples: shown.samples }) }));
-  const walkable = check("Swings that the feet can do", "Beyond the thesis: every swing, also one that a cursor cuts, is long enough for the feet to take the gaits' steps", (on) => question.set({ walkable: on }));
-  const keep = check("Keep what I drew where you can", "What is shown now, or the gait's own drawing, is a hint: of patterns that are equally good the one most like it is taken", (on) => question.set({ keep: on }));
-  const painted = check("Swings stay as they are painted", "Every painted swing is fixed, beside the locked cells", (on) => question.set({ painted: on }));
-  const [limbs, locks] = [limbChoices(question, about), limbLocks(question, { lock, refusal: (foot) => shown?.lockRefusal?.(foot) ?? null })];
+  const choice = modes(problem);
+  const samples = lengthField("Length", "Of the transition, with its two boundary samples", (value) => problem.set({ samples: value }));
+  const cycle = lengthField("Length of a cycle", "After so many samples the pattern repeats", (value) => problem.set({ cycle: value }));
+  const shortest = check("Shortest that works", "The search chooses the length: as few samples as the rules allow", (on) => problem.set({ shortest: on, ...(on || !shown ? {} : { samples: shown.samples }) }));
+  const walkable = check("Swings that the feet can do", "Beyond the thesis: every swing, also one that a cursor cuts, is long enough for the feet to take the gaits' steps", (on) => problem.set({ walkable: on }));
+  const keep = check("Keep what I drew where you can", "What is shown now, or the gait's own drawing, is a hint: of patterns that are equally good the one most like it is taken", (on) => problem.set({ keep: on }));
+  const painted = check("Swings stay as they are painted", "Every painted swing is fixed, beside the locked cells", (on) => problem.set({ painted: on }));
+  const [limbs, locks] = [limbChoices(problem, about), limbLocks(problem, { lock, refusal: (foot) => shown?.lockRefusal?.(foot) ?? null })];
   const locking = h("div", { class: "pattern-locking" }, h("span", { class: "quiet", text: "Locked limbs" }), locks.element);
   const teach = h("p", { class: "teach" });
   const element = h("div", { class: "pattern-fields" }, choice.element, teach, samples.element, shortest.element, walkable.element, locking, cycle.element, limbs.element, painted.element, keep.element);
@@ -61,15 +61,15 @@ export function patternFields(store, question, lock) {
     element,
     show(now) {
       shown = now;
-      const { mode } = question.state;
-      choice.show(question.state);
+      const { mode } = problem.state;
+      choice.show(problem.state);
       setText(teach, TEACH[mode]);
       for (const [part, its] of [[samples.element, "transition"], [shortest.element, "transition"], [walkable.element, "transition"], [locking, "transition"], [cycle.element, "limbs"], [limbs.element, "limbs"], [painted.element, "drawing"]]) part.hidden = mode !== its;
       keep.element.hidden = mode === "drawing";
-      samples.show(now?.samples && question.state.shortest ? now.samples : question.state.samples);
-      samples.input.disabled = question.state.shortest;
-      cycle.show(question.state.cycle);
-      [shortest.box.checked, walkable.box.checked, keep.box.checked, painted.box.checked] = [question.state.shortest, question.state.walkable, question.state.keep, question.state.painted];
+      samples.show(now?.samples && problem.state.shortest ? now.samples : problem.state.samples);
+      samples.input.disabled = problem.state.shortest;
+      cycle.show(problem.state.cycle);
+      [shortest.box.checked, walkable.box.checked, keep.box.checked, painted.box.checked] = [problem.state.shortest, problem.state.walkable, problem.state.keep, problem.state.painted];
       if (mode === "limbs") limbs.show();
       if (mode === "transition" && now) locks.show({ legs: now.legs, given: now.given });
     },

@@ -11,18 +11,18 @@ export function transitionGaits({ gaits, selected }) {
 }
 
 /** The timeline of a gait as the page knows it: the open one with its edits under way. */
-export function timelineOf(store, question, gait) {
-  return gait && gait === store.state.selected ? shownDocument(store.state) : (question.state.documents[gait] ?? null);
+export function timelineOf(store, problem, gait) {
+  return gait && gait === store.state.selected ? shownDocument(store.state) : (problem.state.documents[gait] ?? null);
 }
 
 /** Keeps both gaits chosen among those that there are, and their documents at hand. */
-export function mountPatternGaits(store, question, isOpen) {
+export function mountPatternGaits(store, problem, isOpen) {
   const fetched = new Map();
 
   const fetchDocument = attempt(async (gait, line) => {
     try {
       const document = await api.document(gait);
-      if (fetched.get(gait) === line) question.set({ documents: { ...question.state.documents, [gait]: document } });
+      if (fetched.get(gait) === line) problem.set({ documents: { ...problem.state.documents, [gait]: document } });
     } catch (error) {
       if (fetched.get(gait) === line) fetched.delete(gait);
       throw error;
@@ -35,11 +35,11 @@ export function mountPatternGaits(store, question, isOpen) {
     // A gait just made is open before it is in the list: the cursors stay where they are until then.
     if (!store.state.gaits.some(({ id }) => id === selected)) return;
     const ids = transitionGaits(store.state).map(({ id }) => id);
-    const { from, to } = question.state;
+    const { from, to } = problem.state;
     const first = ids.includes(from.gait) ? from.gait : ids.includes(selected) ? selected : (ids[0] ?? null);
     const second = ids.includes(to.gait) ? to.gait : (ids.find((id) => id !== first) ?? first);
-    if (first !== from.gait) question.set({ from: { gait: first, sample: 0 } });
-    if (second !== to.gait) question.set({ to: { gait: second, sample: 0 } });
+    if (first !== from.gait) problem.set({ from: { gait: first, sample: 0 } });
+    if (second !== to.gait) problem.set({ to: { gait: second, sample: 0 } });
     for (const gait of [first, second]) {
       const line = store.state.gaits.find(({ id }) => id === gait);
       if (!gait || gait === selected || fetched.get(gait) === line) continue;
@@ -49,6 +49,6 @@ export function mountPatternGaits(store, question, isOpen) {
   }
 
   store.watch(({ gaits, selected }) => [gaits, selected], choose);
-  question.watch(({ from, to }) => [from, to], choose);
+  problem.watch(({ from, to }) => [from, to], choose);
   return { choose };
 }

@@ -33,26 +33,26 @@ function drawRow(line, foot, shown, role) {
 
 /**
  * Builds the grid.
- * @param {object} question of `createProblem`
+ * @param {object} problem of `createProblem`
  * @param {{lockLimb: (foot: number) => void}} acts what a click on a row's name does
  * @returns {{element: HTMLElement, show: (shown: object) => void, cancel: () => boolean}} `show` takes `legs`, `samples`,
  *   `rows` (of 1 and 0, or null while nothing is known), `fixed(foot, sample)` (why, or null), `fixedValue(foot, sample)`,
  *   `before` (rows of the drawing, to mark what differs, or null), `isLocked(foot)`, `limbHelp`, `roles`, `stale`
  */
-export function patternGrid(question, acts) {
+export function patternGrid(problem, actions) {
   const element = h("div", { class: "timeline pattern-grid", role: "grid", "aria-label": "Pattern",
     "aria-description": "Space draws the other value and fixes it, on a drawn cell it frees it; K fixes the cell as it is" });
   let lines = [];
   let now = { samples: 0 };
   const roving = rovingFocus(() => lines, () => {});
-  const drawing = mountPatternDrawing({ question, grid: element, lines: () => lines, roving, shown: () => now });
+  const drawing = mountPatternDrawing({ problem, grid: element, lines: () => lines, roving, shown: () => now });
 
   function fit(legs, samples) {
     if (lines.length !== legs) {
       lines = Array.from({ length: legs }, (_, foot) => {
         const line = buildRow(foot);
         line.label = line.row.querySelector(".row-label");
-        line.label.addEventListener("click", () => acts.lockLimb(foot));
+        line.label.addEventListener("click", () => actions.lockLimb(foot));
         return line;
       });
       element.replaceChildren(...lines.map(({ row }) => row));

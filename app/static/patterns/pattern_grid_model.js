@@ -10,11 +10,11 @@ function given(first, second, foot) {
   return rows.every((row) => row && row === row[0].repeat(row.length)) && rows[0][0] === rows[1][0];
 }
 
-function ofTransition(store, question) {
-  const { from, to, locked, answer, shortest, samples } = question.state;
-  const [first, second] = [from, to].map(({ gait }) => timelineOf(store, question, gait));
+function ofTransition(store, problem) {
+  const { from, to, locked, result, shortest, samples } = problem.state;
+  const [first, second] = [from, to].map(({ gait }) => timelineOf(store, problem, gait));
   if (!first || !second || first.timeline.feet.length !== second.timeline.feet.length) return null;
-  const count = shortest ? (answer?.samples ?? samples) : samples;
+  const count = shortest ? (result?.samples ?? samples) : samples;
   const at = ({ timeline }, { sample }) => Math.min(sample, timeline.feet[0].length - 1);
   const ends = (foot) => [first.timeline.feet[foot][at(first, from)], second.timeline.feet[foot][at(second, to)]];
   const isLocked = (foot) => given(first, second, foot) || (locked.includes(foot) && ends(foot)[0] === ends(foot)[1]);
@@ -26,16 +26,16 @@ function ofTransition(store, question) {
   };
 }
 
-function ofLimbs(store, question) {
+function ofLimbs(store, problem) {
   const document = shownDocument(store.state);
-  const limbs = limbsOf(question.state, { robot: document.robot, legs: document.timeline.feet.length });
+  const limbs = limbsOf(problem.state, { robot: document.robot, legs: document.timeline.feet.length });
   const isLocked = (foot) => limbs[foot] !== "walks";
-  return { legs: limbs.length, samples: question.state.cycle, isLocked, limbHelp: "Click: hold this limb up, or let it walk", base: (foot) => (isLocked(foot) ? ["limb", limbs[foot] === "stands" ? "1" : "0"] : null) };
+  return { legs: limbs.length, samples: problem.state.cycle, isLocked, limbHelp: "Click: hold this limb up, or let it walk", base: (foot) => (isLocked(foot) ? ["limb", limbs[foot] === "stands" ? "1" : "0"] : null) };
 }
 
-function ofDrawing(store, question) {
+function ofDrawing(store, problem) {
   const { feet, locked } = shownDocument(store.state).timeline;
-  const [count, painted] = [feet[0].length, question.state.painted];
+  const [count, painted] = [feet[0].length, problem.state.painted];
   const stays = (foot, sample) => locked?.[foot]?.[sample] === "1" || (painted && feet[foot][sample] === "0");
   return {
     legs: feet.length, samples: count, isLocked: () => false, limbHelp: null, before: feet,
@@ -46,26 +46,26 @@ function ofDrawing(store, question) {
 const SOURCES = { transition: ofTransition, limbs: ofLimbs, drawing: ofDrawing };
 
 /** Rows of the best pattern yet, else of the last answer, where they have this size. */
-function rowsOf({ answer, running, chosen, looked }, { legs, samples }) {
-  const rows = running?.pattern?.feet ?? answer?.patterns[looked ?? chosen]?.feet ?? null;
+function rowsOf({ result, running, chosen, hovered }, { legs, samples }) {
+  const rows = running?.pattern?.feet ?? result?.patterns[hovered ?? chosen]?.feet ?? null;
   return rows?.length === legs && rows[0].length === samples ? rows : null;
 }
 
 /**
  * What `patternGrid` shows, or null while the gaits are not known yet.
  * @param {object} store
- * @param {object} question
+ * @param {object} problem
  */
-export function patternGridModel(store, question) {
+export function patternGridModel(store, problem) {
   if (!store.state.view) return null;
-  const source = SOURCES[question.state.mode](store, question);
+  const source = SOURCES[problem.state.mode](store, problem);
   if (!source) return null;
-  const [drawn, { freed, asking, running }] = [drawnCells(question.state), question.state];
+  const [drawn, { freed, waiting, running }] = [drawnCells(problem.state), problem.state];
   const given = (foot, sample) => (`${foot},${sample}` in freed ? null : source.base(foot, sample));
   const own = (foot, sample) => given(foot, sample) ?? (`${foot},${sample}` in drawn ? ["drawn", String(drawn[`${foot},${sample}`])] : null);
   return {
-    ...source, roles: store.state.view.roles ?? [], rows: rowsOf(question.state, source), stale: asking && !running?.pattern,
-    isFree: (foot, sample) => foot < source.legs && (question.state.shortest || sample < source.samples) && given(foot, sample) === null,
+    ...source, roles: store.state.view.roles ?? [], rows: rowsOf(problem.state, source), stale: waiting && !running?.pattern,
+    isFree: (foot, sample) => foot < source.legs && (problem.state.shortest || sample < source.samples) && given(foot, sample) === null,
     fixed: (foot, sample) => own(foot, sample)?.[0] ?? null,
     fixedValue: (foot, sample) => { const found = own(foot, sample); return found ? Number(found[1]) : null; },
   };

@@ -12,7 +12,7 @@ const sameLength = (own, count, build) => {
 };
 
 /** A choice a limb; `aboutOf` says which robot the open gait is for and what its feet are called. */
-export function limbChoices(question, aboutOf) {
+export function limbChoices(problem, aboutOf) {
   const element = h("ul", { class: "pattern-limbs", "aria-label": "What each limb does" });
   const choices = [];
 
@@ -21,9 +21,9 @@ export function limbChoices(question, aboutOf) {
     const role = h("span", { class: "quiet" });
     select.addEventListener("change", () => {
       const about = aboutOf();
-      const limbs = [...limbsOf(question.state, about)];
+      const limbs = [...limbsOf(problem.state, about)];
       limbs[foot] = select.value;
-      question.set({ limbs: { ...question.state.limbs, [about.robot]: limbs } });
+      problem.set({ limbs: { ...problem.state.limbs, [about.robot]: limbs } });
     });
     return { select, role, element: h("li", { data: { foot: foot + 1 } }, h("span", { class: "pattern-limb" }, h("i", { class: "foot-dot" }), String(foot + 1), role), select) };
   }
@@ -33,7 +33,7 @@ export function limbChoices(question, aboutOf) {
     show() {
       const about = aboutOf();
       if (!about) return;
-      const limbs = limbsOf(question.state, about);
+      const limbs = limbsOf(problem.state, about);
       if (choices.length !== limbs.length) element.replaceChildren(...sameLength(choices, limbs.length, choice).map((one) => one.element));
       choices.forEach(({ select, role, element: line }, foot) => {
         select.value = limbs[foot];
@@ -46,7 +46,7 @@ export function limbChoices(question, aboutOf) {
 }
 
 /** Buttons that lock a limb of a transition to the value that it has at both ends. */
-export function limbLocks(question, { refusal, lock }) {
+export function limbLocks(problem, { refusal, lock }) {
   const element = h("div", { class: "pattern-locks", role: "group", "aria-label": "Locked limbs" });
   const buttons = [];
   const build = (foot) => {
@@ -60,7 +60,7 @@ export function limbLocks(question, { refusal, lock }) {
       if (buttons.length !== legs) element.replaceChildren(...sameLength(buttons, legs, build));
       buttons.forEach((button, foot) => {
         const isGiven = given(foot);
-        setAttribute(button, "aria-pressed", String(isGiven || question.state.locked.includes(foot)));
+        setAttribute(button, "aria-pressed", String(isGiven || problem.state.locked.includes(foot)));
         setAllowed(button, isGiven ? "Both gaits leave this limb as it is, and so does the transition." : refusal(foot), "Keeps the value that it has at both ends; it then counts as no walking limb");
       });
     },

@@ -19,16 +19,16 @@ function stretchesOf({ from, to }, [first, second], rows) {
 }
 
 /** Which lane the playhead is over, and where as a share of its width; null where the motion has other samples. */
-function placeOf(store, question, time) {
+function placeOf(store, problem, time) {
   const { iterate } = store.state;
-  const rows = shownRows(question.state);
-  if (!iterate?.pattern || !rows || question.state.mode === "limbs") return null;
+  const rows = shownRows(problem.state);
+  if (!iterate?.pattern || !rows || problem.state.mode === "limbs") return null;
   const { times } = iterate.plan;
   let sample = time / (times[1] - times[0]);
-  if (question.state.mode === "drawing") return { lane: "sought", share: (sample + 0.5) / rows[0].length };
-  const gaits = [question.state.from, question.state.to].map(({ gait }) => timelineOf(store, question, gait));
+  if (problem.state.mode === "drawing") return { lane: "sought", share: (sample + 0.5) / rows[0].length };
+  const gaits = [problem.state.from, problem.state.to].map(({ gait }) => timelineOf(store, problem, gait));
   if (gaits.includes(null)) return null;
-  for (const { lane, of, at, samples } of stretchesOf(question.state, gaits, rows)) {
+  for (const { lane, of, at, samples } of stretchesOf(problem.state, gaits, rows)) {
     if (sample < samples) return { lane, share: Math.min(at + sample + 0.5, of) / of };
     sample -= samples;
   }
@@ -38,14 +38,14 @@ function placeOf(store, question, time) {
 /**
  * Shows the playhead in the lower part while a pattern walks.
  * @param {object} store
- * @param {object} question
+ * @param {object} problem
  * @param {Playback} playback
  * @param {{from: HTMLElement, sought: HTMLElement, to: HTMLElement}} lanes
  */
-export function patternPlayhead(store, question, playback, lanes) {
+export function patternPlayhead(store, problem, playback, lanes) {
   const line = h("div", { class: "pattern-playhead", "aria-hidden": "true", hidden: true });
   const move = () => {
-    const place = placeOf(store, question, playback.time);
+    const place = placeOf(store, problem, playback.time);
     line.hidden = !place;
     if (!place) return;
     if (line.parentNode !== lanes[place.lane]) lanes[place.lane].append(line);

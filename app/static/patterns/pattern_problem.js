@@ -44,7 +44,7 @@ const INITIAL = Object.freeze({
 });
 
 /** What else the panel knows and does not keep. */
-const FLEETING = Object.freeze({ freed: {}, answer: null, running: null, error: null, chosen: 0, looked: null, asking: false, documents: Object.freeze({}) });
+const FLEETING = Object.freeze({ freed: {}, result: null, running: null, error: null, chosen: 0, hovered: null, waiting: false, documents: Object.freeze({}) });
 
 function recalled() {
   try {
@@ -64,13 +64,13 @@ function keep(state) {
 }
 
 /** The parts of the state that make another question; a change of one of them is asked again. */
-export const asked = (state) => Object.keys(INITIAL).map((name) => state[name]).concat([state.freed]);
+export const problemParts = (state) => Object.keys(INITIAL).map((name) => state[name]).concat([state.freed]);
 
 /** Creates the state of the panel, which is watched like the page's store. */
 export function createProblem() {
-  const question = watchable({ ...recalled(), ...FLEETING });
-  question.watch(asked, keep);
-  return question;
+  const problem = watchable({ ...recalled(), ...FLEETING });
+  problem.watch(problemParts, keep);
+  return problem;
 }
 
 /** A rule's number as a person sees it, and whether it holds. */
@@ -88,8 +88,8 @@ function rulesOf(state) {
 }
 
 /** What each limb does in the mode for some limbs; a robot that is new to the panel walks on all of them. */
-export function limbsOf(question, { robot, legs }) {
-  const own = question.limbs[robot];
+export function limbsOf(problem, { robot, legs }) {
+  const own = problem.limbs[robot];
   return own?.length === legs ? own : Array.from({ length: legs }, () => "walks");
 }
 

@@ -45,27 +45,27 @@ function progressBox(search) {
 
 /** Why the reasons may name longer swings than the rules: the feet need them. */
 function longerSwings(state, explanation) {
-  const said = Math.max(...explanation.map((text) => Number(/swings? .*?at least (\d+) samples/.exec(text)?.[1] ?? 0)));
-  const asked = ruleOf(state, RULES.find(({ rule }) => rule === "least_swing")).value;
-  return state.mode === "transition" && state.walkable && said > asked
-    ? [h("p", { class: "quiet", text: `The rules ask for ${asked}; “Swings that the feet can do” makes it ${said} for these gaits' steps.` })] : [];
+  const needed = Math.max(...explanation.map((text) => Number(/swings? .*?at least (\d+) samples/.exec(text)?.[1] ?? 0)));
+  const required = ruleOf(state, RULES.find(({ rule }) => rule === "least_swing")).value;
+  return state.mode === "transition" && state.walkable && needed > required
+    ? [h("p", { class: "quiet", text: `The rules ask for ${required}; “Swings that the feet can do” makes it ${needed} for these gaits' steps.` })] : [];
 }
 
-function clashBox(question) {
+function clashBox(problem) {
   const element = h("div", { class: "box-note", role: "alert", data: { tone: "caution" }, hidden: true });
   let shown = null;
   const apply = (relaxation) => {
-    question.set(relaxed(question.state, relaxation));
+    problem.set(relaxed(problem.state, relaxation));
     announce(`${relaxation.words}.`);
   };
   return {
     element,
-    show(answer) {
-      element.hidden = answer?.status !== "infeasible";
-      if (element.hidden || shown === answer) return;
-      shown = answer;
-      element.replaceChildren(h("h4", { text: "No pattern keeps all of this" }), ...answer.explanation.map((text) => h("p", { text })), ...longerSwings(question.state, answer.explanation),
-        h("div", { class: "buttons", role: "group", "aria-label": "What would make it possible" }, ...answer.relaxations.map((one) => h("button", { text: one.words, title: "Changes this and searches again", on: { click: () => apply(one) } }))));
+    show(result) {
+      element.hidden = result?.status !== "infeasible";
+      if (element.hidden || shown === result) return;
+      shown = result;
+      element.replaceChildren(h("h4", { text: "No pattern keeps all of this" }), ...result.explanation.map((text) => h("p", { text })), ...longerSwings(problem.state, result.explanation),
+        h("div", { class: "buttons", role: "group", "aria-label": "What would make it possible" }, ...result.relaxations.map((one) => h("button", { text: one.words, title: "Changes this and searches again", on: { click: () => apply(one) } }))));
     },
   };
 }
@@ -74,31 +74,31 @@ function clashBox(question) {
 const thumbnail = (feet) => svg("svg", { class: "pattern-thumbnail", viewBox: `0 0 ${feet[0].length} ${feet.length}`, preserveAspectRatio: "none", "aria-hidden": "true" }, ...picture({ timeline: { feet } }, null));
 
 /** The best patterns: pointing at one, or going through them by keys, shows it; a click chooses it. */
-function alternatives(question, look) {
+function alternatives(problem, preview) {
   const list = h("ul", { class: "pattern-choices", role: "listbox", tabindex: "0", "aria-label": "Best patterns", data: { arrows: "" } });
   const title = h("h3", {}, "Best patterns", h("span", { text: "point to look, click to choose" }));
   const element = h("div", { hidden: true }, title, list);
   let shown = null;
-  const choose = (chosen) => { look(null); question.set({ chosen }); };
+  const choose = (chosen) => { preview(null); problem.set({ chosen }); };
   list.addEventListener("keydown", (event) => {
-    const last = (question.state.answer?.patterns.length ?? 1) - 1;
-    const { chosen } = question.state;
+    const last = (problem.state.result?.patterns.length ?? 1) - 1;
+    const { chosen } = problem.state;
     const goals = { ArrowDown: Math.min(chosen + 1, last), ArrowUp: Math.max(chosen - 1, 0), Home: 0, End: last };
     if (goals[event.key] === undefined) return;
     event.preventDefault();
     event.stopPropagation();
     choose(goals[event.key]);
   });
-  list.addEventListener("pointerleave", () => look(null));
-  const item = (pattern, index, kept) => h("li", { role: "option", id: `pattern-${index}`, on: { click: () => choose(index), pointerenter: () => look(index) } },
+  list.addEventListener("pointerleave", () => preview(null));
+  const item = (pattern, index, kept) => h("li", { role: "option", id: `pattern-${index}`, on: { click: () => choose(index), pointerenter: () => preview(index) } },
     h("span", { class: "number", text: String(index + 1) }), thumbnail(pattern.feet), h("span", { text: scoreText(pattern, kept) }), h("span", { class: "number quiet", text: fixed(pattern.score, 0), title: "The weighted sum; smaller is better" }));
   return {
     element,
-    show({ answer, chosen, keep, mode }) {
-      element.hidden = !answer?.patterns.length;
+    show({ result, chosen, keep, mode }) {
+      element.hidden = !result?.patterns.length;
       if (element.hidden) return;
-      if (shown !== answer) list.replaceChildren(...answer.patterns.map((pattern, index) => item(pattern, index, keep || mode === "drawing")));
-      shown = answer;
+      if (shown !== result) list.replaceChildren(...result.patterns.map((pattern, index) => item(pattern, index, keep || mode === "drawing")));
+      shown = result;
       [...list.children].forEach((one, index) => setAttribute(one, "aria-selected", String(index === chosen)));
       setAttribute(list, "aria-activedescendant", `pattern-${chosen}`);
     },
@@ -107,28 +107,28 @@ function alternatives(question, look) {
 
 /**
  * Builds the answer's part of the panel.
- * @param {object} question
+ * @param {object} problem
  * @param {{useNow: Function, cancel: Function}} search
  * @param {(index: number|null) => void} look shows one of the best patterns for a moment, or the chosen one again
  */
-export function patternResult(question, search, look) {
+export function patternResult(problem, search, preview) {
   const [dot, word, sentence, time] = [h("span", { class: "dot" }), h("b"), h("span", { class: "quiet" }), h("span", { class: "number quiet" })];
   const line = h("div", { class: "pattern-line", role: "status", "aria-label": "Pattern found" }, dot, word, sentence, time);
   const error = h("p", { class: "box-note", role: "alert", data: { tone: "bad" }, hidden: true });
-  const [progress, clash, best] = [progressBox(search), clashBox(question), alternatives(question, look)];
-  question.watch(({ answer, running, error: refusal, chosen, asking, keep, mode }) => [answer, running, refusal, chosen, asking, keep, mode], (state) => {
-    const { answer, running } = state;
-    const [text, tone, meaning] = running ? ["Searching", "accent", ""] : answer ? TEXTS[answer.status] : [state.asking ? "Searching" : "No pattern", "quiet", ""];
-    const pattern = answer?.patterns[state.chosen];
+  const [progress, clash, best] = [progressBox(search), clashBox(problem), alternatives(problem, preview)];
+  problem.watch(({ result, running, error: refusal, chosen, waiting, keep, mode }) => [result, running, refusal, chosen, waiting, keep, mode], (state) => {
+    const { result, running } = state;
+    const [text, tone, meaning] = running ? ["Searching", "accent", ""] : result ? TEXTS[result.status] : [state.waiting ? "Searching" : "No pattern", "quiet", ""];
+    const pattern = result?.patterns[state.chosen];
     dot.dataset.tone = tone;
     setText(word, text);
-    setText(sentence, running || !answer ? "" : pattern ? times(pattern.sample_changes, "change") : "");
+    setText(sentence, running || !result ? "" : pattern ? times(pattern.sample_changes, "change") : "");
     line.title = meaning;
-    setText(time, running || !answer ? "" : `${seconds(answer.seconds)} s`);
+    setText(time, running || !result ? "" : `${seconds(result.seconds)} s`);
     error.hidden = !state.error;
     setText(error, state.error?.sentence ?? "");
     progress.show(running);
-    clash.show(running ? null : answer);
+    clash.show(running ? null : result);
     best.show(state);
   });
   return [line, error, progress.element, clash.element, best.element];

@@ -20,13 +20,13 @@ function showNumber(input, value) {
   if (document.activeElement !== input || input.valueAsNumber === value) input.value = value;
 }
 
-function ruleRow(question, one) {
+function ruleRow(problem, one) {
   const change = (part) => {
-    const { value, on } = ruleOf(question.state, one);
+    const { value, on } = ruleOf(problem.state, one);
     const next = { value, on, ...part };
-    const rules = { ...question.state.rules, [one.rule]: next };
+    const rules = { ...problem.state.rules, [one.rule]: next };
     if (next.on === (one.usual !== null) && next.value === (one.first ?? one.usual)) delete rules[one.rule];
-    question.set({ rules });
+    problem.set({ rules });
   };
   const box = h("input", { type: "checkbox", role: "switch", "aria-label": `${one.name}: on`, title: one.help, on: { change: () => change({ on: box.checked }) } });
   const input = numberInput(`${one.name}, ${one.unit}`, one.help, (value) => change({ value }));
@@ -47,11 +47,11 @@ function ruleRow(question, one) {
   };
 }
 
-function weightRow(question, one) {
+function weightRow(problem, one) {
   const input = numberInput(one.name, `${one.help}. 0 to ${MOST_WEIGHT}`, (value) => {
-    const weights = { ...question.state.weights, [one.weight]: value };
+    const weights = { ...problem.state.weights, [one.weight]: value };
     if (value === one.usual) delete weights[one.weight];
-    question.set({ weights });
+    problem.set({ weights });
   });
   const element = h("li", { class: "pattern-rule" }, h("span", { text: one.name, title: one.help }), h("span", { class: "box" }, input), h("span", { class: "quiet pattern-usual", text: String(one.usual) }));
   return { element, show: (state) => { showNumber(input, state.weights[one.weight] ?? one.usual); element.toggleAttribute("data-own", one.weight in state.weights); } };
@@ -73,10 +73,10 @@ function fold(title, rows, reset, isOwn) {
 }
 
 /** Builds both lists, and keeps them current. */
-export function patternRules(question) {
-  const rules = fold("Rules", RULES.map((one) => ruleRow(question, one)), () => question.set({ rules: {} }), (state) => Object.keys(state.rules).length);
-  const weights = fold("What counts as better", WEIGHTS.map((one) => weightRow(question, one)), () => question.set({ weights: {} }), (state) => Object.keys(state.weights).length);
+export function patternRules(problem) {
+  const rules = fold("Rules", RULES.map((one) => ruleRow(problem, one)), () => problem.set({ rules: {} }), (state) => Object.keys(state.rules).length);
+  const weights = fold("What counts as better", WEIGHTS.map((one) => weightRow(problem, one)), () => problem.set({ weights: {} }), (state) => Object.keys(state.weights).length);
   rules.element.open = true;
-  question.watch(({ rules: own, weights: heavy, error }) => [own, heavy, error], (state) => { rules.show(state); weights.show(state); });
+  problem.watch(({ rules: own, weights: heavy, error }) => [own, heavy, error], (state) => { rules.show(state); weights.show(state); });
   return [rules.element, weights.element];
 }

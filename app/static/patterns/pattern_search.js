@@ -3,7 +3,7 @@
 import { api } from "../api/gaits.js";
 import { latestOnly } from "../lib/latest_only.js";
 import { measured } from "../state/live_plan.js";
-import { asked, bodyOf, lengthOf, limbsOf } from "./pattern_problem.js";
+import { problemParts, bodyOf, lengthOf, limbsOf } from "./pattern_problem.js";
 import { timelineOf } from "./pattern_gaits.js";
 import { patternGridModel } from "./pattern_grid_model.js";
 import { runIsOn, shownDocument } from "../state/store.js";
@@ -17,18 +17,18 @@ const SILENCE_MS = 3000;
 const aboutLimbs = ({ robot, orientation, direction, step, options, timeline }) => ({ robot, orientation, direction, travel: step.slice(0, 2), options, time: timeline.sample_time });
 
 /** Rows of the pattern that is looked at, or null. */
-export function shownRows({ answer, running, chosen }) {
-  return running?.pattern?.feet ?? answer?.patterns[chosen]?.feet ?? null;
+export function shownRows({ result, running, chosen }) {
+  return running?.pattern?.feet ?? result?.patterns[chosen]?.feet ?? null;
 }
 
 /**
  * Keeps the answer current while the panel is open.
  * @param {object} store the page's
- * @param {object} question of `createProblem`
+ * @param {object} problem of `createProblem`
  * @param {() => boolean} isOpen
  * @returns {{ask: () => void, cancel: () => Promise<void>, useNow: () => Promise<void>}}
  */
-export function mountSearch(store, question, isOpen) {
+export function mountSearch(store, problem, isOpen) {
   let [newest, ended, since] = [0, 0, 0];
   /** Numbers of the newest question and of the one that is being answered. */
   let [latest, current] = [0, 0];
@@ -39,55 +39,55 @@ export function mountSearch(store, question, isOpen) {
 
   /** Rows to keep: what is shown now, where it has the length; a gait's own drawing is kept by itself. */
   function drawingFor() {
-    const rows = question.state.mode === "drawing" ? null : shownRows(question.state);
-    return rows?.[0].length === lengthOf(question.state) ? rows : null;
+    const rows = problem.state.mode === "drawing" ? null : shownRows(problem.state);
+    return rows?.[0].length === lengthOf(problem.state) ? rows : null;
   }
 
   function body() {
     const { state } = store;
     const document = shownDocument(state);
     const about = { robot: document.robot, legs: document.timeline.feet.length };
-    const shown = patternGridModel(store, question);
-    return bodyOf(question.state, {
+    const shown = patternGridModel(store, problem);
+    return bodyOf(problem.state, {
       isFree: (limb, sample) => !shown || shown.isFree(limb, sample),
-      gait: state.selected, limbs: limbsOf(question.state, about), document: state.pending.length ? document : null, drawing: drawingFor() });
+      gait: state.selected, limbs: limbsOf(problem.state, about), document: state.pending.length ? document : null, drawing: drawingFor() });
   }
 
-  const documents = () => (question.state.mode === "transition" ? [question.state.from.gait, question.state.to.gait] : [store.state.selected])
-    .map((gait) => timelineOf(store, question, gait)).map((document) => document && JSON.stringify(question.state.mode === "limbs" ? aboutLimbs(document) : document));
+  const documents = () => (problem.state.mode === "transition" ? [problem.state.from.gait, problem.state.to.gait] : [store.state.selected])
+    .map((gait) => timelineOf(store, problem, gait)).map((document) => document && JSON.stringify(problem.state.mode === "limbs" ? aboutLimbs(document) : document));
 
   /** The question without the gait's name where only what the gait is like matters. */
-  const submittedBody = (now) => JSON.stringify(question.state.mode === "limbs" ? { ...now, gait: null } : now);
+  const submittedBody = (now) => JSON.stringify(problem.state.mode === "limbs" ? { ...now, gait: null } : now);
 
   /** Whether the question that stands is not the one that was asked last; a document that was not at hand is the same. */
   function isNew() {
-    const { answer, asking, error } = question.state;
-    if (!submitted || error || (!asking && (!answer || answer.status === "cancelled"))) return true;
+    const { result, waiting, error } = problem.state;
+    if (!submitted || error || (!waiting && (!result || result.status === "cancelled"))) return true;
     return submitted.body !== submittedBody(body()) || documents().some((one, index) => one && submitted.documents[index] && one !== submitted.documents[index]);
   }
 
-  function take({ id, state, progress, result, sentence }) {
+  function accept({ id, state, progress, result, sentence }) {
     // An event may overtake the answer that its search was begun by.
     if (id < newest || (state === "running" && id === ended)) return;
     newest = id;
     if (state !== "running") ended = id;
     clearTimeout(silence);
     if (state === "running") {
-      silence = setTimeout(hear, SILENCE_MS, id);
-      if (!isMore) question.set({ running: { id, ...progress }, error: null });
+      silence = setTimeout(poll, SILENCE_MS, id);
+      if (!isMore) problem.set({ running: { id, ...progress }, error: null });
       return;
     }
-    const before = question.state.answer;
+    const before = problem.state.result;
     if (isMore) {
-      if (state === "done" && result.patterns.length && current === latest) question.set({ answer: { id, ...result, seconds: before.seconds } });
+      if (state === "done" && result.patterns.length && current === latest) problem.set({ result: { id, ...result, seconds: before.seconds } });
       return;
     }
-    question.set({ running: null, asking: current !== latest, chosen: 0, error: state === "failed" ? { sentence } : null, answer: state === "failed" ? before : { id, ...result } });
+    problem.set({ running: null, waiting: current !== latest, chosen: 0, error: state === "failed" ? { sentence } : null, result: state === "failed" ? before : { id, ...result } });
     measured("question to pattern", since);
-    if (result?.status === "optimal" && question.state.count > 1 && current === latest) timer = setTimeout(() => offer({ body: { ...sent, count: question.state.count }, more: true, number: latest }), REST_MS);
+    if (result?.status === "optimal" && problem.state.count > 1 && current === latest) timer = setTimeout(() => offer({ body: { ...sent, count: problem.state.count }, more: true, number: latest }), REST_MS);
   }
 
-  const hear = attempt(async (id) => { if (id === newest && id !== ended) take(await api.pattern(id)); });
+  const poll = attempt(async (id) => { if (id === newest && id !== ended) accept(await api.pattern(id)); });
 
   const offer = latestOnly(async (what) => {
     isMore = Boolean(what.more);
@@ -95,34 +95,34 @@ export function mountSearch(store, question, isOpen) {
     current = what.number;
     clearTimeout(silence);
     try {
-      take(await api.patterns(what.body));
+      accept(await api.patterns(what.body));
     } catch (error) {
       if (isMore) return;
-      question.set({ running: null, asking: current !== latest, answer: null, error: { sentence: error.message, where: error.where } });
+      problem.set({ running: null, waiting: current !== latest, result: null, error: { sentence: error.message, where: error.where } });
     }
   });
 
-  function ask() {
+  function submit() {
     const { view } = store.state;
-    const { mode, from, to } = question.state;
+    const { mode, from, to } = problem.state;
     if (!isOpen() || !view || runIsOn(store.state.robot)) return;
     if (mode === "transition" && !(from.gait && to.gait)) return;
     latest += 1;
     clearTimeout(timer);
-    question.set({ asking: true });
+    problem.set({ waiting: true });
     const now = body();
     submitted = { body: submittedBody(now), documents: documents() };
     offer({ body: { ...now, count: 1 }, since: performance.now(), number: latest });
   }
 
   /** Another gait was opened, or a gait was edited: what was found and chosen stays where that is another matter. */
-  const submitIfNew = () => { if (isOpen() && store.state.view && isNew()) ask(); };
+  const submitIfNew = () => { if (isOpen() && store.state.view && isNew()) submit(); };
 
-  question.watch(asked, ask);
-  question.watch(({ documents: known }) => [known], () => { if (submitted) submitIfNew(); });
+  problem.watch(problemParts, submit);
+  problem.watch(({ documents: known }) => [known], () => { if (submitted) submitIfNew(); });
   store.watch(({ view, pending }) => [view?.id, view?.revision, pending.length], submitIfNew);
-  store.watch(({ pattern }) => [pattern], ({ pattern }) => { if (pattern) take(pattern); });
+  store.watch(({ pattern }) => [pattern], ({ pattern }) => { if (pattern) accept(pattern); });
 
-  const tell = (act) => attempt(async () => { if (question.state.running) await act(question.state.running.id); });
-  return { ask: submitIfNew, cancel: tell(api.cancelPattern), useNow: tell(api.usePattern) };
+  const onRunning = (act) => attempt(async () => { if (problem.state.running) await act(problem.state.running.id); });
+  return { submit: submitIfNew, cancel: onRunning(api.cancelPattern), useNow: onRunning(api.usePattern) };
 }

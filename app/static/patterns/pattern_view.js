@@ -35,42 +35,42 @@ function bridge(name) {
 const hatch = () => svg("svg", { class: "sprite", "aria-hidden": "true" }, svg("defs", {}, svg("pattern", { id: "pattern-hatch", width: 0.4, height: 0.4, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
   svg("line", { x1: 0, y1: 0, x2: 0, y2: 0.4, "stroke-width": 0.22, class: "pattern-hatch-line" }))));
 
-function gaitParts(store, question) {
+function gaitParts(store, problem) {
   const part = (side, name) => patternGaitStrip({ side, name, help: `The gait that the transition leads ${side}`,
-    choose: (gait) => question.set({ [side]: { gait, sample: 0 } }), move: (sample) => question.set({ [side]: { ...question.state[side], sample } }) });
+    choose: (gait) => problem.set({ [side]: { gait, sample: 0 } }), move: (sample) => problem.set({ [side]: { ...problem.state[side], sample } }) });
   const parts = { from: part("from", "Gait A"), to: part("to", "Gait B") };
   return {
     ...parts,
     show() {
       const gaits = transitionGaits(store.state);
-      for (const side of ["from", "to"]) parts[side].show({ gaits, ...question.state[side], document: timelineOf(store, question, question.state[side].gait) });
+      for (const side of ["from", "to"]) parts[side].show({ gaits, ...problem.state[side], document: timelineOf(store, problem, problem.state[side].gait) });
     },
   };
 }
 
 /** What a click on a limb's name does: in a transition it is locked to the value that it has at both ends, in a cycle held up. */
-function limbLocking(store, question, shown) {
+function limbLocking(store, problem, shown) {
   const hold = (foot) => {
     const { robot, timeline } = shownDocument(store.state);
-    const limbs = [...limbsOf(question.state, { robot, legs: timeline.feet.length })];
+    const limbs = [...limbsOf(problem.state, { robot, legs: timeline.feet.length })];
     limbs[foot] = limbs[foot] === "walks" ? "held" : "walks";
-    question.set({ limbs: { ...question.state.limbs, [robot]: limbs } });
+    problem.set({ limbs: { ...problem.state.limbs, [robot]: limbs } });
   };
   const lock = (foot) => {
     const now = shown();
-    const { locked } = question.state;
+    const { locked } = problem.state;
     const refusal = now?.given(foot) ? "Both gaits leave this limb as it is." : now?.lockRefusal(foot);
-    if (locked.includes(foot)) question.set({ locked: locked.filter((one) => one !== foot) });
+    if (locked.includes(foot)) problem.set({ locked: locked.filter((one) => one !== foot) });
     else if (refusal) toast(refusal);
-    else question.set({ locked: [...locked, foot] });
+    else problem.set({ locked: [...locked, foot] });
   };
-  return (foot) => ({ transition: lock, limbs: hold }[question.state.mode]?.(foot));
+  return (foot) => ({ transition: lock, limbs: hold }[problem.state.mode]?.(foot));
 }
 
-function lowerPart(store, question, lock) {
-  const [parts, grid] = [gaitParts(store, question), patternGrid(question, { lockLimb: lock })];
+function lowerPart(store, problem, lock) {
+  const [parts, grid] = [gaitParts(store, problem), patternGrid(problem, { lockLimb: lock })];
   const [title, note] = [h("b"), h("span", { class: "quiet pattern-state" })];
-  const clear = h("button", { class: "link", text: "Free drawn cells", title: "All cells that were drawn here are free again", on: { click: () => question.set({ ...withCells(question.state, {}), freed: {} }) } });
+  const clear = h("button", { class: "link", text: "Free drawn cells", title: "All cells that were drawn here are free again", on: { click: () => problem.set({ ...withCells(problem.state, {}), freed: {} }) } });
   const [above, below] = [bridge("from"), bridge("to")];
   const empty = h("p", { class: "teach", hidden: true });
   const sought = h("div", { class: "pattern-lane pattern-sought" }, h("div", { class: "pattern-head" }, title, note, clear), grid.element, empty);
@@ -79,10 +79,10 @@ function lowerPart(store, question, lock) {
   return {
     element, cancel: grid.cancel, lanes: { from: parts.from.element, sought, to: parts.to.element },
     show(shown) {
-      const isTransition = question.state.mode === "transition";
+      const isTransition = problem.state.mode === "transition";
       for (const one of [parts.from, above, below, parts.to]) one.element.hidden = !isTransition;
-      setText(title, TITLES[question.state.mode]);
-      clear.hidden = !Object.keys({ ...drawnCells(question.state), ...question.state.freed }).length;
+      setText(title, TITLES[problem.state.mode]);
+      clear.hidden = !Object.keys({ ...drawnCells(problem.state), ...problem.state.freed }).length;
       element.toggleAttribute("data-alone", !isTransition);
       if (isTransition) parts.show();
       empty.hidden = Boolean(shown);
@@ -91,7 +91,7 @@ function lowerPart(store, question, lock) {
       if (!shown) return;
       grid.show(shown);
       element.dataset.feet = shown.legs;
-      setText(note, `${shown.samples} samples · ${drawnText(question.state)}`);
+      setText(note, `${shown.samples} samples · ${drawnText(problem.state)}`);
       above.show(parts.from.cursorAt(), 50 / shown.samples);
       below.show(parts.to.cursorAt(), 100 - 50 / shown.samples);
     },
@@ -110,19 +110,19 @@ function drawnText(state) {
  * @returns {Promise<{open: (mode: string|null) => void, close: () => void, cancel: () => boolean}>}
  */
 export async function mountPatterns(store, page) {
-  const question = createProblem();
+  const problem = createProblem();
   let open = false;
   const isOpen = () => open;
-  const gaits = mountPatternGaits(store, question, isOpen);
-  const search = mountSearch(store, question, isOpen);
-  const shown = () => patternGridModel(store, question);
-  const lock = limbLocking(store, question, shown);
-  const lower = lowerPart(store, question, lock);
-  patternPlayhead(store, question, page.playback, lower.lanes);
-  const fields = patternFields(store, question, lock);
-  const acts = patternActions(store, question, page);
+  const gaits = mountPatternGaits(store, problem, isOpen);
+  const search = mountSearch(store, problem, isOpen);
+  const shown = () => patternGridModel(store, problem);
+  const lock = limbLocking(store, problem, shown);
+  const lower = lowerPart(store, problem, lock);
+  patternPlayhead(store, problem, page.playback, lower.lanes);
+  const fields = patternFields(store, problem, lock);
+  const actions = patternActions(store, problem, page);
   const panel = h("div", { class: "pattern-panel", role: "tabpanel", id: "patterns", "aria-labelledby": "tab-patterns" },
-    h("div", { class: "pattern-scroll" }, fields.element, ...patternResult(question, search, (looked) => question.set({ looked })), ...patternRules(question)), acts.element);
+    h("div", { class: "pattern-scroll" }, fields.element, ...patternResult(problem, search, (hovered) => problem.set({ hovered })), ...patternRules(problem)), actions.element);
   await withStyles();
   byId("chart").after(lower.element);
   document.querySelector("aside.right").append(panel);
@@ -132,9 +132,9 @@ export async function mountPatterns(store, page) {
     const now = shown();
     lower.show(now);
     fields.show(now);
-    acts.show();
+    actions.show();
   };
-  question.watch((state) => Object.values(state), render);
+  problem.watch((state) => Object.values(state), render);
   store.watch((state) => [state.view, state.pending, state.gaits, state.iterate], render);
 
   const setOpen = (on) => {
@@ -146,13 +146,13 @@ export async function mountPatterns(store, page) {
   return {
     open(mode) {
       setOpen(true);
-      if (mode) question.set({ mode, ...(mode === "transition" && store.state.selected ? { from: { gait: store.state.selected, sample: question.state.from.gait === store.state.selected ? question.state.from.sample : 0 } } : {}) });
+      if (mode) problem.set({ mode, ...(mode === "transition" && store.state.selected ? { from: { gait: store.state.selected, sample: problem.state.from.gait === store.state.selected ? problem.state.from.sample : 0 } } : {}) });
       gaits.choose();
-      search.ask();
+      search.submit();
       render();
     },
     close() {
-      acts.leave();
+      actions.leave();
       setOpen(false);
     },
     cancel: () => lower.cancel(),

@@ -56,11 +56,11 @@ export function openStage(source, frame = 0, lost = () => {}) {
   const note = h("span", { class: "quiet", role: "status", text: "Waiting for the picture…" });
   const plain = (number) => pictureOf(source, number);
   let [fetching, timer, closed, retry] = [plain, 0, false, RETRY_MS];
-  let [said, failed, shown] = [null, null, null];
+  let [reason, failed, shown] = [null, null, null];
 
   /** An old picture must not look like one of now. */
   function standing() {
-    const why = said ?? failed;
+    const why = reason ?? failed;
     setText(note, why ?? "");
     note.dataset.toneText = why === null ? "" : "caution";
     note.title = why ?? "";
@@ -97,15 +97,15 @@ export function openStage(source, frame = 0, lost = () => {}) {
   return {
     picture, source,
     get frame() { return slider.frame; },
-    get isAway() { return said !== null; },
+    get isAway() { return reason !== null; },
     fetches(act) {
       fetching = act ?? plain;
       offer(slider.frame);
     },
     refresh: () => offer(slider.frame),
     away(why) {
-      if (why === said) return;
-      said = why;
+      if (why === reason) return;
+      reason = why;
       standing();
       if (why === null) offer(0);
     },

@@ -71,12 +71,12 @@ function mountPointer(frame, { pan, zoom, click, hover }) {
 }
 
 function mountKeys(frame, { closer, further, fit, pan }) {
-  const acts = {
+  const actions = {
     "+": closer, "=": closer, "-": further, "−": further, f: fit,
     ArrowLeft: () => pan(PAN_PX, 0), ArrowRight: () => pan(-PAN_PX, 0), ArrowUp: () => pan(0, PAN_PX), ArrowDown: () => pan(0, -PAN_PX),
   };
   frame.addEventListener("keydown", (event) => {
-    const act = acts[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    const act = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!act || event.target !== frame || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
     act();
@@ -94,9 +94,9 @@ const newImage = () => Object.assign(new Image(), { className: "video-image", al
 
 /** Puts a new picture in the old one's place once it can be drawn, so that nothing flickers; gives back whether it is the newest. */
 function mountImage(replace) {
-  let [asked, shown] = [0, null];
+  let [requested, shown] = [0, null];
   return async (source, size) => {
-    const number = ++asked;
+    const number = ++requested;
     const url = source instanceof Blob ? URL.createObjectURL(source) : source;
     const forget = () => { if (url !== source) URL.revokeObjectURL(url); };
     const next = newImage();
@@ -107,7 +107,7 @@ function mountImage(replace) {
       forget();
       throw new Error("The picture cannot be drawn.");
     }
-    if (number < asked) {
+    if (number < requested) {
       forget();
       return false;
     }
@@ -131,7 +131,7 @@ export function pictureView(name) {
   const overlay = svg("svg", { class: "video-overlay", "aria-hidden": "true" }, drawing);
   const layer = h("div", { class: "video-layer" });
   const { view, fit, zoom, move } = createView();
-  const told = { view: [], click: [], hover: [] };
+  const listeners = { view: [], click: [], hover: [] };
   let size = { width: 1280, height: 720 };
   const bounds = () => ({ width: frame.clientWidth, height: frame.clientHeight });
   const least = () => Math.min(bounds().width / size.width, bounds().height / size.height, 1) / 2;
@@ -143,7 +143,7 @@ export function pictureView(name) {
     image.style.transform = `translate(${view.x}px, ${view.y}px) scale(${view.scale})`;
     image.toggleAttribute("data-close", view.scale >= 4);
     drawing.setAttribute("transform", `translate(${view.x + view.scale / 2} ${view.y + view.scale / 2}) scale(${view.scale})`);
-    told.view.forEach((act) => act(view.scale));
+    listeners.view.forEach((act) => act(view.scale));
   }
   const doing = (act) => (...values) => { act(...values); drawn(); };
   const fitted = doing(() => fit(bounds(), size));
@@ -153,8 +153,8 @@ export function pictureView(name) {
   const frame = h("div", { class: "video-frame", role: "group", tabindex: "0", "aria-label": name, data: { keys: "", arrows: "" },
     "aria-description": "Arrow keys move the picture, plus and minus zoom, F fits it" }, image, overlay, layer, zoomButtons({ zoom: zoomed, fit: fitted, middle }));
 
-  mountPointer(frame, { pan: panned, zoom: zoomed, hover: (at) => told.hover.forEach((act) => act(at && isInside(toPlace(at)) ? toPlace(at) : null)),
-    click: (at) => { if (isInside(toPlace(at))) told.click.forEach((act) => act(toPlace(at))); } });
+  mountPointer(frame, { pan: panned, zoom: zoomed, hover: (at) => listeners.hover.forEach((act) => act(at && isInside(toPlace(at)) ? toPlace(at) : null)),
+    click: (at) => { if (isInside(toPlace(at))) listeners.click.forEach((act) => act(toPlace(at))); } });
   mountKeys(frame, { closer: () => zoomed(STEP, middle()), further: () => zoomed(1 / STEP, middle()), fit: fitted, pan: panned });
   new ResizeObserver(() => { if (view.fitted) fitted(); else drawn(); }).observe(frame);
 
@@ -170,9 +170,9 @@ export function pictureView(name) {
       if (changed || view.fitted) fitted();
       else drawn();
     }),
-    onView: (act) => { told.view.push(act); act(view.scale); },
-    onClick: (act) => told.click.push(act),
-    onHover: (act) => told.hover.push(act),
+    onView: (act) => { listeners.view.push(act); act(view.scale); },
+    onClick: (act) => listeners.click.push(act),
+    onHover: (act) => listeners.hover.push(act),
     /** Brings a place into the frame where it is outside. */
     reveal(place) {
       const [[x, y], { width, height }] = [toScreen(place), bounds()];

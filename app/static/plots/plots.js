@@ -96,7 +96,7 @@ function buildRow(kind) {
   return { kind, value, strip, canvas: stripCanvas(strip), label: h("div", { class: "plot-label", title: kind.help }, h("span", { class: "name", text: kind.name }), value), drawn: null };
 }
 
-function say(row, sentence) {
+function showSentence(row, sentence) {
   row.drawn = null;
   row.strip.replaceChildren(h("div", { class: "empty", text: sentence }));
   row.strip.setAttribute("aria-label", `${row.kind.name}: ${sentence || "nothing to show."}`);
@@ -107,7 +107,7 @@ function render(rows, state) {
   byId("plots").toggleAttribute("data-iterate", Boolean(state.iterate));
   if (!(plan?.times?.length > 0)) {
     const sentence = !state.view ? "" : plan?.refusal ? "No motion: the reason stands at the timeline." : "No plan yet.";
-    rows.forEach((row) => say(row, sentence));
+    rows.forEach((row) => showSentence(row, sentence));
     return;
   }
   const axis = axisOf(state);
@@ -117,7 +117,7 @@ function render(rows, state) {
     if (row.strip.hidden) continue;
     const content = row.kind.of(plan, options);
     if (content) row.drawn = draw(row, content, across, plan.times.length, axis, oversOf(state, row.kind.key));
-    else say(row, row.kind.lack);
+    else showSentence(row, row.kind.lack);
   }
 }
 

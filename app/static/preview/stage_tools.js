@@ -29,18 +29,18 @@ function followReach(store, preview, isOn) {
       // A plan that has been replaced meanwhile is no longer wanted; the next one asks again.
     }
   });
-  let asked = null;
+  let requested = null;
   const ask = () => {
     const plan = shownPlan(store.state);
     if (!isOn() || !plan?.times.length) return;
     const wanted = { id: store.state.view.id, hash: plan.hash, workspace: shownDocument(store.state).options.workspace };
     const key = JSON.stringify(wanted);
-    if (key === asked) return;
-    asked = key;
+    if (key === requested) return;
+    requested = key;
     offer(wanted);
   };
   // New poses take the reach of the old ones away.
-  preview.addEventListener("poses", () => { asked = null; ask(); });
+  preview.addEventListener("poses", () => { requested = null; ask(); });
   store.watch((state) => [shownDocument(state)?.options?.workspace], ask);
   return ask;
 }

@@ -24,7 +24,7 @@ const BEGINS = {
 const robotOf = ({ view }) => view?.document.robot ?? "deltawalker";
 
 /** What the studio answered to the present choice; an older answer counts no more. */
-const answerOf = ({ answer, asked }, key) => (asked === key ? answer : null);
+const answerOf = ({ answer, requested }, key) => (requested === key ? answer : null);
 
 function build(change) {
   const parts = PARTS.map(([value, text]) => h("button", { text, "aria-pressed": "false", on: { click: () => change({ part: value }) } }));
@@ -72,9 +72,9 @@ function asking(own) {
   return latestOnly(async ({ key, body }) => {
     try {
       const answer = await api.robot("jog", { ...body, preview: true });
-      own.set({ asked: key, answer });
+      own.set({ requested: key, answer });
     } catch (error) {
-      own.set({ asked: key, answer: null });
+      own.set({ requested: key, answer: null });
       report(error);
     }
   });
@@ -95,7 +95,7 @@ function moving(store, own, body) {
  * @returns {HTMLElement}
  */
 export function jogPart(store, edits) {
-  const own = watchable({ isOpen: false, part: "foot", foot: 1, steps: [], size: STEP_MM.first, asked: null, answer: null });
+  const own = watchable({ isOpen: false, part: "foot", foot: 1, steps: [], size: STEP_MM.first, requested: null, answer: null });
   const { size, ...parts } = build((patch) => own.set(patch));
   const rows = jogRows((index, sign) => {
     const { state } = own;
@@ -110,8 +110,8 @@ export function jogPart(store, edits) {
 
   element.addEventListener("toggle", () => own.set({ isOpen: element.open }));
   size.addEventListener("change", () => {
-    const asked = Number(size.value);
-    if (asked >= STEP_MM.least && asked <= STEP_MM.most) own.set({ size: asked });
+    const requested = Number(size.value);
+    if (requested >= STEP_MM.least && requested <= STEP_MM.most) own.set({ size: requested });
     else toast(`The step is ${size.value || "nothing"}; it must lie between ${STEP_MM.least} and ${STEP_MM.most} mm. It keeps its value.`);
     size.value = String(own.state.size);
   });
@@ -127,7 +127,7 @@ export function jogPart(store, edits) {
     if (now.foot > feet) return own.set({ foot: 1 });
     if (!now.isOpen) return state.jog && store.set({ jog: null });
     const key = keyOf(state, now);
-    if (now.asked !== key && key !== sent) ask({ key, body: { ...body(), look: { part: now.part, foot: now.foot } } });
+    if (now.requested !== key && key !== sent) ask({ key, body: { ...body(), look: { part: now.part, foot: now.foot } } });
     sent = key;
     const answer = answerOf(now, key);
     showChoice(parts, now, feet);

@@ -52,7 +52,7 @@ export function portChooser(store, connect) {
     setText(words, found.again?.sentence ?? "");
   }
 
-  const look = latestOnly(async () => {
+  const poll = latestOnly(async () => {
     try {
       found = await api.ports();
       render();
@@ -66,7 +66,7 @@ export function portChooser(store, connect) {
     render();
   }
 
-  select.addEventListener("focus", look);
+  select.addEventListener("focus", poll);
   select.addEventListener("change", () => {
     choose(select.value);
     if (chosen === OTHER) address.focus();
@@ -82,9 +82,9 @@ export function portChooser(store, connect) {
     select.disabled = fixed;
     setAttribute(select, "title", fixed ? "Disconnect before you choose another robot" : "Which robot to connect");
     clearInterval(timer);
-    timer = robot?.link === "lost" ? setInterval(look, POLL_MS) : null;
+    timer = robot?.link === "lost" ? setInterval(poll, POLL_MS) : null;
     render();
-    if (robot && !fixed) look();
+    if (robot && !fixed) poll();
   });
   return {
     element: h("div", { class: "device-choice" }, select, address),

@@ -41,16 +41,16 @@ function showBeginnings(select, places) {
 export function runRangePart(store, playback) {
   const from = h("select", { "aria-label": "Run from", title: "Waypoints with all feet down; the robot goes there slowly first" });
   const times = h("input", { type: "number", min: "1", max: String(MOST_ITERATIONS), step: "1", value: "1", "aria-label": "Times to run" });
-  const element = h("div", { class: "run-course" }, h("label", {}, h("span", { text: "From" }), from), h("label", {}, h("span", { text: "×" }), times));
+  const element = h("div", { class: "run-range" }, h("label", {}, h("span", { text: "From" }), from), h("label", {}, h("span", { text: "×" }), times));
   from.addEventListener("change", () => {
     const { beginnings } = store.state.runSummary;
     choose(store, { first: from.value === HERE ? nearestTo(beginnings, playback.time).waypoint : Number(from.value) });
     from.value = String(runRangeOf(store.state).first);
   });
   times.addEventListener("change", () => {
-    const asked = Math.round(Number(times.value));
-    const fits = !times.readOnly && asked >= 1 && asked <= MOST_ITERATIONS;
-    if (fits) choose(store, { iterations: asked });
+    const wanted = Math.round(Number(times.value));
+    const fits = !times.readOnly && wanted >= 1 && wanted <= MOST_ITERATIONS;
+    if (fits) choose(store, { iterations: wanted });
     times.value = String(runRangeOf(store.state).iterations);
   });
   store.watch(({ runSummary, runRange, view, selected }) => [runSummary, runRange, view?.plan?.waypoints_hash, selected], (state) => {

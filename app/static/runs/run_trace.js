@@ -10,7 +10,7 @@ function longer(trace, { plan_time: time, reached }, strokes) {
 }
 
 /** True where nothing stands against a trace: its run is on, or has ended and the gait is as it was sent, with no other run open. */
-function stands(trace, { robot, view, run: open }) {
+function isCurrent(trace, { robot, view, run: open }) {
   const run = robot?.run;
   if (!run || planIsOn(robot)) return Boolean(run);
   return trace?.id === run.id && !open && run.waypoints_hash === view?.plan?.waypoints_hash;
@@ -20,7 +20,7 @@ function stands(trace, { robot, view, run: open }) {
 export function mountTrace(store) {
   store.watch(({ robot, view, run: open }) => [robot?.run?.phase, robot?.run?.id, robot?.run?.reached, view?.plan, open], (state) => {
     const { robot, trace } = state;
-    if (!stands(trace, state)) {
+    if (!isCurrent(trace, state)) {
       if (trace) store.set({ trace: null });
       return;
     }

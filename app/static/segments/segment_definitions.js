@@ -153,18 +153,18 @@ function segmentRow(sheet, name, { run, refuse }) {
       () => run({ change: withDefinitions((words) => ({ segments: without(words.segments, name) })), label: `Delete segment ${name}` }), refuse));
 }
 
-function segmentPart(sheet, acts) {
+function segmentPart(sheet, actions) {
   const names = Object.keys(sheet.words.segments);
   const add = h("button", { class: "link", text: "Add a segment", on: {
     click: () => {
       const name = freshName(names, "Segment");
       const { end: place } = sheet.words.segments[names.at(-1)];
-      acts.run({ change: withDefinitions((words) => ({ segments: { ...words.segments, [name]: { start: place, end: place, swing: false } } })), label: `Add segment ${name}` });
+      actions.run({ change: withDefinitions((words) => ({ segments: { ...words.segments, [name]: { start: place, end: place, swing: false } } })), label: `Add segment ${name}` });
     },
   } });
   return h("div", { class: "axis", role: "group", "aria-label": "Segments" },
     h("h4", { text: "Segments" }), h("div", { class: "word segment head" }, h("span", { text: "from" }), h("span", { text: "to" }), h("span", { text: "air", title: "In the air" }), h("span")),
-    ...names.map((name) => segmentRow(sheet, name, acts)), add);
+    ...names.map((name) => segmentRow(sheet, name, actions)), add);
 }
 
 /** Whether a name or number is being typed. */
@@ -174,7 +174,7 @@ export const isTyped = (control) => control?.matches("input:not([type=checkbox])
  * Fills the panel with a sheet's vocabulary where that changed; the control that had the focus keeps it, and a name or number
  * that is being typed waits for its end. It is filled anew after the key or click at hand, which may take the focus on.
  */
-export function createDefinitions(panel, acts) {
+export function createDefinitions(panel, actions) {
   let shown = "";
   let latest = null;
   let awaited = false;
@@ -187,7 +187,7 @@ export function createDefinitions(panel, acts) {
     if (shown === text || isTyped(focused)) return;
     const place = controls().indexOf(focused);
     shown = text;
-    panel.replaceChildren(axisPart(sheet, "xy", acts), axisPart(sheet, "z", acts), segmentPart(sheet, acts));
+    panel.replaceChildren(axisPart(sheet, "xy", actions), axisPart(sheet, "z", actions), segmentPart(sheet, actions));
     if (place >= 0) controls()[place]?.focus();
   }
   function soon() {

@@ -34,11 +34,11 @@ export function openSegmentChooser(cell, sheet, [row, foot], { text, choose, clo
   let active = 0;
   let ended = false;
 
-  function end(isLeft = false) {
+  function end(keepsFocus = false) {
     if (ended) return false;
     ended = true;
     element.remove();
-    close(isLeft);
+    close(keepsFocus);
     return true;
   }
 

@@ -37,7 +37,7 @@ export function mountSegmentSheetCreation(store, edits) {
   let found = null;
   let offer = null;
 
-  const ask = latestOnly(async ({ id, revision, document }) => {
+  const request = latestOnly(async ({ id, revision, document }) => {
     const answer = await made(document);
     const other = answer.table ? null : withRoom(document);
     const { table } = other ? await made(other) : { table: null };
@@ -66,7 +66,7 @@ export function mountSegmentSheetCreation(store, edits) {
     if (!view || view.document.segment_table || view.document.sequence?.length) return;
     setAllowed(make, "Being looked at.");
     roomy.hidden = true;
-    ask({ id: view.id, revision: view.revision, document: shownDocument(state) });
+    request({ id: view.id, revision: view.revision, document: shownDocument(state) });
   });
   return element;
 }

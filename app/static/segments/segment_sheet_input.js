@@ -64,7 +64,7 @@ export function mountSegmentSheetInput(store, edits, grid, cells) {
     return commit(store, edits, outcome);
   }
 
-  const acts = {
+  const actions = {
     fill: () => run(fillDown(sheet(), range())),
     wait: () => run(setWaits(sheet(), range())),
     addLink: () => run(addLinkRow(sheet())),
@@ -95,9 +95,9 @@ export function mountSegmentSheetInput(store, edits, grid, cells) {
         const to = next[way] ?? place;
         go([held(to[0], sheet().rows.length - 1), held(to[1], sheet().legs - 1)]);
       },
-      close(isLeft) {
+      close(keepsFocus) {
         chooser = null;
-        if (!isLeft) takeFocus();
+        if (!keepsFocus) takeFocus();
       },
     });
   }
@@ -114,13 +114,13 @@ export function mountSegmentSheetInput(store, edits, grid, cells) {
 
   function commandOf({ key, ctrlKey, metaKey, altKey, shiftKey }) {
     const control = ctrlKey || metaKey;
-    if (control && key === "Delete") return acts.remove;
-    if (control && key.toLowerCase() === "d") return acts.fill;
+    if (control && key === "Delete") return actions.remove;
+    if (control && key.toLowerCase() === "d") return actions.fill;
     if (control && key.toLowerCase() === "a") return () => { anchor = [0, 0]; go([sheet().count - 1, sheet().legs - 1], true); };
     if (control) return null;
-    if (key === "Insert") return shiftKey ? null : () => acts.insert(altKey);
+    if (key === "Insert") return shiftKey ? null : () => actions.insert(altKey);
     if (altKey) return null;
-    if (key === "Delete" || key === "Backspace") return acts.wait;
+    if (key === "Delete" || key === "Backspace") return actions.wait;
     if (key === "Enter" || key === "F2") return () => choose("");
     return key.length === 1 && key !== " " && key !== "?" ? () => choose(key) : null;
   }
@@ -183,7 +183,7 @@ export function mountSegmentSheetInput(store, edits, grid, cells) {
   });
 
   return {
-    ...acts, show,
+    ...actions, show,
     range,
     escape: () => chooser?.close() ?? false,
     hasFocus: () => grid.contains(document.activeElement),

@@ -29,12 +29,12 @@ function offerOf({ foot, first, names, inserted, table }, sheet, document) {
  */
 export function mountSegmentSheetRepairs(store, edits, note, focus) {
   let offers = [];
-  let asked = "";
+  let requested = "";
 
-  const ask = latestOnly(async ({ text, sheet, document, body }) => {
+  const load = latestOnly(async ({ text, sheet, document, body }) => {
     try {
       const { repairs } = await api.tableRepairs(body);
-      if (text !== asked) return;
+      if (text !== requested) return;
       offers = repairs.map((repair) => offerOf(repair, sheet, document));
       draw();
     } catch (error) {
@@ -46,9 +46,9 @@ export function mountSegmentSheetRepairs(store, edits, note, focus) {
     const kept = protectedCells(segmentDraftOf(store.state).steps).map(([row, foot]) => [ownRow(sheet, foot), row]);
     const body = { table: tableOf(sheet), kept };
     const text = JSON.stringify(body);
-    if (text === asked) return;
-    [asked, offers] = [text, []];
-    ask({ text, sheet, document: shownDocument(store.state), body });
+    if (text === requested) return;
+    [requested, offers] = [text, []];
+    load({ text, sheet, document: shownDocument(store.state), body });
   }
 
   const act = (does) => () => { does(); focus(); };
@@ -60,7 +60,7 @@ export function mountSegmentSheetRepairs(store, edits, note, focus) {
     note.hidden = errors.length === 0;
     if (note.hidden) {
       note.replaceChildren();
-      [asked, offers] = ["", []];
+      [requested, offers] = ["", []];
       return;
     }
     note.dataset.tone = stops ? "bad" : "caution";

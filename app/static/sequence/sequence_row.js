@@ -34,25 +34,25 @@ function button(name, symbol, act) {
  * Builds a row.
  * @param {{times: Function, move: Function, remove: Function, takeOver: Function}} acts on this row's part
  */
-export function partRow(acts) {
+export function partRow(actions) {
   const lead = h("p", { class: "part-lead", role: "gridcell" });
   const [number, text] = [h("span", { class: "part-number" }), h("span", { class: "part-text" })];
   const name = h("div", { class: "part-name", role: "gridcell", tabindex: "-1" }, number, text);
   const input = h("input", { type: "number", min: 1, max: MOST_TIMES, step: 1, title: `How often it runs, 1 to ${MOST_TIMES}` });
-  const [up, down] = [button("Move up", "up", () => acts.move(-1)), button("Move down", "down", () => acts.move(1))];
-  const out = button("Take out", "close", acts.remove);
+  const [up, down] = [button("Move up", "up", () => actions.move(-1)), button("Move down", "down", () => actions.move(1))];
+  const out = button("Take out", "close", actions.remove);
   const figures = h("span", { class: "number" });
   const [dot, word] = [h("span", { class: "dot" }), h("span", {})];
-  const over = h("button", { class: "link", text: "take over", title: "Take the gait over as it is now", on: { click: acts.takeOver } });
+  const over = h("button", { class: "link", text: "take over", title: "Take the gait over as it is now", on: { click: actions.takeOver } });
   const refusal = refusalOf(input);
   const giveUp = () => {
-    refusal.say(null);
+    refusal.setError(null);
     input.value = input.dataset.shown;
   };
   input.addEventListener("change", () => {
     const { value, sentence = null } = wholeNumber(input, "Times", { min: 1, max: MOST_TIMES });
-    refusal.say(sentence);
-    if (!sentence) acts.times(value);
+    refusal.setError(sentence);
+    if (!sentence) actions.times(value);
   });
   input.addEventListener("keydown", (event) => {
     if (event.key === "Enter") input.blur();

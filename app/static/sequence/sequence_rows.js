@@ -55,11 +55,11 @@ function partActions(store, edits, playback, focus) {
   };
 }
 
-function press(event, index, acts, focus) {
+function press(event, index, actions, focus) {
   const keys = event.altKey
-    ? { ArrowUp: () => acts.move(index, index - 1), ArrowDown: () => acts.move(index, index + 1) }
+    ? { ArrowUp: () => actions.move(index, index - 1), ArrowDown: () => actions.move(index, index + 1) }
     : { ArrowUp: () => focus(index - 1), ArrowDown: () => focus(index + 1), Home: () => focus(0), End: () => focus(Infinity),
-      Delete: () => acts.remove(index), Backspace: () => acts.remove(index), Enter: () => acts.goTo(index) };
+      Delete: () => actions.remove(index), Backspace: () => actions.remove(index), Enter: () => actions.goTo(index) };
   if (!keys[event.key]) return;
   event.preventDefault();
   event.stopPropagation();
@@ -77,14 +77,14 @@ export function partRows(store, edits, playback, takeOver) {
   const grid = h("div", { class: "parts-list", role: "grid", "aria-label": "Parts of the sequence" });
   const rows = [];
   const { mark, focus } = rovingNames(rows);
-  const acts = partActions(store, edits, playback, focus);
+  const actions = partActions(store, edits, playback, focus);
 
   function grow(index) {
     const row = partRow({
-      times: (times) => acts.times(index, times), move: (way) => acts.move(index, index + way),
-      remove: () => acts.remove(index), takeOver: () => takeOver(index),
+      times: (times) => actions.times(index, times), move: (way) => actions.move(index, index + way),
+      remove: () => actions.remove(index), takeOver: () => takeOver(index),
     });
-    row.name.addEventListener("keydown", (event) => press(event, index, acts, focus));
+    row.name.addEventListener("keydown", (event) => press(event, index, actions, focus));
     row.name.addEventListener("focus", () => mark(index));
     rows.push(row);
     grid.append(row.element);
@@ -102,5 +102,5 @@ export function partRows(store, edits, playback, takeOver) {
     }));
   }
 
-  return { grid, show, cancel: mountReordering(grid, () => rows, acts.move, acts.goTo).cancel };
+  return { grid, show, cancel: mountReordering(grid, () => rows, actions.move, actions.goTo).cancel };
 }

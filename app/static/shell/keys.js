@@ -28,18 +28,18 @@ function withControl(event, { edits, timeline, actions }) {
 }
 
 function onTimeline(event, { store, actions, zoom }) {
-  const acts = {
+  const byKey = {
     l: actions.loop, k: actions.toggleLock, f: zoom.fit, b: () => store.set({ tool: "paint" }),
     "+": () => zoom.closer(true), "=": () => zoom.closer(true), "-": () => zoom.closer(false), "−": () => zoom.closer(false),
     delete: actions.clear, backspace: actions.clear,
   };
-  return ownsLetters(event.target) ? null : (acts[event.key.toLowerCase()] ?? null);
+  return ownsLetters(event.target) ? null : (byKey[event.key.toLowerCase()] ?? null);
 }
 
 function plain(event, page) {
   const { playback, store } = page;
   const far = event.shiftKey ? 10 : 1;
-  const acts = {
+  const byKey = {
     ArrowLeft: () => playback.step(-far), ArrowRight: () => playback.step(far),
     Home: () => playback.toStart(), End: () => playback.toEnd(),
   };
@@ -47,7 +47,7 @@ function plain(event, page) {
   if (event.key === "?") return showKeys;
   const does = store.state.view && onTimeline(event, page);
   if (does) return does;
-  return event.target.closest?.("select, [role=gridcell], [role=tab], [role=menu], [data-arrows]") ? null : (acts[event.key] ?? null);
+  return event.target.closest?.("select, [role=gridcell], [role=tab], [role=menu], [data-arrows]") ? null : (byKey[event.key] ?? null);
 }
 
 /**

@@ -18,10 +18,10 @@ const NUMBERS = [
 
 /** A label, its control and the place for what is wrong with it. */
 function row(key, label, control, help) {
-  const { element: error, say } = refusalOf(control);
+  const { element: error, setError } = refusalOf(control);
   const unit = control.dataset.unit;
   const box = unit ? h("span", { class: "box", data: { unit } }, control) : control;
-  return { key, control, say, element: h("label", { class: "new-row", title: help }, h("span", { class: "name", text: label }), box, error) };
+  return { key, control, setError, element: h("label", { class: "new-row", title: help }, h("span", { class: "name", text: label }), box, error) };
 }
 
 const select = (name, options) => h("select", { "aria-label": name }, ...options);
@@ -81,7 +81,7 @@ function form(list, preset) {
   function suggestOrder() {
     of.pattern.control.replaceChildren(...choices([...orders().map(({ name }) => [name, name]), [OWN, "own order"]]));
     set("order", orders()[0].feet.join(" "));
-    of.order.say(null);
+    of.order.setError(null);
     showPattern();
   }
 
@@ -100,7 +100,7 @@ function form(list, preset) {
   });
   of.order.control.addEventListener("input", showPattern);
   // What is typed is judged as it stands; the other fields keep what was said of them until they are typed in.
-  for (const one of rows) one.control.addEventListener("input", () => { one.say(problems(value, robot())[one.key] ?? null); sum(); });
+  for (const one of rows) one.control.addEventListener("input", () => { one.setError(problems(value, robot())[one.key] ?? null); sum(); });
 
   set("robot", preset.robot ?? list[0].name);
   set("orientation", preset.orientation ?? "FB");
@@ -118,7 +118,7 @@ function form(list, preset) {
 function refuse({ of }, general, error) {
   if (!(error instanceof ApiError)) throw error;
   const field = of[(error.where ?? "").replace(/^body\./, "")];
-  (field ?? { say: (sentence) => { general.hidden = false; general.textContent = sentence; } }).say(error.message);
+  (field ?? { setError: (sentence) => { general.hidden = false; general.textContent = sentence; } }).setError(error.message);
   field?.control.focus();
 }
 
@@ -136,7 +136,7 @@ export async function askNewGait(preset) {
     const create = h("button", { type: "submit", class: "primary", text: "Create" });
     const accept = async () => {
       const found = problems(parts.value, parts.robot());
-      for (const one of parts.rows) one.say(found[one.key] ?? null);
+      for (const one of parts.rows) one.setError(found[one.key] ?? null);
       general.hidden = true;
       const first = parts.rows.find(({ key }) => found[key]);
       if (first) return first.control.focus();

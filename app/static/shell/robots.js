@@ -4,15 +4,15 @@ import { api } from "../api/gaits.js";
 import { h } from "../lib/dom.js";
 import { attempt } from "../lib/toasts.js";
 
-let asked = null;
+let request = null;
 
 /** Every robot with its title, legs, motors and foot orders; asked for once. */
 export function robots() {
-  asked ??= api.robots().then((answer) => answer.robots, (error) => {
-    asked = null;
+  request ??= api.robots().then((answer) => answer.robots, (error) => {
+    request = null;
     throw error;
   });
-  return asked;
+  return request;
 }
 
 /** An option a robot; of those with other legs it says that the choice leads on. */

@@ -51,7 +51,7 @@ function apply(lower, height) {
   byId("overlay").style.height = scrolls ? `${byId("chart").scrollHeight}px` : "";
 }
 
-function say(edge, lower) {
+function showHeight(edge, lower) {
   const height = Math.round(lower.offsetHeight);
   setAttribute(edge, "aria-valuemin", String(LEAST_PX));
   setAttribute(edge, "aria-valuemax", String(Math.round(Math.max(most(), height))));
@@ -86,7 +86,7 @@ export function mountSplitter() {
   let height = recalledHeight();
   const show = () => {
     apply(lower, height);
-    say(edge, lower);
+    showHeight(edge, lower);
   };
   const setTo = (next) => {
     height = next === null ? null : held(next, LEAST_PX, most());
@@ -101,11 +101,11 @@ export function mountSplitter() {
   edge.addEventListener("dblclick", usual);
   edge.addEventListener("keydown", (event) => {
     const far = event.shiftKey ? 4 : 1;
-    const acts = { ArrowUp: () => setTo(lower.offsetHeight + STEP_PX * far), ArrowDown: () => setTo(lower.offsetHeight - STEP_PX * far),
+    const actions = { ArrowUp: () => setTo(lower.offsetHeight + STEP_PX * far), ArrowDown: () => setTo(lower.offsetHeight - STEP_PX * far),
       PageUp: () => setTo(lower.offsetHeight + STEP_PX * 4), PageDown: () => setTo(lower.offsetHeight - STEP_PX * 4), Home: () => setTo(LEAST_PX), End: () => setTo(most()), Enter: usual };
-    if (!acts[event.key] || event.ctrlKey || event.altKey || event.metaKey) return;
+    if (!actions[event.key] || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();
-    acts[event.key]();
+    actions[event.key]();
     keep();
   });
   const resized = new ResizeObserver(show);

@@ -61,14 +61,14 @@ function nameField(store, edits) {
     input.value = edits.shown()?.name ?? "";
   };
   const giveUp = () => {
-    refusal.say(null);
+    refusal.setError(null);
     show();
   };
   input.addEventListener("change", () => {
     const name = input.value.trim();
     const current = edits.shown()?.name;
     if (current === undefined) return;
-    refusal.say(name === current ? null : refusedName(name, store.state));
+    refusal.setError(name === current ? null : refusedName(name, store.state));
     if (!refusal.hasError() && name !== current) edits.edit((document) => ({ ...document, name }), `Name to ${name}`);
     show();
   });

@@ -41,8 +41,8 @@ function paintLabel(cells, swing) {
 /** Creates the editing functions of the page. */
 export function createEdits(store) {
   let sending = null;
-  let turn = Promise.resolve();
-  let acts = 0;
+  let queue = Promise.resolve();
+  let running = 0;
   let retry = 0;
 
   const isShown = (gait) => store.state.selected === gait;
@@ -116,10 +116,10 @@ export function createEdits(store) {
 
   /** Requests that change the gait reach the studio one at a time, in the order of the acts behind them. */
   function enqueue(act) {
-    acts += 1;
-    const mine = turn.then(act).finally(() => { acts -= 1; });
-    turn = mine.catch(() => {});
-    return mine;
+    running += 1;
+    const result = queue.then(act).finally(() => { running -= 1; });
+    queue = result.catch(() => {});
+    return result;
   }
 
   function flush() {
@@ -192,7 +192,7 @@ export function createEdits(store) {
   }
 
   /** Whether the studio lacks something that was done here, which a reload would lose. */
-  const areUnsent = () => acts + store.state.pending.length + store.state.left.length > 0;
+  const areUnsent = () => running + store.state.pending.length + store.state.left.length > 0;
 
   return {
     edit,

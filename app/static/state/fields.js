@@ -67,18 +67,18 @@ function judged(input, field) {
 function mountTyping(input, change, field, text, { edits, refusal }) {
   const finish = () => {
     const { sentence = null } = text.dirty() ? judged(input, field) : {};
-    refusal.say(sentence);
+    refusal.setError(sentence);
     if (!sentence) text.commit();
   };
   const giveUp = () => {
-    refusal.say(null);
+    refusal.setError(null);
     change.drop();
     text.show(true);
   };
   input.addEventListener("input", () => {
     const { value, sentence } = judged(input, field);
     if (sentence) return change.drop();
-    refusal.say(null);
+    refusal.setError(null);
     return change.show(value);
   });
   input.addEventListener("change", finish);
@@ -96,7 +96,7 @@ function mountTyping(input, change, field, text, { edits, refusal }) {
       const { value } = judged(input, field);
       const next = Math.min(Math.max((value ?? field.fallback ?? field.min) + way * field.step * (event.shiftKey ? 10 : 1), field.min), field.max);
       input.value = textOf(next, field.decimals);
-      refusal.say(null);
+      refusal.setError(null);
       change.show(Number(input.value));
     } else if (event.key === "Enter") {
       finish();
@@ -205,9 +205,9 @@ export function textField(store, field) {
   let last = "";
   const write = () => {
     input.value = last;
-    refusal.say(null);
+    refusal.setError(null);
   };
-  input.addEventListener("change", () => refusal.say(field.commit(input.value)));
+  input.addEventListener("change", () => refusal.setError(field.commit(input.value)));
   input.addEventListener("blur", () => { if (!refusal.hasError()) write(); });
   input.addEventListener("keydown", ({ key }) => { if (key === "Escape") write(); });
   store.watch(({ selected }) => [selected], () => { if (refusal.hasError()) write(); });

@@ -84,8 +84,8 @@ function tell(store) {
   let before = store.state.robot?.lease ?? null;
   store.watch(({ robot }) => [robot?.lease?.page, robot?.lease?.asker?.page], ({ robot }) => {
     const now = robot?.lease ?? null;
-    const asked = isMine(now) && now.asker && now.asker.page !== before?.asker?.page;
-    if (asked) toast(`${now.asker.name} asks for the robot. Give or keep it in the Robot panel.`, { of: "studio" });
+    const isRequested = isMine(now) && now.asker && now.asker.page !== before?.asker?.page;
+    if (isRequested) toast(`${now.asker.name} asks for the robot. Give or keep it in the Robot panel.`, { of: "studio" });
     if (isMine(now) && isTaken(before) && !isMine(before)) toast("You hold the robot now.", { of: "studio" });
     if (isMine(before) && isTaken(now) && !isMine(now)) toast(`${now.name} holds the robot now.`, { of: "studio" });
     before = now;

@@ -35,7 +35,7 @@ export async function measured(name, since) {
 }
 
 function mountFollowing(store) {
-  let asked = null;
+  let requested = null;
   const offer = latestOnly(async ({ id, document, since }) => {
     let plan;
     try {
@@ -51,13 +51,13 @@ function mountFollowing(store) {
 
   store.watch(({ view, pending, gesture }) => [view, pending, gesture], (state) => {
     if (!editInProgress(state)) {
-      asked = null;
+      requested = null;
       if (state.live) store.set({ live: null });
       return;
     }
     const text = shownText(state);
-    if (text === asked) return;
-    asked = text;
+    if (text === requested) return;
+    requested = text;
     offer({ id: state.view.id, document: shownDocument(state), since: performance.now() });
   });
 }

@@ -7,10 +7,10 @@ import { acceptLine, acceptRobot, acceptSources, acceptSteps, acceptView, withJo
 const FIRST_WAIT_MS = 300;
 const LONGEST_WAIT_MS = 5000;
 
-let say = () => {};
+let send = () => {};
 
 /** Says something to the studio over the socket, where that is open. */
-export const sendToStudio = (text) => say(text);
+export const sendToStudio = (text) => send(text);
 
 function receive(store, message, onHello) {
   switch (message.type) {
@@ -49,7 +49,7 @@ export function listen(store, onHello) {
   function take(data) {
     wait = FIRST_WAIT_MS;
     const message = JSON.parse(data);
-    if (message.type === "beat") say("here");
+    if (message.type === "beat") send("here");
     else receive(store, message, onHello);
   }
 
@@ -61,7 +61,7 @@ export function listen(store, onHello) {
 
   function follow({ socket, early }) {
     closeSocket = () => socket.close();
-    say = (text) => { if (socket.readyState === WebSocket.OPEN) socket.send(text); };
+    send = (text) => { if (socket.readyState === WebSocket.OPEN) socket.send(text); };
     socket.addEventListener("message", ({ data }) => take(data));
     if (socket.readyState === WebSocket.CLOSED) closed();
     else socket.addEventListener("close", closed);

@@ -55,10 +55,10 @@ const isElsewhere = (event) => {
  * @param {{copy: () => string[]|null, cut: () => string[]|null, paste: (text: string) => void}} acts `copy` and `cut` give the
  *   block to be kept, or null where there is nothing
  */
-export function mountClipboard(acts) {
+export function mountClipboard(actions) {
   for (const type of ["copy", "cut"]) {
     document.addEventListener(type, (event) => {
-      const block = isElsewhere(event) ? null : acts[type]();
+      const block = isElsewhere(event) ? null : actions[type]();
       if (!block) return;
       own = textOf(block);
       event.clipboardData.setData("text/plain", own);
@@ -67,7 +67,7 @@ export function mountClipboard(acts) {
   }
   document.addEventListener("paste", (event) => {
     if (isElsewhere(event)) return;
-    acts.paste(event.clipboardData.getData("text/plain") || (own ?? ""));
+    actions.paste(event.clipboardData.getData("text/plain") || (own ?? ""));
     event.preventDefault();
   });
 }

@@ -14,9 +14,9 @@ function placed(element, left, width = null) {
 }
 
 function missingMotionMarks(axis, plan) {
-  return (plan?.live?.lacks ?? []).slice().reverse().map((lack) => {
-    const mark = h("b", { class: "lack", title: lack.sentence, data: { tone: lack === plan.live.lacks[0] ? "bad" : "caution" } });
-    return placed(mark, columnFraction(axis, lack.first), (lack.last + 1 - lack.first) / axis.shown);
+  return (plan?.live?.lacks ?? []).slice().reverse().map((missing) => {
+    const mark = h("b", { class: "lack", title: missing.sentence, data: { tone: missing === plan.live.lacks[0] ? "bad" : "caution" } });
+    return placed(mark, columnFraction(axis, missing.first), (missing.last + 1 - missing.first) / axis.shown);
   });
 }
 

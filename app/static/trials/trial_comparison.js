@@ -22,7 +22,7 @@ const HELP = "Mean of the feet from first to last frame, angles on the platform.
 function figures({ rows }) {
   const cells = (row) => [fixed(row.net_distance, 2), fixed(row.net_angle_deg, 1), fixed(row.net_error_percent, 0), fixed(row.gap_mm, 1)];
   const apart = ({ gaps_mm: gaps }) => (gaps ? gaps.map((gap, foot) => `foot ${foot + 1}: ${fixed(gap, 1)} mm`).join(", ") : null);
-  return h("table", { class: "run-table trial-beside", title: HELP }, h("caption", { text: "Planned, simulated, tracked, first to last" }),
+  return h("table", { class: "run-table trial-comparison", title: HELP }, h("caption", { text: "Planned, simulated, tracked, first to last" }),
     h("thead", {}, h("tr", {}, ...["", "cm", "angle °", "error %", "feet mm"].map((text) => h("th", { scope: "col", text })))),
     h("tbody", {}, ...rows.map((row) => h("tr", { title: apart(row) }, h("th", { scope: "row" }, legend([row.source])), ...cells(row).map((text) => h("td", { text }))))));
 }
@@ -45,33 +45,33 @@ export function comparisonPart(id, shown) {
   const note = h("p", { class: "quiet", role: "status", "aria-label": "Physics" });
   const again = h("button", { class: "link", text: "Try again", hidden: true });
   const table = h("div");
-  const element = h("div", { class: "trial-beside-part" }, table, h("div", {}, note, again));
+  const element = h("div", { class: "trial-comparison-part" }, table, h("div", {}, note, again));
   let timer = 0;
-  let isLeft = false;
+  let isClosed = false;
 
-  function tell(standing) {
-    setText(note, TEXTS[standing.state](standing));
-    again.hidden = standing.state !== "failed";
+  function showState(simulation) {
+    setText(note, TEXTS[simulation.state](simulation));
+    again.hidden = simulation.state !== "failed";
   }
 
   async function refresh() {
-    const beside = await comparisonApi.read(id);
-    if (isLeft) return;
-    table.replaceChildren(figures(beside));
-    tell(beside.simulation);
-    shown(beside.simulated);
-    if (["absent", "running"].includes(beside.simulation.state)) follow();
+    const comparison = await comparisonApi.read(id);
+    if (isClosed) return;
+    table.replaceChildren(figures(comparison));
+    showState(comparison.simulation);
+    shown(comparison.simulated);
+    if (["absent", "running"].includes(comparison.simulation.state)) follow();
   }
 
   const follow = attempt(async () => {
     clearTimeout(timer);
-    const standing = await comparisonApi.simulate(id);
-    if (isLeft) return;
-    if (standing.state === "done") await refresh();
-    else tell(standing);
-    if (standing.state === "running") timer = setTimeout(follow, POLL_MS);
+    const simulation = await comparisonApi.simulate(id);
+    if (isClosed) return;
+    if (simulation.state === "done") await refresh();
+    else showState(simulation);
+    if (simulation.state === "running") timer = setTimeout(follow, POLL_MS);
   });
 
   again.addEventListener("click", follow);
-  return { element, refresh, leave() { isLeft = true; clearTimeout(timer); } };
+  return { element, refresh, leave() { isClosed = true; clearTimeout(timer); } };
 }

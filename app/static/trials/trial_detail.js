@@ -36,7 +36,7 @@ function iterationTable({ parts }) {
 
 function slipTable({ slip }) {
   return table("Slip of standing feet, cm", "Farthest that each foot slid between its own steps", ["", "largest", "mean"],
-    slip.map((stands, index) => [{ text: `foot ${index + 1}`, foot: index + 1 }, fixed(Math.max(...stands), 2), fixed(stands.reduce((sum, value) => sum + value, 0) / stands.length, 2)]));
+    slip.map((slides, index) => [{ text: `foot ${index + 1}`, foot: index + 1 }, fixed(Math.max(...slides), 2), fixed(slides.reduce((sum, value) => sum + value, 0) / slides.length, 2)]));
 }
 
 function facts(trial) {
@@ -93,9 +93,9 @@ export async function trialDetail(store, id, { all, remove, tracks, video }) {
   const [trial, paths] = await Promise.all([trialApi.read(id), trialApi.paths(id)]);
   const sources = { tracked: paths.track, planned: paths.plan, simulated: null };
   const [head, plots, tail] = ["trial-part", "trial-plots", "trial-part"].map((name) => h("div", { class: name }));
-  const beside = comparisonPart(id, (simulated) => { sources.simulated = simulated; drawPlots(); });
+  const comparison = comparisonPart(id, (simulated) => { sources.simulated = simulated; drawPlots(); });
   const scene = tracks([id]);
-  const note = notePart(async (text) => { if (!await kept.change({ note: text }, "Note kept.")) note.offer(); });
+  const note = notePart(async (text) => { if (!await sync.change({ note: text }, "Note kept.")) note.offer(); });
   let shown = trial;
   let isLate = false;
 
@@ -104,7 +104,7 @@ export async function trialDetail(store, id, { all, remove, tracks, video }) {
     isLate = plots.querySelector("[data-held]") !== null;
     if (isLate) return;
     const moved = async (part, frame) => {
-      if (!await kept.change({ ends: shown.parts.map(({ end }, index) => (index === part ? frame : end)) })) drawPlots();
+      if (!await sync.change({ ends: shown.parts.map(({ end }, index) => (index === part ? frame : end)) })) drawPlots();
     };
     keepingMark(plots, () => plots.replaceChildren(pathPlot(sources), displacementPlot(sources, shown, moved)));
   }
@@ -114,18 +114,18 @@ export async function trialDetail(store, id, { all, remove, tracks, video }) {
     note.show(now.note);
     head.replaceChildren(...[h("button", { class: "link", text: "All trials", on: { click: all } }),
       h("div", { class: "run-line run-title" }, h("b", { text: now.name })), deletedLine(now), facts(now), sourcePart(now, video)].filter(Boolean));
-    tail.replaceChildren(...[endsLine(now, (changes) => kept.change(changes)), beside.element, iterationTable(now),
+    tail.replaceChildren(...[endsLine(now, (changes) => sync.change(changes)), comparison.element, iterationTable(now),
       movementTable("Movement as published", "Largest excursions from the first frame; never negative. Angles on the platform. The planned motion by the same definition", now.figures, now.plan, published),
       movementTable("Movement, first to last", "Last minus first frame; angles on the platform", now.figures, now.plan, net),
       slipTable(now), filesLine(now, remove)].filter(Boolean));
     drawPlots();
-    attempt(beside.refresh)();
+    attempt(comparison.refresh)();
     scene.refresh();
   }
 
   plots.addEventListener("lostpointercapture", () => { if (isLate) drawPlots(); });
   draw(trial);
-  const kept = followTrial(store, trial, draw);
+  const sync = followTrial(store, trial, draw);
   const element = h("div", { class: "run-detail" }, head, note.element, photosPart(id), scene.element, plots, tail);
-  return { element, leave() { kept.leave(); beside.leave(); scene.leave(); } };
+  return { element, leave() { sync.leave(); comparison.leave(); scene.leave(); } };
 }

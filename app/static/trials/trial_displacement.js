@@ -4,19 +4,19 @@ import { h, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { SOURCES, legend, points } from "./trial_plot.js";
 
-const WAY = { width: 276, height: 96, left: 26, right: 6, top: 8, bottom: 16 };
+const FRAME = { width: 276, height: 96, left: 26, right: 6, top: 8, bottom: 16 };
 
 /** The plot's frame with its axes; `toX` takes 0 to `most`. */
 export function displacementFrame([low, high], most, words) {
-  const inner = WAY.width - WAY.left - WAY.right;
-  const toX = (value) => WAY.left + (value / most) * inner;
-  const toY = (value) => WAY.height - WAY.bottom - ((value - low) / (high - low)) * (WAY.height - WAY.top - WAY.bottom);
+  const inner = FRAME.width - FRAME.left - FRAME.right;
+  const toX = (value) => FRAME.left + (value / most) * inner;
+  const toY = (value) => FRAME.height - FRAME.bottom - ((value - low) / (high - low)) * (FRAME.height - FRAME.top - FRAME.bottom);
   const text = (x, y, content, anchor) => { const label = svg("text", { x, y, "text-anchor": anchor }); label.textContent = content; return label; };
-  const drawing = svg("svg", { viewBox: `0 0 ${WAY.width} ${WAY.height}`, class: "feet-ways" },
-    svg("line", { class: "grid", x1: WAY.left, x2: WAY.width - WAY.right, y1: toY(0), y2: toY(0) }),
-    text(WAY.left - 4, toY(high) + 4, fixed(high, 1), "end"), text(WAY.left - 4, toY(0) + 4, "0", "end"),
-    text(WAY.width - WAY.right, WAY.height - 4, words.end, "end"), text(WAY.left, WAY.height - 4, words.begin, "start"));
-  const fromX = (client) => (new DOMPoint(client, 0).matrixTransform(drawing.getScreenCTM().inverse()).x - WAY.left) / inner * most;
+  const drawing = svg("svg", { viewBox: `0 0 ${FRAME.width} ${FRAME.height}`, class: "feet-ways" },
+    svg("line", { class: "grid", x1: FRAME.left, x2: FRAME.width - FRAME.right, y1: toY(0), y2: toY(0) }),
+    text(FRAME.left - 4, toY(high) + 4, fixed(high, 1), "end"), text(FRAME.left - 4, toY(0) + 4, "0", "end"),
+    text(FRAME.width - FRAME.right, FRAME.height - 4, words.end, "end"), text(FRAME.left, FRAME.height - 4, words.begin, "start"));
+  const fromX = (client) => (new DOMPoint(client, 0).matrixTransform(drawing.getScreenCTM().inverse()).x - FRAME.left) / inner * most;
   return { drawing, toX, toY, fromX };
 }
 
@@ -99,17 +99,17 @@ export function displacementPlot(sources, trial, moved) {
   const direction = directionOf(sources.tracked);
   const ends = trial.parts.map(({ end }) => end);
   const drawn = kinds.map((kind) => ({
-    kind, ways: displacementsAlong(sources[kind], direction),
+    kind, displacements: displacementsAlong(sources[kind], direction),
     frames: kind === "tracked" ? sources[kind].frames : sources[kind].shares.map((share) => frameAt(share, ends)),
   }));
-  const all = drawn.flatMap(({ ways }) => ways.flat());
+  const all = drawn.flatMap(({ displacements }) => displacements.flat());
   const range = all.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [0, 0.1]);
   const clock = clockOf(sources.tracked, trial.seconds);
   const words = { begin: "cm over time", end: `${fixed(trial.seconds, 0)} s` };
   const { drawing, toX, toY, fromX } = displacementFrame(range, trial.seconds, words);
   drawing.append(
-    ...drawn.flatMap(({ kind, ways, frames }) => ways.map((way, index) => svg("polyline", { class: `way-${kind}`, "data-foot": index + 1, points: points(frames.map((frame) => toX(clock.timeOf(frame))), way.map(toY)) }))),
-    ...ends.slice(0, -1).map((end, part) => handle({ part, end, frames: trial.frames, rate: trial.frame_rate, clock, toX, fromX, top: WAY.top, bottom: WAY.height - WAY.bottom, moved })));
+    ...drawn.flatMap(({ kind, displacements, frames }) => displacements.map((way, index) => svg("polyline", { class: `way-${kind}`, "data-foot": index + 1, points: points(frames.map((frame) => toX(clock.timeOf(frame))), way.map(toY)) }))),
+    ...ends.slice(0, -1).map((end, part) => handle({ part, end, frames: trial.frames, rate: trial.frame_rate, clock, toX, fromX, top: FRAME.top, bottom: FRAME.height - FRAME.bottom, moved })));
   const help = ends.length > 1 ? "Way of each foot along the tracked direction; drag a mark, or use the arrow keys, to move the end of an iteration" : "Way of each foot along the tracked direction";
   return h("figure", { class: "trial-plot" }, drawing, h("figcaption", { class: "quiet" }, help, kinds.length > 1 && legend([...kinds].reverse())));
 }

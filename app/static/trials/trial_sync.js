@@ -11,14 +11,14 @@ import { trialApi } from "../api/trials.js";
  * @param {(trial: object) => void} shown told of each other state
  * @returns {{change: (changes: object, done?: string) => Promise<boolean>, leave: () => void}} `change` says whether it was kept
  */
-export function followTrial(store, first, shown) {
+export function followTrial(store, first, onChange) {
   const { id } = first;
-  let [now, last, isLeft] = [first, Promise.resolve(), false];
+  let [now, last, isClosed] = [first, Promise.resolve(), false];
 
   function take(trial) {
-    if (isLeft || trial.revision < now.revision) return;
+    if (isClosed || trial.revision < now.revision) return;
     now = trial;
-    shown(now);
+    onChange(now);
   }
 
   async function refused(error) {
@@ -45,14 +45,14 @@ export function followTrial(store, first, shown) {
     return last;
   }
 
-  async function look() {
-    const told = store.state.trialChanges[id];
-    if (isLeft || (told && told.revision <= now.revision && told.deleted === now.deleted)) return;
+  async function refresh() {
+    const change = store.state.trialChanges[id];
+    if (isClosed || (change && change.revision <= now.revision && change.deleted === now.deleted)) return;
     take(await trialApi.read(id).catch((error) => { report(error); return now; }));
   }
 
   const forget = store.watch(({ trialChanges, connected }) => [trialChanges[id], connected], ({ trialChanges, connected }) => {
-    if (connected && trialChanges[id]) enqueue(look);
+    if (connected && trialChanges[id]) enqueue(refresh);
   });
-  return { change: (changes, done = "") => enqueue(() => send(changes, done)), leave() { isLeft = true; forget(); } };
+  return { change: (changes, done = "") => enqueue(() => send(changes, done)), leave() { isClosed = true; forget(); } };
 }

@@ -1,7 +1,8 @@
 /** A camera's live picture in a corner of the 3D scene, so that the robot is seen while it walks. */
 
+import { clamp } from "../lib/clamp.js";
 import { cameraTone, cameraLabel } from "./camera_labels.js";
-import { remember } from "../lib/check_menu.js";
+import { remember, remembered } from "../lib/remembered.js";
 import { byId, h, icon, setText } from "../lib/dom.js";
 import { streamOf } from "../api/videos.js";
 import "../pictures/picture_style.js";
@@ -13,26 +14,22 @@ const LEAST_PX = 96;
 
 let open = null;
 
-/** Place and width as they were left, px; without them the style's. */
-function recalled() {
-  try {
-    const { x, y, width } = JSON.parse(localStorage.getItem(`footfall.${KEY}`) ?? "{}");
-    return [x, y, width].map((value) => (Number.isFinite(value) ? value : null));
-  } catch {
-    return [null, null, null];
-  }
+/** Place and width as they were left, px; null where the style's hold. */
+function recalledPlace() {
+  const { x, y, width } = remembered(KEY);
+  return [x, y, width].map((value) => (Number.isFinite(value) ? value : null));
 }
 
 /** Moves the picture within the stage by its title, dragged or by arrow keys, and makes it larger by its corner; both are kept. */
 function movable(element, title) {
-  const [keptX, keptY, width] = recalled();
+  const [keptX, keptY, width] = recalledPlace();
   let [x, y, held] = [keptX ?? 0, keptY ?? 0, null];
   if (width !== null) element.style.width = `${width}px`;
   const put = () => remember(KEY, { x, y, width: element.style.width ? element.offsetWidth : null });
   const place = (nextX, nextY) => {
     const [stage, { offsetLeft, offsetTop, offsetWidth, offsetHeight }] = [element.parentElement, element];
-    x = Math.min(Math.max(nextX, -offsetLeft), stage.clientWidth - offsetLeft - offsetWidth);
-    y = Math.min(Math.max(nextY, -offsetTop), stage.clientHeight - offsetTop - offsetHeight);
+    x = clamp(nextX, -offsetLeft, stage.clientWidth - offsetLeft - offsetWidth);
+    y = clamp(nextY, -offsetTop, stage.clientHeight - offsetTop - offsetHeight);
     element.style.transform = `translate(${x}px, ${y}px)`;
   };
   title.addEventListener("pointerdown", (event) => {

@@ -1,6 +1,6 @@
 /** A rectangle of the timeline: `{feet: [first, last], samples: [first, last]}`, 0-based, both ends included. */
 
-const held = (value, count) => Math.min(Math.max(value, 0), count - 1);
+import { clamp } from "../lib/clamp.js";
 
 const sizeOf = ({ timeline }) => [timeline.feet.length, timeline.feet[0].length];
 
@@ -20,8 +20,8 @@ export const spanning = ([foot, sample], [otherFoot, otherSample]) => ({
 export function within(document, region) {
   const [feet, samples] = sizeOf(document);
   if (!region || region.feet[0] >= feet || region.samples[0] >= samples) return null;
-  const heldIn = ([first, last], count) => [held(first, count), held(last, count)];
-  return { feet: heldIn(region.feet, feet), samples: heldIn(region.samples, samples) };
+  const clamped = (range, count) => range.map((value) => clamp(value, 0, count - 1));
+  return { feet: clamped(region.feet, feet), samples: clamped(region.samples, samples) };
 }
 
 export const lengthOf = ({ samples: [first, last] }) => last - first + 1;

@@ -71,22 +71,3 @@ export function checkMenu({ id, name, help, entries, onChange }) {
     },
   };
 }
-
-/** What was chosen before in this browser: `key` to true or false, over the defaults. */
-export function recalled(name, defaults) {
-  try {
-    const kept = JSON.parse(localStorage.getItem(`footfall.${name}`) ?? "{}");
-    return Object.fromEntries(Object.entries(defaults).map(([key, value]) => [key, typeof kept[key] === "boolean" ? kept[key] : value]));
-  } catch {
-    return { ...defaults };
-  }
-}
-
-/** Keeps a choice for the next time; a browser that keeps nothing does no harm. */
-export function remember(name, choice) {
-  try {
-    localStorage.setItem(`footfall.${name}`, JSON.stringify(choice));
-  } catch {
-    // Private windows may refuse: the choice then lasts as long as the page.
-  }
-}

@@ -1,6 +1,6 @@
 /** Drawing what one wants into a pattern: a click, a drag or a key fixes cells; the search finds the others anew. */
 
-import { cellOf } from "../timeline/cells.js";
+import { cellOf, nearestCell } from "../timeline/cells.js";
 import { drawnCells, withCells } from "./pattern_problem.js";
 import { announce, toast } from "../lib/toasts.js";
 
@@ -10,12 +10,11 @@ const REFUSALS = {
   given: "This cell is fixed by the drawing. Unlock it on the timeline.",
 };
 
-const held = (value, count) => Math.min(Math.max(Math.floor(value), 0), count - 1);
-
 /** Turns places on the screen into cells; measured once a drag. */
 function finder(lines) {
   const [first, last] = [lines[0], lines.at(-1)].map(({ strip }) => strip.parentElement.getBoundingClientRect());
-  return (x, y) => [held(((y - first.top) / (last.bottom - first.top)) * lines.length, lines.length), held(((x - first.left) / first.width) * lines[0].cells.length, lines[0].cells.length)];
+  const samples = lines[0].cells.length;
+  return (x, y) => nearestCell([Math.floor(((y - first.top) / (last.bottom - first.top)) * lines.length), Math.floor(((x - first.left) / first.width) * samples)], lines.length, samples);
 }
 
 /**

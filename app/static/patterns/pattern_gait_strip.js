@@ -1,5 +1,6 @@
 /** A gait above or below the transition: its timeline in small, and a cursor that chooses a sample of it. */
 
+import { clamp } from "../lib/clamp.js";
 import { h, setAttribute, setText, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 
@@ -28,8 +29,6 @@ export function stateText(feet, sample) {
   return `${standing.length ? one(standing, "stand") : "no foot stands"}, ${one(swinging, "swing")}`;
 }
 
-const clamp = (sample, count) => Math.min(Math.max(sample, 0), count - 1);
-
 /**
  * Builds a gait's part.
  * @param {{side: "from"|"to", name: string, help: string, choose: (gait: string) => void, move: (sample: number) => void}} options
@@ -47,7 +46,7 @@ export function patternGaitStrip({ side, name, help, choose, move }) {
     h("div", { class: "pattern-row" }, h("span", { class: "quiet pattern-side", text: side === "from" ? "from here" : "to here" }), strip));
   let [drawn, count, at] = [null, 1, 0];
 
-  const go = (sample) => { if (clamp(sample, count) !== at) move(clamp(sample, count)); };
+  const go = (sample) => { const next = clamp(sample, 0, count - 1); if (next !== at) move(next); };
   const sampleAt = (event) => {
     const box = strip.getBoundingClientRect();
     return Math.floor(((event.clientX - box.left) / box.width) * count);
@@ -78,7 +77,7 @@ export function patternGaitStrip({ side, name, help, choose, move }) {
     element.toggleAttribute("data-empty", !document);
     if (!document) return;
     const { feet, sample_time: step } = document.timeline;
-    [count, at] = [feet[0].length, clamp(sample, feet[0].length)];
+    [count, at] = [feet[0].length, clamp(sample, 0, feet[0].length - 1)];
     const key = JSON.stringify([feet, document.timeline.locked, document.held]);
     if (drawn !== key) {
       drawn = key;

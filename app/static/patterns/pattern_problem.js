@@ -1,8 +1,9 @@
 /** What is asked of the pattern search: gaits, cursors, limbs, rules and drawn cells. Kept in this browser. */
 
+import { recalled, remember } from "../lib/remembered.js";
 import { watchable } from "../state/store.js";
 
-const KEY = "footfall.patterns";
+const KEY = "patterns";
 
 /** The rules in plain words, with the thesis's own number; `scale` from what a person types to SI. */
 export const RULES = [
@@ -44,31 +45,16 @@ const INITIAL = Object.freeze({
 });
 
 /** What else the panel knows and does not keep. */
-const FLEETING = Object.freeze({ freed: {}, result: null, running: null, error: null, chosen: 0, hovered: null, waiting: false, documents: Object.freeze({}) });
+const TRANSIENT = Object.freeze({ freed: {}, result: null, running: null, error: null, chosen: 0, hovered: null, waiting: false, documents: Object.freeze({}) });
 
-function recalled() {
-  try {
-    const kept = JSON.parse(localStorage.getItem(KEY) ?? "{}");
-    return Object.fromEntries(Object.entries(INITIAL).map(([name, value]) => [name, typeof kept[name] === typeof value ? kept[name] : value]));
-  } catch {
-    return { ...INITIAL };
-  }
-}
-
-function keep(state) {
-  try {
-    localStorage.setItem(KEY, JSON.stringify(Object.fromEntries(Object.keys(INITIAL).map((name) => [name, state[name]]))));
-  } catch {
-    return;
-  }
-}
+const keep = (state) => remember(KEY, Object.fromEntries(Object.keys(INITIAL).map((name) => [name, state[name]])));
 
 /** The parts of the state that make another question; a change of one of them is asked again. */
 export const problemParts = (state) => Object.keys(INITIAL).map((name) => state[name]).concat([state.freed]);
 
 /** Creates the state of the panel, which is watched like the page's store. */
 export function createProblem() {
-  const problem = watchable({ ...recalled(), ...FLEETING });
+  const problem = watchable({ ...recalled(KEY, INITIAL), ...TRANSIENT });
   problem.watch(problemParts, keep);
   return problem;
 }

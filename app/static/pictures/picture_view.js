@@ -1,5 +1,6 @@
 /** A picture to look closely at: zoomed by wheel, buttons and keys, moved by dragging, with drawings over it. */
 
+import { clamp } from "../lib/clamp.js";
 import { h, icon, svg } from "../lib/dom.js";
 
 const CLOSEST = 24;
@@ -7,8 +8,6 @@ const WHEEL = 0.0015;
 const STEP = 1.4;
 const CLICK_PX = 4;
 const PAN_PX = 48;
-
-const between = (value, least, most) => Math.min(Math.max(value, least), most);
 
 /** The scale and place of a picture in its frame; `x`, `y` is where the picture's corner lies, screen px. */
 function createView() {
@@ -23,15 +22,15 @@ function createView() {
     },
     /** Zooms so that the place under the pointer stays there. */
     zoom(factor, at, least) {
-      const scale = between(view.scale * factor, least, CLOSEST);
+      const scale = clamp(view.scale * factor, least, CLOSEST);
       view.x = at.x - ((at.x - view.x) * scale) / view.scale;
       view.y = at.y - ((at.y - view.y) * scale) / view.scale;
       view.scale = scale;
       view.fitted = false;
     },
     move(dx, dy, frame, size) {
-      view.x = between(view.x + dx, 40 - size.width * view.scale, frame.width - 40);
-      view.y = between(view.y + dy, 40 - size.height * view.scale, frame.height - 40);
+      view.x = clamp(view.x + dx, 40 - size.width * view.scale, frame.width - 40);
+      view.y = clamp(view.y + dy, 40 - size.height * view.scale, frame.height - 40);
       view.fitted = false;
     },
   };
@@ -176,7 +175,7 @@ export function pictureView(name) {
     /** Brings a place into the frame where it is outside. */
     reveal(place) {
       const [[x, y], { width, height }] = [toScreen(place), bounds()];
-      panned(between(x, 30, width - 30) - x, between(y, 30, height - 30) - y);
+      panned(clamp(x, 30, width - 30) - x, clamp(y, 30, height - 30) - y);
     },
   };
 }

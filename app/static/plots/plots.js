@@ -1,7 +1,8 @@
 /** Strip plots under the timeline, on its time axis: which are shown, their curves, and the figures under the pointer. */
 
 import { axisKey, axisOf, timeAt } from "../state/time_axis.js";
-import { checkMenu, recalled, remember } from "../lib/check_menu.js";
+import { checkMenu } from "../lib/check_menu.js";
+import { recalled, remember } from "../lib/remembered.js";
 import { HEIGHT, WIDTH, acrossOf, indexAt, pathOf, rangeOf, scaleOf } from "./curves.js";
 import { byId, h, setText, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";

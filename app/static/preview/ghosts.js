@@ -1,7 +1,8 @@
 /** The ghosts of the 3D preview: the gait before the last edit, as it was saved, as a run measured it and as physics has it, as quiet second robots. */
 
 import { api } from "../api/gaits.js";
-import { checkMenu, recalled, remember } from "../lib/check_menu.js";
+import { checkMenu } from "../lib/check_menu.js";
+import { recalled, remember } from "../lib/remembered.js";
 import { byId } from "../lib/dom.js";
 import { latestOnly } from "../lib/latest_only.js";
 import { simulationOver } from "../plots/simulation.js";

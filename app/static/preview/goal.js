@@ -3,6 +3,7 @@
  * The live plan follows; letting go makes one edit.
  */
 
+import { clamp } from "../lib/clamp.js";
 import { byId, h, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { shownDocument, shownPlan } from "../state/store.js";
@@ -169,7 +170,6 @@ function stepDrag(edits, preview) {
 }
 
 function turnDrag(edits, preview, goal) {
-  const held = (degrees) => Math.min(Math.max(degrees, -MOST_TURN), MOST_TURN);
   const angleAt = (pointer) => {
     const at = floorOf(preview)?.ofPointer(pointer);
     const { x, y } = goal();
@@ -185,13 +185,13 @@ function turnDrag(edits, preview, goal) {
       const now = angleAt(pointer);
       if (now === null) return null;
       const moved = ((now - angle + 540) % 360) - 180;
-      const next = held(turn + moved / iterations);
+      const next = clamp(turn + moved / iterations, -MOST_TURN, MOST_TURN);
       return (document) => withTurn(document, free ? next : snapped(next, TURN_SNAP));
     },
     key({ key, shiftKey }) {
       const way = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[key];
       if (!way) return null;
-      const next = held(stepTurn(edits.shown()) + way * TURN_SNAP * (shiftKey ? 10 : 1));
+      const next = clamp(stepTurn(edits.shown()) + way * TURN_SNAP * (shiftKey ? 10 : 1), -MOST_TURN, MOST_TURN);
       return (document) => withTurn(document, next);
     },
   };

@@ -23,10 +23,10 @@
  *   "end"    the playhead reached the end without a loop; "state" follows.
  */
 
-const SLOWEST = 0.1;
-const FASTEST = 10;
+import { clamp } from "../lib/clamp.js";
 
-const held = (value, low, high) => Math.min(Math.max(value, low), high);
+export const SLOWEST = 0.1;
+export const FASTEST = 10;
 
 export class Playback extends EventTarget {
   #time = 0;
@@ -119,7 +119,7 @@ export class Playback extends EventTarget {
 
   setSpeed(factor) {
     if (this.#playing) this.#advance();
-    this.#speed = held(Number.isFinite(factor) ? factor : 1, SLOWEST, FASTEST);
+    this.#speed = clamp(Number.isFinite(factor) ? factor : 1, SLOWEST, FASTEST);
     this.#announce("state", "speed");
     return this.#speed;
   }
@@ -136,8 +136,8 @@ export class Playback extends EventTarget {
   }
 
   #loopWithin([start, end]) {
-    const low = held(Math.min(start, end), 0, this.#duration);
-    const high = held(Math.max(start, end), 0, this.#duration);
+    const low = clamp(Math.min(start, end), 0, this.#duration);
+    const high = clamp(Math.max(start, end), 0, this.#duration);
     return high - low > 1e-6 ? [low, high] : [0, this.#duration];
   }
 
@@ -165,7 +165,7 @@ export class Playback extends EventTarget {
   }
 
   #moveTo(seconds, cause) {
-    const time = held(Number.isFinite(seconds) ? seconds : 0, 0, this.#duration);
+    const time = clamp(Number.isFinite(seconds) ? seconds : 0, 0, this.#duration);
     if (time === this.#time && cause !== "plan") return;
     this.#time = time;
     this.#announce("time", cause);

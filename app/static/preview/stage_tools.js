@@ -1,7 +1,8 @@
 /** The tools over the 3D preview: camera, fit, and the menu of what is shown. */
 
 import { api } from "../api/gaits.js";
-import { checkMenu, recalled, remember } from "../lib/check_menu.js";
+import { checkMenu } from "../lib/check_menu.js";
+import { recalled, remember } from "../lib/remembered.js";
 import { byId } from "../lib/dom.js";
 import { latestOnly } from "../lib/latest_only.js";
 import { shownDocument, shownPlan } from "../state/store.js";

@@ -1,5 +1,6 @@
 /** The 12 measured strokes as bars in the feet's colours, with a mark where the waypoint wants each motor. */
 
+import { clamp } from "../lib/clamp.js";
 import { h, setText } from "../lib/dom.js";
 import { MOTORS, fixed } from "../lib/format.js";
 
@@ -28,9 +29,9 @@ export function strokeBars(feet = 4) {
         const value = measured?.[index] ?? null;
         const wanted = commanded?.[index] ?? null;
         setText(bar.number, fixed(value));
-        bar.fill.style.transform = `scaleX(${Math.min(Math.max((value ?? 0) / STROKE_MM, 0), 1)})`;
+        bar.fill.style.transform = `scaleX(${clamp((value ?? 0) / STROKE_MM, 0, 1)})`;
         bar.wanted.hidden = wanted === null;
-        if (wanted !== null) bar.wanted.style.left = `calc(${Math.min(Math.max(wanted / STROKE_MM, 0), 1) * 100}% - 1px)`;
+        if (wanted !== null) bar.wanted.style.left = `calc(${clamp(wanted / STROKE_MM, 0, 1) * 100}% - 1px)`;
         bar.element.title = wanted === null ? "Measured, mm" : `Measured ${fixed(value)} mm, wanted ${fixed(wanted)} mm`;
       });
     },

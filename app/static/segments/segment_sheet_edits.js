@@ -1,6 +1,6 @@
 /** Changes of the segment table: each gives `{change, label, kept, moved}` (see `commit`), `change` from sheet to sheet, or `{reason}`. */
 
-import { MOST_SAMPLES } from "../document/operations.js";
+import { clamp } from "../lib/clamp.js";
 import { errorSentence, errorsOf, placeAfter, placeBefore, rowName, waitAt, walked } from "../document/segment_sheet.js";
 
 const plural = (count, word) => `${count} ${word}${count > 1 ? "s" : ""}`;
@@ -99,8 +99,6 @@ export function insertRow(sheet, after, inLink = false) {
   return { change, moved, label: after < 0 ? "Insert a segment at the beginning" : `Insert ${inLink && after < sheet.count ? `before ${rowName(sheet, after + 1)}` : `after ${rowName(sheet, after)}`}`, kept: [] };
 }
 
-const within = (value, least, most) => Math.min(Math.max(value, least), most);
-
 /** The sheet without some rows; the repeating part shrinks with them. */
 export function removeRows(sheet, [first, last]) {
   const lastRow = Math.min(last, sheet.count - 1);
@@ -110,8 +108,8 @@ export function removeRows(sheet, [first, last]) {
     const rows = now.rows.filter((_, row) => row < first || row > last);
     const count = now.count - inTable;
     const gone = (bound) => Math.max(0, Math.min(bound, lastRow + 1) - first);
-    const from = within(now.from - gone(now.from - 1), 1, count);
-    return { ...now, rows, count, from, to: within(now.to - gone(now.to), from, count) };
+    const from = clamp(now.from - gone(now.from - 1), 1, count);
+    return { ...now, rows, count, from, to: clamp(now.to - gone(now.to), from, count) };
   };
   const moved = ([row, foot]) => (row < first ? [row, foot] : row > last ? [row - (last - first + 1), foot] : null);
   return { change, moved, label: first === last ? `Remove ${rowName(sheet, first)}` : `Remove ${rowName(sheet, first)} to ${rowName(sheet, last)}`, kept: [] };

@@ -3,6 +3,7 @@
  * selected segments.
  */
 
+import { clamp } from "../lib/clamp.js";
 import { openSegmentChooser } from "./segment_sheet_chooser.js";
 import { addLinkRow, fillDown, insertRow, paste, removeRows, setName, setWaits } from "./segment_sheet_edits.js";
 import { commit, shownSegmentSheet } from "../state/segment_draft.js";
@@ -11,7 +12,7 @@ import { namesFrom, textOf } from "./segment_sheet_text.js";
 import { announce, toast } from "../lib/toasts.js";
 
 const ordered = (a, b) => [Math.min(a, b), Math.max(a, b)];
-const held = (value, most) => Math.min(Math.max(value, 0), most);
+const nearest = ({ rows, legs }, [row, foot]) => [clamp(row, 0, rows.length - 1), clamp(foot, 0, legs - 1)];
 
 /**
  * @param {object} store
@@ -32,7 +33,7 @@ export function mountSegmentSheetInput(store, edits, grid, cells) {
   function show() {
     const now = sheet();
     if (!now) return;
-    [anchor, head] = [anchor, head].map(([row, foot]) => [held(row, now.rows.length - 1), held(foot, now.legs - 1)]);
+    [anchor, head] = [anchor, head].map((place) => nearest(now, place));
     cells.select(range());
     grid.querySelector('[tabindex="0"]')?.setAttribute("tabindex", "-1");
     cells.cell(head)?.setAttribute("tabindex", "0");
@@ -79,7 +80,7 @@ export function mountSegmentSheetInput(store, edits, grid, cells) {
       const { rows } = range();
       const outcome = removeRows(sheet(), rows);
       run(outcome);
-      if (!outcome.reason) go([held(rows[0], sheet().rows.length - 1), head[1]]);
+      if (!outcome.reason) go(nearest(sheet(), [rows[0], head[1]]));
     },
   };
 
@@ -92,8 +93,7 @@ export function mountSegmentSheetInput(store, edits, grid, cells) {
       text,
       choose(name, way) {
         run(setName(sheet(), chosen, name));
-        const to = next[way] ?? place;
-        go([held(to[0], sheet().rows.length - 1), held(to[1], sheet().legs - 1)]);
+        go(nearest(sheet(), next[way] ?? place));
       },
       close(keepsFocus) {
         chooser = null;
@@ -128,7 +128,7 @@ export function mountSegmentSheetInput(store, edits, grid, cells) {
   function press(event) {
     if (!sheet() || !cells.placeOf(event.target)) return;
     const goal = goalOf(event);
-    const act = goal ? () => go([held(goal[0], sheet().rows.length - 1), held(goal[1], sheet().legs - 1)], event.shiftKey) : commandOf(event);
+    const act = goal ? () => go(nearest(sheet(), goal), event.shiftKey) : commandOf(event);
     if (!act) return;
     event.preventDefault();
     act();

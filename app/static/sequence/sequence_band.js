@@ -1,16 +1,15 @@
 /** The band between ruler and timeline that names the parts of a sequence, and their borders through the rows. */
 
+import { clamp } from "../lib/clamp.js";
 import { axisKey, axisOf, columnFraction } from "../state/time_axis.js";
 import { byId, h, setAttribute } from "../lib/dom.js";
 import { isSequence } from "../document/sequence_edits.js";
 import { figuresOf } from "./sequence_row.js";
 import { shownDocument, shownPlan } from "../state/store.js";
 
-const held = (fraction) => Math.min(Math.max(fraction, 0), 1);
-
 /** A sample's moment is the middle of its column, and two parts share the sample where they meet. */
 function placeOf(axis, { first, last }) {
-  const [from, to] = [first, last].map((sample) => held(columnFraction(axis, sample + 0.5)));
+  const [from, to] = [first, last].map((sample) => clamp(columnFraction(axis, sample + 0.5), 0, 1));
   return { left: `${100 * from}%`, width: `${100 * (to - from)}%`, seen: to > from };
 }
 

@@ -3,7 +3,8 @@
  * grow and shrink with it; where they cannot shrink further, the part scrolls. Remembered in this browser.
  */
 
-import { remember } from "../lib/check_menu.js";
+import { clamp } from "../lib/clamp.js";
+import { remember, remembered } from "../lib/remembered.js";
 import { byId, h, setAttribute } from "../lib/dom.js";
 
 const KEY = "lower";
@@ -15,17 +16,12 @@ const LEAST_STAGE_PX = 220;
 const [LEAST_SCALE, MOST_SCALE] = [0.8, 3];
 const HELP = "Drag it, or use Up and Down; Home and End for the smallest and largest, double click or Enter for the usual height";
 
-const held = (value, least, most) => Math.min(Math.max(value, least), Math.max(least, most));
-const most = () => window.innerHeight - byId("stop").closest("header").offsetHeight - LEAST_STAGE_PX;
+const most = () => Math.max(LEAST_PX, window.innerHeight - byId("stop").closest("header").offsetHeight - LEAST_STAGE_PX);
 
 /** The height that was chosen before in this browser, or null. */
 function recalledHeight() {
-  try {
-    const { height } = JSON.parse(localStorage.getItem(`footfall.${KEY}`) ?? "{}");
-    return Number.isFinite(height) ? height : null;
-  } catch {
-    return null;
-  }
+  const { height } = remembered(KEY);
+  return Number.isFinite(height) ? height : null;
 }
 
 /** Height of what grows: the rows of feet and the plots. */
@@ -41,12 +37,12 @@ function apply(lower, height) {
   if (!natural) return;
   const [above, chart] = [byId("chart").offsetTop, byId("chart").scrollHeight];
   const fixed = above + chart + parseFloat(getComputedStyle(lower).paddingBottom) + BORDER_PX - natural;
-  const wanted = height === null ? 1 : (scale * (held(height, LEAST_PX, most()) - fixed)) / natural;
-  const next = held(wanted, LEAST_SCALE, MOST_SCALE);
+  const wanted = height === null ? 1 : (scale * (clamp(height, LEAST_PX, most()) - fixed)) / natural;
+  const next = clamp(wanted, LEAST_SCALE, MOST_SCALE);
   if (Math.abs(next - scale) > 0.003) lower.style.setProperty("--scale", next.toFixed(4));
   const scrolls = height !== null && wanted < LEAST_SCALE;
   lower.toggleAttribute("data-scrolls", scrolls);
-  lower.style.height = scrolls ? `${held(height, LEAST_PX, most())}px` : "";
+  lower.style.height = scrolls ? `${clamp(height, LEAST_PX, most())}px` : "";
   // What lies over the chart, such as the playhead, goes down to its end.
   byId("overlay").style.height = scrolls ? `${byId("chart").scrollHeight}px` : "";
 }
@@ -89,7 +85,7 @@ export function mountSplitter() {
     showHeight(edge, lower);
   };
   const setTo = (next) => {
-    height = next === null ? null : held(next, LEAST_PX, most());
+    height = next === null ? null : clamp(next, LEAST_PX, most());
     show();
   };
   const keep = () => remember(KEY, { height });

@@ -3,6 +3,7 @@
  * and choices. While a number changes the document is shown changed, and one edit is made at the end.
  */
 
+import { clamp } from "../lib/clamp.js";
 import { h } from "../lib/dom.js";
 import { refusalOf, wholeNumber } from "../lib/field_error.js";
 
@@ -94,7 +95,7 @@ function mountTyping(input, change, field, text, { edits, refusal }) {
     } else if (way && !event.ctrlKey && !event.altKey) {
       event.preventDefault();
       const { value } = judged(input, field);
-      const next = Math.min(Math.max((value ?? field.fallback ?? field.min) + way * field.step * (event.shiftKey ? 10 : 1), field.min), field.max);
+      const next = clamp((value ?? field.fallback ?? field.min) + way * field.step * (event.shiftKey ? 10 : 1), field.min, field.max);
       input.value = textOf(next, field.decimals);
       refusal.setError(null);
       change.show(Number(input.value));
@@ -120,7 +121,7 @@ function mountDragging(handle, input, change, field, current) {
     const steps = Math.round((event.clientX - drag.x) / PIXELS_A_STEP);
     if (!steps && !drag.moved) return;
     drag.moved = true;
-    const next = Number(Math.min(Math.max(drag.from + steps * field.step, field.min), field.max).toFixed(field.decimals));
+    const next = Number(clamp(drag.from + steps * field.step, field.min, field.max).toFixed(field.decimals));
     input.value = textOf(next, field.decimals);
     change.show(next);
   });

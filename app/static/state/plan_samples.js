@@ -1,5 +1,7 @@
 /** Figures of a plan as a whole, and where on it the robot is. */
 
+import { clamp } from "../lib/clamp.js";
+
 const finite = (values) => values.filter((value) => value !== null && Number.isFinite(value));
 
 /** Smallest margin (m), least and greatest stroke (mm) of a plan, null where it has none. */
@@ -23,7 +25,7 @@ export function robotTime(robot, view) {
   if (run.phase === "ended" && !["done", "stopped", "fault"].includes(robot.robot)) return null;
   if (typeof run.plan_time === "number") return run.plan_time;
   const times = plan.waypoint_times ?? [];
-  return times[Math.min(Math.max(run.reached - 1, 0), times.length - 1)] ?? null;
+  return times[clamp(run.reached - 1, 0, times.length - 1)] ?? null;
 }
 
 /** The strokes asked for by the waypoint sent last, mm, where they can be known. */
@@ -33,5 +35,5 @@ export function commandedStrokes(robot, view) {
   const plan = view?.plan;
   if (!run || run.phase !== "streaming" || !plan?.waypoint_strokes_mm?.length) return null;
   if (run.waypoints_hash !== plan.waypoints_hash) return null;
-  return plan.waypoint_strokes_mm[Math.min(Math.max(run.sent - 1, 0), run.count - 1)] ?? null;
+  return plan.waypoint_strokes_mm[clamp(run.sent - 1, 0, run.count - 1)] ?? null;
 }

@@ -5,12 +5,11 @@
  * through `axisOf`, `fractionAt` and `timeAt`, and draws anew when `axisKey` changes: then it follows zoom and preview.
  */
 
+import { clamp } from "../lib/clamp.js";
 import { previewedDocument, shownPlan } from "./store.js";
 
 /** Fewest columns that a zoomed window shows. */
 export const LEAST_SHOWN = 8;
-
-const held = (value, low, high) => Math.min(Math.max(value, low), high);
 
 /**
  * @param {object} state of the store
@@ -23,8 +22,8 @@ export function axisOf(state) {
   const samples = document?.timeline.feet[0]?.length ?? 0;
   const planEnd = shownPlan(state)?.times?.at(-1) ?? 0;
   const columns = Math.max(samples, Math.round(planEnd / step) + 1, 1);
-  const shown = held(state.zoom?.shown ?? columns, Math.min(LEAST_SHOWN, columns), columns);
-  const first = held(state.zoom?.first ?? 0, 0, columns - shown);
+  const shown = clamp(state.zoom?.shown ?? columns, Math.min(LEAST_SHOWN, columns), columns);
+  const first = clamp(state.zoom?.first ?? 0, 0, columns - shown);
   return { samples, columns, step, duration: planEnd || Math.max(0, samples - 1) * step, first, shown };
 }
 
@@ -43,7 +42,7 @@ export const columnFraction = (axis, column) => (column - axis.first) / axis.sho
 /** The moment at a place on the shown window, held inside the duration. */
 export function timeAt(axis, fraction) {
   const time = (axis.first + fraction * axis.shown - 0.5) * axis.step;
-  return held(time, 0, axis.duration);
+  return clamp(time, 0, axis.duration);
 }
 
 /** Seconds between labels so that they stay at least `least` pixels apart. */

@@ -1,11 +1,10 @@
 /** Cells of the footfall grid: which one an element or a place on the screen is, and which one holds the focus. */
 
+import { clamp } from "../lib/clamp.js";
 import { axisOf } from "../state/time_axis.js";
 
-const held = (value, count) => Math.min(Math.max(value, 0), count - 1);
-
 /** The nearest cell on a timeline. */
-export const clamped = ([foot, sample], { feet }) => [held(foot, feet.length), held(sample, feet[0].length)];
+export const nearestCell = ([foot, sample], feet, samples) => [clamp(foot, 0, feet - 1), clamp(sample, 0, samples - 1)];
 
 /** The cell that an element belongs to, as [foot, sample], or null. */
 export const cellOf = (target) => {
@@ -16,14 +15,14 @@ export const cellOf = (target) => {
 /** The cell under the focus: one of all cells is reached by Tab, the arrows move on from there. */
 export function rovingFocus(rows, reveal) {
   let place = [0, 0];
-  function move([foot, sample]) {
+  function move(cell) {
     const parts = rows();
-    const next = [held(foot, parts.length), held(sample, parts[0].cells.length)];
+    const next = nearestCell(cell, parts.length, parts[0].cells.length);
     parts[place[0]]?.cells[place[1]]?.setAttribute("tabindex", "-1");
     place = next;
-    const cell = parts[next[0]].cells[next[1]];
-    cell.setAttribute("tabindex", "0");
-    return cell;
+    const element = parts[next[0]].cells[next[1]];
+    element.setAttribute("tabindex", "0");
+    return element;
   }
   return {
     move,
@@ -45,7 +44,7 @@ export function cellFinder(store, rows) {
     const axis = axisOf(store.state);
     const foot = Math.floor(((y - first.top) / (last.bottom - first.top)) * parts.length);
     const sample = Math.floor(axis.first + ((x - first.left) / first.width) * axis.shown);
-    return [held(foot, parts.length), held(sample, axis.samples)];
+    return nearestCell([foot, sample], parts.length, axis.samples);
   };
 }
 

@@ -21,7 +21,7 @@ function showNote(store, edits) {
 }
 
 /** Gives back what a function made of a value the last time, as long as the value is the same. */
-function remembered(make) {
+function memoised(make) {
   let last = [];
   return (value) => {
     if (last.length === 0 || !Object.is(last[0], value)) last = [value, make(value)];
@@ -33,7 +33,7 @@ function remembered(make) {
 export function mountTimeline(store, edits, playback, reveal) {
   const grid = byId("timeline");
   const marks = h("div", { class: "timeline-marks", "aria-hidden": "true" });
-  const [findingsOf, missingOf] = [remembered(findingsByCell), remembered(missingMotionByCell)];
+  const [findingsOf, missingOf] = [memoised(findingsByCell), memoised(missingMotionByCell)];
   let parts = [];
   const input = mountTimelineInput(store, edits, grid, () => parts, reveal);
 

@@ -7,7 +7,7 @@
  */
 
 import { axisOf } from "../state/time_axis.js";
-import { cellFinder, cellOf, clamped, nextBorder, rovingFocus } from "./cells.js";
+import { cellFinder, cellOf, nearestCell, nextBorder, rovingFocus } from "./cells.js";
 import { carrying, isLocked, locking, lockRegion, moving, painting, selecting, reportLocked } from "./drags.js";
 import { spanning, regionText } from "../document/region.js";
 import { createSelecting, isSelected } from "../state/selection.js";
@@ -156,7 +156,7 @@ export function mountTimelineInput(store, edits, grid, rows, reveal) {
     const head = event.shiftKey ? (selection.head() ?? here) : here;
     const goal = goalOf(event, head);
     const does = goal === null ? act(event, here) : event.shiftKey
-      ? () => extendTo(clamped(goal, document().timeline), here)
+      ? () => extendTo(nearestCell(goal, document().timeline.feet.length, document().timeline.feet[0].length), here)
       : () => { selection.clear(); delete grid.dataset.pointed; roving.focus(goal); };
     if (!does) return;
     does();

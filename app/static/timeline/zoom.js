@@ -4,6 +4,7 @@
  * The window is the store's field `zoom` ({first, shown} in columns, null for all); `axisOf` keeps it on the timeline.
  */
 
+import { clamp } from "../lib/clamp.js";
 import { axisOf, fractionAt, LEAST_SHOWN } from "../state/time_axis.js";
 import { byId, h, setAttribute } from "../lib/dom.js";
 
@@ -15,8 +16,8 @@ export function createZoom(store) {
   const axis = () => axisOf(store.state);
   const show = (first, shown) => {
     const { columns } = axis();
-    const width = Math.min(Math.max(shown, Math.min(LEAST_SHOWN, columns)), columns);
-    const zoom = width >= columns - 1e-6 ? null : { first: Math.min(Math.max(first, 0), columns - width), shown: width };
+    const width = clamp(shown, Math.min(LEAST_SHOWN, columns), columns);
+    const zoom = width >= columns - 1e-6 ? null : { first: clamp(first, 0, columns - width), shown: width };
     const before = store.state.zoom;
     if (zoom?.first !== before?.first || zoom?.shown !== before?.shown) store.set({ zoom });
   };
@@ -24,7 +25,7 @@ export function createZoom(store) {
     /** Shows more or fewer columns; what is at the fraction of the window stays there. */
     by(factor, fraction = 0.5) {
       const { first, shown, columns } = axis();
-      const width = Math.min(Math.max(shown / factor, Math.min(LEAST_SHOWN, columns)), columns);
+      const width = clamp(shown / factor, Math.min(LEAST_SHOWN, columns), columns);
       show(first + fraction * (shown - width), width);
     },
     pan: (columns) => show(axis().first + columns, axis().shown),
@@ -49,7 +50,7 @@ export function createZoom(store) {
 function mountWheel(chart, zoom, store) {
   const fractionOf = (x) => {
     const box = byId("ruler").getBoundingClientRect();
-    return Math.min(Math.max((x - box.left) / box.width, 0), 1);
+    return clamp((x - box.left) / box.width, 0, 1);
   };
   chart.addEventListener("wheel", (event) => {
     if (event.ctrlKey || event.metaKey) zoom.by(Math.exp(-event.deltaY * WHEEL * (event.deltaMode ? 20 : 1)), fractionOf(event.clientX));

@@ -1,6 +1,6 @@
 /** A switch that lays trials' tracks over the gait in 3D, with how the robot stood and which gait is shown. */
 
-import { recalled, remember } from "../lib/check_menu.js";
+import { recalled, remember } from "../lib/remembered.js";
 import { h, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { attempt } from "../lib/toasts.js";

@@ -3,7 +3,7 @@
 import { api } from "../api/gaits.js";
 import { sentences } from "../lib/difference.js";
 import { h } from "../lib/dom.js";
-import { clockTime, fixed, shortHash } from "../lib/format.js";
+import { clockTime, counted, fixed, shortHash } from "../lib/format.js";
 import { ticket } from "../lib/latest_only.js";
 import { attempt } from "../lib/toasts.js";
 
@@ -12,7 +12,7 @@ const NOW = "the gait as it is";
 function figuresText({ figures, warnings }) {
   const texts = [
     figures.waypoints && `${figures.waypoints} waypoints, ${fixed(figures.seconds)} s`,
-    warnings.length && `${warnings.length} warning${warnings.length > 1 ? "s" : ""} seen`,
+    warnings.length && `${counted(warnings.length, "warning")} seen`,
     figures.simulated && "simulated",
   ];
   return texts.filter(Boolean).join(" · ");

@@ -3,7 +3,7 @@
 import { api } from "../api/gaits.js";
 import { approvalHistory } from "./approvals.js";
 import { byId, h, onPress, setAllowed } from "../lib/dom.js";
-import { clockTime, fixed, readable, ruleName, shortHash } from "../lib/format.js";
+import { clockTime, counted, fixed, lowered, readable, ruleName, shortHash } from "../lib/format.js";
 import { needOperator } from "../state/operator.js";
 import { costTable, sendingFields } from "./sending.js";
 import { checkGone } from "../state/store.js";
@@ -27,8 +27,6 @@ function marginList(margins) {
   return [h("h3", { text: "Room left to each limit" }), h("dl", { class: "margins" }, ...rows)];
 }
 
-const lowered = (sentence) => sentence.charAt(0).toLowerCase() + sentence.slice(1);
-
 const warningsOf = (verdict) => (verdict?.findings ?? []).filter(({ severity }) => severity === "warning");
 
 function summary(view, before) {
@@ -40,7 +38,7 @@ function summary(view, before) {
   }
   const warnings = warningsOf(verdict).length;
   const errors = verdict.findings.length - warnings;
-  const counts = [errors && `${errors} error${errors > 1 ? "s" : ""}`, warnings && `${warnings} warning${warnings > 1 ? "s" : ""}`].filter(Boolean).join(", ");
+  const counts = [errors && counted(errors, "error"), warnings && counted(warnings, "warning")].filter(Boolean).join(", ");
   const text = verdict.passed ? `Passed${counts ? `, with ${counts}` : ": no findings"}.` : `Failed: ${counts}. Errors block approval.`;
   return h("p", { class: "box-note", data: { tone: !verdict.passed ? "bad" : warnings ? "caution" : "good" } }, h("b", { text }));
 }

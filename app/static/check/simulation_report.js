@@ -1,5 +1,6 @@
 /** The figures of a simulation as people read them: one table of the whole, one of the feet, and what the rules found. */
 
+import { figureTable, footName } from "../lib/tables.js";
 import { h } from "../lib/dom.js";
 import { MOTORS, fixed, mm } from "../lib/format.js";
 import { planTimeOf } from "../plots/simulation.js";
@@ -44,13 +45,8 @@ function wholeTable(simulation, goToTime) {
       h("th", { scope: "row", text: name }), h("td", { text: value }), h("td", { class: "unit", text: unit }), h("td", { class: "place" }, place)))));
 }
 
-function feetTable({ report }) {
-  return h("table", { class: "run-table", title: "Mean distance from the plan at waypoints, and how far each sole slid while it should have stood" },
-    h("caption", { text: "Feet, mm" }),
-    h("thead", {}, h("tr", {}, ...["", "error", "slip"].map((text) => h("th", { scope: "col", text })))),
-    h("tbody", {}, ...report.feet_error.map((error, foot) => h("tr", { data: { foot: foot + 1 } },
-      h("th", { scope: "row" }, h("i", { class: "foot-dot", "aria-hidden": "true" }), `foot ${foot + 1}`), h("td", { text: mm(error) }), h("td", { text: mm(report.slip[foot]) })))));
-}
+const feetTable = ({ report }) => figureTable("Feet, mm", "Mean distance from the plan at waypoints, and how far each sole slid while it should have stood", ["", "error", "slip"],
+  report.feet_error.map((error, foot) => [footName(foot), mm(error), mm(report.slip[foot])]));
 
 function findingItem(simulation, finding, goToTime) {
   const [tone, word] = finding.severity === "error" ? ["bad", "Error: "] : ["caution", "Warning: "];

@@ -6,6 +6,7 @@
  * preview, `clipped` says what does not fit.
  */
 
+import { capital, counted } from "../lib/format.js";
 import { drawnRows, isDrawn, repeatedRows } from "./drawn_timeline.js";
 import { heldMirrored, heldReversed, heldTurned } from "./held_feet.js";
 import { inserted, removed, repeated, stretched } from "./lengths.js";
@@ -18,7 +19,6 @@ export const MOST_SAMPLES = 2000;
 
 const sampleCount = ({ timeline }) => timeline.feet[0].length;
 const swingCount = (row) => row.split("1").filter(Boolean).length;
-const counted = (count, one) => `${count} ${one}${count === 1 ? "" : "s"}`;
 const seconds = (document, samples) => `${(Math.max(0, samples - 1) * document.timeline.sample_time).toFixed(1)} s`;
 
 /** What of a region does not fit behind a sample, in words; null where all of it does. */
@@ -161,8 +161,6 @@ export const OPERATIONS = {
 
 const refusalOf = (before, after) =>
   (sampleCount(after) > MOST_SAMPLES ? `${sampleCount(after)} samples are more than ${MOST_SAMPLES}, the most that a timeline has.` : heldBack(before, after));
-
-const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
 /**
  * What an operation would make of a document.

@@ -17,11 +17,7 @@ const MARKS = [
   { name: "left out", mark: (x, y) => svg("circle", { class: "said-left-out", r: 3.4, cx: x, cy: y }) },
 ];
 
-function label(x, y, text, anchor = "middle") {
-  const element = svg("text", { x, y, "text-anchor": anchor });
-  element.textContent = text;
-  return element;
-}
+const label = (x, y, text, anchor = "middle") => svg("text", { x, y, "text-anchor": anchor, text });
 
 function legend(foretold) {
   return h("span", { class: "said-legend" }, ...MARKS.map(({ name, mark }) => h("span", {},

@@ -1,5 +1,6 @@
 /** What came of learning: parameters, how well gaits are foretold, and keeping it as a named set. */
 
+import { captionedTable } from "../lib/tables.js";
 import { h } from "../lib/dom.js";
 import { clockTime, compact, fixed } from "../lib/format.js";
 import { predictionPlot } from "./learning_plot.js";
@@ -8,10 +9,7 @@ const UNKNOWN = "not identifiable";
 const figure = (value) => (value === 0 ? "0" : compact(value));
 const withUnit = (value, unit) => `${figure(value)} ${unit}`.trim();
 
-function table(caption, help, head, rows) {
-  return h("table", { class: "run-table learned-table", title: help }, h("caption", { text: caption }),
-    h("thead", {}, h("tr", {}, ...head.map((text) => h("th", { scope: "col", text })))), h("tbody", {}, ...rows));
-}
+const table = (caption, title, head, rows) => captionedTable({ class: "run-table learned-table", title }, caption, head, rows);
 
 function parameterRow({ title, unit, default: usual, fitted, low, high, is_identifiable: isIdentifiable, effect, left }) {
   const help = `Through its range it changes a gait by up to ${fixed(effect)} spreads of a trial; ${fixed(left * 100, 0)} % of what was unknown of it is left`;

@@ -50,8 +50,14 @@ export function readable(value, unit) {
   return { value: compact(value), unit: unit ?? "" };
 }
 
+/** The text with a capital first letter. */
+export const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
+/** The text with a small first letter. */
+export const lowered = (text) => text.charAt(0).toLowerCase() + text.slice(1);
+
+/** A count with its noun: "1 cell", "2 cells". */
+export const counted = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
+
 /** "body_height" as "Body height". */
-export function ruleName(rule) {
-  const words = rule.replaceAll("_", " ").replaceAll("-", " ");
-  return words.charAt(0).toUpperCase() + words.slice(1);
-}
+export const ruleName = (rule) => capital(rule.replace(/[_-]/g, " "));

@@ -32,20 +32,15 @@ function gridLines({ low, high, y }) {
   const every = Math.max(1, Math.ceil((high - low) / 4));
   const lines = [];
   for (let log = high; log >= low; log -= every) {
-    lines.push(svg("line", { class: "grid", x1: FRAME.left, x2: WIDTH - FRAME.right, y1: y(log), y2: y(log) }));
-    const label = svg("text", { x: FRAME.left - 5, y: y(log) + 3.5, "text-anchor": "end" });
-    label.textContent = Math.abs(log) <= 1 ? String(10 ** log) : `1e${log}`;
-    lines.push(label);
+    lines.push(svg("line", { class: "grid", x1: FRAME.left, x2: WIDTH - FRAME.right, y1: y(log), y2: y(log) }),
+      svg("text", { x: FRAME.left - 5, y: y(log) + 3.5, "text-anchor": "end", text: Math.abs(log) <= 1 ? 10 ** log : `1e${log}` }));
   }
   return lines;
 }
 
 function iterationLabels(progress, { x }) {
-  return [progress[0], progress.at(-1)].filter((point, index, both) => index === 0 || point !== both[0]).map((point, index) => {
-    const label = svg("text", { x: x(point.iteration), y: HEIGHT - 5, "text-anchor": index ? "end" : "start" });
-    label.textContent = index ? `iteration ${point.iteration}` : String(point.iteration);
-    return label;
-  });
+  return [progress[0], progress.at(-1)].filter((point, index, both) => index === 0 || point !== both[0]).map((point, index) =>
+    svg("text", { x: x(point.iteration), y: HEIGHT - 5, "text-anchor": index ? "end" : "start", text: index ? `iteration ${point.iteration}` : point.iteration }));
 }
 
 function curve(progress, name, { x, y }) {

@@ -1,5 +1,6 @@
 /** What becomes of a pattern: it is looked at walking in 3D, made a gait of its own, or drawn into the open one. */
 
+import { capital } from "../lib/format.js";
 import { api } from "../api/gaits.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { ticket } from "../lib/latest_only.js";
@@ -18,7 +19,7 @@ function adviceText(state) {
     "shorten the step",
   ].filter(Boolean);
   const words = `${ways.slice(0, -1).join(", ")} or ${ways.at(-1)}`;
-  return `The live optimiser finds no motion for it. ${words[0].toUpperCase()}${words.slice(1)}.`;
+  return `The live optimiser finds no motion for it. ${capital(words)}.`;
 }
 
 const adviceFor = (plan, state) => (plan.live?.status === "infeasible" ? ` ${adviceText(state)}` : " Play shows it walking.");

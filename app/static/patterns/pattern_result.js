@@ -1,7 +1,7 @@
 /** How the search stands: its progress with bound and gap, the best patterns, or why there is none and what would help. */
 
 import { h, onPress, setAllowed, setAttribute, setText, svg } from "../lib/dom.js";
-import { fixed, seconds } from "../lib/format.js";
+import { counted, fixed, seconds } from "../lib/format.js";
 import { picture } from "./pattern_gait_strip.js";
 import { relaxed, ruleOf, RULES } from "./pattern_problem.js";
 import { announce, toast } from "../lib/toasts.js";
@@ -13,11 +13,9 @@ const TEXTS = {
   cancelled: ["Cancelled", "quiet", "broken off before a pattern was found"],
 };
 
-const times = (count, word) => `${count} ${word}${count === 1 ? "" : "s"}`;
-
 /** "4 changes · 8 of single limbs": a pattern's score in words. */
 export function scoreText({ sample_changes: changes, limb_changes: single, redrawn }, kept) {
-  return [times(changes, "change"), `${single} of single limbs`, kept && `${times(redrawn, "cell")} redrawn`].filter(Boolean).join(" · ");
+  return [counted(changes, "change"), `${single} of single limbs`, kept && `${counted(redrawn, "cell")} redrawn`].filter(Boolean).join(" · ");
 }
 
 /** How far the best pattern may be from the best there is, as a percentage. */
@@ -122,7 +120,7 @@ export function patternResult(problem, search, preview) {
     const pattern = result?.patterns[state.chosen];
     dot.dataset.tone = tone;
     setText(word, text);
-    setText(sentence, running || !result ? "" : pattern ? times(pattern.sample_changes, "change") : "");
+    setText(sentence, running || !result ? "" : pattern ? counted(pattern.sample_changes, "change") : "");
     line.title = meaning;
     setText(time, running || !result ? "" : `${seconds(result.seconds)} s`);
     error.hidden = !state.error;

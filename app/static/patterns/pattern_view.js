@@ -1,5 +1,6 @@
 /** The pattern search: its controls in the right column, and in the lower part the gaits with the pattern between them. */
 
+import { counted } from "../lib/format.js";
 import { byId, h, setAttribute, setText, svg } from "../lib/dom.js";
 import { patternActions } from "./pattern_actions.js";
 import { patternResult } from "./pattern_result.js";
@@ -100,7 +101,7 @@ function lowerPart(store, problem, lock) {
 
 function drawnText(state) {
   const count = Object.keys(drawnCells(state)).length;
-  return count ? `${count} cell${count > 1 ? "s" : ""} drawn` : "click a cell to draw what you want";
+  return count ? `${counted(count, "cell")} drawn` : "click a cell to draw what you want";
 }
 
 /**

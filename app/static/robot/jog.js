@@ -5,7 +5,7 @@
 
 import { api } from "../api/gaits.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
-import { fixed, seconds } from "../lib/format.js";
+import { counted, fixed, seconds } from "../lib/format.js";
 import { jogRows } from "./jog_rows.js";
 import { poseToSegment } from "./jog_pose.js";
 import { PARTS, handlesOf, withStep } from "./jog_steps.js";
@@ -56,7 +56,7 @@ function targetText({ wired, moves, seconds: takes, stop_seconds: stop, margin_m
   if (!wired) return `Shown in the preview only; least squares leave strokes up to ${fixed(off)} mm off.`;
   if (!moves) return "";
   const balance = margin === null ? "" : ` Balance ${fixed(margin)} mm.`;
-  return `${moves} move${moves > 1 ? "s" : ""}, about ${seconds(takes)} s; Stop acts within ${seconds(stop)} s.${balance}`;
+  return `${counted(moves, "move")}, about ${seconds(takes)} s; Stop acts within ${seconds(stop)} s.${balance}`;
 }
 
 const findingRow = ({ severity, sentence }) => h("li", { data: { toneText: severity === "error" ? "bad" : "caution" }, text: sentence });

@@ -3,7 +3,7 @@
 import { api } from "../api/gaits.js";
 import { confirmAction } from "../lib/dialogs.js";
 import { byId, h, onPress, setAllowed, setText } from "../lib/dom.js";
-import { fixed, seconds, shortHash } from "../lib/format.js";
+import { capital, counted, fixed, seconds, shortHash } from "../lib/format.js";
 import { jogPart } from "./jog.js";
 import { ticket } from "../lib/latest_only.js";
 import { leasePart, whyNotHeld } from "../state/lease.js";
@@ -63,7 +63,7 @@ function summaryRows({ runSummary: run, view, selected }) {
   if (!run || run.gait !== selected || !view) return [];
   const rows = [["Waypoints", `${run.waypoints}`], ["Takes about", `${fixed(run.estimated_seconds, 0)} s`]];
   if (run.start_distance_mm !== null && run.start_distance_mm !== undefined) {
-    rows.push(["To the start pose", `${fixed(run.start_distance_mm)} mm${run.start_moves ? ` in ${run.start_moves} move${run.start_moves === 1 ? "" : "s"}` : ""}`]);
+    rows.push(["To the start pose", `${fixed(run.start_distance_mm)} mm${run.start_moves ? ` in ${counted(run.start_moves, "move")}` : ""}`]);
   }
   rows.push(["Largest move", `${fixed(run.largest_move_mm)} mm`], ["Stop acts within", stopTimeText(run)], ["Hash", shortHash(run.waypoints_hash), run.waypoints_hash]);
   return rows.flatMap(([name, value, help]) => [h("dt", { text: name }), h("dd", { class: help ? "mono" : null, text: value, title: help ?? null })]);
@@ -125,7 +125,7 @@ function showRobot(parts, ways, robot) {
   setText(parts.word, robot ? `${robot.robot}${robot.emulated ? " · emulated robot" : ""}` : "unknown");
   const before = robot?.previous_run;
   const broken = !ready && before?.state === "interrupted" ? `The last run, ${before.gait_name}, was interrupted. ${before.sentence}` : null;
-  setText(parts.sentence, [robot?.sentence, broken, robot?.stop_text && !robot.sentence?.includes(robot.stop_text) ? `${robot.stop_text[0].toUpperCase()}${robot.stop_text.slice(1)}.` : null].filter(Boolean).join(" "));
+  setText(parts.sentence, [robot?.sentence, broken, robot?.stop_text && !robot.sentence?.includes(robot.stop_text) ? `${capital(robot.stop_text)}.` : null].filter(Boolean).join(" "));
   for (const name of ["connect", "disconnect", "arm", "pause", "resume", "clear", "reset"]) parts[name].allow(robot);
   parts.connect.button.hidden = ready;
   parts.disconnect.button.hidden = !ready;

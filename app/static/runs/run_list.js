@@ -2,7 +2,7 @@
 
 import { api } from "../api/gaits.js";
 import { h, setAttribute, setText } from "../lib/dom.js";
-import { clockTime, fixed, seconds } from "../lib/format.js";
+import { clockTime, counted, fixed, seconds } from "../lib/format.js";
 import { ticket } from "../lib/latest_only.js";
 import { attempt } from "../lib/toasts.js";
 
@@ -70,7 +70,7 @@ export function runList(open) {
     fill(state, "Every result", plain(answer.states));
     fill(operator, "Everybody", plain(answer.operators));
     list.replaceChildren(...shown.map((run) => runRow(run, open)));
-    setText(count, answer.total ? `${answer.total} run${answer.total === 1 ? "" : "s"}` : noRuns(answer));
+    setText(count, answer.total ? counted(answer.total, "run") : noRuns(answer));
     setAttribute(more, "hidden", shown.length >= answer.total);
   });
 

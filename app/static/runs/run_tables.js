@@ -1,28 +1,20 @@
 /** Tables of a run's figures, and of two runs beside each other. */
 
+import { figureTable, footName } from "../lib/tables.js";
 import { h } from "../lib/dom.js";
 import { MOTORS, fixed, seconds } from "../lib/format.js";
 
 const owner = (motor) => `foot ${Math.floor(motor / MOTORS) + 1}, motor ${(motor % MOTORS) + 1}`;
 
-function table(caption, help, head, rows) {
-  return h("table", { class: "run-table", title: help },
-    h("caption", { text: caption }),
-    h("thead", {}, h("tr", {}, ...head.map((text) => h("th", { scope: "col", text })))),
-    h("tbody", {}, ...rows.map(([{ text, foot }, ...values]) => h("tr", { data: foot ? { foot } : {} },
-      h("th", { scope: "row" }, foot && h("i", { class: "foot-dot", "aria-hidden": "true" }), text), ...values.map((value) => h("td", { text: value }))))));
-}
-
 const motorName = (_, motor) => ({ text: owner(motor), foot: Math.floor(motor / MOTORS) + 1 });
-const footName = (_, foot) => ({ text: `foot ${foot + 1}`, foot: foot + 1 });
 
 /** Errors of motors and feet of one run, mm. */
 export function errorTables(errors) {
   return [
-    table("Feet, mm", "By forward kinematics with the plan's standing feet on the ground. Mean and largest: distance at arrivals from where the waypoint puts the foot. Way: largest distance from the planned way at any time, with what merging left out",
+    figureTable("Feet, mm", "By forward kinematics with the plan's standing feet on the ground. Mean and largest: distance at arrivals from where the waypoint puts the foot. Way: largest distance from the planned way at any time, with what merging left out",
       ["", "mean", "largest", "way"],
-      errors.foot_mean_mm.map((mean, foot) => [footName(mean, foot), fixed(mean, 2), fixed(errors.foot_largest_mm[foot], 2), fixed(errors.foot_path_mm[foot], 2)])),
-    table("Motors, mm", "Measured minus commanded stroke where the robot said that it had arrived. The firmware leaves a motor within 1 mm of its target where it is",
+      errors.foot_mean_mm.map((mean, foot) => [footName(foot), fixed(mean, 2), fixed(errors.foot_largest_mm[foot], 2), fixed(errors.foot_path_mm[foot], 2)])),
+    figureTable("Motors, mm", "Measured minus commanded stroke where the robot said that it had arrived. The firmware leaves a motor within 1 mm of its target where it is",
       ["", "mean", "largest", "waypoint"],
       errors.motor_mean_mm.map((mean, motor) => [motorName(mean, motor), fixed(mean, 2), fixed(errors.motor_largest_mm[motor], 2), errors.motor_waypoint[motor] < 0 ? "–" : String(errors.motor_waypoint[motor] + 1)])),
   ];
@@ -41,12 +33,12 @@ export function comparison(one, other) {
   const head = ["", "this", "other", "change"];
   const words = (names) => names.map((text) => ({ text }));
   return [
-    table("Times, s", "From the first waypoint's message to the last arrival, and what the ramp law lets expect", head,
+    figureTable("Times, s", "From the first waypoint's message to the last arrival, and what the ramp law lets expect", head,
       rowsOf(words(["duration", "expected", "to the start pose"]), [a.seconds, a.estimate, a.start_seconds], [b.seconds, b.estimate, b.start_seconds], 1)),
-    table("Whole run, mm", "Largest errors of any motor, of any foot, and of the body", head,
+    figureTable("Whole run, mm", "Largest errors of any motor, of any foot, and of the body", head,
       rowsOf(words(["motors, largest", "feet, largest", "body, largest"]), [a.largest_mm, Math.max(...a.foot_largest_mm), a.body_largest_mm], [b.largest_mm, Math.max(...b.foot_largest_mm), b.body_largest_mm])),
-    table("Feet, largest, mm", "Distance of each foot at arrivals from where the waypoint puts it", head, rowsOf(a.foot_largest_mm.map(footName), a.foot_largest_mm, b.foot_largest_mm)),
-    table("Motors, largest, mm", "Measured minus commanded stroke at arrivals", head, rowsOf(a.motor_largest_mm.map(motorName), a.motor_largest_mm, b.motor_largest_mm)),
+    figureTable("Feet, largest, mm", "Distance of each foot at arrivals from where the waypoint puts it", head, rowsOf(a.foot_largest_mm.map((_, foot) => footName(foot)), a.foot_largest_mm, b.foot_largest_mm)),
+    figureTable("Motors, largest, mm", "Measured minus commanded stroke at arrivals", head, rowsOf(a.motor_largest_mm.map(motorName), a.motor_largest_mm, b.motor_largest_mm)),
   ];
 }
 

@@ -1,5 +1,6 @@
 /** The vocabulary of a segment table: named positions and segments, which a person can add, change, rename and delete. */
 
+import { counted } from "../lib/format.js";
 import { h, onPress, setAllowed } from "../lib/dom.js";
 
 const NAME = /^[^\t\r\n,;"]{1,40}$/;
@@ -149,7 +150,7 @@ function segmentRow(sheet, name, { run, refuse }) {
     choice({ label: `Start of ${name}`, value: segment.start, options: positions, read: (start) => set({ start }, `${name} starts at ${start}`) }),
     choice({ label: `End of ${name}`, value: segment.end, options: positions, read: (end) => set({ end }, `${name} ends at ${end}`) }),
     air,
-    deletion(`Delete the segment ${name}`, uses ? `${name} stands in ${uses} cell${uses > 1 ? "s" : ""} of the table; change them first.` : Object.keys(sheet.words.segments).length === 1 ? "The last one stays." : null,
+    deletion(`Delete the segment ${name}`, uses ? `${name} stands in ${counted(uses, "cell")} of the table; change them first.` : Object.keys(sheet.words.segments).length === 1 ? "The last one stays." : null,
       () => run({ change: withDefinitions((words) => ({ segments: without(words.segments, name) })), label: `Delete segment ${name}` }), refuse));
 }
 

@@ -1,9 +1,11 @@
 /** Changes of the segment table: each gives `{change, label, kept, moved}` (see `commit`), `change` from sheet to sheet, or `{reason}`. */
 
+import { capital, counted } from "../lib/format.js";
 import { clamp } from "../lib/clamp.js";
 import { errorSentence, errorsOf, placeAfter, placeBefore, rowName, waitAt, walked } from "../document/segment_sheet.js";
 
-const plural = (count, word) => `${count} ${word}${count > 1 ? "s" : ""}`;
+const MOST_SAMPLES = 2000;
+
 const span = ([first, last]) => (first === last ? `${first + 1}` : `${first + 1}–${last + 1}`);
 
 /** "foot 2, segments 3–5" */
@@ -12,8 +14,6 @@ function rangeName(sheet, { rows, feet }) {
   if (rows[1] < sheet.count) return `${foot}, segment${rows[0] === rows[1] ? "" : "s"} ${span(rows)}`;
   return `${foot}, ${rowName(sheet, rows[0])}${rows[0] === rows[1] ? "" : ` to ${rowName(sheet, rows[1])}`}`;
 }
-
-const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
 /** Names into cells, `[row, foot, name]`. */
 const withCells = (cells) => (sheet) => {
@@ -71,7 +71,7 @@ export function paste(sheet, range, names) {
   if (wrong) return { reason: `Not pasted. Foot ${wrong[1] + 1}, ${rowName(sheet, wrong[0])}: there is no segment “${wrong[2]}”; known are ${[...known.values()].join(", ")}.` };
   const cells = fitting.map(([row, foot, name]) => [row, foot, known.get(name.toLowerCase())]);
   const [below, beside] = [top + names.length - sheet.rows.length, left + Math.max(...names.map((row) => row.length)) - sheet.legs];
-  const missing = alone ? [] : [below > 0 && `${plural(below, "row")} below the last segment`, beside > 0 && `${plural(beside, "column")} behind the last foot`].filter(Boolean);
+  const missing = alone ? [] : [below > 0 && `${counted(below, "row")} below the last segment`, beside > 0 && `${counted(beside, "column")} behind the last foot`].filter(Boolean);
   const last = [Math.min(top + names.length, sheet.rows.length) - 1, Math.min(left + Math.max(...names.map((row) => row.length)), sheet.legs) - 1];
   const filled = alone ? range : { rows: [top, last[0]], feet: [left, last[1]] };
   const outcome = put(sheet, cells, `Paste into ${rangeName(sheet, filled)}`);

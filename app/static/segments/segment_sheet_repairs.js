@@ -1,5 +1,6 @@
 /** What does not fit in the segment table, and the buttons that mend it. */
 
+import { capital, lowered } from "../lib/format.js";
 import { api } from "../api/gaits.js";
 import { h } from "../lib/dom.js";
 import { commit, segmentDraftOf, dropSegmentDraft, protectedCells, shownSegmentSheet } from "../state/segment_draft.js";
@@ -14,11 +15,11 @@ const range = (first, count) => (count === 1 ? `segment ${first + 1}` : `segment
 function offerOf({ foot, first, names, inserted, table }, sheet, document) {
   const own = Array.from({ length: sheet.legs }, (_, one) => one).find((one) => ownRow(sheet, one) === foot);
   const words = names.join(", ");
-  const label = !names.length ? "Make the link fit" : inserted ? `Insert ${words}` : `${range(first, names.length).replace(/^s/, "S")} to ${words}`;
+  const label = !names.length ? "Make the link fit" : inserted ? `Insert ${words}` : `${capital(range(first, names.length))} to ${words}`;
   const help = inserted ? `New ${range(first, names.length)}; the other feet wait meanwhile` : `Of foot ${own + 1}; nothing else changes but the link where it must`;
   const mended = segmentSheetOf({ ...document, segment_table: table });
   const moved = inserted && names.length ? ([row, column]) => [row + (row >= first ? names.length : 0), column] : undefined;
-  return { label, help, step: { moved, change: (now) => ({ ...mended, iterations: now.iterations }), label: `Foot ${own + 1}: ${label.charAt(0).toLowerCase()}${label.slice(1)}`, kept: [] } };
+  return { label, help, step: { moved, change: (now) => ({ ...mended, iterations: now.iterations }), label: `Foot ${own + 1}: ${lowered(label)}`, kept: [] } };
 }
 
 /**

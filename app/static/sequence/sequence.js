@@ -2,7 +2,7 @@
 
 import { api } from "../api/gaits.js";
 import { byId, h, onPress, setAllowed } from "../lib/dom.js";
-import { fixed, mm } from "../lib/format.js";
+import { counted, fixed, mm } from "../lib/format.js";
 import { freeName } from "../document/gait_names.js";
 import { selectGait } from "../shell/gait_list.js";
 import { jobIsOn } from "../shell/job_list.js";
@@ -117,7 +117,7 @@ export function mountSequence(store, edits, playback, gaitTools) {
     between.show(document_);
     whole.show(plan);
     stale.show(state.view.sources ?? []);
-    count.textContent = `${document_.sequence.length} part${document_.sequence.length > 1 ? "s" : ""}`;
+    count.textContent = counted(document_.sequence.length, "part");
     const sentence = state.formError ?? plan?.refusal?.sentence ?? null;
     trouble.hidden = !sentence;
     trouble.textContent = sentence ?? "";

@@ -5,7 +5,7 @@ import { ownSteps } from "../api/author.js";
 import { byId, h, onPress, setAllowed, setAttribute, setText, stateParts } from "../lib/dom.js";
 import { NOT_TAKEN, takeOverStop } from "./early_stop.js";
 import { sendToStudio } from "../state/server_events.js";
-import { clockTime, seconds } from "../lib/format.js";
+import { clockTime, lowered, seconds } from "../lib/format.js";
 import { freeName } from "../document/gait_names.js";
 import { showKeys } from "./key_list.js";
 import { holderSentence } from "../state/lease.js";
@@ -112,7 +112,7 @@ function mountHistory(store, edits) {
     const own = ownSteps(view);
     const draft = segmentDraftOf(state).steps.at(-1)?.label;
     const label = draft ?? (refused ? "the drawing that was not accepted" : own.undo);
-    setText(byId("undo-label"), label ? label.charAt(0).toLowerCase() + label.slice(1) : "");
+    setText(byId("undo-label"), label ? lowered(label) : "");
     setAllowed(undo, label ? null : "Nothing to undo.", `Undo: ${label} (Ctrl+Z)`);
     setAllowed(redo, own.redo ? null : "Nothing to redo.", `Redo: ${own.redo} (Ctrl+Shift+Z)`);
     if (label) setAttribute(undo, "aria-description", label);

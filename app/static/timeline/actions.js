@@ -1,5 +1,6 @@
 /** What the timeline's buttons, menu and keys do: operations on the selection, clipboard, loop. */
 
+import { counted } from "../lib/format.js";
 import { blockFrom, clipboardText, putBlock } from "./clipboard.js";
 import { OPERATIONS, outcomeOf } from "../document/operations.js";
 import { blockOf, heldBack, withBlock } from "../document/timeline_operators.js";
@@ -14,7 +15,7 @@ const NOTHING = "Nothing is selected: choose cells first (Shift+arrows, Ctrl+dra
 function leftOut({ timeline }, [foot, sample], block) {
   const feet = foot + block.length - timeline.feet.length;
   const samples = sample + block[0].length - timeline.feet[0].length;
-  const parts = [samples > 0 && `${samples} sample${samples > 1 ? "s" : ""} behind the end`, feet > 0 && `${feet} row${feet > 1 ? "s" : ""} below the last foot`].filter(Boolean);
+  const parts = [samples > 0 && `${counted(samples, "sample")} behind the end`, feet > 0 && `${counted(feet, "row")} below the last foot`].filter(Boolean);
   return parts.length ? `${parts.join(" and ")} did not fit and were left out.` : null;
 }
 

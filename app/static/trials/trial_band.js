@@ -1,5 +1,6 @@
 /** Several trials of one gait and step over each other: mean way, how far they lie apart, each of them, and the plan. */
 
+import { figureTable, footName } from "../lib/tables.js";
 import { h, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { attempt } from "../lib/toasts.js";
@@ -55,13 +56,8 @@ function bandOverIterations({ feet, iterations, ...band }) {
 
 const HELP = "Mean of the trials from begin to end along their direction; how far their ends lie from their mean (root of the mean square); and the plan";
 
-function spreadTable({ feet }) {
-  const rows = feet.map(({ way, end_spread_cm: spread }, foot) => h("tr", { data: { foot: foot + 1 } },
-    h("th", { scope: "row" }, h("i", { class: "foot-dot", "aria-hidden": "true" }), `foot ${foot + 1}`),
-    ...[way.mean.at(-1), spread, way.plan?.at(-1) ?? null].map((value) => h("td", { text: fixed(value, 2) }))));
-  return h("table", { class: "run-table", title: HELP }, h("caption", { text: "Ends of the trials, cm" }),
-    h("thead", {}, h("tr", {}, ...["", "mean", "spread", "planned"].map((text) => h("th", { scope: "col", text })))), h("tbody", {}, ...rows));
-}
+const spreadTable = ({ feet }) => figureTable("Ends of the trials, cm", HELP, ["", "mean", "spread", "planned"],
+  feet.map(({ way, end_spread_cm: spread }, foot) => [footName(foot), ...[way.mean.at(-1), spread, way.plan?.at(-1) ?? null].map((value) => fixed(value, 2))]));
 
 /** A box a trial, which says whether it counts, with a way to the trial itself. */
 function choice(trials, open, changed) {

@@ -1,5 +1,6 @@
 /** A trial beside its plan and physics: figures of the three in one table, and the simulation on its way. */
 
+import { captionedTable } from "../lib/tables.js";
 import { request } from "../api/gaits.js";
 import { h, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
@@ -22,9 +23,8 @@ const HELP = "Mean of the feet from first to last frame, angles on the platform.
 function figures({ rows }) {
   const cells = (row) => [fixed(row.net_distance, 2), fixed(row.net_angle_deg, 1), fixed(row.net_error_percent, 0), fixed(row.gap_mm, 1)];
   const apart = ({ gaps_mm: gaps }) => (gaps ? gaps.map((gap, foot) => `foot ${foot + 1}: ${fixed(gap, 1)} mm`).join(", ") : null);
-  return h("table", { class: "run-table trial-comparison", title: HELP }, h("caption", { text: "Planned, simulated, tracked, first to last" }),
-    h("thead", {}, h("tr", {}, ...["", "cm", "angle °", "error %", "feet mm"].map((text) => h("th", { scope: "col", text })))),
-    h("tbody", {}, ...rows.map((row) => h("tr", { title: apart(row) }, h("th", { scope: "row" }, legend([row.source])), ...cells(row).map((text) => h("td", { text }))))));
+  return captionedTable({ class: "run-table trial-comparison", title: HELP }, "Planned, simulated, tracked, first to last", ["", "cm", "angle °", "error %", "feet mm"],
+    rows.map((row) => h("tr", { title: apart(row) }, h("th", { scope: "row" }, legend([row.source])), ...cells(row).map((text) => h("td", { text })))));
 }
 
 const TEXTS = {

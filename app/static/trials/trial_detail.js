@@ -1,5 +1,6 @@
 /** One trial: how far each foot went beside its plan, iteration by iteration, with a note and files. */
 
+import { figureTable, footName } from "../lib/tables.js";
 import { h, onPress } from "../lib/dom.js";
 import { clockTime, fixed } from "../lib/format.js";
 import { attempt } from "../lib/toasts.js";
@@ -12,31 +13,24 @@ import { pathPlot } from "./trial_plot.js";
 import { sourcePart } from "./trial_source.js";
 import { displacementPlot } from "./trial_displacement.js";
 
-function table(caption, help, head, rows) {
-  return h("table", { class: "run-table", title: help }, h("caption", { text: caption }),
-    h("thead", {}, h("tr", {}, ...head.map((text) => h("th", { scope: "col", text })))),
-    h("tbody", {}, ...rows.map(([{ text, foot }, ...values]) => h("tr", { data: foot ? { foot } : {} },
-      h("th", { scope: "row" }, foot && h("i", { class: "foot-dot", "aria-hidden": "true" }), text), ...values.map((value) => h("td", { text: value }))))));
-}
-
 const published = ({ distance, angle_deg: angle, error_percent: error }) => [fixed(distance, 2), fixed(angle, 1), fixed(error, 0)];
 const net = ({ net_distance: distance, net_angle_deg: angle, net_error_percent: error }) => [fixed(distance, 2), fixed(angle, 1), fixed(error, 0)];
 
 function movementTable(caption, help, figures, plan, columns) {
-  const rows = figures.feet.map((foot, index) => [{ text: `foot ${index + 1}`, foot: index + 1 }, ...columns(foot)]);
+  const rows = figures.feet.map((foot, index) => [footName(index), ...columns(foot)]);
   rows.push([{ text: "mean" }, ...columns(figures)]);
   if (plan) rows.push([{ text: "planned" }, ...columns(plan.figures)]);
-  return table(caption, help, ["", "cm", "angle °", "error %"], rows);
+  return figureTable(caption, help, ["", "cm", "angle °", "error %"], rows);
 }
 
 function iterationTable({ parts }) {
-  return table("Iterations, first to last", "Mean of the feet's net movements in each iteration, its time and its speed", ["", "cm", "s", "mm/s"],
+  return figureTable("Iterations, first to last", "Mean of the feet's net movements in each iteration, its time and its speed", ["", "cm", "s", "mm/s"],
     parts.map((part, index) => [{ text: `iteration ${index + 1}` }, fixed(part.net_distance, 2), fixed(part.seconds, 1), fixed(part.speed_mm_s, 2)]));
 }
 
 function slipTable({ slip }) {
-  return table("Slip of standing feet, cm", "Farthest that each foot slid between its own steps", ["", "largest", "mean"],
-    slip.map((slides, index) => [{ text: `foot ${index + 1}`, foot: index + 1 }, fixed(Math.max(...slides), 2), fixed(slides.reduce((sum, value) => sum + value, 0) / slides.length, 2)]));
+  return figureTable("Slip of standing feet, cm", "Farthest that each foot slid between its own steps", ["", "largest", "mean"],
+    slip.map((slides, index) => [footName(index), fixed(Math.max(...slides), 2), fixed(slides.reduce((sum, value) => sum + value, 0) / slides.length, 2)]));
 }
 
 function facts(trial) {

@@ -11,7 +11,7 @@ export function displacementFrame([low, high], most, words) {
   const inner = FRAME.width - FRAME.left - FRAME.right;
   const toX = (value) => FRAME.left + (value / most) * inner;
   const toY = (value) => FRAME.height - FRAME.bottom - ((value - low) / (high - low)) * (FRAME.height - FRAME.top - FRAME.bottom);
-  const text = (x, y, content, anchor) => { const label = svg("text", { x, y, "text-anchor": anchor }); label.textContent = content; return label; };
+  const text = (x, y, content, anchor) => svg("text", { x, y, "text-anchor": anchor, text: content });
   const drawing = svg("svg", { viewBox: `0 0 ${FRAME.width} ${FRAME.height}`, class: "feet-ways" },
     svg("line", { class: "grid", x1: FRAME.left, x2: FRAME.width - FRAME.right, y1: toY(0), y2: toY(0) }),
     text(FRAME.left - 4, toY(high) + 4, fixed(high, 1), "end"), text(FRAME.left - 4, toY(0) + 4, "0", "end"),

@@ -1,7 +1,7 @@
 /** The list of trials, and gaits by steps compared in a table that sorts by any column. */
 
 import { h, svg } from "../lib/dom.js";
-import { clockTime, fixed } from "../lib/format.js";
+import { clockTime, counted, fixed } from "../lib/format.js";
 import { ticket } from "../lib/latest_only.js";
 import { attempt } from "../lib/toasts.js";
 import { trialApi } from "../api/trials.js";
@@ -33,7 +33,7 @@ const spread = (value, by, decimals) => (by === null ? fixed(value, decimals) : 
 /** A gait's name with its step, and with the iterations where only they tell it from another row. */
 function nameOf(group, groups) {
   const isTwin = groups.some((other) => other !== group && other.gait_name === group.gait_name && fixed(other.step_cm, 1) === fixed(group.step_cm, 1));
-  return `${group.gait_name}, ${fixed(group.step_cm, 1)} cm${isTwin ? `, ${group.iterations} iteration${group.iterations === 1 ? "" : "s"}` : ""}`;
+  return `${group.gait_name}, ${fixed(group.step_cm, 1)} cm${isTwin ? `, ${counted(group.iterations, "iteration")}` : ""}`;
 }
 
 function compareRow(group, groups, band) {

@@ -1,4 +1,4 @@
-/** What a person sees first: the list of gaits. The page's other modules are read once it stands. */
+/** Starts the page with the list of gaits, and loads the other modules after it is drawn. */
 
 import { byId, painted } from "./lib/dom.js";
 import { listen } from "./state/server_events.js";

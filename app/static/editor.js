@@ -1,4 +1,4 @@
-/** The page around the list of gaits: one store, one playhead, and the parts that watch them. */
+/** Builds the editor around the list of gaits: one store, one playhead, and the parts that watch them. */
 
 import { nameAuthor } from "./api/author.js";
 import { createActions } from "./timeline/actions.js";

@@ -1,4 +1,4 @@
-/** The panels that a person turns to later, and the 3D preview, whose client takes the browser's time for itself. */
+/** Builds the panels that are needed later, and the 3D preview, which is slow to load. */
 
 import { mountCheck } from "./check/check.js";
 import { mountRobot } from "./robot/robot.js";

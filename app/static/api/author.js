@@ -52,7 +52,7 @@ export function nameAuthor(person) {
   name = person;
 }
 
-/** The headers that say who edits. */
+/** The headers that identify who edits. */
 export function authorHeaders() {
   return { "X-Footfall-Page": page, ...(name ? { "X-Footfall-Name": encodeURIComponent(name) } : {}) };
 }

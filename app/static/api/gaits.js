@@ -1,4 +1,4 @@
-/** The HTTP side of the server. Every refusal becomes an ApiError whose message is meant for people. */
+/** HTTP requests. Every refusal becomes an ApiError with a message for people. */
 
 import { authorHeaders } from "./author.js";
 
@@ -47,7 +47,7 @@ async function answer(method, path, body, signal) {
 
 export const request = async (method, path, body, signal) => (await answer(method, path, body, signal)).json();
 
-/** Takes text or a file as it stands, such as a CSV or JSON file or a picture. */
+/** Sends text or a file unchanged, such as a CSV or JSON file or a picture. */
 export async function sendFile(path, body, type = "text/plain") {
   const response = await fetch(path, { method: "POST", body, headers: { ...authorHeaders(), "Content-Type": type } });
   if (!response.ok) throw await refusal(response);

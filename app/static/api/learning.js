@@ -1,4 +1,4 @@
-/** The server's side of learning from trials. */
+/** Requests for learning from trials. */
 
 import { request } from "./gaits.js";
 

@@ -1,4 +1,4 @@
-/** The server's side of trials. */
+/** Requests for trials. */
 
 import { request } from "./gaits.js";
 

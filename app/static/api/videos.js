@@ -1,4 +1,4 @@
-/** The server's side of videos, cameras and their setups. */
+/** Requests for videos, cameras and camera setups. */
 
 import { ApiError, request } from "./gaits.js";
 import { authorHeaders } from "./author.js";

@@ -1,4 +1,4 @@
-/** Pictures of a checkerboard: from files, from frames of a video, from a camera; which show it, and the lens that they tell. */
+/** Pictures of a checkerboard from files, video frames or a camera: which show it, and the lens fitted to them. */
 
 import { h, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";

@@ -1,4 +1,4 @@
-/** Picking a foot's colour: its button is pressed, then the foot is clicked in the picture. */
+/** Picks a foot's colour: press the button, then click the foot in the picture. */
 
 import { rangeAt } from "./camera_colour_range.js";
 import { h } from "../lib/dom.js";

@@ -1,4 +1,4 @@
-/** A colour range from a place in the picture: what the pixels around it have in common, with room for light and shade. */
+/** Computes a colour range from the pixels around a place in the picture, with room for light and shade. */
 
 const RADIUS = 5;
 const HUE_ROOM = 0.03;

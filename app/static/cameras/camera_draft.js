@@ -5,7 +5,9 @@ import { report, toast } from "../lib/toasts.js";
 import { CONFLICT } from "../api/gaits.js";
 import { setupApi } from "../api/videos.js";
 
-/** Whether two setups say the same. */
+const CONFLICT = 409;
+
+/** Whether two setups are equal. */
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 
 /** Shows a setup as somebody else has changed it meanwhile; other refusals are said as they are. */
@@ -17,7 +19,7 @@ async function conflict(store, error) {
 }
 
 /**
- * Begins with a setup as the server tells it.
+ * Begins with a setup as the server sent it.
  * @param {object} first with `id`, `revision` and `setup`
  * @returns {object} `state` and `watch` as of a store: `setup` as it is on the page, `answer` what the server says of it, `kept`
  *   whether that is of this very setup, `trouble` why it could not be kept; `change(patch, last)`, where `last` is false while a finger drags and nothing is kept; `check()` asks what the server says
@@ -48,7 +50,7 @@ export function setupDraft(first) {
     settled.splice(0).forEach((act) => act());
   }
 
-  /** What the server says of a setup that is not kept yet; only of the newest. */
+  /** Checks a setup that is not kept yet on the server; only the newest. */
   async function check() {
     if (checking) return;
     checking = true;

@@ -1,4 +1,4 @@
-/** Colours of the feet, tuned on a picture: what has the colour stays lit, and every spot says why it is a foot or is none. */
+/** Tunes the colours of the feet on a picture: pixels of the colour stay lit, and each blob shows why it is a foot or not. */
 
 import { drawBlobs, blobNumbers } from "./camera_overlay.js";
 import { limitFields, shareField } from "./camera_fields.js";

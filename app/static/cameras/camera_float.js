@@ -97,7 +97,7 @@ function build(store, id) {
   return { id, element, shut };
 }
 
-/** Shows a camera beside the scene, or takes its picture away; one at a time. */
+/** Shows a camera's picture over the scene, or removes it; one at a time. */
 export function toggleFloat(store, id) {
   const before = open;
   before?.shut();

@@ -1,4 +1,4 @@
-/** Where a clicked place lies on the platform, as far as the points that were set so far tell: a proposal, the server computes. */
+/** Estimates where a clicked pixel lies on the platform, from the points set so far. The server computes the real fit. */
 
 const UNKNOWNS = 8;
 const LEAST_POINTS = 4;

@@ -1,4 +1,4 @@
-/** Words of cameras and their setups that several parts use. */
+/** Labels and texts of cameras and setups. */
 
 export const FOOT_NAMES = ["Foot 1, green", "Foot 2, red", "Foot 3, orange", "Foot 4, blue"];
 
@@ -10,7 +10,7 @@ const STATES = { live: "live", starting: "starting", idle: "there", unplugged: "
 export const cameraTone = ({ state }) => TONES[state] ?? "quiet";
 export const cameraLabel = ({ state, recording }) => (recording ? "recording" : STATES[state] ?? state);
 
-/** What a setup still lacks, in one line. */
+/** What is missing from a setup, in one line. */
 export const setupText = ({ ready, missing }) => (ready ? "Complete." : missing.join(" "));
 
 /** Seconds as minutes and seconds. */

@@ -14,7 +14,7 @@ import "../pictures/picture_style.js";
 const LOOK_WIDTH = 1280;
 const HELP = "Start the studio with --camera NAME=FILE to have a video file in a camera's place, or plug a camera in.";
 
-/** Puts a camera as the server tells it into the page's state. */
+/** Puts a camera that the server sent into the page's state. */
 function accept(store, camera) {
   store.set({ cameras: (store.state.cameras ?? []).map((one) => (one.id === camera.id ? camera : one)) });
 }

@@ -1,4 +1,4 @@
-/** What is drawn over a picture of the platform: spots of a colour, and where the feet are taken to be. */
+/** Draws over a picture of the platform: blobs of a colour, and the detected feet. */
 
 import { h, svg } from "../lib/dom.js";
 
@@ -13,13 +13,13 @@ export function drawFeet(drawing, feet) {
   drawing.replaceChildren(...feet.flatMap((one, index) => (one ? cross(one, index) : [])));
 }
 
-/** A ring around every spot of a foot's colour, and crosses on the feet. */
+/** Draws a ring around every blob of a foot's colour, and crosses on the feet. */
 export function drawBlobs(drawing, { spots, chosen, feet }) {
   drawFeet(drawing, feet);
   drawing.prepend(...spots.map(({ pixel: [cx, cy], radius, fit }, index) => svg("circle", { class: `camera-spot ${index === chosen ? "chosen" : fit ? "fit" : "refused"}`, cx, cy, r: Math.max(radius, LEAST_RADIUS) })));
 }
 
-/** Numbers beside the spots, as they stand in the list; what it gives back shows those of other spots. */
+/** Returns a function that numbers the blobs in the order of the list. */
 export function blobNumbers(picture) {
   let labels = [];
   const put = () => labels.forEach(({ element, place }) => {

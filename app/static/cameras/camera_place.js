@@ -1,4 +1,4 @@
-/** Placing: points are clicked whose places on the platform are known; a grid over the picture shows how well that fits. */
+/** Locates the platform: click points of known place; a grid over the picture shows how well they fit. */
 
 import { h, setText, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
@@ -66,7 +66,7 @@ function fitText({ view }, count) {
   return `Points lie within ${fixed(view.worst_mm, 2)} mm; a pixel is ${fixed(view.mm_per_pixel, 2)} mm.`;
 }
 
-/** The points as a table whose places can be written. */
+/** The points as a table with editable places. */
 function pointTable({ change, remove, choose }) {
   const body = h("tbody");
   const element = h("table", { class: "run-table camera-points", hidden: true }, h("caption", { text: "Points" }),

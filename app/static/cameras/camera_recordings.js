@@ -1,4 +1,4 @@
-/** What cameras recorded with a run: the trial that follows from it, and its videos. */
+/** Recordings of a run by cameras: the trial made from them, and their videos. */
 
 import { h } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
@@ -7,14 +7,14 @@ import { trialApi } from "../api/trials.js";
 import { videoApi } from "../api/videos.js";
 import "../pictures/picture_style.js";
 
-/** Tells of a trial that a run's recording led to; trials of other origin are known to who made them. */
+/** Announces a trial made from a run's recording. A person who makes another trial knows of it. */
 export const announceTrial = attempt(async (id, open) => {
   const trial = await trialApi.read(id);
   if (!trial.run || !trial.source?.camera) return;
   toast(`The run of ${trial.gait_name} was recorded: ${fixed(trial.figures.distance, 1)} of ${fixed(trial.expected_cm, 1)} cm.${trial.plan?.astray_sentence ? ` ${trial.plan.astray_sentence}` : ""}`, { action: { label: "Trial of this run", act: () => open({ trial: id }) } });
 });
 
-/** Tells once what is to be known of a recording, such as why there is no trial of it. */
+/** Announces a note on a recording once, such as why there is no trial of it. */
 const announced = new Set();
 export function announceRecording({ id, name, sentence }, open) {
   if (announced.has(id)) return;

@@ -1,4 +1,4 @@
-/** A camera's setup in the panel, beside its picture: lens, place of the platform, colours of the feet; each change is kept. */
+/** A camera's setup, with its picture: lens, place of the platform, colours of the feet. Each change is kept. */
 
 import { feetPart } from "./camera_feet.js";
 import { lensPart } from "./camera_lens.js";
@@ -12,7 +12,7 @@ import { openStage } from "../pictures/picture_stage.js";
 
 const PARTS = [["lens", "Lens", lensPart], ["place", "Place", placePart], ["feet", "Feet", feetPart]];
 
-/** The part that a setup lacks first. */
+/** The first part that is missing from a setup. */
 const firstPart = ({ setup, view }) => (!setup.points.length && !setup.lens ? "lens" : view ? "feet" : "place");
 
 /** Makes a setup with a name that is not taken yet. */

@@ -1,4 +1,4 @@
-/** The approvals that a gait ever had, which one stands, and what changed from one to another. */
+/** All approvals of a gait, which one is valid, and what changed between them. */
 
 import { api } from "../api/gaits.js";
 import { sentences } from "../lib/difference.js";

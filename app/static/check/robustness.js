@@ -1,4 +1,4 @@
-/** What came of a simulation's variations: a small map, a cell each, and the share that walks. */
+/** The results of a simulation's variations: a map with a cell each, and the share that walks. */
 
 import { h, setText } from "../lib/dom.js";
 import { fixed, mm } from "../lib/format.js";
@@ -20,7 +20,7 @@ function cell(run, number) {
   return h("li", { class: "variation", title: sentence, "aria-label": sentence, tabindex: number ? "-1" : "0", text: sign, data: { came } });
 }
 
-/** Arrows go from cell to cell; the one that has the focus is said below the map. */
+/** Arrows go from cell to cell; the focused cell is described below the map. */
 function mountKeys(list, description) {
   list.addEventListener("keydown", (event) => {
     const step = { ArrowLeft: -1, ArrowRight: 1, ArrowUp: -COLUMNS, ArrowDown: COLUMNS }[event.key];

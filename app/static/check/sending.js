@@ -1,4 +1,4 @@
-/** How the plan is sent: merging and stop bound, asked before Check because they decide what is checked; and what they cost. */
+/** Sending options: merging and stop bound, set before Check because they change what is checked; and their cost. */
 
 import { h } from "../lib/dom.js";
 import { numberField } from "../state/fields.js";
@@ -26,7 +26,7 @@ function costRow(cost) {
     h("th", { scope: "row", text: `${bound(limit)}${chosen ? " ✓" : ""}` }), h("td", { text: `${fixed(merged)} s` }), h("td", { text: `${fixed(every)} s` }), h("td", { text: `${seconds(cost.stop_seconds)} s` }));
 }
 
-/** What bound and merging cost in robot seconds, as the verdict says; nothing without a verdict. */
+/** The cost of bound and merging in robot seconds, from the verdict; nothing without a verdict. */
 export function costTable(verdict) {
   if (!verdict?.costs?.length) return [];
   const head = ["Bound", `Merged, ${fixed(verdict.costs[0].merge * 1000)} mm`, "One a knot", "Stop in"];

@@ -1,4 +1,4 @@
-/** The Simulate section: exactly the waypoints that would be sent, run by physics before a robot runs them. */
+/** The Simulate section: simulates exactly the waypoints that would be sent to the robot. */
 
 import { api } from "../api/gaits.js";
 import { byId, h, onPress, setAllowed, setAttribute, setText } from "../lib/dom.js";

@@ -7,7 +7,7 @@ import { planTimeOf } from "../plots/simulation.js";
 
 const degrees = (radians, decimals = 1) => fixed((radians * 180) / Math.PI, decimals);
 
-/** A button to a moment of the simulated robot; `after` stands behind its time. */
+/** A button to a moment of the simulated robot; `after` follows its time. */
 function goTo(simulation, moment, goToTime, what, after = "") {
   const time = planTimeOf(simulation, moment);
   return h("button", { class: "link", text: `${fixed(time)} s${after}`, "aria-label": `Go to ${what}, ${fixed(time)} s`, title: `On the plan's axis; ${fixed(moment)} s by the robot's own clock`, on: { click: () => goToTime(time) } });

@@ -1,4 +1,4 @@
-/** The timeline that foot order, phases and closing stance would draw (thesis 3.3), to tell it from one drawn by hand. */
+/** The timeline generated from foot order, phases and closing stance (thesis 3.3), to detect one drawn by hand. */
 
 import { heldBoth } from "./held_feet.js";
 
@@ -21,7 +21,7 @@ export function drawnRows(document) {
   return rows.map((row, foot) => (held.includes(foot) ? "0".repeat(count) : `${row.slice(0, -1).join("")}1`));
 }
 
-/** Whether foot order, phases and closing stance still say what the timeline shows. */
+/** Whether the timeline is still the one generated from foot order, phases and closing stance. */
 export const isDrawn = (document) => document.timeline.feet.join() === drawnRows(document).join();
 
 /**

@@ -1,4 +1,4 @@
-/** Names that no other gait has. */
+/** Gait names that are still free. */
 
 /** The name, with a number where another gait has it already. */
 export function freeName({ gaits }, base) {

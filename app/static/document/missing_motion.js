@@ -1,13 +1,13 @@
-/** Where an infeasible plan lacks what: for the timeline's cells, its ruler, and the marks in 3D. */
+/** Where an infeasible plan misses its limits: for the timeline's cells, its ruler, and the marks in 3D. */
 
-/** Feet whose rows a lack concerns: its own, or those that stand in its phase where it is about the body. */
+/** The feet of an entry, or those in stance in its phase if it is about the body. */
 function rowsOf(missing, contact) {
   if (missing.feet.length) return missing.feet;
   const standing = contact[missing.first]?.map((stands, foot) => (stands ? foot : -1)).filter((foot) => foot >= 0) ?? [];
   return standing.length ? standing : (contact[0] ?? []).map((_, foot) => foot);
 }
 
-/** "foot,sample" to `{sentence, tone, first, last}`; the worst lack wins. */
+/** "foot,sample" to `{sentence, tone, first, last}`; the worst entry wins. */
 export function missingMotionByCell(plan) {
   const found = new Map();
   (plan?.live?.lacks ?? []).forEach((missing, rank) => {
@@ -21,5 +21,5 @@ export function missingMotionByCell(plan) {
   return found;
 }
 
-/** What the preview marks: the lacks with where each phase begins and ends. */
+/** The entries that the preview marks, with the begin and end of each phase. */
 export const missingMotionOf = (plan) => plan?.live?.lacks ?? [];

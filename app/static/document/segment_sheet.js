@@ -26,7 +26,7 @@ export function segmentSheetOf(document) {
   };
 }
 
-/** The document's segment table that a sheet says. */
+/** The document's segment table of a sheet. */
 export function tableOf(sheet) {
   const columns = (rows) => (rows.length ? Array.from({ length: sheet.legs }, (_, row) => rows.map((names) => names[mod(row + sheet.shift, sheet.legs)])) : []);
   return {

@@ -1,4 +1,4 @@
-/** The step of a gait: the body's travel an iteration, in the world's axes and along its own way. */
+/** The step of a gait: the body's displacement in an iteration, in the world's axes and along its heading. */
 
 const HALF_TURN = 180;
 

@@ -1,4 +1,4 @@
-/** The ways to the trials of the real robot, which are loaded when they are first opened. */
+/** The buttons that open the Trials panel, which is loaded when it is first opened. */
 
 import { byId, h } from "../lib/dom.js";
 import { attempt, report } from "../lib/toasts.js";
@@ -24,7 +24,7 @@ function cameraGroup(store, open) {
 /**
  * Builds the links under the runs and under the robot.
  * @param {object} store
- * @param {() => void} opening told when the panel opens
+ * @param {() => void} opening called when the panel opens
  * @returns {() => boolean} what Esc does
  */
 export function mountTrialEntry(store, opening) {

@@ -1,4 +1,4 @@
-/** Trials of the real robot in a panel: the list with gaits compared, adding tracks, and one trial beside its plan. */
+/** The Trials panel: the list of trials, the gaits compared, new trials, and one trial with its plan. */
 
 import { h, icon } from "../lib/dom.js";
 import { selectGait } from "../shell/gait_list.js";
@@ -18,7 +18,7 @@ function addStyles() {
   document.head.append(sheet("../trials/trials.css"), sheet("../trials/trial_comparison.css"));
 }
 
-/** The panel with what stands in it; `begin()` tells later whether something else was asked for. */
+/** The panel and its content; `begin()` returns whether something else was opened since. */
 function buildPanel() {
   const body = h("div", { class: "runs-body" });
   const close = h("button", { class: "plain icon-only", "aria-label": "Close trials", title: "Close (Esc)" }, icon("close"));
@@ -68,7 +68,7 @@ export function mountTrials(store) {
   const tracks = tracksParts(store, attempt((gait) => selectGait(store, gait)));
   const page = { store, show, begin, all: () => all(), one: (id) => one(id) };
 
-  /** Shows what `make` gives, unless something else was asked for meanwhile. */
+  /** Shows what `make` returns, unless something else was opened meanwhile. */
   const shown = (make) => attempt(async (wanted) => {
     const isOld = begin();
     const { element, leave: gone } = await make(wanted);
@@ -76,7 +76,7 @@ export function mountTrials(store) {
     else show(element, gone);
   });
 
-  /** Does what a module offers that comes when it is first asked for. */
+  /** Calls a function of a module that is loaded when it is first needed. */
   const later = (load, name) => attempt(async (...values) => {
     const isOld = begin();
     const { [name]: act } = await load();
@@ -104,7 +104,7 @@ export function mountTrials(store) {
 
   store.watch(({ robot }) => [runIsOn(robot)], ({ robot }) => { if (runIsOn(robot)) leave(); });
 
-  /** Opens what another part of the page asks for: a trial, a video, a camera's picture or its setup. */
+  /** Opens a trial, a video, a camera's picture or its setup for another part of the page. */
   function go({ trial, video, camera, setup }) {
     openTab("robot");
     if (trial) one(trial);

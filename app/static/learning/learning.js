@@ -1,4 +1,4 @@
-/** Learning physics from trials: what is learned from, the course that is on, what came of it, and the kept sets. */
+/** Learns physics parameters from trials: the data, the running job, earlier results, and the kept sets. */
 
 import { h, setText } from "../lib/dom.js";
 import { clockTime, fixed } from "../lib/format.js";
@@ -9,7 +9,7 @@ import { announce, attempt, report, toast } from "../lib/toasts.js";
 import { trialApi } from "../api/trials.js";
 
 const POLL_MS = 1000;
-/** Longest wait between two questions to a studio that does not answer. */
+/** Longest wait between two polls of a studio that does not answer. */
 const MOST_POLL_MS = 30000;
 const PURPOSE = "Fits what no data sheet gives (soft links, friction, cable, backlash, centre of mass) to how far and which way the robot really went. Nothing changes until you choose the result in Simulate.";
 const OPEN = new Set(["running", "cancelling"]);
@@ -27,7 +27,7 @@ function progressText({ state, done, total, left_seconds: left = null }) {
   return `${done} of ${total} simulations${left === null ? "" : `, about ${aboutTime(left)} left`}`;
 }
 
-/** The course that is on: from what is learned, a bar, how many simulations are done, and Cancel. */
+/** The running job: its data, a bar, how many simulations are done, and Cancel. */
 function progressPart(cancel) {
   const [bar, source, text] = [h("i"), h("p"), h("p", { class: "quiet", role: "status", "aria-label": "Learning" })];
   const element = h("div", {}, source, h("div", { class: "simulating" }, h("div", { class: "progress" }, bar), h("button", { text: "Cancel", "aria-label": "Cancel learning", on: { click: cancel } })), text);
@@ -58,7 +58,7 @@ function setRow(set, remove) {
 /**
  * Opens learning in the panel of trials.
  * @param {{store: object, show: (element: Element, onLeave?: () => void) => void, begin: () => () => boolean, all: () => void}} page
- *   `begin` begins something that is shown; what it gives says whether something else was asked for since
+ *   `begin()` returns a function that returns whether something else was opened since
  */
 export async function openLearning(page) {
   addStyles();
@@ -116,7 +116,7 @@ export async function openLearning(page) {
     return { element: progress.element, begin: again };
   }
 
-  /** Does something, and shows the list again unless something else was asked for meanwhile. */
+  /** Does something, then shows the list again unless something else was opened meanwhile. */
   const changed = async (act) => {
     const isOld = begin();
     const made = await act();

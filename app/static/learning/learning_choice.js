@@ -1,4 +1,4 @@
-/** From what is learned: kept trials that are ticked, or the published table with its trajectories. */
+/** Chooses the data to learn from: kept trials, or the published table with its trajectories. */
 
 import { h, onPress, setAllowed } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
@@ -14,7 +14,7 @@ function trialLine(trial, changed) {
   return { box, trial, element: h("li", {}, h("label", { title: why }, box, h("span", { text: trial.name }), h("span", { class: "quiet", text: gaitOf(trial) }))) };
 }
 
-/** Ticked trials, and a button that says why not. */
+/** A list of trials to tick, and the button that starts. */
 export function trialChoice(trials, start) {
   const press = h("button", { class: "primary", text: "Learn" });
   const lines = trials.map((trial) => trialLine(trial, refresh));

@@ -1,4 +1,4 @@
-/** Distances as foretold over distances as measured: what lies on the line was foretold rightly. */
+/** Plots predicted over measured distances; a point on the line was predicted exactly. */
 
 import { h, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
@@ -9,7 +9,7 @@ const SIZE = { width: 276, height: 220, left: 30, right: 8, top: 8, bottom: 30 }
 /** Numbers need so many times the room of lines. */
 const TICK_ROOM = 5;
 
-/** Ways of foretelling that are drawn, each with a mark of its own, so that colour says nothing alone. */
+/** The predictions that are drawn, each with its own mark, so that they differ not only by colour. */
 const MARKS = [
   { name: "as planned", mark: (x, y) => svg("circle", { class: "said-plan", r: 3, cx: x, cy: y }) },
   { name: "default", mark: (x, y) => svg("path", { class: "said-default", d: `M${x - 3} ${y - 3}l6 6m0 -6l-6 6` }) },
@@ -24,7 +24,7 @@ function legend(foretold) {
     svg("svg", { viewBox: "0 0 10 10", "aria-hidden": "true" }, mark(5, 5)), foretold.find((prediction) => prediction.name === name).title)));
 }
 
-/** @param {{gaits: object[], foretold: object[]}} result of a course */
+/** @param {{gaits: object[], foretold: object[]}} result of a job */
 export function predictionPlot({ gaits, foretold }) {
   const drawn = MARKS.map((one) => ({ ...one, prediction: foretold.find(({ name }) => name === one.name) }));
   const measured = gaits.map(({ distance_cm: distance }) => distance);

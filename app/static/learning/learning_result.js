@@ -1,4 +1,4 @@
-/** What came of learning: parameters, how well gaits are foretold, and keeping it as a named set. */
+/** The result of learning: parameters, the quality of predictions, and keeping them as a named set. */
 
 import { captionedTable } from "../lib/tables.js";
 import { h } from "../lib/dom.js";
@@ -45,9 +45,9 @@ function keeping(job, keep) {
 }
 
 /**
- * Builds the page of a course that has a result.
- * @param {object} course
- * @param {{back: () => void, keep: (course: object, name: string) => void}} acts
+ * Builds the page of a job that has a result.
+ * @param {object} job
+ * @param {{back: () => void, keep: (job: object, name: string) => void}} actions
  */
 export function learnedResult(job, { back, keep }) {
   const { result } = job;

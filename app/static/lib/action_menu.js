@@ -1,4 +1,4 @@
-/** A button that opens a small menu of things to do. */
+/** A button that opens a menu of actions. */
 
 import { openable } from "./check_menu.js";
 import { h, onPress, setAllowed } from "./dom.js";

@@ -1,4 +1,4 @@
-/** A button that opens a small menu of things to be shown or hidden. */
+/** A button that opens a menu of items to show or hide. */
 
 import { h, setAttribute } from "./dom.js";
 

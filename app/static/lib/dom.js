@@ -57,7 +57,7 @@ export function setAllowed(button, reason, help = "") {
   setAttribute(button, "aria-description", reason || null);
 }
 
-/** Calls `act` on a click unless the button says why not; then `explain` gets the reason. */
+/** Calls `act` on a click. If the button is disabled, `explain` gets the reason instead. */
 export function onPress(button, act, explain = () => {}) {
   button.addEventListener("click", (event) => {
     if (button.getAttribute("aria-disabled") === "true") explain(button.title);
@@ -74,5 +74,5 @@ export function stateParts(tone, name, word) {
   ];
 }
 
-/** Resolves when what is changed now has been painted. */
+/** Resolves when the current changes have been painted. */
 export const painted = () => new Promise((resume) => { requestAnimationFrame(() => setTimeout(resume)); });

@@ -1,13 +1,13 @@
-/** A sentence beside a control: what is wrong with its text, and what would be right. */
+/** The error message of a control: what is wrong with its text, and what would be right. */
 
 import { h, setAttribute } from "./dom.js";
 
 let count = 0;
 
 /**
- * Builds the sentence's place; hidden while there is none.
- * @param {HTMLElement} control whose text it is about
- * @returns {{element: HTMLElement, say: (sentence: string|null) => void, hasError: () => boolean}}
+ * Builds the message; hidden while there is none.
+ * @param {HTMLElement} control the control with the text
+ * @returns {{element: HTMLElement, setError: (sentence: string|null) => void, hasError: () => boolean}}
  */
 export function refusalOf(control) {
   count += 1;

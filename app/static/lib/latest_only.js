@@ -1,5 +1,5 @@
 /**
- * One task at a time, and of those that come meanwhile only the newest.
+ * Runs one task at a time, and drops all waiting values but the newest.
  * @param {(value: any) => Promise<void>} work must not reject
  * @returns {(value: any) => void} offers a value to be worked on
  */
@@ -24,8 +24,8 @@ export function latestOnly(work) {
 }
 
 /**
- * Answers may come in another order than their questions.
- * @returns {() => () => boolean} begins a question; what it gives says whether a later one was begun since
+ * Finds out whether a response is out of date: responses may arrive in another order than their requests.
+ * @returns {() => () => boolean} takes a ticket: a function that returns whether a later ticket was taken
  */
 export function ticket() {
   let turn = 0;

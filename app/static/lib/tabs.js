@@ -15,7 +15,7 @@ const sectionOf = (name) => (name === "segments" && !byId("sequence").hidden ? b
 const place = { name: NAMES[0], offset: 0, scroll: 0 };
 let onOpened = () => {};
 
-/** `act` is told of each tab that is opened. */
+/** Calls `act` with the name of each tab that is opened. */
 export function onTab(act) {
   onOpened = act;
 }
@@ -47,7 +47,7 @@ function mark(current) {
 /** Takes note of where a person has scrolled to; the section that fills most of the view is the current one. */
 function notePlace() {
   const { scrollTop, clientHeight } = byId("sections");
-  // What was scrolled here and not by hand says nothing, least of all once the sections have another height.
+  // Ignore scrolling by the page itself: it does not show which section a person looks at.
   if (scrollTop === place.scroll) return;
   const name = NAMES.filter((one) => sectionOf(one).offsetTop <= scrollTop + clientHeight * 0.4).at(-1);
   Object.assign(place, { name, offset: scrollTop - sectionOf(name).offsetTop });

@@ -1,4 +1,4 @@
-/** What floats over the preview for a while: refusals, finished deletions, and the voice for screen readers. */
+/** Messages that float over the preview for a while, and announcements for screen readers. */
 
 import { byId, h, icon } from "./dom.js";
 
@@ -32,7 +32,7 @@ export function toast(sentence, { tone = "plain", action = null, of = action ? "
   setTimeout(close, action ? STAY_ACTION_MS : tone === "bad" ? STAY_BAD_MS : STAY_MS);
 }
 
-/** Takes refusals away whose cause is gone: the gait changed, or another one is shown. */
+/** Removes error messages that no longer apply because the gait changed or another is shown. */
 export function clearRefusals() {
   byId("toasts").querySelectorAll('[data-tone="bad"][data-of="gait"]').forEach((element) => element.remove());
 }
@@ -42,7 +42,7 @@ export function clearOfGait() {
   byId("toasts").querySelectorAll('[data-of="gait"]').forEach((element) => element.remove());
 }
 
-/** Shows what an ApiError says; anything else is a defect and goes to the console as well. */
+/** Shows the message of an ApiError; any other error is a defect and also goes to the console. */
 export function report(error) {
   toast(error.message, { tone: "bad" });
 }

@@ -1,4 +1,4 @@
-/** Looking at the exact tier's way: the motion at each of its iterations, marked as not the plan. */
+/** Shows the motion at each iteration of the exact tier, marked as not the plan. */
 
 import { api } from "../api/gaits.js";
 import { h, setText } from "../lib/dom.js";

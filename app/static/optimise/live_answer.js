@@ -1,4 +1,4 @@
-/** What the optimiser says of the shown gait: the live tier's state in a line, what is missing, and ways out. */
+/** The optimiser's answer for the shown gait: the live tier's state in a line, what is missing, and remedies. */
 
 import { byId, h, setAttribute, setText } from "../lib/dom.js";
 import { fixed, mm } from "../lib/format.js";
@@ -52,7 +52,7 @@ export function statusLine() {
   };
 }
 
-/** Whose the lack is: feet counted from 1. */
+/** The feet of an entry, counted from 1. */
 const feetOf = ({ feet }) => (feet.length === 0 ? "" : feet.length === 1 ? `foot ${feet[0] + 1}` : `edge ${feet.map((foot) => foot + 1).join("–")}`);
 
 function missingMotionItem(missing, plan, goTo) {
@@ -64,7 +64,7 @@ function missingMotionItem(missing, plan, goTo) {
     h("b", { class: "number", text: `${fixed(missing.amount, missing.amount < 1 ? 2 : 1)} ${missing.unit}` }));
 }
 
-/** The worst lacks, and the others under a fold. */
+/** The worst entries, and the others under a fold. */
 function missingMotionList(lacks, plan, goTo) {
   const items = lacks.map((missing) => missingMotionItem(missing, plan, goTo));
   const list = h("ul", { class: "lacks", role: "list", "aria-label": "What is missing" }, ...items.slice(0, SHOWN_MISSING));
@@ -87,7 +87,7 @@ function remedyParts(edits, remedies) {
 
 function liveParts(state, plan, edits, goTo) {
   const { evidence, explanation, lacks } = plan.live;
-  // The last sentence says what the answer holds for: for every motion, or for the live tier's model.
+  // The last sentence names the scope of the answer: every motion, or the live tier's model.
   const [first = "", ...rest] = explanation;
   const closing = rest.at(-1) ?? first;
   const text = evidence === "proven" && !FOR_EVERY_MOTION.test(closing) ? "proven for the live model" : evidence ?? "";
@@ -100,7 +100,7 @@ function liveParts(state, plan, edits, goTo) {
 
 /**
  * Keeps the reason and the ways out in sight at the lower edge of the panel, where the fields leave them no room above it.
- * What is missing in detail may lie below the edge; a field that is gone to comes to stand above the answer.
+ * The details may lie below the edge; a focused field is scrolled above the answer.
  */
 function keepVisible(element, details) {
   const panel = byId("sections");
@@ -113,7 +113,7 @@ function keepVisible(element, details) {
   [element, details].forEach((one) => resized.observe(one));
 }
 
-/** The box that says why there is no motion, and what would make one. */
+/** The box that explains why there is no motion, with remedies. */
 export function liveAnswer(edits, goTo) {
   const [head, details] = [h("div", {}), h("div", { class: "why-details" })];
   const element = h("div", { class: "box-note why-not", role: "region", "aria-label": "Why it is infeasible", data: { tone: "bad" }, hidden: true }, head, details);

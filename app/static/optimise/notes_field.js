@@ -12,9 +12,9 @@ function refusedNotes(text) {
   return length > MOST ? `Notes have ${length} characters; at most ${MOST} are kept. Shorten them, or press Escape.` : null;
 }
 
-/** The text of the field beside that of the document: `write` shows one, `isTyped` says whether a person has another. */
+/** The text of the field and of the document: `write` shows one, `isTyped` returns whether they differ. */
 function shownText(area, refusal) {
-  // A text area says its lines in its own way, so what was written is compared as it reads it back.
+  // A text area changes line ends, so compare with what it reads back.
   let written = "";
   return {
     isTyped: () => area.value !== written,
@@ -64,7 +64,7 @@ export function notesField(store, edits) {
     text.write(known);
   }
 
-  /** What the studio did not take stands here again, with its reason. */
+  /** Shows again what the studio refused, with its reason. */
   function bringBack(shown, notes, reason) {
     show(shown);
     if (!text.isTyped()) area.value = notes;
@@ -88,7 +88,7 @@ export function notesField(store, edits) {
   }
 
   for (const type of ["change", "blur"]) area.addEventListener(type, keep);
-  // Before the page asks whether it may be left, so that what stands here counts as an edit.
+  // Runs before the page asks whether it may be left, so that the typed notes count as an edit.
   window.addEventListener("beforeunload", keep, { capture: true });
   mountNoteKeys(area, edits, { text, keep, giveUp });
   store.watch(({ selected }) => [selected], giveUp);

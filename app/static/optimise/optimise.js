@@ -1,4 +1,4 @@
-/** The Optimise section: how the live tier judges the shown gait, what is asked for, and the exact tier's button. */
+/** The Optimise section: the live tier's answer for the shown gait, the options, and the exact tier's button. */
 
 import { jobAnswer, liveAnswer, statusLine } from "./live_answer.js";
 import { api } from "../api/gaits.js";
@@ -71,7 +71,7 @@ export function mountOptimise(store, edits, goTo) {
   return { cancel: () => fields.some((field) => field.cancel?.()) || iterates.leave() };
 }
 
-/** Of an infeasible plan no margin: a bare number beside the word would read as what is lacking. */
+/** An infeasible plan shows no margin, which would read as what is missing. */
 const withoutShortMargin = (plan) => (plan?.live?.status === "infeasible" ? { ...plan, balance: null } : plan);
 
 /** What differs from the usual under the fold, so that it is not forgotten. */

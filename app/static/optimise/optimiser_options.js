@@ -1,4 +1,4 @@
-/** What the Optimise section asks: every number and choice of the optimiser, with its unit, range and help. */
+/** The optimiser's options: every number and choice, with its unit, range and help. */
 
 import { isDrawn } from "../document/drawn_timeline.js";
 import { choiceField, numberField, textField } from "../state/fields.js";
@@ -121,7 +121,7 @@ function phaseFields(store, edits) {
  * Builds all fields.
  * @param {object} store
  * @param {object} edits
- * @param {(robot: object, document: object) => void} makeNew asks for a new gait for a robot with other legs
+ * @param {(robot: object, document: object) => void} makeNew offers a new gait for a robot with other legs
  * @returns {{robot: object, order: object, main: object[], more: object[]}} fields with `element` and `show(document)`
  */
 export function optimiserOptions(store, edits, makeNew) {

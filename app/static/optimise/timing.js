@@ -1,4 +1,4 @@
-/** The fastest timing beside the timing as drawn: a search in the background, and a gait in whole samples to use. */
+/** Searches the fastest timing in the background, compares it with the drawn one, and makes a gait of it. */
 
 import { api } from "../api/gaits.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";

@@ -1,4 +1,4 @@
-/** What becomes of a pattern: it is looked at walking in 3D, made a gait of its own, or drawn into the open one. */
+/** Actions on a pattern: show it walking in 3D, make a gait of it, or draw it into the open gait. */
 
 import { capital } from "../lib/format.js";
 import { api } from "../api/gaits.js";
@@ -10,7 +10,7 @@ import { announce, attempt, toast } from "../lib/toasts.js";
 
 const LABEL = "Complete the drawing";
 const BALANCE = RULES.find(({ rule }) => rule === "balance");
-/** What to do where a pattern makes no motion: only what is on the panel and not yet done. */
+/** Advice for a pattern without a motion: what the panel offers and is not done yet. */
 function adviceText(state) {
   const ways = [
     state.mode === "transition" && !state.walkable && "ask for swings that the feet can do",
@@ -24,14 +24,14 @@ function adviceText(state) {
 
 const adviceFor = (plan, state) => (plan.live?.status === "infeasible" ? ` ${adviceText(state)}` : " Play shows it walking.");
 
-/** The pattern that stands in the grid, or why there is none to be used. */
+/** The pattern in the grid, or why none can be used. */
 function usable({ result, running, chosen, waiting }) {
   if (running || waiting) return [null, "The search is not finished."];
   const pattern = result?.patterns[chosen] ?? null;
   return [pattern, pattern ? null : "There is no pattern yet."];
 }
 
-/** Why a pattern is not drawn into the open gait; null where it would change it. */
+/** Why drawing a pattern would not change the open gait, or null if it would. */
 const nothingToDraw = (pattern, document) => (pattern?.feet.join() === document?.timeline.feet.join() ? "Nothing to complete: this pattern is what is drawn already. Take another of the best patterns, or free cells." : null);
 
 /**
@@ -53,7 +53,7 @@ export function patternActions(store, problem, { edits, playback, show }) {
   }
 
   const begin = ticket();
-  /** Ends the walk, also one that is only asked for. */
+  /** Ends the walk, also one that is still being computed. */
   const leave = () => {
     begin();
     if (store.state.iterate?.pattern) store.set({ iterate: null });
@@ -93,7 +93,7 @@ export function patternActions(store, problem, { edits, playback, show }) {
 
   onPress(make, makeGait, (why) => toast(why));
   onPress(walk, toggleWalk, (why) => toast(why));
-  // What walks is the pattern that stood there when it was begun.
+  // A walk shows the pattern at its start, so a change ends it.
   problem.watch(({ result, chosen, running, mode }) => [result, chosen, running, mode], leave);
 
   return {

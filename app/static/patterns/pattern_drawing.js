@@ -1,4 +1,4 @@
-/** Drawing what one wants into a pattern: a click, a drag or a key fixes cells; the search finds the others anew. */
+/** Draws cells into a pattern with click, drag or key; the search then finds the other cells. */
 
 import { cellOf, nearestCell } from "../timeline/cells.js";
 import { drawnCells, withCells } from "./pattern_problem.js";

@@ -1,4 +1,4 @@
-/** What is asked, in the panel: which kind of pattern, its length, its limbs, and whether a drawing is kept. */
+/** The fields of the pattern problem: its kind, its length, its limbs, and whether to keep a drawing. */
 
 import { h, setAttribute, setText } from "../lib/dom.js";
 import { limbChoices, limbLocks } from "./pattern_limbs.js";

@@ -1,4 +1,4 @@
-/** A gait above or below the transition: its timeline in small, and a cursor that chooses a sample of it. */
+/** A small timeline of a gait above or below the transition, with a cursor that chooses a sample. */
 
 import { clamp } from "../lib/clamp.js";
 import { h, setAttribute, setText, svg } from "../lib/dom.js";

@@ -1,4 +1,4 @@
-/** The two gaits of a transition: which there are, what their timelines are, and which one is taken at first. */
+/** The two gaits of a transition: the choices, their timelines, and the default choice. */
 
 import { api } from "../api/gaits.js";
 import { shownDocument } from "../state/store.js";

@@ -1,4 +1,4 @@
-/** What the grid shows: the pattern that is looked at, and which of its cells are fixed for which reason. */
+/** Computes what the grid shows: the current pattern, and which of its cells are fixed and why. */
 
 import { timelineOf } from "./pattern_gaits.js";
 import { drawnCells, limbsOf } from "./pattern_problem.js";
@@ -45,7 +45,7 @@ function ofDrawing(store, problem) {
 
 const SOURCES = { transition: ofTransition, limbs: ofLimbs, drawing: ofDrawing };
 
-/** Rows of the best pattern yet, else of the last answer, where they have this size. */
+/** Rows of the best pattern yet, else of the last result, if they have this size. */
 function rowsOf({ result, running, chosen, hovered }, { legs, samples }) {
   const rows = running?.pattern?.feet ?? result?.patterns[hovered ?? chosen]?.feet ?? null;
   return rows?.length === legs && rows[0].length === samples ? rows : null;

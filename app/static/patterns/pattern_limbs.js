@@ -11,7 +11,7 @@ const sameLength = (own, count, build) => {
   return own;
 };
 
-/** A choice a limb; `aboutOf` says which robot the open gait is for and what its feet are called. */
+/** A choice a limb; `aboutOf` returns the open gait's robot and the names of its feet. */
 export function limbChoices(problem, aboutOf) {
   const element = h("ul", { class: "pattern-limbs", "aria-label": "What each limb does" });
   const choices = [];

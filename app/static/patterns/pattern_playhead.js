@@ -1,4 +1,4 @@
-/** Where the pattern that walks stands: a line over gait A, then over the transition, then over gait B. */
+/** Draws the playhead of a walking pattern over gait A, then the transition, then gait B. */
 
 import { h } from "../lib/dom.js";
 import { shownRows } from "./pattern_search.js";

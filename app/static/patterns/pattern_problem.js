@@ -1,4 +1,4 @@
-/** What is asked of the pattern search: gaits, cursors, limbs, rules and drawn cells. Kept in this browser. */
+/** The problem of the pattern search: gaits, cursors, limbs, rules and drawn cells. This browser keeps it. */
 
 import { recalled, remember } from "../lib/remembered.js";
 import { watchable } from "../state/store.js";
@@ -44,12 +44,12 @@ const INITIAL = Object.freeze({
   cells: { transition: {}, limbs: {}, drawing: {} },
 });
 
-/** What else the panel knows and does not keep. */
+/** The rest of the panel's state, which is not kept. */
 const TRANSIENT = Object.freeze({ freed: {}, result: null, running: null, error: null, chosen: 0, hovered: null, waiting: false, documents: Object.freeze({}) });
 
 const keep = (state) => remember(KEY, Object.fromEntries(Object.keys(INITIAL).map((name) => [name, state[name]])));
 
-/** The parts of the state that make another question; a change of one of them is asked again. */
+/** The parts of the state that define the problem; a change of one of them starts a new search. */
 export const problemParts = (state) => Object.keys(INITIAL).map((name) => state[name]).concat([state.freed]);
 
 /** Creates the state of the panel, which is watched like the page's store. */
@@ -87,11 +87,11 @@ export const withCells = (state, changed) => ({ cells: { ...state.cells, [state.
 
 const tuples = (cells) => Object.entries(cells).map(([key, value]) => [...key.split(",").map(Number), value]);
 
-/** How long the pattern is that is asked for, or null where the search chooses. */
+/** The requested length of the pattern, or null if the search chooses it. */
 export const lengthOf = ({ mode, samples, shortest, cycle }) => (mode === "limbs" ? cycle : mode === "transition" && !shortest ? samples : null);
 
 /**
- * The question as it is sent.
+ * The problem as the request's body.
  * @param {object} state of `createProblem`
  * @param {{gait: string, limbs: string[], document: object|null, drawing: string[]|null, isFree: Function}} page the open
  *   gait, what its limbs do, its document where an edit is under way, the rows to keep where that can be, and which cells
@@ -110,14 +110,14 @@ export function bodyOf(state, { gait, limbs, document, drawing, isFree }) {
   return { ...common, gait, painted, ...(document ? { document } : {}) };
 }
 
-/** The state's change that a relaxation asks for, with those that go with it. */
+/** The change of state that a relaxation proposes, with those that go with it. */
 export const relaxed = (state, relaxation) => relaxation.also.reduce((change, further) => ({ ...change, ...loosened({ ...state, ...change }, further) }), loosened(state, relaxation));
 
 function loosened(state, { rule, value, cells, samples }) {
   if (samples) return state.mode === "limbs" ? { cycle: samples } : { samples, shortest: false };
   if (rule !== "fixed") {
     const { scale, usual, first = usual } = RULES.find((one) => one.rule === rule);
-    // Swings shorter than the feet need are what such a loosening asks for.
+    // Such a relaxation allows swings shorter than the feet need.
     const walkable = state.walkable && !["shortest_swing", "least_swing"].includes(rule);
     return { walkable, rules: { ...state.rules, [rule]: value === null ? { on: false, value: ruleOf(state, { rule, usual, first }).value } : { on: true, value: scale ? Number((value / scale).toPrecision(9)) : value } } };
   }

@@ -1,4 +1,4 @@
-/** How the search stands: its progress with bound and gap, the best patterns, or why there is none and what would help. */
+/** Shows the search: progress with bound and gap, then the best patterns, or why there is none and what would help. */
 
 import { h, onPress, setAllowed, setAttribute, setText, svg } from "../lib/dom.js";
 import { counted, fixed, seconds } from "../lib/format.js";
@@ -68,7 +68,7 @@ function clashBox(problem) {
   };
 }
 
-/** A pattern as small as its line: what tells patterns apart that cost the same. */
+/** A pattern as small as its line, which distinguishes patterns of the same cost. */
 const thumbnail = (feet) => svg("svg", { class: "pattern-thumbnail", viewBox: `0 0 ${feet[0].length} ${feet.length}`, preserveAspectRatio: "none", "aria-hidden": "true" }, ...picture({ timeline: { feet } }, null));
 
 /** The best patterns: pointing at one, or going through them by keys, shows it; a click chooses it. */
@@ -104,10 +104,10 @@ function alternatives(problem, preview) {
 }
 
 /**
- * Builds the answer's part of the panel.
+ * Builds the result's part of the panel.
  * @param {object} problem
  * @param {{useNow: Function, cancel: Function}} search
- * @param {(index: number|null) => void} look shows one of the best patterns for a moment, or the chosen one again
+ * @param {(index: number|null) => void} preview shows one of the best patterns for a moment, or the chosen one again
  */
 export function patternResult(problem, search, preview) {
   const [dot, word, sentence, time] = [h("span", { class: "dot" }), h("b"), h("span", { class: "quiet" }), h("span", { class: "number quiet" })];

@@ -1,4 +1,4 @@
-/** Rules and weights of the pattern search: each with a switch and its number, and the thesis's own beside it. */
+/** Rules and weights of the pattern search: a switch and a number each, with the thesis's value. */
 
 import { h, setText } from "../lib/dom.js";
 import { RULES, ruleOf, WEIGHTS } from "./pattern_problem.js";

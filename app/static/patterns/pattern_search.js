@@ -1,4 +1,4 @@
-/** Asks the studio for the pattern whenever the question changes; the newest question wins, each page has its own. */
+/** Submits the problem to the server whenever it changes, and takes the result of the newest search. */
 
 import { api } from "../api/gaits.js";
 import { latestOnly } from "../lib/latest_only.js";
@@ -10,7 +10,7 @@ import { runIsOn, shownDocument } from "../state/store.js";
 import { attempt } from "../lib/toasts.js";
 
 const REST_MS = 250;
-/** So long without news of a search, and the page asks for it: an event may be lost while the line opens anew. */
+/** After this time without news of a search the page polls it: an event is lost while the socket reconnects. */
 const SILENCE_MS = 3000;
 
 /** What of a gait's document the search for a gait of some limbs depends on: the gait that it makes is alike in all of it. */
@@ -22,22 +22,22 @@ export function shownRows({ result, running, chosen }) {
 }
 
 /**
- * Keeps the answer current while the panel is open.
+ * Keeps the result current while the panel is open.
  * @param {object} store the page's
  * @param {object} problem of `createProblem`
  * @param {() => boolean} isOpen
- * @returns {{ask: () => void, cancel: () => Promise<void>, useNow: () => Promise<void>}}
+ * @returns {{submit: () => void, cancel: () => Promise<void>, useNow: () => Promise<void>}}
  */
 export function mountSearch(store, problem, isOpen) {
   let [newest, ended, since] = [0, 0, 0];
-  /** Numbers of the newest question and of the one that is being answered. */
+  /** Numbers of the newest problem and of the one that the server searches. */
   let [latest, current] = [0, 0];
-  /** The best pattern comes first; those after it are asked for once nobody has changed the question for a moment. */
+  /** The best pattern comes first. The others are requested once the problem has not changed for a moment. */
   let [timer, silence, isMore, sent] = [0, 0, false, null];
-  /** What was asked last, with the documents that it was about. */
+  /** The problem submitted last, with its documents. */
   let submitted = null;
 
-  /** Rows to keep: what is shown now, where it has the length; a gait's own drawing is kept by itself. */
+  /** The shown rows as a hint, if they have the right length. The server keeps a gait's own drawing by itself. */
   function drawingFor() {
     const rows = problem.state.mode === "drawing" ? null : shownRows(problem.state);
     return rows?.[0].length === lengthOf(problem.state) ? rows : null;
@@ -56,10 +56,10 @@ export function mountSearch(store, problem, isOpen) {
   const documents = () => (problem.state.mode === "transition" ? [problem.state.from.gait, problem.state.to.gait] : [store.state.selected])
     .map((gait) => timelineOf(store, problem, gait)).map((document) => document && JSON.stringify(problem.state.mode === "limbs" ? aboutLimbs(document) : document));
 
-  /** The question without the gait's name where only what the gait is like matters. */
+  /** The problem without the gait's name where only the gait's properties matter. */
   const submittedBody = (now) => JSON.stringify(problem.state.mode === "limbs" ? { ...now, gait: null } : now);
 
-  /** Whether the question that stands is not the one that was asked last; a document that was not at hand is the same. */
+  /** Whether the problem differs from the one submitted last. A document that is not loaded counts as the same. */
   function isNew() {
     const { result, waiting, error } = problem.state;
     if (!submitted || error || (!waiting && (!result || result.status === "cancelled"))) return true;
@@ -67,7 +67,7 @@ export function mountSearch(store, problem, isOpen) {
   }
 
   function accept({ id, state, progress, result, sentence }) {
-    // An event may overtake the answer that its search was begun by.
+    // An event may arrive before the response to the request that started its search.
     if (id < newest || (state === "running" && id === ended)) return;
     newest = id;
     if (state !== "running") ended = id;
@@ -115,7 +115,7 @@ export function mountSearch(store, problem, isOpen) {
     offer({ body: { ...now, count: 1 }, since: performance.now(), number: latest });
   }
 
-  /** Another gait was opened, or a gait was edited: what was found and chosen stays where that is another matter. */
+  /** Submits after another gait was opened or edited, unless the problem is the same. */
   const submitIfNew = () => { if (isOpen() && store.state.view && isNew()) submit(); };
 
   problem.watch(problemParts, submit);

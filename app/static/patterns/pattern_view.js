@@ -105,7 +105,7 @@ function drawnText(state) {
 }
 
 /**
- * Builds the panel; it is asked for when it is first opened.
+ * Builds the panel when it is first opened.
  * @param {object} store
  * @param {{edits: object, playback: Playback, show: (id: string) => Promise<void>}} page
  * @returns {Promise<{open: (mode: string|null) => void, close: () => void, cancel: () => boolean}>}

@@ -1,4 +1,4 @@
-/** A round loupe beside a place of a picture: what lies under the finger, six times as large, with a cross. */
+/** A round loupe at a place of a picture: shows it six times as large, with a cross. */
 
 import { h } from "../lib/dom.js";
 

@@ -1,4 +1,4 @@
-/** Points over a picture: set by a click, dragged, moved by the arrow keys, taken out with Delete; a loupe shows what is hit. */
+/** Points over a picture: set by a click, moved by drag or arrow keys, removed with Delete; a loupe shows the place. */
 
 import { h } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";

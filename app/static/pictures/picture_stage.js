@@ -45,9 +45,9 @@ function frameSlider(moved) {
  * Opens the picture.
  * @param {object} source of `videoSource` or `cameraSource`
  * @param {number} [frame] that is shown first
- * @param {(why: string|null) => void} [lost] told why there is no picture of now, and null when there is one again
+ * @param {(why: string|null) => void} [lost] gets why there is no current picture, and null when there is one again
  * @returns {object} `picture` of `pictureView`; `frame`; `fetches(act)`: another way to a picture, `act(frame)` gives a blob, an
- *   address or null where it is out of date; `away(why)`: what the server says of a camera that is gone, null where it is not;
+ *   address or null where it is out of date; `away(why)`: the server's reason if a camera is gone, or null;
  *   `refresh()`; `close()`; `source`
  */
 export function openStage(source, frame = 0, lost = () => {}) {

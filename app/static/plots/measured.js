@@ -3,7 +3,7 @@
 import { acrossOf, pathOf } from "./curves.js";
 import { simulationOver, traceOf } from "./simulation.js";
 
-/** What of a run stands over which strip: its rows, and how many values of a row belong to a foot; none where they are the body's. */
+/** The strips of a run: its rows, and how many values of a row belong to a foot; none for the body. */
 const OVER = { strokes: { of: "measured_mm", aFoot: 3 }, heights: { of: "foot_heights_mm", aFoot: 1 }, margin: { of: "margins_mm", aFoot: 0 } };
 
 /** Long dashes, in every strip: what was measured is solid, what was planned dotted. */
@@ -24,8 +24,8 @@ function iterations({ plan_times: times, laps }, values) {
 
 const known = new WeakMap();
 
-/** What of a run stands over a strip, or null. */
-function measuredOf(run, strip) {
+/** What a run draws over a strip, or null. */
+export function measuredOf(run, strip) {
   const values = run?.[OVER[strip]?.of];
   if (!values) return null;
   if (!known.has(values)) known.set(values, { laps: iterations(run, values), aFoot: OVER[strip].aFoot });
@@ -39,7 +39,7 @@ export function runOver({ run, trace, selected, iterate }) {
   return run?.strokes && run.gait === selected ? run.strokes : null;
 }
 
-/** What stands over a strip, the run's on top: each with what it is called and how its lines are broken. */
+/** The curves over a strip, the run's on top: each with its name and its line style. */
 export function oversOf(state, strip) {
   const [simulated, measured] = [measuredOf(traceOf(simulationOver(state)), strip), measuredOf(runOver(state), strip)];
   return [simulated && { ...simulated, word: "simulated dashed", dash: SIMULATED_DASH }, measured && { ...measured, word: "measured solid", dash: [] }].filter(Boolean);

@@ -68,7 +68,7 @@ function footTags({ series }, across, scale) {
   });
 }
 
-/** Draws a strip, with what was measured or simulated over it; returns what the pointer asks it for. */
+/** Draws a strip, with measured or simulated curves over it; returns what the pointer needs. */
 function draw(row, content, across, count, axis, overs) {
   const { low = null, high = null, wanted = null, floor = null, most = 0 } = content;
   const ranges = [rangeOf(content.series, count), ...overs.map(measuredRange)];

@@ -17,7 +17,7 @@ function greatest(values) {
 }
 
 const footAndValue = (top, foot, unit) => (top ? `foot ${foot(top.at) + 1}: ${fixed(top.value)} ${unit}` : "–");
-/** Of a robot whose motors share actuators the real ones, over the plane of the standing feet; null where there is none. */
+/** The real strokes of a robot with shared actuators, over the plane of the standing feet, or null. */
 const heightsAt = ({ real_heights_mm: real, feet }, index) => real?.[index] ?? (feet?.[index] ?? []).map((foot) => foot[2] * 1000);
 const mmRequested = (value) => (value ? value * 1000 : null);
 

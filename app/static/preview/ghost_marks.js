@@ -48,7 +48,7 @@ export class GhostMarks {
     this.#points = new Float32Array(this.#feet.length * this.#ring.length);
   }
 
-  /** The client's scene is a new one: everything has to be said again. */
+  /** The client's scene is new: everything has to be sent again. */
   forget() {
     this.#isNew = true;
   }

@@ -50,7 +50,7 @@ function follow(store, preview, kind, menu, isOn) {
   };
 }
 
-/** Builds the menu; what is chosen is remembered. */
+/** Builds the menu; the choice is kept. */
 export function mountGhosts(store, preview) {
   const choice = recalled("ghosts", Object.fromEntries(Object.entries(KINDS).map(([kind, { shown = false }]) => [kind, shown])));
   const followers = {};

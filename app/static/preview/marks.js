@@ -1,6 +1,6 @@
 /**
  * The marks round the robot as messages to the client: support polygon, centres of mass and pressure with their
- * traces, swings, footholds, what is lacking, and the reach of the legs. Only what is new is said.
+ * traces, swings, footholds, what is infeasible, and the reach of the legs. Only changes are sent.
  */
 
 import { planUpdates, polygonUpdates, pressureAt, sampleAt, troubleUpdates } from "./overlay.js";
@@ -40,7 +40,7 @@ export class Marks {
 
   get overlay() { return this.#overlay; }
 
-  /** Whether nothing of the plan has been said yet. */
+  /** Whether nothing of the plan has been sent yet. */
   get isNew() { return !this.#planSent; }
 
   setOverlay(overlay, trouble = this.#trouble) {
@@ -73,7 +73,7 @@ export class Marks {
     this.#visible[part] = visible;
   }
 
-  /** The client's scene is a new one: everything has to be said again. */
+  /** The client's scene is new: everything has to be sent again. */
   forget() {
     this.#visibleSent = null;
     this.#points.clear();
@@ -125,7 +125,7 @@ export class Marks {
     return [{ type: "SetPositionMessage", name: COP, owner: "", position: at }];
   }
 
-  /** What is to be seen and what is hidden, where that is news. */
+  /** Changes of what is visible. */
   visibleMessages() {
     const known = (name) => this.#client.node(name);
     const wanted = Object.entries(PARTS).flatMap(([part, names]) => names.map((name) => [name, this.#visible[part] && this.#has(part)]));
@@ -134,7 +134,7 @@ export class Marks {
     }
     const messages = wanted.filter(([name]) => known(name)).map(([name, on]) => visibleMessage(name, on));
     messages.push(visibleMessage("/robot", this.#visible.robot));
-    // Each of these costs the client a walk over its tree and a frame: only what is new is said.
+    // Each of these costs the client a walk over its tree and a frame: send only changes.
     const key = JSON.stringify(messages);
     if (key === this.#visibleSent) return [];
     this.#visibleSent = key;
@@ -150,7 +150,7 @@ export class Marks {
     return updates.filter(([name, values]) => this.#client.node(name) && this.#isNews(name, values)).map(([name, values]) => this.#client.updateMessage(name, values));
   }
 
-  /** Whether lines differ from those said last: new ones cost the client a new geometry, and most feet keep theirs in an edit. */
+  /** Whether lines differ from those sent last: new ones cost the client a new geometry, and most feet keep theirs in an edit. */
   #isNews(name, { points, colors }) {
     if (!points) return true;
     const [before, now] = [this.#points.get(name), [...points, ...(colors ?? [])]];

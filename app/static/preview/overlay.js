@@ -86,7 +86,7 @@ export function polygonUpdates(overlay, sample, caution, trouble = []) {
   ];
 }
 
-/** The update that marks what one sample lacks: the polygon's edge, and where the foot could be. */
+/** The update that marks an infeasible sample: the polygon's edge, and where the foot could be. */
 export function troubleUpdates(overlay, sample, trouble) {
   const at = (foot) => floorPoint(overlay, overlay.feet[sample][foot], 4);
   const lines = [];

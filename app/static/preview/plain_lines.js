@@ -103,6 +103,6 @@ export function drawLinePlainly(part) {
   shadePlainly(part.material);
   if (!part.geometry.isInstancedBufferGeometry) return;
   part.geometry = plainGeometry(part.geometry);
-  // What is seen of a geometry is told by its positions, which are those of the one piece here.
+  // The visible box of a geometry follows from its positions, which are those of the one piece here.
   part.frustumCulled = false;
 }

@@ -14,7 +14,7 @@
  *   loadPoses(source, trouble)    Poses of another robot open that robot's scene. Promise<{ robot, duration, frames, nodes }>: URL string or ArrayBuffer; the
  *                                 playhead's time stays. A newer call wins over one still under way (whose
  *                                 promise then resolves to null). May be called before the scene is ready.
- *                                 trouble: what the plan lacks, marked at its time: [{ first, last, feet, family,
+ *                                 trouble: what is infeasible, marked at its time: [{ first, last, feet, family,
  *                                 rings }] with outlines of reach [knot][corner][2] m where they are known
  *   setTime(seconds, inFrame)     shows the pose at that time, interpolated; cheap, call it every frame. inFrame: called while
  *                                 the page makes a frame, so that it is drawn in this one where there is no GPU
@@ -88,7 +88,7 @@ export class Preview extends EventTarget {
 
   /**
    * @param {HTMLIFrameElement} frame for the client
-   * @param {string} [robot] whose scene is opened first
+   * @param {string} [robot] the robot of the first scene
    */
   constructor(frame, robot = FIRST_ROBOT) {
     super();
@@ -121,7 +121,7 @@ export class Preview extends EventTarget {
     return { robot, duration, frames, nodes: [...nodes] };
   }
 
-  /** Whether the shown motion says where the centre of pressure is. */
+  /** Whether the shown motion has centres of pressure. */
   get knowsPressure() { return Boolean(this.#marks.overlay?.cop); }
 
   /** The client underneath, for tests. */
@@ -248,7 +248,7 @@ export class Preview extends EventTarget {
     }
   }
 
-  /** The server's own first messages may come after ours: says again what they undid. */
+  /** The server's own first messages may come after ours: sends again what they undid. */
   #settle() {
     if (!this.#bodyNode || this.#client.busy) return;
     this.#looks += 1;

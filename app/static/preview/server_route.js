@@ -10,7 +10,7 @@ export class ServerRoute {
   #again = 0;
   #address;
 
-  /** @param {string} robot whose scene it is */
+  /** @param {string} robot the scene's robot */
   constructor(robot) {
     const scheme = location.protocol === "https:" ? "wss" : "ws";
     this.#address = `${scheme}://${location.host}/viser/poses?robot=${encodeURIComponent(robot)}`;

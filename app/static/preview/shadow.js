@@ -1,5 +1,5 @@
 /**
- * Good looks where there is a GPU: the robot throws a shadow on the floor (none on itself, since clear plates would
+ * The robot's shadow on the floor, where there is a GPU (none on itself, since clear plates would
  * keep the light from all below them). Without a GPU it costs more than all the rest.
  */
 

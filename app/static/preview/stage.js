@@ -1,4 +1,4 @@
-/** The 3D preview's frame: loads a plan's poses once, follows the playhead, says what the plan is worth. */
+/** The 3D preview's frame: loads a plan's poses once, follows the playhead, shows the state of the plan. */
 
 import { planState } from "../optimise/live_answer.js";
 import { api } from "../api/gaits.js";
@@ -37,7 +37,7 @@ function verdictText(view, before) {
   return [before ? `check gone: ${checkGone(view, before)}` : "not checked", before ? "caution" : "quiet"];
 }
 
-/** What the check says of the plan, unless what is shown is not the plan. */
+/** The verdict on the plan, unless something else is shown. */
 function checkText(state, plan) {
   if (state.iterate) return null;
   if (plan !== state.view.plan) return ["edit under way", "quiet"];
@@ -123,7 +123,7 @@ function followHand(store, preview) {
   store.watch(({ gesture }) => [gesture !== null], tell);
 }
 
-/** Opens the preview; the page works without it, and says so. */
+/** Opens the preview; without it the page works and shows a message. */
 export async function mountStage(store, edits, playback) {
   mountLegend(store);
   store.watch((state) => [state.view, state.checked, shownPlan(state)], (state) => byId("plan-note").replaceChildren(...planNote(state)));

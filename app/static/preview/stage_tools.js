@@ -1,4 +1,4 @@
-/** The tools over the 3D preview: camera, fit, and the menu of what is shown. */
+/** The tools over the 3D preview: camera, fit, and the menu of visible layers. */
 
 import { api } from "../api/gaits.js";
 import { checkMenu } from "../lib/check_menu.js";
@@ -27,7 +27,7 @@ function followReach(store, preview, isOn) {
       const reach = await api.reach(id, hash, workspace);
       if (shownPlan(store.state)?.hash === hash) preview.setReach(reach);
     } catch {
-      // A plan that has been replaced meanwhile is no longer wanted; the next one asks again.
+      // A plan that was replaced meanwhile is no longer needed; the next one requests again.
     }
   });
   let requested = null;
@@ -46,7 +46,7 @@ function followReach(store, preview, isOn) {
   return ask;
 }
 
-/** Builds the tools; what is shown is remembered. */
+/** Builds the tools; the choice of layers is kept. */
 export function mountTools(store, preview) {
   byId("camera").addEventListener("change", () => preview.setView(byId("camera").value));
   byId("fit-view").addEventListener("click", () => preview.setView(byId("camera").value));

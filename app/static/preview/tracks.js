@@ -26,7 +26,7 @@ function pathLine(places, filled, colour, height) {
   for (let at = 1; at < places.length; at += 1) {
     const isGap = filled[at - 1] || filled[at];
     const turns = at + 1 < places.length && isGap !== (filled[at] || filled[at + 1]);
-    // Feet mostly stand: what is nearer than one sees makes no piece of its own.
+    // Feet mostly stand: a piece too short to see is left out.
     if (!turns && at + 1 < places.length && Math.hypot(places[at][0] - places[from][0], places[at][1] - places[from][1]) < LEAST_PIECE) continue;
     gaps += isGap ? 1 : 0;
     if (!isGap || gaps % 2) {
@@ -78,7 +78,7 @@ export class Tracks {
     this.forget();
   }
 
-  /** The client's scene is a new one: everything has to be said again. */
+  /** The client's scene is new: everything has to be sent again. */
   forget() {
     this.#isNew = true;
     this.#share = null;

@@ -97,7 +97,7 @@ export class Ghosts {
     this.forget();
   }
 
-  /** The client's scene is a new one: everything has to be said again. */
+  /** The client's scene is new: everything has to be sent again. */
   forget() {
     for (const kind of Object.keys(COLOURS)) this.#news.add(kind);
     this.#marks.forget();

@@ -23,7 +23,7 @@ const BEGINS = {
 
 const robotOf = ({ view }) => view?.document.robot ?? "deltawalker";
 
-/** What the studio answered to the present choice; an older answer counts no more. */
+/** The server's answer to the current choice, or null if the answer is older. */
 const answerOf = ({ answer, requested }, key) => (requested === key ? answer : null);
 
 function build(change) {
@@ -67,7 +67,7 @@ function whyNotMove({ robot }, answer) {
   return (answer.wired && robot && whyNotHeld(robot)) || answer.reason;
 }
 
-/** Asks the studio where the steps lead, the newest question only. */
+/** Requests where the steps lead, for the newest steps only. */
 function asking(own) {
   return latestOnly(async ({ key, body }) => {
     try {

@@ -1,4 +1,4 @@
-/** Takes the pose of a jog's target into the segment table of the shown gait, as its last segment. */
+/** Appends the pose of a jog's target to the segment table of the shown gait. */
 
 import { api } from "../api/gaits.js";
 import { h, onPress, setAllowed } from "../lib/dom.js";

@@ -1,4 +1,4 @@
-/** Which waypoints a run sends: from which pose on, and how many times over. It belongs to the shown plan alone. */
+/** The range of waypoints that a run sends: its first pose, and how often it repeats. A new plan resets it. */
 
 import { h, setAttribute } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
@@ -7,12 +7,12 @@ const MOST_ITERATIONS = 100;
 const HERE = "here";
 const WHOLE = Object.freeze({ first: 0, iterations: 1 });
 
-/** What is chosen for the shown plan; all of it once, where nothing is. */
+/** The chosen range of the shown plan; by default all of it, once. */
 export function runRangeOf({ runRange, view }) {
   return runRange && runRange.hash === view?.plan?.waypoints_hash ? runRange : WHOLE;
 }
 
-/** Whether a summary is of what is chosen. */
+/** Whether a summary is of the chosen range. */
 export const isOfRunRange = (summary, state) => summary?.from === runRangeOf(state).first && summary.iterations === runRangeOf(state).iterations;
 
 function choose(store, change) {

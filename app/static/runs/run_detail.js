@@ -1,4 +1,4 @@
-/** One run: what it was, how far it was from its plan, a note, its files, and another run beside it. */
+/** One run: its facts, its errors against the plan, a note, its files, and a comparison with another run. */
 
 import { api } from "../api/gaits.js";
 import { h, onPress, setText } from "../lib/dom.js";
@@ -51,7 +51,7 @@ const ON = ["moving", "pausing", "paused"];
 /** How the run ended: the cause of the first state that ended it. */
 const endOf = (run) => (run.state === "running" ? null : run.states.find(({ link, robot }) => link !== "ready" || !ON.includes(robot))?.cause) ?? run.sentence;
 
-/** The choice of another run, and the two beside each other. */
+/** The choice of another run, and the comparison of the two. */
 function comparing(run, others, tables) {
   const select = h("select", { "aria-label": "Compare with", title: "Another run, its times and errors beside these" }, h("option", { value: "", text: "no other run" }),
     ...others.filter(({ id }) => id !== run.id).map((other) => h("option", { value: other.id, text: `${other.gait_name}, ${clockTime(other.started)}, ${other.by}, ${other.state}` })));

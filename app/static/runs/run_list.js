@@ -32,7 +32,7 @@ function choice(name, help) {
   return h("select", { "aria-label": name, title: help });
 }
 
-/** A day with its word beside it. */
+/** A day with its label. */
 function dayField(text, name, help) {
   const input = h("input", { type: "date", "aria-label": name, title: help });
   return { input, element: h("label", { class: "run-day quiet", title: help }, h("span", { text }), input) };

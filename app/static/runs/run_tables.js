@@ -1,4 +1,4 @@
-/** Tables of a run's figures, and of two runs beside each other. */
+/** Tables of a run's figures, and of two runs compared. */
 
 import { figureTable, footName } from "../lib/tables.js";
 import { h } from "../lib/dom.js";
@@ -26,7 +26,7 @@ function rowsOf(names, a, b, decimals = 2) {
   return names.map((name, index) => [name, fixed(a[index], decimals), fixed(b[index], decimals), change(a[index], b[index], decimals)]);
 }
 
-/** Times and errors of two runs beside each other. */
+/** Times and errors of two runs compared. */
 export function comparison(one, other) {
   const [a, b] = [one.errors, other.errors];
   if (!a || !b) return [h("p", { class: "why", text: "One of the two was kept without its plan: there are no figures to compare." })];
@@ -42,7 +42,7 @@ export function comparison(one, other) {
   ];
 }
 
-/** How long a run took beside what was to be expected of it. */
+/** The duration of a run and the expected one. */
 export function durationSummary({ errors, seconds: elapsed }) {
   if (!errors || errors.seconds === null) return elapsed === null || elapsed === undefined ? "–" : `${seconds(elapsed)} s`;
   return `${seconds(errors.seconds)} s, expected ${seconds(errors.estimate)} s`;

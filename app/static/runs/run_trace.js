@@ -9,7 +9,7 @@ function longer(trace, { plan_time: time, reached }, strokes) {
   return { ...trace, reached, plan_times: [...trace.plan_times, time], laps: [...trace.laps, lap], measured_mm: [...trace.measured_mm, strokes] };
 }
 
-/** True where nothing stands against a trace: its run is on, or has ended and the gait is as it was sent, with no other run open. */
+/** True if a trace is current: its run is on, or has ended with the gait unchanged and no other run open. */
 function isCurrent(trace, { robot, view, run: open }) {
   const run = robot?.run;
   if (!run || planIsOn(robot)) return Boolean(run);

@@ -16,7 +16,7 @@ const AGAIN_MS = 400;
 /** A run's end reaches the record within a moment of the robot's own. */
 const MOST_TRIES = 10;
 
-/** How the shown gait stands to a run that is laid over it. */
+/** Compares the shown gait with the run that is laid over it. */
 function standing(store, run) {
   const { view, selected } = store.state;
   if (run.gait.startsWith("file:")) return "This run was of a file, sent by a command: nothing is laid over the plots.";
@@ -81,7 +81,7 @@ function mountPanel(store, opening) {
   return { all, open, leave };
 }
 
-/** Builds the newest runs under the jobs; `opening` is told when their panel opens. Returns what Esc does. */
+/** Builds the newest runs under the jobs; `opening` is called when their panel opens. Returns what Esc does. */
 export function mountRuns(store, opening = () => {}) {
   const panel = mountPanel(store, opening);
   mountTrace(store);

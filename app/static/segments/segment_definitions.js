@@ -1,4 +1,4 @@
-/** The vocabulary of a segment table: named positions and segments, which a person can add, change, rename and delete. */
+/** The definitions of a segment table: add, change, rename and delete its named positions and segments. */
 
 import { counted } from "../lib/format.js";
 import { h, onPress, setAllowed } from "../lib/dom.js";
@@ -30,7 +30,7 @@ const renameSegment = (from, to) => (sheet) => ({
 
 const without = (map, name) => Object.fromEntries(Object.entries(map).filter(([one]) => one !== name));
 
-/** A text field that is read when it is finished; what was wrong is told and the value put back. */
+/** A text field that is read on change; a wrong text is refused and the value restored. */
 function field({ label, value, width, unit, read, refuse }) {
   const input = h("input", { value, "aria-label": label, title: label, autocomplete: "off", spellcheck: "false", class: unit === undefined ? "" : "number" });
   const finish = () => {

@@ -18,7 +18,7 @@ function option(choice, index) {
  * @param {object} sheet
  * @param {[number, number]} place row and foot of the cell
  * @param {{text: string, choose: (name: string, way: string|null) => void, close: (isLeft: boolean) => void}} acts `text` is what was typed;
- *   `way` is "right" after Tab, "down" after Enter; `close` follows on every end, and is told whether the focus went elsewhere
+ *   `way` is "right" after Tab, "down" after Enter; `close` follows on every end, with whether the focus went elsewhere
  */
 export function openSegmentChooser(cell, sheet, [row, foot], { text, choose, close }) {
   const list = h("ul", { role: "listbox", id: "segment-options", "aria-label": "Segments" });

@@ -1,4 +1,4 @@
-/** Makes a segment table of a drawn gait, as it is drawn or with phases that have room for a step's two segments. */
+/** Makes a segment table of a drawn gait, as drawn or with phases long enough for a step's two segments. */
 
 import { api } from "../api/gaits.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
@@ -10,7 +10,7 @@ import { toast } from "../lib/toasts.js";
 const EMPTY = "This gait's footfalls are drawn on the timeline. A segment table says them in words instead: in each segment every foot does one named "
   + "thing, such as Lift A, Step A or Wait A.";
 
-/** The document drawn from its foot order with the next phases that two segments fit into; null where a person drew it. */
+/** The document drawn with phases that fit two segments, or null if a person drew the timeline. */
 function withRoom(document) {
   const { timeline, options } = document;
   if (!isDrawn(document)) return null;
@@ -28,7 +28,7 @@ async function made(document) {
   }
 }
 
-/** The buttons of a gait without a table, and the sentence why its timeline makes none. */
+/** The buttons of a gait without a table, and why its timeline cannot become one. */
 export function mountSegmentSheetCreation(store, edits) {
   const make = h("button", { class: "primary wide", text: "Make a segment table" });
   const why = h("p", { class: "why" });

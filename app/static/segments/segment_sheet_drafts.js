@@ -1,11 +1,11 @@
-/** Changes of the segment table that do not fit yet, kept in this tab so that a reload brings them back. */
+/** Keeps changes of the segment table that do not fit yet, so that a reload of the tab restores them. */
 
 import { segmentDraftOf, protectedCells, segmentSheetsOf } from "../state/segment_draft.js";
 import { toast } from "../lib/toasts.js";
 
 const keyOf = (id) => `footfall.table-draft.${id}`;
 
-/** What the changes were made on: with another table they mean nothing. */
+/** What the changes were made on; they do not apply to another table. */
 const baseOf = ({ document }) => JSON.stringify([document.segment_table, document.direction]);
 
 function read(id) {
@@ -25,10 +25,10 @@ function write(id, content) {
   }
 }
 
-/** A change as it was kept: the whole sheet after it, with all cells that repairs leave alone by then. */
+/** A restored change: the whole sheet after it, with the cells that repairs leave alone. */
 const stepOf = ({ label, kept, sheet }) => ({ label, kept, moved: () => null, change: ({ iterations }) => ({ ...sheet, iterations }), restored: true });
 
-/** Keeps the drafts of `store.tableDrafts`, and puts them back when their gait is shown again. */
+/** Keeps the drafts of `store.segmentDrafts`, and restores them when their gait is shown again. */
 export function mountSegmentDrafts(store) {
   const bases = new Map();
 

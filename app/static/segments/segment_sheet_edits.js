@@ -80,7 +80,7 @@ export function paste(sheet, range, names) {
   return { ...outcome, range: filled, note: missing.length ? `${missing.join(" and ")} did not fit and were left out.` : null };
 }
 
-/** A new row after a row (−1: before the first), in which every foot waits where it is; `inLink` says whether it is the link's. */
+/** A new row after a row (−1: before the first), in which every foot waits where it is; `inLink` if it is the link's. */
 export function insertRow(sheet, after, inLink = false) {
   const names = [];
   const before = inLink && after < sheet.count ? sheet.to - 1 : after;

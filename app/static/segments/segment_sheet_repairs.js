@@ -1,4 +1,4 @@
-/** What does not fit in the segment table, and the buttons that mend it. */
+/** Shows what does not fit in the segment table, with buttons that repair it. */
 
 import { capital, lowered } from "../lib/format.js";
 import { api } from "../api/gaits.js";

@@ -37,7 +37,7 @@ function tools(input, toggleDefinitions) {
     button("Fill down", "The first selected segment into the ones below it (Ctrl+D)", () => input.fill()), words);
 }
 
-/** Builds the section; `escape` closes what is open in it, and tells whether there was anything. */
+/** Builds the section; `escape` closes what is open in it, and returns whether anything was. */
 export function mountSegments(store, edits) {
   const title = h("h3", {}, "Segment table", h("span"));
   const grid = h("div", { class: "sheet", role: "grid", "aria-label": "Segment table", "aria-multiselectable": "true" });

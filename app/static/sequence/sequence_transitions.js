@@ -1,4 +1,4 @@
-/** How the body moves and feet step between the parts of a sequence: what is asked of that, under a fold. */
+/** Options of the transitions between the parts of a sequence, under a fold. */
 
 import { h } from "../lib/dom.js";
 import { numberField } from "../state/fields.js";

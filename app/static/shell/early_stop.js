@@ -1,9 +1,9 @@
-/** Stop from the page's first moment on: while the rest of it is still being read, a press of the button sends it from here. */
+/** Sends a press of Stop while the rest of the page is still loading. */
 
 import { sendStop } from "../api/gaits.js";
 import { toast } from "../lib/toasts.js";
 
-/** What is said where nobody has taken a Stop. */
+/** The message if the studio has not taken a Stop. */
 export const NOT_TAKEN = "Stop did not reach the studio: it does not answer. Cut the robot's power.";
 
 async function press({ target }) {

@@ -1,4 +1,4 @@
-/** What can be done to the list of gaits and to the gait that is shown: new, import; copy, export, delete with a way back. */
+/** The menus of the gait list and of the shown gait: new, import; copy, export, delete with undo. */
 
 import { actionMenu } from "../lib/action_menu.js";
 import { api } from "../api/gaits.js";
@@ -24,7 +24,7 @@ async function exportFile(store, edits, form) {
   setTimeout(() => URL.revokeObjectURL(address), 1000);
 }
 
-/** What the shown view or the list says of the selected gait: the view is the newer one. */
+/** The selected gait's line, from the shown view if possible, which is newer than the list. */
 const lineOf = ({ selected, gaits, view }) => (view?.id === selected ? view : gaits.find(({ id }) => id === selected) ?? null);
 
 function announceDeleted(sentence, id, show) {

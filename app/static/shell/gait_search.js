@@ -1,4 +1,4 @@
-/** A field over a long list of gaits: shows those whose name, robot, orientation, making or foot order has every word. */
+/** A search field over a long list of gaits: every word must occur in name, robot, orientation, source or foot order. */
 
 import { h } from "../lib/dom.js";
 
@@ -12,7 +12,7 @@ export function found(gait, search) {
 }
 
 /**
- * Builds the field; it is hidden while few gaits are listed. `show` is told how many are, and how many there are.
+ * Builds the field; it is hidden while few gaits are listed. `show` gets the number of matches and the number of gaits.
  * @param {(search: string) => void} changed called with what is searched for
  * @returns {{element: HTMLElement, show: (listed: number, count: number) => void, search: () => string}}
  */

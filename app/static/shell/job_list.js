@@ -1,4 +1,4 @@
-/** The list of jobs: state, iteration, violation, cancel; a job that ends is told without taking the focus. */
+/** The list of jobs: state, iteration, violation, cancel; the end of a job is announced without taking the focus. */
 
 import { api } from "../api/gaits.js";
 import { byId, h, setText } from "../lib/dom.js";
@@ -82,7 +82,7 @@ function show(part, job, shown) {
   part.element.toggleAttribute("data-shown", shown);
 }
 
-/** Offers the trial of a tracking that nobody follows beside its video: the page was reloaded, or shows something else. */
+/** Offers the trial of a tracking job if its video's page is not open. */
 function offerTrial(store, job) {
   if (document.querySelector(`[data-tracks="${job.video}"]`)) return;
   toast(`${titleOf(job)} is done: there is a trial of it.`, { action: { label: "Open the trial", act: () => store.set({ trialWanted: { trial: job.result.trial } }) } });

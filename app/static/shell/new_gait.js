@@ -40,7 +40,7 @@ function controls(list) {
   ];
 }
 
-/** What the form says, for the server; lengths in m. */
+/** The form's values for the server; lengths in m. */
 function body(value) {
   return {
     name: value("name").trim(), robot: value("robot"), orientation: value("orientation"), order: digits(value("order")),
@@ -48,7 +48,7 @@ function body(value) {
   };
 }
 
-/** What is wrong that can be said without asking: by field. */
+/** Errors that the page can find by itself, by field. */
 function problems(value, robot) {
   const found = {};
   if (!value("name").trim()) found.name = "Give the gait a name.";
@@ -99,7 +99,7 @@ function form(list, preset) {
     else of.order.control.focus();
   });
   of.order.control.addEventListener("input", showPattern);
-  // What is typed is judged as it stands; the other fields keep what was said of them until they are typed in.
+  // Only the field being typed in is checked again; the others keep their errors until then.
   for (const one of rows) one.control.addEventListener("input", () => { one.setError(problems(value, robot())[one.key] ?? null); sum(); });
 
   set("robot", preset.robot ?? list[0].name);

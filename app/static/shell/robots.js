@@ -6,7 +6,7 @@ import { attempt } from "../lib/toasts.js";
 
 let request = null;
 
-/** Every robot with its title, legs, motors and foot orders; asked for once. */
+/** Every robot with its title, legs, motors and foot orders; requested once. */
 export function robots() {
   request ??= api.robots().then((answer) => answer.robots, (error) => {
     request = null;
@@ -15,7 +15,7 @@ export function robots() {
   return request;
 }
 
-/** An option a robot; of those with other legs it says that the choice leads on. */
+/** An option a robot. A robot with other legs is marked, since choosing it makes a new gait. */
 export function robotOptions(list, legs = null) {
   return list.map(({ name, title, legs: own }) => h("option", { value: name, text: legs === null || own === legs ? title : `${title}…` }));
 }

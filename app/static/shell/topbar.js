@@ -24,7 +24,7 @@ const ROBOT_TONES = {
 export const robotTone = (robot) => ROBOT_TONES[robot?.robot] ?? "quiet";
 const linkTone = (robot) => LINK_TONES[robot?.link] ?? "quiet";
 
-/** True where the socket tells that a stop was taken, though nobody answered it. */
+/** True if the socket reports that a stop was taken although its request failed. */
 const isStopped = ({ connected, robot }) => connected && ["stopping", "stopped"].includes(robot?.robot);
 
 /**

@@ -114,7 +114,7 @@ export function createEdits(store) {
     retry = setTimeout(flush, RETRY_MS);
   }
 
-  /** Requests that change the gait reach the studio one at a time, in the order of the acts behind them. */
+  /** Requests that change the gait are sent one at a time, in the order of the actions. */
   function enqueue(act) {
     running += 1;
     const result = queue.then(act).finally(() => { running -= 1; });
@@ -183,7 +183,7 @@ export function createEdits(store) {
     return enqueue(() => undefined);
   }
 
-  /** An act on the gait that is shown now, after what was done to it before. */
+  /** Acts on the shown gait after its earlier edits are sent. */
   function pass(act, ...values) {
     const { selected } = store.state;
     if (!selected) return Promise.resolve();
@@ -191,7 +191,7 @@ export function createEdits(store) {
     return enqueue(() => act(selected, ...values));
   }
 
-  /** Whether the studio lacks something that was done here, which a reload would lose. */
+  /** Whether the studio has not received everything, which a reload would lose. */
   const areUnsent = () => running + store.state.pending.length + store.state.left.length > 0;
 
   return {

@@ -63,7 +63,7 @@ function judged(input, field) {
 
 /**
  * `text` is the field's: `show(always)` writes the document's value, `dirty()` tells whether a person is typing. A text that
- * was refused stays, with the sentence beside it, until it is repaired or given up.
+ * was refused stays, with its error, until it is repaired or given up.
  */
 function mountTyping(input, change, field, text, { edits, refusal }) {
   const finish = () => {

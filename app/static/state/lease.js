@@ -1,4 +1,4 @@
-/** Who holds the robot: one person at a time moves it; everybody else looks on, asks for it, and can stop it. */
+/** The lease of the robot: one person at a time moves it; everybody else can watch, ask for it, and stop it. */
 
 import { api } from "../api/gaits.js";
 import { pageId } from "../api/author.js";
@@ -79,7 +79,7 @@ function show(parts, robot) {
   parts.ask.hidden = !taken || mine || lease.can_be_taken || lease.asker?.page === pageId();
 }
 
-/** Tells the holder that somebody asks, wherever on the page they are, and the asker what became of it. */
+/** Notifies the holder of a request, and the asker of the answer, in any part of the page. */
 function tell(store) {
   let before = store.state.robot?.lease ?? null;
   store.watch(({ robot }) => [robot?.lease?.page, robot?.lease?.asker?.page], ({ robot }) => {
@@ -92,7 +92,7 @@ function tell(store) {
   });
 }
 
-/** Builds the part of the Robot panel that says who holds the robot. */
+/** Builds the part of the Robot panel that shows who holds the robot. */
 export function leasePart(store) {
   const parts = build(store);
   store.watch(({ robot }) => [robot?.lease, robot?.robot, robot?.run?.phase], ({ robot }) => show(parts, robot));

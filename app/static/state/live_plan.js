@@ -17,7 +17,7 @@ const MOST_TRIES = 3;
 /** Whether the page shows an edit that the server's view does not have yet. */
 export const editInProgress = ({ view, pending, gesture }) => Boolean(view) && (gesture !== null || pending.length > 0);
 
-/** What stands for a plan where a document makes none. */
+/** Replaces the plan of a document that has none. */
 function refusedPlan(sentence) {
   return {
     hash: null, source: "draft", note: sentence, refusal: { sentence, where: null }, times: [], contact: [], body: [], feet: [],

@@ -1,4 +1,4 @@
-/** Who sits at this browser: asked once, remembered here. */
+/** The operator's name: asked once, kept in this browser. */
 
 import { askName } from "../lib/dialogs.js";
 

@@ -15,7 +15,7 @@ export function extremes(plan) {
 }
 
 /**
- * Where on the plan the robot is, s: as the server says, else from the waypoints that it reached.
+ * The robot's time on the plan, s: from the server, else from the waypoints that it reached.
  * @returns {number|null} null while it is not streaming this plan
  */
 export function robotTime(robot, view) {
@@ -28,7 +28,7 @@ export function robotTime(robot, view) {
   return times[clamp(run.reached - 1, 0, times.length - 1)] ?? null;
 }
 
-/** The strokes asked for by the waypoint sent last, mm, where they can be known. */
+/** The strokes of the waypoint sent last, mm, or null if unknown. */
 export function commandedStrokes(robot, view) {
   if (robot?.commanded_mm) return robot.commanded_mm;
   const run = robot?.run;

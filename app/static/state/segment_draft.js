@@ -54,7 +54,7 @@ export const dropSegmentDraft = (store) => keep(store, []);
 /**
  * Makes a change: one edit of the gait where everything fits then, else one more step of the draft.
  * @param {{change: (sheet: object) => object, label: string, kept?: number[][], moved?: (cell: number[]) => number[]|null}} step `kept`
- *   are the cells, `[row, foot]`, that a repair leaves alone; `moved` tells where the change takes a cell, null where it is gone
+ *   are the cells, `[row, foot]`, that a repair leaves alone; `moved` maps a cell to its new place, or null if it is gone
  */
 export function commit(store, edits, step) {
   const steps = [...segmentDraftOf(store.state).steps, step];

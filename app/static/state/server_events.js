@@ -1,4 +1,4 @@
-/** The server's pushes: one WebSocket that comes back by itself, each time with the whole truth. */
+/** The server's events: one WebSocket that reconnects by itself and then gets the whole state. */
 
 import { onRenamed } from "../api/author.js";
 import { openSocket, takeFirst } from "../api/socket.js";
@@ -9,7 +9,7 @@ const LONGEST_WAIT_MS = 5000;
 
 let send = () => {};
 
-/** Says something to the studio over the socket, where that is open. */
+/** Sends text to the studio over the socket if it is open. */
 export const sendToStudio = (text) => send(text);
 
 function receive(store, message, onHello) {

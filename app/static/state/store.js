@@ -100,7 +100,7 @@ export function shownDocument({ view, pending, gesture }) {
 /** The document as the timeline draws it: what an operation would make of it, while that is only looked at. */
 export const previewedDocument = (state) => state.preview ?? shownDocument(state);
 
-/** What the shown document says: two states with the same text ask for the same plan and the same ways out. */
+/** The shown document as text: states with the same text have the same plan and the same remedies. */
 export function shownText(state) {
   return state.view ? JSON.stringify([state.view.id, shownDocument(state)]) : null;
 }

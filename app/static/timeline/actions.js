@@ -111,7 +111,7 @@ export function createActions({ store, edits, playback, focused }) {
   return {
     act,
     outcome: (id, amount) => outcomeOf(id, stateFor(id), amount),
-    /** Shows what an operation would make of the timeline; answers like `outcome`. */
+    /** Shows what an operation would make of the timeline; returns the outcome. */
     preview(id, amount) {
       const outcome = outcomeOf(id, stateFor(id), amount);
       store.set({ preview: outcome.reason ? null : outcome.document });

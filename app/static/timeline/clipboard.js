@@ -1,7 +1,7 @@
 /**
  * Cells of the timeline on the clipboard: text, a line a foot, 1 stance and 0 swing, so that any editor can hold them.
  *
- * The system's clipboard is used where the browser allows it; behind it stands one of the page's own.
+ * The system's clipboard is used where the browser allows it; otherwise one of the page's own.
  */
 
 let own = null;

@@ -1,4 +1,4 @@
-/** The ruler over the timeline: seconds, what an infeasible plan lacks, findings about the body, the loop; it scrubs. */
+/** The ruler over the timeline: seconds, marks of an infeasible plan, findings about the body, the loop; dragging scrubs. */
 
 import { axisKey, axisOf, columnFraction, fractionAt, labelEvery, timeAt } from "../state/time_axis.js";
 import { byId, h } from "../lib/dom.js";

@@ -1,4 +1,4 @@
-/** The small popover of an operation that asks for a number: it shows on the timeline what the number leads to. */
+/** The popover of an operation that needs a number; the timeline shows a preview of the result. */
 
 import { h, setAllowed, setText } from "../lib/dom.js";
 import { OPERATIONS } from "../document/operations.js";
@@ -17,7 +17,7 @@ function numberField(label, value, unit, step = 1) {
   return { input, row: h("label", { class: "amount" }, h("span", { text: label }), input, h("span", { class: "unit", text: unit })) };
 }
 
-/** The factor beside a new length: each sets the other; `wrong()` is what is wrong with the typed one, or null. */
+/** The factor and the new length set each other; `wrong()` returns the error in the typed factor, or null. */
 function factorField(length, from, changed) {
   const field = numberField("Factor", "1", "×", 0.1);
   const show = () => { field.input.value = String(Math.round((Number(length.value) / from()) * 100) / 100); };

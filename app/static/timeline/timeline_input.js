@@ -1,7 +1,7 @@
 /**
  * Pointer and keyboard of the footfall timeline. One gesture is one edit.
  *
- * A plain drag does what the chosen tool says: Paint (swings are moved, stance is painted; with Alt or the key B
+ * A plain drag does what the chosen tool does: Paint (swings are moved, stance is painted; with Alt or the key B
  * everything is painted), Select or Lock. In every tool Shift locks, and Ctrl selects. The keyboard moves the focus,
  * with Shift it selects.
  */

@@ -1,4 +1,4 @@
-/** The menu of everything that can be done to the selection; what the pointer or the focus is on shows its preview. */
+/** The menu of operations on the selection; the entry under pointer or focus shows its preview. */
 
 import { fitAbove } from "./timeline_amount.js";
 import { h, onPress, setAllowed, setAttribute, setText } from "../lib/dom.js";
@@ -11,7 +11,7 @@ const COLUMNS = [
 const HELP = "Copy, reverse, shift, repeat, insert … on the selection, or on the whole timeline";
 const KEYS = { copy: "Ctrl+C", cut: "Ctrl+X", paste: "Ctrl+V", duplicate: "Ctrl+D", stance: "Delete", lock: "K", all: "Ctrl+A", loop: "L" };
 
-/** What the menu offers beside the operations. */
+/** Further entries of the menu. */
 function plainItems(actions, selectAll) {
   return {
     copy: { name: "Copy", help: "Keep the cells on the clipboard, as rows of 1 and 0", act: actions.copyNow },
@@ -80,7 +80,7 @@ function buildMenu({ actions, plain, choose, close }) {
 
 /**
  * The button that opens the menu.
- * @param {object} page `place` holds the menu, `open` a number's popover; `opened` is told what is open
+ * @param {object} page `place` holds the menu, `open` a number's popover; `opened` gets what is open
  */
 export function menuButton({ store, actions, place, open, close, selectAll, opened }) {
   const button = h("button", { text: "Edit", class: "edit-button", "aria-haspopup": "menu", "aria-expanded": "false" });

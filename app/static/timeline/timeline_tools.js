@@ -22,7 +22,7 @@ function toolGroup(store) {
   return h("div", { class: "segmented", role: "group", "aria-label": "What a drag does" }, ...buttons);
 }
 
-/** A button of an operation: shows its preview while it is pointed at or focused, and says why it cannot be used. */
+/** A button of an operation: shows its preview under pointer or focus, and explains why it cannot be used. */
 function operationButton(store, actions, id, open) {
   const { name, help, amount } = OPERATIONS[id];
   const button = h("button", { text: amount ? `${name}…` : name, class: `op-${id}` });

@@ -1,4 +1,4 @@
-/** Several trials of one gait and step over each other: mean way, how far they lie apart, each of them, and the plan. */
+/** Several trials of one gait and step in one plot: the mean path, the spread, each trial, and the plan. */
 
 import { figureTable, footName } from "../lib/tables.js";
 import { h, svg } from "../lib/dom.js";
@@ -38,7 +38,7 @@ function bandFromAbove(band) {
     h("figcaption", { class: "quiet" }, `From above in the robot's frame, ${step} cm grid; pale is where the trials lie`, legend(kindsOf(band), TEXTS)));
 }
 
-/** How far the feet are along the way, iteration by iteration. */
+/** The displacement of the feet over the iterations. */
 function bandOverIterations({ feet, iterations, ...band }) {
   const ways = feet.map(({ way }) => way);
   const all = ways.flatMap(({ low, high, plan }) => [...low, ...high, ...(plan ?? [])]);
@@ -59,7 +59,7 @@ const HELP = "Mean of the trials from begin to end along their direction; how fa
 const spreadTable = ({ feet }) => figureTable("Ends of the trials, cm", HELP, ["", "mean", "spread", "planned"],
   feet.map(({ way, end_spread_cm: spread }, foot) => [footName(foot), ...[way.mean.at(-1), spread, way.plan?.at(-1) ?? null].map((value) => fixed(value, 2))]));
 
-/** A box a trial, which says whether it counts, with a way to the trial itself. */
+/** A check box a trial, which includes it, and a button that opens the trial. */
 function choice(trials, open, changed) {
   const boxes = trials.map(({ id, name }, index) => {
     const box = h("input", { type: "checkbox", "aria-label": name, value: id, on: { change: changed } });

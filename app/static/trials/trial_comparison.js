@@ -1,4 +1,4 @@
-/** A trial beside its plan and physics: figures of the three in one table, and the simulation on its way. */
+/** Compares a trial with its plan and its simulation in one table, and runs the simulation. */
 
 import { captionedTable } from "../lib/tables.js";
 import { request } from "../api/gaits.js";
@@ -36,9 +36,9 @@ const TEXTS = {
 };
 
 /**
- * Builds the table, which asks for the simulation and follows it until it is there.
+ * Builds the table, which requests the simulation and follows it until it is done.
  * @param {string} id of the trial
- * @param {(simulated: object|null) => void} shown told of physics' ways once they are there
+ * @param {(simulated: object|null) => void} shown gets the simulated paths once they are there
  * @returns {{element: HTMLElement, refresh: () => Promise<void>, leave: () => void}}
  */
 export function comparisonPart(id, shown) {

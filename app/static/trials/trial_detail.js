@@ -1,4 +1,4 @@
-/** One trial: how far each foot went beside its plan, iteration by iteration, with a note and files. */
+/** One trial: the displacement of each foot compared with its plan, by iteration, with a note and files. */
 
 import { figureTable, footName } from "../lib/tables.js";
 import { h, onPress } from "../lib/dom.js";

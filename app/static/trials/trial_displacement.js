@@ -1,4 +1,4 @@
-/** How far the feet of a trial are over time, with the ends of iterations as marks that can be moved. */
+/** Plots the displacement of a trial's feet over time; the marks at the ends of iterations can be moved. */
 
 import { h, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
@@ -22,17 +22,17 @@ export function displacementFrame([low, high], most, words) {
 
 const mean = (values) => values.reduce((sum, value) => sum + value, 0) / values.length;
 
-/** Direction in which the tracked feet went on the average. */
+/** The mean direction of the tracked feet. */
 function directionOf({ feet }) {
   const [dx, dy] = [mean(feet.map(({ x }) => x.at(-1) - x[0])), mean(feet.map(({ y }) => y.at(-1) - y[0]))];
   const length = Math.hypot(dx, dy) || 1;
   return [dx / length, dy / length];
 }
 
-/** How far each foot is along a direction, cm. */
+/** The displacement of each foot along a direction, cm. */
 const displacementsAlong = ({ feet }, [dx, dy]) => feet.map(({ x, y }) => x.map((value, index) => (value - x[0]) * dx + (y[index] - y[0]) * dy));
 
-/** The tracked frame beside a share of a motion's time: iteration by iteration, since the robot walks by its own clock. */
+/** The tracked frame at a share of a motion's time, by iteration, since the robot walks by its own clock. */
 function frameAt(share, ends) {
   const place = share * ends.length;
   const part = Math.min(Math.floor(place), ends.length - 1);
@@ -89,8 +89,8 @@ function handle({ part, end, frames, rate, clock, toX, fromX, top, bottom, moved
 }
 
 /**
- * The feet's way over time, with a handle at the end of each iteration but the last, which is the track's.
- * @param {{tracked: object, planned: object|null, simulated: object|null}} sources ways of `GET …/paths` and `…/beside`
+ * The feet's displacement over time, with a handle at the end of each iteration but the last.
+ * @param {{tracked: object, planned: object|null, simulated: object|null}} sources paths of `GET …/paths` and `…/beside`
  * @param {{frames: number, seconds: number, frame_rate: number, parts: {end: number}[]}} trial
  * @param {(part: number, frame: number) => void} moved
  */

@@ -23,7 +23,7 @@ function wantedCm(view) {
 }
 
 /**
- * What every trial is told: the wanted distance, how many iterations, and the plan that it is laid over.
+ * The fields of every trial: the wanted distance, the iterations, and the plan that it is laid over.
  * @param {object} store
  * @param {{expected_cm?: number, iterations?: number, gait?: string, run?: string}} [kept] what was written before
  * @returns {{labels: HTMLElement[], values: () => object}}

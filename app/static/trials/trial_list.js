@@ -30,7 +30,7 @@ function sparkline({ distances, expected_cm: wanted }) {
 
 const spread = (value, by, decimals) => (by === null ? fixed(value, decimals) : `${fixed(value, decimals)} ± ${fixed(by, decimals)}`);
 
-/** A gait's name with its step, and with the iterations where only they tell it from another row. */
+/** A gait's name with its step, and with the iterations where two rows differ only in them. */
 function nameOf(group, groups) {
   const isTwin = groups.some((other) => other !== group && other.gait_name === group.gait_name && fixed(other.step_cm, 1) === fixed(group.step_cm, 1));
   return `${group.gait_name}, ${fixed(group.step_cm, 1)} cm${isTwin ? `, ${counted(group.iterations, "iteration")}` : ""}`;
@@ -89,7 +89,7 @@ function listParts({ trials, compared }, { open, band }) {
 }
 
 /**
- * Builds the list, which follows what becomes of trials.
+ * Builds the list, which follows changes of trials.
  * @param {{store: object, open: (id: string) => void, add: () => void, band: (group: object) => void, videos: () => void, cameras: () => void, learn: () => void}} acts
  * @returns {Promise<{element: HTMLElement, leave: () => void}>}
  */

@@ -1,4 +1,4 @@
-/** The note of a trial: kept when the field is left; where somebody wrote another meanwhile, one of the two is chosen. */
+/** The note of a trial, kept when the field is left. If another note was written meanwhile, the person chooses one. */
 
 import { h, setText } from "../lib/dom.js";
 

@@ -1,4 +1,4 @@
-/** Photos of a trial: chosen, dropped or taken, with a caption each; what is deleted can be brought back. */
+/** Photos of a trial: chosen, dropped or taken, with captions; a deleted photo can be restored. */
 
 import { request, sendFile } from "../api/gaits.js";
 import { h, icon } from "../lib/dom.js";

@@ -29,7 +29,7 @@ export function ground(ways) {
   return { toX, toY, size: SIZE, step, lines: grid({ left, right, low, high, step }, toX, toY) };
 }
 
-/** How far lines are apart, cm, so that they can be told apart. */
+/** The distance of grid lines, cm. */
 export function gridStep(range) {
   let step = 1;
   while (range / step > MOST_LINES) step *= 10;

@@ -1,4 +1,4 @@
-/** Where a trial's track was seen: the video, the camera and its setup, and what is to be known of it. */
+/** The source of a trial's track: the video, the camera and its setup, with remarks. */
 
 import { h } from "../lib/dom.js";
 

@@ -1,4 +1,4 @@
-/** A trial as the studio keeps it, followed while it is shown: changed here one after the other, and elsewhere at any time. */
+/** Keeps a shown trial in step with the server: sends changes one at a time, and takes changes made elsewhere. */
 
 import { announce, report, toast } from "../lib/toasts.js";
 import { CONFLICT } from "../api/gaits.js";
@@ -7,9 +7,9 @@ import { trialApi } from "../api/trials.js";
 /**
  * Follows a trial.
  * @param {object} store
- * @param {object} first as the studio tells it
- * @param {(trial: object) => void} shown told of each other state
- * @returns {{change: (changes: object, done?: string) => Promise<boolean>, leave: () => void}} `change` says whether it was kept
+ * @param {object} first as the server sent it
+ * @param {(trial: object) => void} onChange gets each later state
+ * @returns {{change: (changes: object, done?: string) => Promise<boolean>, leave: () => void}} `change` resolves to whether it was kept
  */
 export function followTrial(store, first, onChange) {
   const { id } = first;

@@ -1,4 +1,4 @@
-/** One video in the panel, beside its picture: a camera setup is chosen or made, and its feet are tracked into a trial. */
+/** One video in the panel, with its picture: choose or make a camera setup, then track the feet into a trial. */
 
 import { newSetup, openSetup } from "../cameras/camera_setup.js";
 import { setupText } from "../cameras/camera_labels.js";
@@ -10,7 +10,7 @@ import { videoFacts } from "./video_rows.js";
 import { openStage } from "../pictures/picture_stage.js";
 import { trackingPart } from "./video_tracking.js";
 
-/** The choice of a setup, with what the chosen one lacks. */
+/** The choice of a setup, with what is missing from it. */
 function setupChoice({ setups, chosen, changed, edit, make }) {
   const select = h("select", { "aria-label": "Camera setup", title: "How the camera saw the platform, and which colours the feet have" },
     ...setups.map(({ id, setup }) => h("option", { value: id, text: setup.name })), setups.length ? null : h("option", { value: "", text: "none yet" }));

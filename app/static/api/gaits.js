@@ -77,7 +77,6 @@ export const api = {
   draw: (words) => request("POST", "/api/gaits/drawn", words),
   sequence: (body) => request("POST", "/api/sequences", body),
   refreshSequence: (id, part) => request("POST", `${gait(id)}/sequence/refresh${part === null ? "" : `?part=${part}`}`),
-  create: (document) => request("POST", "/api/gaits", document),
   deleted: async () => (await request("GET", "/api/gaits/deleted")).gaits,
   remove: (id) => request("DELETE", gait(id)),
   versions: (id) => request("GET", `${gait(id)}/versions`),

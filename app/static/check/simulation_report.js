@@ -55,7 +55,7 @@ function findingItem(simulation, finding, goToTime) {
 }
 
 /** Word and tone of a simulation. */
-export function simulationText({ report, findings }) {
+function simulationText({ report, findings }) {
   if (report.fell) return ["Falls over", "bad"];
   if (report.ended_early) return ["Ended early", "bad"];
   if (findings.some(({ severity }) => severity === "error")) return ["Tips", "bad"];

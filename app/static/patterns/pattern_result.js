@@ -14,7 +14,7 @@ const TEXTS = {
 };
 
 /** "4 changes · 8 of single limbs": a pattern's score in words. */
-export function scoreText({ sample_changes: changes, limb_changes: single, redrawn }, kept) {
+function scoreText({ sample_changes: changes, limb_changes: single, redrawn }, kept) {
   return [counted(changes, "change"), `${single} of single limbs`, kept && `${counted(redrawn, "cell")} redrawn`].filter(Boolean).join(" · ");
 }
 

@@ -25,7 +25,7 @@ function iterations({ plan_times: times, laps }, values) {
 const known = new WeakMap();
 
 /** What a run draws over a strip, or null. */
-export function measuredOf(run, strip) {
+function measuredOf(run, strip) {
   const values = run?.[OVER[strip]?.of];
   if (!values) return null;
   if (!known.has(values)) known.set(values, { laps: iterations(run, values), aFoot: OVER[strip].aFoot });

@@ -25,8 +25,8 @@
 
 import { clamp } from "../lib/clamp.js";
 
-export const SLOWEST = 0.1;
-export const FASTEST = 10;
+const SLOWEST = 0.1;
+const FASTEST = 10;
 
 export class Playback extends EventTarget {
   #time = 0;

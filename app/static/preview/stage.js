@@ -2,14 +2,14 @@
 
 import { planState } from "../optimise/live_answer.js";
 import { api } from "../api/gaits.js";
-import { byId, h, setText } from "../lib/dom.js";
+import { byId, h, painted, setText } from "../lib/dom.js";
 import { fixed, mm } from "../lib/format.js";
 import { mountGhosts } from "./ghosts.js";
 import { mountGoal } from "./goal.js";
 import { missingMotionOf } from "../document/missing_motion.js";
 import { mountJogGhost } from "./jog_ghost.js";
 import { latestOnly } from "../lib/latest_only.js";
-import { measured, painted } from "../state/live_plan.js";
+import { measured } from "../state/live_plan.js";
 import { Preview } from "./preview.js";
 import { extremes } from "../state/plan_samples.js";
 import { mountTools } from "./stage_tools.js";

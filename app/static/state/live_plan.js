@@ -8,14 +8,12 @@ import { painted } from "../lib/dom.js";
 import { latestOnly } from "../lib/latest_only.js";
 import { shownDocument, shownPlan, shownText } from "./store.js";
 
-export { painted };
-
 const IDLE_MS = 150;
 const HELD_MS = 600;
 const MOST_TRIES = 3;
 
 /** Whether the page shows an edit that the server's view does not have yet. */
-export const editInProgress = ({ view, pending, gesture }) => Boolean(view) && (gesture !== null || pending.length > 0);
+const editInProgress = ({ view, pending, gesture }) => Boolean(view) && (gesture !== null || pending.length > 0);
 
 /** Replaces the plan of a document that has none. */
 function refusedPlan(sentence) {

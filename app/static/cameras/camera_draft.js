@@ -5,8 +5,6 @@ import { report, toast } from "../lib/toasts.js";
 import { CONFLICT } from "../api/gaits.js";
 import { setupApi } from "../api/videos.js";
 
-const CONFLICT = 409;
-
 /** Whether two setups are equal. */
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 

@@ -41,7 +41,7 @@
 
 import { Ghosts } from "./viser_ghosts.js";
 import { shadowMessages } from "./shadow.js";
-import { Marks } from "./marks.js";
+import { COM, Marks, STILL } from "./marks.js";
 import { floorOf } from "./overlay.js";
 import { PoseTable, VALUES_A_NODE } from "./poses.js";
 import { ServerRoute } from "./server_route.js";

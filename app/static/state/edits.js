@@ -7,7 +7,7 @@
  * Every act is of the gait that was shown when it was done: it reaches that one, also where another is shown by then.
  */
 
-import { api } from "../api/gaits.js";
+import { CONFLICT, api } from "../api/gaits.js";
 import { undoSegmentDraft } from "./segment_draft.js";
 import { FOLLOWS, isSequence } from "../document/sequence_edits.js";
 import { acceptView, shownDocument } from "./store.js";

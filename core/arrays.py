@@ -1,7 +1,5 @@
 """Read-only float and boolean arrays for frozen values."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The one exception tree: every refusal names what happened, the limit and the remedy."""
 
-from __future__ import annotations
-
 
 class FootfallError(Exception):
     """An expected refusal with a sentence for the user.

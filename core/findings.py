@@ -1,7 +1,5 @@
 """What a check found, the verdict it adds up to, and a person's approval of it."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from dataclasses import asdict, dataclass

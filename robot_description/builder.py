@@ -1,7 +1,5 @@
 """Writes the URDF files and meshes of all robots: `python -m robot_description.builder [folder]`."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Where actuators stand, and how motors that share one hang on it; drawn, not measured."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -3,8 +3,6 @@
 Every part is drawn in its link's frame: metres, z up. One mesh serves all legs and all robots of a size.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

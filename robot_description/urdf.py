@@ -3,8 +3,6 @@
 `core.robot.closed_chain.joint_values` gives those values.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from xml.etree import ElementTree
 

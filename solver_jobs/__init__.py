@@ -3,8 +3,6 @@
 This is the public face. Importing it loads no solver; `solve_motion` loads it when it is called.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from core.motion.trajectory import Trajectory

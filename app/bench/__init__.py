@@ -1,7 +1,5 @@
 """All benchmarks by name; they print the figures that the documentation quotes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from app.bench.common.measure import Row, conditions

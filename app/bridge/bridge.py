@@ -4,8 +4,6 @@ Two threads live here while a line is open: the transport's reader, which only q
 the worker, which feeds the session, keeps its deadlines and tells the subscribers. Stop needs neither.
 """
 
-from __future__ import annotations
-
 import logging
 import queue
 import threading

@@ -1,7 +1,5 @@
 """One message on its way: believed by what the robot says about it, not by counting lines (PROTOCOL 5.2)."""
 
-from __future__ import annotations
-
 from enum import Enum, auto
 
 from app.bridge.stop_confirmation import STOP_PAYLOAD

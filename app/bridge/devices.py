@@ -1,7 +1,5 @@
 """Serial devices by name, and by the serial number that outlasts a name."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The handshake from an open line to a ready robot: one flush, then its effect (PROTOCOL 5.6)."""
 
-from __future__ import annotations
-
 from app.bridge.telemetry import TelemetryMonitor
 from core.wire.lines import Line, NewData
 

@@ -1,7 +1,5 @@
 """Steps by hand on their way to the robot: one message a move, each believed like a waypoint."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

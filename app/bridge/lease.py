@@ -3,8 +3,6 @@
 Values and rules only; whoever drives them serialises the calls and gives the clock.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

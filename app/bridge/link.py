@@ -3,8 +3,6 @@
 It knows no runs; `RobotStateMachine` does, and says through the two methods at the end what it is busy with.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 
 from app.bridge.handshake import START_LIMIT, Handshake

@@ -1,7 +1,5 @@
 """The sentences of the bridge's states."""
 
-from __future__ import annotations
-
 from app.bridge.states import RobotState
 from core.wire.messages import THRESHOLD_MM, name_motor
 

@@ -1,7 +1,5 @@
 """The sequence of messages of one run: the slow way to the start pose, then the approved waypoints."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

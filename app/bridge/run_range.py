@@ -1,7 +1,5 @@
 """The range of approved waypoints that a run sends: its first pose, and how often it repeats."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

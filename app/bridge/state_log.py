@@ -1,7 +1,5 @@
 """The states of link and robot, and a log of every change with its cause."""
 
-from __future__ import annotations
-
 import logging
 from collections import deque
 

@@ -4,8 +4,6 @@ Whoever drives it serialises the calls and says what time it is. Link and robot 
 and each change has its cause.
 """
 
-from __future__ import annotations
-
 import itertools
 import re
 import uuid

@@ -1,7 +1,5 @@
 """What the bridge tells about link, robot and run: words, values and the plan it is given."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import StrEnum
 

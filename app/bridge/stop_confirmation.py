@@ -1,7 +1,5 @@
 """Confirms one stop: the robot echoed it, and every motor stands still as measured."""
 
-from __future__ import annotations
-
 from core.wire.lines import (
     Echo,
     Line,

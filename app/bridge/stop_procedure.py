@@ -1,7 +1,5 @@
 """The stop procedure: latch, send, repeat, confirm, and the sentences meanwhile."""
 
-from __future__ import annotations
-
 from app.bridge.messages import NOT_STOPPED, SENTENCES
 from app.bridge.state_log import StateLog
 from app.bridge.states import RobotState

@@ -1,7 +1,5 @@
 """What the robot's lines show: strokes, whether it idles, whether it stands still."""
 
-from __future__ import annotations
-
 from core.wire.lines import (
     Blank,
     CurrentPoint,

@@ -1,7 +1,5 @@
 """The host's end of the cable: a serial device or a socket, read at once and written with a deadline."""
 
-from __future__ import annotations
-
 import errno
 import os
 import select

@@ -1,7 +1,5 @@
 """The write gate, the only way to the robot: nothing overtakes a stop, and a stop overtakes everything."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 from enum import Enum

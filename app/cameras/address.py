@@ -1,7 +1,5 @@
 """Where a camera is."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 

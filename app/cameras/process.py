@@ -1,7 +1,5 @@
 """One camera's process, as the studio drives it."""
 
-from __future__ import annotations
-
 import itertools
 import logging
 import threading

@@ -1,7 +1,5 @@
 """Cameras of the computer that the studio runs on: which there are, what each is for, live pictures."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable, Sequence
 from pathlib import Path

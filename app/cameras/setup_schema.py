@@ -1,7 +1,5 @@
 """The JSON document of a camera's setup: pixels as they are, places in cm, colours as shares."""
 
-from __future__ import annotations
-
 import json
 from typing import Annotated
 

@@ -1,7 +1,5 @@
 """Setups of cameras for the page and scripts: named documents with revisions, deleted and brought back."""
 
-from __future__ import annotations
-
 import sqlite3
 import time
 import uuid

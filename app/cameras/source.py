@@ -1,7 +1,5 @@
 """What a camera process takes its pictures from: a camera of this computer, or a video file played as one."""
 
-from __future__ import annotations
-
 import time
 from pathlib import Path
 from typing import Protocol

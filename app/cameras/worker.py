@@ -4,8 +4,6 @@ It stands back behind the bridge (see `solver_jobs.NICENESS`), and leaves when i
 closes.
 """
 
-from __future__ import annotations
-
 import time
 from dataclasses import dataclass
 from multiprocessing.connection import Connection

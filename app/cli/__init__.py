@@ -1,7 +1,5 @@
 """The command line: the commands, their arguments, output and exit status."""
 
-from __future__ import annotations
-
 import json
 import logging
 import os

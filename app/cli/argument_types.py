@@ -1,7 +1,5 @@
 """The types of arguments: numbers within bounds, words of a closed set, and what a refusal says of them."""
 
-from __future__ import annotations
-
 import argparse
 import math
 from collections.abc import Callable

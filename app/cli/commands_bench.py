@@ -1,7 +1,5 @@
 """`bench`."""
 
-from __future__ import annotations
-
 from argparse import Namespace
 from functools import partial
 from typing import Any

@@ -1,7 +1,5 @@
 """`export` and `import`."""
 
-from __future__ import annotations
-
 import json
 import sys
 from argparse import Namespace

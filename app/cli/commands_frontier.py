@@ -1,7 +1,5 @@
 """`frontier`."""
 
-from __future__ import annotations
-
 import time
 from argparse import Namespace
 from typing import Any

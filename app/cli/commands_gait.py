@@ -1,7 +1,5 @@
 """`gaits`, `manual` and `optimise`."""
 
-from __future__ import annotations
-
 import json
 from argparse import Namespace
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """`pattern`."""
 
-from __future__ import annotations
-
 import threading
 from argparse import Namespace
 from concurrent.futures import ThreadPoolExecutor

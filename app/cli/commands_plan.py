@@ -1,7 +1,5 @@
 """`waypoints` and `check`."""
 
-from __future__ import annotations
-
 import sys
 from argparse import Namespace
 from functools import partial

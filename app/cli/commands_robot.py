@@ -1,7 +1,5 @@
 """`serve`, `send` and `emulate`."""
 
-from __future__ import annotations
-
 import getpass
 import signal
 import sys

@@ -1,7 +1,5 @@
 """`trial`."""
 
-from __future__ import annotations
-
 import math
 from argparse import Namespace
 from collections.abc import Iterator

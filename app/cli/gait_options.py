@@ -1,7 +1,5 @@
 """From the words of the command line to the gait that is asked, and to the method that solves it."""
 
-from __future__ import annotations
-
 from argparse import Namespace
 from collections.abc import Callable
 from dataclasses import replace

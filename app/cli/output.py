@@ -1,7 +1,5 @@
 """Printing results, for people or as one JSON object."""
 
-from __future__ import annotations
-
 import json
 import signal
 import sys

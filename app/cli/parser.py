@@ -1,7 +1,5 @@
 """The words of each command."""
 
-from __future__ import annotations
-
 import argparse
 import math
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """What `pattern` is asked for, as a problem."""
 
-from __future__ import annotations
-
 from argparse import Namespace
 from dataclasses import fields
 

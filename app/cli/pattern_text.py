@@ -1,7 +1,5 @@
 """A footfall pattern drawn in characters."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

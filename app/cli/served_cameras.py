@@ -1,7 +1,5 @@
 """The `--camera` words of `serve`."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from pathlib import Path

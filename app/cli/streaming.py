@@ -1,7 +1,5 @@
 """A waypoint file on its way to the robot: kept as a run, with its progress told, and stopped by Ctrl-C."""
 
-from __future__ import annotations
-
 import secrets
 import sys
 import threading

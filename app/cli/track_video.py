@@ -1,7 +1,5 @@
 """Foot tracks out of videos for the command line, with progress on standard error."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

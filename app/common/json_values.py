@@ -1,7 +1,5 @@
 """JSON knows no infinities: numbers that are none become null."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Names that no other gait has."""
 
-from __future__ import annotations
-
 from collections.abc import Set
 from itertools import count
 

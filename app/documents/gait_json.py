@@ -1,7 +1,5 @@
 """The gait document as JSON: its schema, reading with sentences for what is wrong, and writing."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The gait document's form: pydantic models, from which the published JSON Schema is made. All numbers SI."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field

@@ -1,7 +1,5 @@
 """From older versions of the gait document to the present one, a step a version."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Any

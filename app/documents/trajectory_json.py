@@ -1,7 +1,5 @@
 """A trajectory as JSON content, for results that are kept."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from typing import Any

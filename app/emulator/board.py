@@ -1,7 +1,5 @@
 """The emulated board's hardware: a clock in microseconds, a serial line, motors and their readings."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """How the robot's C library reads and prints numbers and fields."""
 
-from __future__ import annotations
-
 import math
 import re
 

@@ -1,7 +1,5 @@
 """An emulated robot on a real line: the firmware's virtual time laid over the real one."""
 
-from __future__ import annotations
-
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence

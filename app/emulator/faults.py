@@ -3,8 +3,6 @@
 Those of the cable work on both directions alike: a cable does not know which way it is spoiled.
 """
 
-from __future__ import annotations
-
 import math
 import random
 from collections import deque

@@ -4,8 +4,6 @@ It is a generator that advances the board's clock: whoever drives it decides wha
 over what the host has sent before each step, and takes what the board has sent after it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Generator, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import repeat

@@ -1,7 +1,5 @@
 """The emulated robot's memory where waypoints lie: room for one, and other variables behind it (hazard 7)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

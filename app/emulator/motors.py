@@ -1,7 +1,5 @@
 """The emulated robot's motors: twelve sliders with hard stops, and the converter that reads them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 from core.wire.messages import MOTORS, QUANTUM_MM

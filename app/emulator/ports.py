@@ -3,8 +3,6 @@
 Neither ever blocks: what the host does not fetch is lost, as it is on the robot's USB (hazard 23).
 """
 
-from __future__ import annotations
-
 import os
 import socket
 import tty

@@ -1,7 +1,5 @@
 """How long the emulated board spends on its input and output (PROTOCOL, How far to trust it)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import StrEnum
 

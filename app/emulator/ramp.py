@@ -4,8 +4,6 @@ Both are computed anew from the last reading on each turn, so a late motor resta
 divisions by zero and comparisons with NaN go the way they go in C, since odd targets end up there.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from functools import reduce

@@ -1,7 +1,5 @@
 """The bridge's state machine joined to an emulated robot, without threads, in the robot's own time."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 from app.bridge.state_machine import RobotStateMachine

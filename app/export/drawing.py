@@ -1,7 +1,5 @@
 """A flat drawing as a list of shapes, for whoever paints it: SVG and PNG show the same."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

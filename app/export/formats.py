@@ -1,7 +1,5 @@
 """Every form in which a gait or its plan leaves the studio."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from dataclasses import dataclass

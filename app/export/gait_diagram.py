@@ -1,7 +1,5 @@
 """The gait diagram (Hildebrand 1965): rows of feet, swing in the foot's colour, time along."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import groupby

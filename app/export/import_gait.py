@@ -1,7 +1,5 @@
 """From a file of another form to a gait document."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """The ways of body and feet from above: planned wide and pale, simulated thin over it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

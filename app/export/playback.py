@@ -1,7 +1,5 @@
 """One HTML page with 3D playback and the gait diagram; it opens by double click, without any server."""
 
-from __future__ import annotations
-
 import json
 from html import escape
 from importlib import resources

@@ -1,7 +1,5 @@
 """A drawing as PNG."""
 
-from __future__ import annotations
-
 import io
 from functools import cache
 

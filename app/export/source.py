@@ -1,7 +1,5 @@
 """What is exported: a gait, and the motion that it amounts to."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from pathlib import Path
 

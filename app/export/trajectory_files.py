@@ -1,7 +1,5 @@
 """Trajectory and waypoint files on disk."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from app.store.gait_files import write_atomically

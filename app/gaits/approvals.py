@@ -1,7 +1,5 @@
 """Approvals: a person approves a verdict that is still valid; their record, and what changed since."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from typing import Any

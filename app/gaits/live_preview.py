@@ -3,8 +3,6 @@
 It knows documents, not the open gaits, and may be called from any thread; nothing here changes an open gait.
 """
 
-from __future__ import annotations
-
 import hashlib
 import threading
 import time

@@ -1,7 +1,5 @@
 """Applies the consequences of an edit: locks, timeline and segment table, held feet, recorded motion."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

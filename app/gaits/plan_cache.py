@@ -1,7 +1,5 @@
 """Plans of open gaits, each made once a revision."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

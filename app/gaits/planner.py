@@ -1,7 +1,5 @@
 """Makes plans on other threads, so that the command queue's thread goes on while a solver is at work."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass

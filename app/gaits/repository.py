@@ -3,8 +3,6 @@
 Only the session's thread calls this.
 """
 
-from __future__ import annotations
-
 import json
 from dataclasses import asdict, replace
 from typing import Any

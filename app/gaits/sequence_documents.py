@@ -1,7 +1,5 @@
 """Sequence documents: made from the ids of gaits, edited, and brought up to date with them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from enum import StrEnum

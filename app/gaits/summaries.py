@@ -1,7 +1,5 @@
 """The list of gaits: a line each, made once and again only where its file or its editing changed."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from app.gaits.service import GaitService

@@ -1,7 +1,5 @@
 """The gaits that were deleted and can be brought back."""
 
-from __future__ import annotations
-
 from contextlib import suppress
 from dataclasses import dataclass
 

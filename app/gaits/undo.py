@@ -1,7 +1,5 @@
 """What an undo or redo comes to as a gait, beside what others changed since."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from app.documents.gait_json import gait_from_content

@@ -4,8 +4,6 @@ Saving, approving and naming make one, and so does what could lose a state: rest
 somebody edits, one is made by itself of the document as it was before an edit.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from dataclasses import replace

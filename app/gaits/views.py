@@ -1,7 +1,5 @@
 """What pages and scripts are shown: JSON content of gaits, plans and verdicts."""
 
-from __future__ import annotations
-
 import time
 from dataclasses import asdict
 from datetime import UTC, datetime

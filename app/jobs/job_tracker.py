@@ -1,7 +1,5 @@
 """Running jobs of one kind: their progress, cancelling and end, on the command queue's thread."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from typing import Any, Protocol

@@ -3,8 +3,6 @@
 Only the session's thread calls this.
 """
 
-from __future__ import annotations
-
 from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace

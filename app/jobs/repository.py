@@ -3,8 +3,6 @@
 Only the session's thread calls this.
 """
 
-from __future__ import annotations
-
 import time
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The search for a gait's fastest timing: what is asked, and what the page is shown of the answer."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

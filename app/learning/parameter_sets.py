@@ -1,7 +1,5 @@
 """Named, versioned sets of physics parameters that were learned from trials; any thread may ask."""
 
-from __future__ import annotations
-
 import time
 from dataclasses import dataclass
 from typing import Any

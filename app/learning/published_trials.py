@@ -1,7 +1,5 @@
 """The published table of trials and its trajectories, as gaits that physics is fitted to."""
 
-from __future__ import annotations
-
 import csv
 import io
 import math

@@ -1,7 +1,5 @@
 """Simulations of gaits for learning, on several processes at once."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from typing import Protocol

@@ -1,7 +1,5 @@
 """Learning runs: started for trials, run in background processes, and kept. Thread-safe."""
 
-from __future__ import annotations
-
 import logging
 import threading
 import time

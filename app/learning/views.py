@@ -1,7 +1,5 @@
 """What was learned, as pages and scripts get it: cm and degrees, as tables of trials are."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """From trials to the gaits that physics is fitted to: what the robot did, and exactly what it was sent."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

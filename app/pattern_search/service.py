@@ -3,8 +3,6 @@
 Any thread may ask; nothing here knows the open gaits, and the session's thread never waits for it.
 """
 
-from __future__ import annotations
-
 import itertools
 import logging
 import threading

@@ -1,7 +1,5 @@
 """The pattern search as the page and scripts see it, as JSON content; limbs and samples count from 0."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from core.motion.contact_timeline import rows_from_bits

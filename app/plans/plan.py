@@ -1,7 +1,5 @@
 """From a gait to what can be seen, checked and sent."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """A stretch of a sequence's plan, to be shown."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 

@@ -1,7 +1,5 @@
 """Provenance of computed results: made when the checker has confirmed one, shown with what it is worth."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, replace
 from datetime import UTC, datetime
 from functools import cache

@@ -1,7 +1,5 @@
 """Where a foot that is out of reach could be: the outline of its reach on the ground, to be drawn."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Floats

@@ -1,7 +1,5 @@
 """The parts of a sequence's plan, as they are shown."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import groupby

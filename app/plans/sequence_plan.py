@@ -1,7 +1,5 @@
 """The plan of a sequence: the plans of its parts, one after the other as one motion."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace

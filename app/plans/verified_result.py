@@ -1,7 +1,5 @@
 """A solver's result after the independent checker: only what it confirms counts as solved."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Steps by hand as the studio sees them: where they would lead, and letting the robot make them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum

@@ -1,7 +1,5 @@
 """The operator lease at work: signs of life of the holder's page, and what happens when they end."""
 
-from __future__ import annotations
-
 import logging
 import threading
 import time

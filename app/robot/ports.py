@@ -1,7 +1,5 @@
 """Which devices a robot may be on: those of this computer, the last one, and where a lost one is now."""
 
-from __future__ import annotations
-
 import json
 import logging
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """The bridge with a record of every run, from before its first byte to its end."""
 
-from __future__ import annotations
-
 import threading
 import time
 from collections.abc import Callable

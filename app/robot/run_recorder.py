@@ -1,7 +1,5 @@
 """Keeps every byte and every change of state of a run, with its time, as it happens."""
 
-from __future__ import annotations
-
 import json
 import logging
 import sqlite3

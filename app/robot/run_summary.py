@@ -1,7 +1,5 @@
 """What a person should know of a run before they confirm it."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

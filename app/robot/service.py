@@ -1,7 +1,5 @@
 """The robot as the studio sees it: the bridge, the emulated robot behind it, and the record of runs."""
 
-from __future__ import annotations
-
 import secrets
 import threading
 import time

@@ -1,7 +1,5 @@
 """What is shown of the robot: JSON content from the bridge's snapshot."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The web socket that pushes what changes."""
 
-from __future__ import annotations
-
 import asyncio
 import contextlib
 import json

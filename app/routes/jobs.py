@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Any, Literal
 
-from fastapi import APIRouter, Depends
+from fastapi import APIRouter
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 from starlette.concurrency import run_in_threadpool
 
 from app.gaits.views import plan_view
-from app.studio.studio import Studio
-from app.web.dependencies import (
-    TheAuthor,
-    on_command_thread,
-    on_planned,
-    studio_of,
-)
+from app.web.dependencies import TheAuthor, TheStudio, on_command_thread, on_planned
 from solver_jobs import JobKind
 
 router = APIRouter(prefix="/api/jobs", tags=["jobs"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 
 MOST_VARIATIONS = 256
 """Of a simulation."""

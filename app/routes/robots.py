@@ -1,14 +1,11 @@
 """The robots that a gait may be for, and new gaits for them."""
 
-from __future__ import annotations
+from typing import Any
 
-from typing import Annotated, Any
-
-from fastapi import APIRouter, Depends
+from fastapi import APIRouter
 from pydantic import BaseModel, ConfigDict, Field
 
-from app.studio.studio import Studio
-from app.web.dependencies import changed, studio_of
+from app.web.dependencies import TheStudio, changed
 from core.gait.gait import MOST_NAME, Gait, Orientation
 from core.gait.options import GaitOptions
 from core.library.new_gait import (
@@ -20,7 +17,6 @@ from core.library.new_gait import (
 from core.robot.model import ROBOT_NAMES, RobotModel, load_robot
 
 router = APIRouter(prefix="/api", tags=["robots"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 
 
 class NewGait(BaseModel):

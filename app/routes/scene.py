@@ -1,24 +1,21 @@
 """What the 3D scene shows on demand: other versions of a gait, and where its feet can be."""
 
-from __future__ import annotations
-
 from enum import StrEnum
-from typing import Annotated, Any
+from typing import Any
 
-from fastapi import APIRouter, Depends, Response
+from fastapi import APIRouter, Response
 from starlette.concurrency import run_in_threadpool
 
 from app.plans.plan import Plan
 from app.scene.ghost import ghost_blob
 from app.scene.reach import reach_table
 from app.studio.studio import Studio
-from app.web.dependencies import on_command_thread, on_planned, studio_of
+from app.web.dependencies import TheStudio, on_command_thread, on_planned
 from core.errors import StateError
 from core.motion.trajectory import Trajectory
 from core.problem.motion_problem import Workspace
 
 router = APIRouter(prefix="/api/gaits", tags=["gaits"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 
 
 class Version(StrEnum):

@@ -6,8 +6,6 @@ way for pages that can't reach into the client: names of nodes as a JSON text, t
 pose, each answered by a text.
 """
 
-from __future__ import annotations
-
 import asyncio
 import contextlib
 import hashlib

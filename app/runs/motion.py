@@ -1,7 +1,5 @@
 """The motion that a robot really made, as far as its strokes tell, on the plan's time axis."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from app.runs.record import RunRecord

@@ -1,7 +1,5 @@
 """What a run was to do, as JSON content that stays readable when its gait has changed or gone."""
 
-from __future__ import annotations
-
 from dataclasses import asdict
 from typing import Any
 

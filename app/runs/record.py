@@ -1,7 +1,5 @@
 """A run as it was kept, read once for everything that is made of it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

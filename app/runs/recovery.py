@@ -1,7 +1,5 @@
 """Runs whose program is gone: their records are completed from what it left behind."""
 
-from __future__ import annotations
-
 import json
 
 from app.store.database import Database

@@ -1,7 +1,5 @@
 """Runs for the page and scripts: list, figures, series, notes, deleting, files."""
 
-from __future__ import annotations
-
 import time
 from datetime import UTC, datetime
 from typing import Any

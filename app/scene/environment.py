@@ -3,8 +3,6 @@
 The page fills the marks itself (points, colours, visibility), so each browser shows its own plan.
 """
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

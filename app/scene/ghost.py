@@ -1,7 +1,5 @@
 """A robot of lines: another version of a gait, drawn quietly beside the one that is looked at."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What is drawn for each link of a robot, read from its URDF and meshes."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib import resources

@@ -1,7 +1,5 @@
 """What lies on the floor beside a plan: support polygon, traces of the balance points, swings, footholds."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

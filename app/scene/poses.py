@@ -6,8 +6,6 @@ y, z, then x, y, z in m, of each node in the world. Header keys: `format` ("foot
 `robot`, `nodes` (names), `frames` (count), `start` and `step` (s), and `overlay` where there is one.
 """
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from typing import Any

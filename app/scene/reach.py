@@ -1,7 +1,5 @@
 """Where each foot can be while a plan goes on, for the page to draw on demand."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The Viser server that holds the 3D scene; it listens on loopback only and is reached through our port."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Sequence
 

@@ -4,8 +4,6 @@ A ghost of a plan keeps level. Here the chains are closed in the body's own fram
 level whatever the body does, and the body's pose is laid over them.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The web application: page, API, events and the 3D preview behind one port."""
 
-from __future__ import annotations
-
 from importlib import resources
 from pathlib import Path
 from typing import Any

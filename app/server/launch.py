@@ -1,7 +1,5 @@
 """Runs the studio until a signal ends it."""
 
-from __future__ import annotations
-
 import asyncio
 import contextlib
 import os

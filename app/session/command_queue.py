@@ -4,8 +4,6 @@ Pages, jobs and robot put commands on the queue; only this thread changes state 
 The one exception is Stop, which goes straight to the bridge.
 """
 
-from __future__ import annotations
-
 import logging
 import queue
 import threading

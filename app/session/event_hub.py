@@ -1,7 +1,5 @@
 """Pushing what changes to every open page."""
 
-from __future__ import annotations
-
 import asyncio
 import json
 import threading

@@ -1,7 +1,5 @@
 """From a plan to what the physics is asked, what that depends on, and its report as content."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from dataclasses import asdict, fields

@@ -1,7 +1,5 @@
 """The kept simulations: which of them belongs to the present plan, and its report. Thread-safe."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from typing import Any
 

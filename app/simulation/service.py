@@ -3,8 +3,6 @@
 Only the session's thread calls this; a thread a simulation waits for its answer.
 """
 
-from __future__ import annotations
-
 import logging
 import threading
 import time

@@ -1,7 +1,5 @@
 """What pages are shown of a simulated motion: thinned, on the plan's time axis."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """How cameras see the platform, and what each camera is for, in the database."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from typing import Any

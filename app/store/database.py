@@ -3,8 +3,6 @@
 Every write is committed before its method returns, so that what was acknowledged survives a kill.
 """
 
-from __future__ import annotations
-
 import json
 import sqlite3
 import threading

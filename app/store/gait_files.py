@@ -1,7 +1,5 @@
 """Gait files in the data folder, written atomically."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

@@ -3,8 +3,6 @@
 A change and the version that goes with it are one transaction: after a kill both are there, or neither.
 """
 
-from __future__ import annotations
-
 import json
 import sqlite3
 from dataclasses import astuple, dataclass

@@ -1,7 +1,5 @@
 """Learning runs and the named sets of physics parameters, in the database."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Photos of trials in the database: what is known of each; the pictures are files."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

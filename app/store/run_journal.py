@@ -4,8 +4,6 @@ A kill of the program takes nothing of it. It is locked as long as the program l
 unlocks it however that ends; so it also says whether a run is still under way.
 """
 
-from __future__ import annotations
-
 import fcntl
 import logging
 import os

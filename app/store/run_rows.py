@@ -1,7 +1,5 @@
 """The database rows of runs, for all that write them."""
 
-from __future__ import annotations
-
 import json
 import sqlite3
 from collections.abc import Iterable

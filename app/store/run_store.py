@@ -1,7 +1,5 @@
 """Runs in the database: what is found of them, their plans, states, bytes, figures and notes."""
 
-from __future__ import annotations
-
 import json
 import sqlite3
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """A database connection of its own for runs, so that recording waits for nobody else."""
 
-from __future__ import annotations
-
 import json
 import sqlite3
 from collections.abc import Sequence

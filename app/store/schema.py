@@ -3,8 +3,6 @@
 `PRAGMA user_version` holds the number of the last migration that was done.
 """
 
-from __future__ import annotations
-
 import json
 import sqlite3
 from collections.abc import Callable

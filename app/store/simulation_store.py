@@ -1,7 +1,5 @@
 """Simulations in the database: the newest ones of each gait, by what was simulated."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from typing import Any

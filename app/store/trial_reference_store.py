@@ -1,7 +1,5 @@
 """What the database keeps with trials for comparison: what the robot was sent, and the simulated feet."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Trials in the database."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Videos in the database; the files themselves are in the data folder."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

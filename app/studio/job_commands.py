@@ -1,7 +1,5 @@
 """The commands on jobs: start an optimisation, a simulation or a tracking, and cancel one."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What the pages are shown: gaits with their plans, the list of gaits, jobs, trials and the robot."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from concurrent.futures import Future
 from typing import Any

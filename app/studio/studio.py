@@ -1,7 +1,5 @@
 """The studio: every service, put together, and the ways to use them from other threads."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import ExitStack

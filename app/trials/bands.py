@@ -1,7 +1,5 @@
 """Several trials over each other as JSON content, in the frame of their plans; cm."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

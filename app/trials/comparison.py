@@ -1,7 +1,5 @@
 """Compares a trial with its plan and with physics: figures of the three, tracks in one frame, bands."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any

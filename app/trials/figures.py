@@ -1,7 +1,5 @@
 """A trial's figures as JSON content, in centimetres and degrees as their sources have them."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any

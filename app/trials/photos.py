@@ -1,7 +1,5 @@
 """Photos of a trial: kept as JPEG files in the data folder, without what the camera wrote into them."""
 
-from __future__ import annotations
-
 import threading
 import time
 import uuid

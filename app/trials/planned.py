@@ -1,7 +1,5 @@
 """Where the feet of a trial were to be, and what the robot was sent: of a run, or of a gait as it is now."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any

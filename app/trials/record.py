@@ -1,7 +1,5 @@
 """A trial as it was kept, read once for everything that is laid over it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """The trial of a run that a camera saw: its words, its plan and its iterations come from the run's record."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from datetime import datetime
 

@@ -1,7 +1,5 @@
 """Trials for the page and scripts: adding, figures beside the plan, ends of iterations, tables."""
 
-from __future__ import annotations
-
 import time
 import uuid
 from collections.abc import Callable, Sequence

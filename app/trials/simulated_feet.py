@@ -3,8 +3,6 @@
 They come in the frame of the plan. Nothing here is waited for but by a thread of its own.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import logging

@@ -1,7 +1,5 @@
 """Tables of trials for other programs: CSV and LaTeX."""
 
-from __future__ import annotations
-
 import csv
 import io
 from collections.abc import Mapping, Sequence

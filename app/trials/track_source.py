@@ -1,7 +1,5 @@
 """The source of a trial's track that a camera saw: which camera, when, and what was not seen."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any

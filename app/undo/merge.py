@@ -5,8 +5,6 @@ present content wherever that still says what `base` says. Rows of timelines and
 they must still say what `base` says all along the span of an edit: half a moved swing is no swing.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Any, Final

@@ -1,7 +1,5 @@
 """Where videos are in the data folder: uploads as they came, recordings in a folder each."""
 
-from __future__ import annotations
-
 import contextlib
 import hashlib
 import os

@@ -1,7 +1,5 @@
 """The lab's cameras put together: setups, videos, tracking, cameras, recordings of runs."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable, Sequence
 from pathlib import Path

@@ -4,8 +4,6 @@ The bridge only puts a word on a queue. One thread begins and ends recordings; a
 so that a run that follows at once is recorded from its beginning.
 """
 
-from __future__ import annotations
-
 import logging
 import queue
 import threading

@@ -1,7 +1,5 @@
 """Videos for the page and scripts: uploads and recordings, their facts and pictures."""
 
-from __future__ import annotations
-
 import threading
 import time
 import uuid

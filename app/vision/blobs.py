@@ -1,7 +1,5 @@
 """Blobs of a foot's colour in a picture: all of them, the one that is the foot, and why others are not."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

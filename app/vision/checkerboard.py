@@ -1,7 +1,5 @@
 """A camera's lens out of pictures of a checkerboard."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

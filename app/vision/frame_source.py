@@ -1,7 +1,5 @@
 """A source of frames: a video file, or the recording of a camera."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, Protocol

@@ -1,7 +1,5 @@
 """OpenCV, loaded by whoever first needs it, so that the server, which only asks its processes, does not."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 

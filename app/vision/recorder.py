@@ -1,7 +1,5 @@
 """A recording while it is made: pictures on disk, feet found at once, what was missing said."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from pathlib import Path
 

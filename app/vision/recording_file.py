@@ -4,8 +4,6 @@ Both files only grow, so that whatever ends the program, what was written before
 `pictures.mjpeg` is played by common players; its times are in the table alone.
 """
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The vision processes, and how to submit tasks to them."""
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Callable
 from dataclasses import dataclass

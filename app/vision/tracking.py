@@ -1,7 +1,5 @@
 """Foot tracks out of pictures: each foot found, laid on the platform, its gaps and false sights marked."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

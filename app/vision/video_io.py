@@ -1,7 +1,5 @@
 """Pictures and video files, as OpenCV reads and writes them."""
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """What the vision processes do with pictures, so that neither event loop nor bridge waits for it."""
 
-from __future__ import annotations
-
 import base64
 from collections import OrderedDict
 from collections.abc import Sequence

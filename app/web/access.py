@@ -1,7 +1,5 @@
 """Who may talk to the studio: Host, Origin and token, on HTTP and web sockets alike."""
 
-from __future__ import annotations
-
 import hmac
 import ipaddress
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The page's own files, out of memory: a page is many small modules, and each should cost next to nothing."""
 
-from __future__ import annotations
-
 import gzip
 import hashlib
 import mimetypes

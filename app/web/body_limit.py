@@ -1,7 +1,5 @@
 """The largest body of a request, so that nobody can fill the server's memory."""
 
-from __future__ import annotations
-
 from fastapi.responses import JSONResponse
 from starlette.datastructures import Headers
 from starlette.exceptions import HTTPException

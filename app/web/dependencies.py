@@ -1,7 +1,5 @@
 """What all routes share: reaching the studio, and refusals as status and sentence."""
 
-from __future__ import annotations
-
 import asyncio
 import re
 from collections.abc import Callable, Sequence
@@ -56,6 +54,10 @@ async def studio_of(request: Request) -> Studio:
     """The studio that this server serves; not a plain function, which would cost each request a thread."""
     studio: Studio = request.app.state.studio
     return studio
+
+
+TheStudio = Annotated[Studio, Depends(studio_of)]
+"""The studio, for a route."""
 
 
 def is_page(text: str) -> bool:

@@ -5,8 +5,6 @@ version is a folder's name in the address, `/static/~VERSION/editor.js`, so that
 relative name is of the same version. It changes whenever a file does.
 """
 
-from __future__ import annotations
-
 import hashlib
 import re
 from collections.abc import Collection

@@ -1,7 +1,5 @@
 """Whether the robot tips: the point that balance is judged by, and the feet that stand."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """What the rules look at: a plan, what would be sent of it, and what the document asks of it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

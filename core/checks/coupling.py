@@ -1,7 +1,5 @@
 """The rule for robots whose motors share actuators: what of the strokes is lost, and whether feet lift."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Whether the plan is what its document says: where it goes, how it begins, and what it was made from."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Floats

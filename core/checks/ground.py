@@ -1,7 +1,5 @@
 """What feet do on the ground and over it: standing, sliding, lifting."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Bools, Floats, stretches

@@ -1,7 +1,5 @@
 """What motors and firmware can do: range, speed, acceleration, the size of a move, and deafness for Stop."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

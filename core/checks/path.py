@@ -1,7 +1,5 @@
 """Rules on the path that the robot really takes, and what merging and stop bound cost in robot seconds."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

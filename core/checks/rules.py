@@ -4,8 +4,6 @@ The rules, by kind: `motors`, `balance`, `ground`, `document`, `coupling`, `path
 waypoints, and `simulation` for what the physics finds.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """The physics as an input of the verdict: what a simulation found, or a note that there is none."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from core.findings import Outcome

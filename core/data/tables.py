@@ -1,7 +1,5 @@
 """The parameters files that come with the program, read as tables."""
 
-from __future__ import annotations
-
 import tomllib
 from importlib import resources
 from typing import Any

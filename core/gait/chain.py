@@ -1,7 +1,5 @@
 """Motions one after the other: each begins where the one before has ended, and both share that knot."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise

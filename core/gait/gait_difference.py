@@ -1,7 +1,5 @@
 """What sets two gaits apart, in sentences, so that a person can choose a version to go back to."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum

@@ -1,7 +1,5 @@
 """What must hold of feet that are held up, beside the timeline: each rule says what to do."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Bools

@@ -1,7 +1,5 @@
 """The world motion of a gait made by hand from a segment table."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Which foot is each foot's mirror image about the gait's heading."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Floats

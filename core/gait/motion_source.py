@@ -1,7 +1,5 @@
 """What a gait's motion comes from."""
 
-from __future__ import annotations
-
 from enum import StrEnum
 
 import numpy as np

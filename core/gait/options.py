@@ -1,7 +1,5 @@
 """What the optimiser is asked for a gait, and how its answer is sent."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Where a computed result of a gait came from, by hash, so that it is told apart from any other."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from datetime import datetime

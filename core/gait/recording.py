@@ -1,7 +1,5 @@
 """A recorded motion as a gait document keeps it: its file's own text, and what reading it assumed."""
 
-from __future__ import annotations
-
 import hashlib
 from dataclasses import dataclass
 from enum import StrEnum

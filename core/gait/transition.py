@@ -1,7 +1,5 @@
 """The transition between two motions whose feet differ: steps, as a motion problem of its own."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

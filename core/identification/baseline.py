@@ -1,7 +1,5 @@
 """The linear baseline: a line of measured over wanted distances, which any model must beat."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

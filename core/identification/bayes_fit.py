@@ -1,7 +1,5 @@
 """A Bayesian fit: parameters that explain measured displacements, and how certain each of them is."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache

@@ -1,7 +1,5 @@
 """Learning parameters of the physics from trials, and how well they predict gaits that were left out."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

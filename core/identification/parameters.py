@@ -1,7 +1,5 @@
 """Parameters of the physics that no data sheet gives, and how far each may lie from its default."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """A surrogate: how a simulated figure depends on parameters, fitted to simulations over their box."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """What is to be known of steps by hand before they are made: range, threshold, balance, coupling."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

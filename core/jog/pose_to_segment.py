@@ -1,7 +1,5 @@
 """Turns a pose of the robot into the last segment of a segment table."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import count

@@ -3,8 +3,6 @@
 Axes are the robot's own: x forwards, y to the left, z up. A motor's stroke grows downwards.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """The gaits that come with the program, built from the data beside this file."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import StrEnum

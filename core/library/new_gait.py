@@ -1,7 +1,5 @@
 """New gaits: a timeline drawn from foot order and phase lengths, for any robot."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

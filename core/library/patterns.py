@@ -1,7 +1,5 @@
 """Patterns that come with the program: what was asked of the solver, and what it found."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

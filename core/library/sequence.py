@@ -1,7 +1,5 @@
 """Sequence documents: gaits one after the other as one document, and what follows from its parts."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

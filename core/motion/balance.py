@@ -1,7 +1,5 @@
 """Balance of a motion: the point that it is judged by, and its distance to the support polygon's edge."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Floats

@@ -1,7 +1,5 @@
 """The heading profile: how the body turns about z during a gait. It is given, not optimised."""
 
-from __future__ import annotations
-
 from enum import StrEnum
 
 import numpy as np

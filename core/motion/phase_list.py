@@ -5,8 +5,6 @@ turns are stance and swing. A sample of a timeline stands for the time until the
 k samples lasts k times the sample time, and the phases of n samples last n times the sample time.
 """
 
-from __future__ import annotations
-
 import json
 from itertools import groupby
 from math import isfinite

@@ -1,7 +1,5 @@
 """How fast feet and motors go in a motion."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Floats

@@ -1,7 +1,5 @@
 """Support polygon, static stability margin and centre of pressure."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Bools, Floats

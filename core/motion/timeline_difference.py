@@ -1,7 +1,5 @@
 """What sets two contact timelines apart, in sentences that count feet and samples from 1."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

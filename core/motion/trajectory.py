@@ -1,7 +1,5 @@
 """A motion over time in the world frame."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A motion as NumPy's NPZ: arrays with time first, their units and names inside the file."""
 
-from __future__ import annotations
-
 import io
 import zipfile
 import zlib

@@ -10,8 +10,6 @@ on the three lowest of them that have its centre of mass between them, and on ot
 its lowest feet: where it is negative the body tips, until it rests tilted.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import combinations
 

@@ -4,8 +4,6 @@ Rows that one limb may have are joined limb by limb; what two joins have in comm
 shared with the solver or with the check, so that a rule that is misread shows.
 """
 
-from __future__ import annotations
-
 from itertools import groupby, product
 
 import numpy as np

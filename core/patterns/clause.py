@@ -1,7 +1,5 @@
 """A part of a pattern's rules: which rule, for which limbs, at which samples."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """What a robot allows a pattern: how far and how fast its body goes, how long a swing takes."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Lists, ranges and numbers as sentences about patterns write them; counting from 1."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 _PLURALS = {"foot": "feet"}

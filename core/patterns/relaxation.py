@@ -1,7 +1,5 @@
 """Loosening a pattern's problem in one place."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Sentences about patterns: rules that clash, and what would loosen them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The two sides of a transition: gaits that fit together, and a cursor in each."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

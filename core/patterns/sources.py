@@ -1,7 +1,5 @@
 """What a search for a pattern starts from: the two sides of a transition, limbs to walk on, or a drawing."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from enum import StrEnum
 

@@ -1,7 +1,5 @@
 """A pattern becomes a gait: the document that is optimised, checked and played."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Backlash between a motor and what it moves."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Floats

@@ -1,7 +1,5 @@
 """The rules of a verdict that only a simulation can judge; limits and remedies stand with each of them."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """How a robot's mass is spread over the parts that move apart: body, knees and feet."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from core.errors import InputError

@@ -1,7 +1,5 @@
 """From the states of a simulated run to its figures: errors, tilt, falls, slip, balance, tracking."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """What a simulated robot did, sample by sample, in the same world frame as the plan."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What each motor can do, under a set of physics parameters."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Floats

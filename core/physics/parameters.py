@@ -1,7 +1,5 @@
 """Parameters of the physics that are not in the robot's own file, as named sets with their sources."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 

@@ -1,7 +1,5 @@
 """What a physics simulation is asked: exactly the waypoints that would be sent, on stated ground."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import StrEnum
 

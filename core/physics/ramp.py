@@ -1,7 +1,5 @@
 """The firmware's ramps: every motor's stroke over the robot's own time, of waypoints (PROTOCOL.md 3)."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

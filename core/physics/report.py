@@ -1,7 +1,5 @@
 """The figures of a simulated run, all computed from its states, whatever engine made them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from core.arrays import Floats

@@ -1,7 +1,5 @@
 """The same robot, a little different each time: what a gait must bear that is to be robust."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

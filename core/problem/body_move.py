@@ -1,7 +1,5 @@
 """A slow move of the body between two poses while every foot stands still, or is held in the air."""
 
-from __future__ import annotations
-
 from bisect import bisect_left
 from dataclasses import dataclass, replace
 

@@ -4,8 +4,6 @@ It keeps the boundary, the timing and the clearance, and draws the body over the
 drawing, not a solution: reach, speed and balance are not looked at.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -5,8 +5,6 @@ violation, 0 where the family holds: m, m/s, N, or N·m. Sources: thesis (3.5) t
 of DOMAIN.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The resting pose of the body while feet are held up: over the feet that stand."""
 
-from __future__ import annotations
-
 from itertools import combinations
 
 import numpy as np

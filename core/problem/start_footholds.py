@@ -1,7 +1,5 @@
 """The start of a motion in the world: on the footholds where the robot stands."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import combinations

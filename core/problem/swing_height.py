@@ -1,7 +1,5 @@
 """Swing height: how a foot comes up to where it is held in the air, or down from there."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Floats

@@ -1,7 +1,5 @@
 """Outlines of a leg's workspace at a height, for drawing."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Floats

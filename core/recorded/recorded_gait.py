@@ -1,7 +1,5 @@
 """From a recorded motion or a bare timeline to the gait document that describes it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """From a recording to the motion in it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

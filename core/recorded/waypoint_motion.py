@@ -1,7 +1,5 @@
 """The world motion that waypoints stand for: feet by forward kinematics, the body so that they slip least."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -5,8 +5,6 @@ rods' far ends lie on the foot's platform for the right angles only; this is whe
 Names of links and joints are those of the URDF files in `robot_description`.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Floats

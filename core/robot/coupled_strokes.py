@@ -5,8 +5,6 @@ the feet go where forward kinematics of h′ puts them. A robot with an actuator
 wanted, to the last bit.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Bools, Floats

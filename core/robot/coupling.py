@@ -4,8 +4,6 @@ Actuators are fewer than motors, so that wanted strokes are met in the sense of 
 function is pure and works over any leading axes, the motors of all legs last in wire order.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -4,8 +4,6 @@ Every function is pure and works over any leading axes: time first, then leg, th
 (thesis 2.3.2 and 2.3.3).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

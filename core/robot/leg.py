@@ -4,8 +4,6 @@ Every function is pure and works over any leading axes. Thesis 2.3.1, with two c
 of (2.6) is over l² − d_i, and motor 1 stands at −y.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Floats

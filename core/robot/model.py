@@ -1,7 +1,5 @@
 """The robot's parameters as one frozen value, read from one file a variant."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import tomllib

@@ -1,7 +1,5 @@
 """The nearest point that a leg can reach."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Bools, Floats

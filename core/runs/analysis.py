@@ -9,8 +9,6 @@ plan's own way between the waypoint before and the one under way, which holds wh
 What a cable cannot tell stays unknown: slipping, tilting and bending show in none of them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any

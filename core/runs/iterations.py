@@ -1,7 +1,5 @@
 """When each iteration of a run ended, by what the robot said of its waypoints."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Floats, stretches

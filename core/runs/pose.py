@@ -1,7 +1,5 @@
 """Where body and feet were by measured strokes, with the plan's standing feet on the ground."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -3,8 +3,6 @@
 Nothing here believes a log: commands are the messages that went out, arrivals are what the robot said.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterable, Iterator

@@ -1,7 +1,5 @@
 """Makes a segment table of a drawn timeline, where its swings have room for the segments of a step."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

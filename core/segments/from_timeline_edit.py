@@ -1,7 +1,5 @@
 """Carries what was drawn on a timeline into a segment table, where the table can say it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Ways to mend a segment table in which an edited segment does not fit to its neighbours."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Collection
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Rows of segments that follow one another: what is asked of each cell, with the least change."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 

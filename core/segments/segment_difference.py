@@ -1,7 +1,5 @@
 """What sets two segment tables apart, in sentences that count feet and segments from 1."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from difflib import SequenceMatcher
 from itertools import zip_longest

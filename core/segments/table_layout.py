@@ -1,7 +1,5 @@
 """The columns of a segment table, part by part, and where columns can be inserted or removed."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum

@@ -1,7 +1,5 @@
 """A track laid over a planned or simulated motion: turned and moved so that their first frames agree."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

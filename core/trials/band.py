@@ -1,7 +1,5 @@
 """Several trials of one gait over each other: their mean way and how far they lie apart."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

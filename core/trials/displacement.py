@@ -1,7 +1,5 @@
 """The displacement of a walk, from a recording or from a motion, so that both can be compared."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """When each iteration of a track ended, found from the feet's own steps."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 

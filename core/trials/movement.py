@@ -1,7 +1,5 @@
 """How far the feet of a track went, by the definitions of the published tables."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields

@@ -1,7 +1,5 @@
 """What a camera under the platform needs to be told: lens, platform in the picture, colours of the feet."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

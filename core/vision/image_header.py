@@ -1,7 +1,5 @@
 """Kind and size of a picture file by its first bytes, before anybody unpacks it."""
 
-from __future__ import annotations
-
 import struct
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Outliers: detections that cannot be the foot, by the ones before and after."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Bools, Floats

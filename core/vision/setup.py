@@ -1,7 +1,5 @@
 """How one camera sees the platform: a named document of lens, clicked points, colours and limits."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """Foot tracks in the lab's files: `X_D1, Y_D1, …`, a row a frame, in cm or in pixels (thesis 5.2)."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

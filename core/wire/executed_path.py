@@ -1,7 +1,5 @@
 """The executed path: between waypoints every motor moves in proportion."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

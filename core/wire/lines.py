@@ -4,8 +4,6 @@ Parsing never raises: what fits no kind is an `UnknownLine`. The echo of a messa
 it is the line that follows `new data tf 1`, so only `LineReader`, which keeps the order, yields `Echo`.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@ Grammar: `<` payload `>`, fields separated by commas, strokes in mm with 4 decim
 waypoint a message, because the firmware's memory holds one (PROTOCOL 1, hazards 7 and 8).
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

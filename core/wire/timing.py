@@ -4,8 +4,6 @@ The firmware moves every motor by one ramp of a common duration and hears nothin
 (PROTOCOL 3); so the largest ramp of a plan is also the longest time until a stop is heard.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Floats

@@ -5,8 +5,6 @@ header `Column1,…,ColumnN`. Older files have a first line 0, 1, 2, … or word
 layout cannot say travels in a companion JSON bound by the CSV's hash.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 from contextlib import suppress

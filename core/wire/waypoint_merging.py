@@ -4,8 +4,6 @@ The firmware moves all motors along a straight line in motor space to each waypo
 every waypoint costs time and the path between two of them is known (PROTOCOL.md 3 and 7).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

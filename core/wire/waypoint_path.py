@@ -3,8 +3,6 @@
 The firmware moves all motors along a straight line in motor space to each waypoint and stops there.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

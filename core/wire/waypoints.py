@@ -1,7 +1,5 @@
 """Waypoints: the motor strokes that go to the robot, one row a message."""
 
-from __future__ import annotations
-
 import hashlib
 from dataclasses import dataclass
 

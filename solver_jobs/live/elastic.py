@@ -1,7 +1,5 @@
 """What is missing where no motion exists: the least total miss, and a proof that it cannot be 0."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """What the nearest motion misses, in words: which phase, which foot, by how many millimetres."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

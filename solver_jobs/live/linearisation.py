@@ -4,8 +4,6 @@ With the vertical motion and the footholds given, balance, reach and speed are l
 left: the ground motion of the body and of the feet in the air. Millimetres and seconds throughout.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """From the unknowns of the convex problem to a whole motion with contact forces."""
 
-from __future__ import annotations
-
 from itertools import combinations
 
 import numpy as np

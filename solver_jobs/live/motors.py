@@ -1,7 +1,5 @@
 """Motor limits as rows: the strokes' speed and acceleration, linear about a motion that is nearly right."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Floats

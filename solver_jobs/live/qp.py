@@ -1,7 +1,5 @@
 """The quadratic programme: rows stacked, solved by PIQP through CasADi, with multipliers."""
 
-from __future__ import annotations
-
 import time
 from collections import OrderedDict
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Where a foot may be beside its module: polygons of its reach at a known height."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The live tier's answer to a problem: a motion, or why there is none."""
 
-from __future__ import annotations
-
 import time
 from dataclasses import dataclass, replace
 

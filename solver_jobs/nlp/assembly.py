@@ -1,7 +1,5 @@
 """The short lists that make up the problem."""
 
-from __future__ import annotations
-
 from core.problem.motion_problem import Boundary as Ends
 from core.problem.motion_problem import MotionProblem, Workspace
 from solver_jobs.nlp.bounds import (

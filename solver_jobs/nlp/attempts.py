@@ -1,7 +1,5 @@
 """Attempts to solve one problem: starting points, solver calls, iterates."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace

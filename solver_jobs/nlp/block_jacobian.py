@@ -6,8 +6,6 @@ Jacobian and Hessian. A solver is then built in a half to a third of the time th
 takes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """Constraints on single unknowns: boundary, heights, standing feet, contact forces, clearance."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

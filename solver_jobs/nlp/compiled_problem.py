@@ -1,7 +1,5 @@
 """A compiled problem: the assembled problem of one shape with its IPOPT solver, built once and kept."""
 
-from __future__ import annotations
-
 import time
 from collections import OrderedDict
 from collections.abc import Hashable, Sequence

@@ -3,8 +3,6 @@
 The contact sequence enters only through bounds, so that one structure serves every timeline of its shape.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from enum import StrEnum

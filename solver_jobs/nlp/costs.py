@@ -1,7 +1,5 @@
 """What is minimised, in the solver's scale: SI times `COST_SCALE`, so that m² become mm²."""
 
-from __future__ import annotations
-
 from casadi import SX, dot
 
 from core.motion.support_polygon import GRAVITY

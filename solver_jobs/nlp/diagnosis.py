@@ -1,7 +1,5 @@
 """What an unsolved problem's last iterate says: which demand is missed most, where and by how much."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

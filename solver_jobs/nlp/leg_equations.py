@@ -4,8 +4,6 @@ Every function takes a foot or strokes as a list of three expressions of equal s
 all knots. Units are the caller's (m or mm), the same throughout.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """Messages about each family of constraints, and about IPOPT's return status."""
 
-from __future__ import annotations
-
 from solver_jobs.nlp.constraint import Family
 
 FAMILY_WORDS = {

@@ -1,7 +1,5 @@
 """IPOPT's iterations as they happen."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 import numpy as np

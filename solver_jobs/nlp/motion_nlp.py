@@ -1,7 +1,5 @@
 """The exact tier: the whole motion as one nonlinear programme, solved by IPOPT."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from core.errors import InputError

@@ -1,7 +1,5 @@
 """Presolve: proofs from the bounds alone that no motion exists, each with its sentence."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Row constraints on contact forces: torque about the body, friction cones."""
 
-from __future__ import annotations
-
 import numpy as np
 from casadi import SX, vertcat
 

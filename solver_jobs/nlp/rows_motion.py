@@ -1,7 +1,5 @@
 """Row constraints of the motion itself: integration, balance of forces, speeds, closed cycles."""
 
-from __future__ import annotations
-
 import numpy as np
 from casadi import SX, repmat, vertcat
 

@@ -1,7 +1,5 @@
 """Row constraints on the motors: speed and acceleration by the derivative of the inverse kinematics."""
 
-from __future__ import annotations
-
 import numpy as np
 from casadi import SX, vertcat
 

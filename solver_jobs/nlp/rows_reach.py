@@ -1,7 +1,5 @@
 """Row constraints of reach and stability: workspace in its two forms, stability margin."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -10,8 +10,6 @@ already leaves its support. Read a total together with the number of knots, or a
 about a `rounded_timeline`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 

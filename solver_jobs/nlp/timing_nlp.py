@@ -1,7 +1,5 @@
 """The search for the shortest timing: the motion's problem with a stretch of each phase as an unknown."""
 
-from __future__ import annotations
-
 import time
 from collections import OrderedDict
 from collections.abc import Callable, Hashable

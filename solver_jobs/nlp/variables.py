@@ -5,8 +5,6 @@ knot: positions, velocities, forces. The forces of the last knot act on no inter
 Where friction is asked for, a foot's unknowns are not λ but (λ_x/λ_z, λ_y/λ_z, λ_z): its slope and its load.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 

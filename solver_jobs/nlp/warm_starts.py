@@ -1,7 +1,5 @@
 """Warm starts: the last solution of each problem shape, from which an edit goes on."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from weakref import WeakKeyDictionary
 

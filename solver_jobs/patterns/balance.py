@@ -7,8 +7,6 @@ that what is found keeps the rule exactly, and what is called impossible may mis
 margin below nothing the body is that near to a place inside.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import ceil, floor
 

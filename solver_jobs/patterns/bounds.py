@@ -1,7 +1,5 @@
 """How many events a pattern has at least and at most, and what it costs at least."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Floats

@@ -4,8 +4,6 @@ Each clause of the set is needed: without any one of them the others can hold to
 again and again with clauses left out: first whole rules, then the limbs of each, then windows of samples.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

@@ -1,7 +1,5 @@
 """The rules of F 3.2 for a pattern told by its events."""
 
-from __future__ import annotations
-
 import numpy as np
 from ortools.sat.python.cp_model import IntVar, LinearExpr, LinearExprT
 

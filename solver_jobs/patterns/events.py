@@ -4,8 +4,6 @@ With K fixed the model needs no truth value a sample, so its size does not grow 
 proof that no pattern has only K events is quick. A periodic pattern has K events and K columns in a ring.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from itertools import pairwise
 

@@ -1,7 +1,5 @@
 """Why a problem has no pattern, and what would help."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 from core.patterns.clause import Clause

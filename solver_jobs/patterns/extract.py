@@ -1,7 +1,5 @@
 """From a solution of a model to a pattern."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -3,8 +3,6 @@
 Source: F 3.2, with DOMAIN.md, point 10.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 

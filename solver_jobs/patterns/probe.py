@@ -1,7 +1,5 @@
 """Whether a part of a pattern's rules can hold at all; bounded in work, not in time, so that words stay."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum

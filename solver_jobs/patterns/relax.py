@@ -1,7 +1,5 @@
 """Relaxations: the mildest change of each conflicting rule that makes a problem solvable."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 

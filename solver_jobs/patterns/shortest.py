@@ -1,7 +1,5 @@
 """The shortest length that a pattern can have."""
 
-from __future__ import annotations
-
 from core.errors import StateError
 from core.patterns.problem import LEAST_SAMPLES, PatternProblem
 from core.patterns.relaxation import with_samples

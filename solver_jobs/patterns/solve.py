@@ -1,7 +1,5 @@
 """The best patterns of a problem, by the number of their events, the most promising number first."""
 
-from __future__ import annotations
-
 import heapq
 import math
 from collections.abc import Callable

@@ -6,8 +6,6 @@ distance from knee to platform vertex, one constraint for both rods of its paral
 the platform height of a standing foot, so the floor lies `sole_depth` lower.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from xml.etree import ElementTree
 

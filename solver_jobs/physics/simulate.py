@@ -1,7 +1,5 @@
 """Waypoints through the physics: one run, or many at a time."""
 
-from __future__ import annotations
-
 import os
 import time
 from collections.abc import Callable, Sequence

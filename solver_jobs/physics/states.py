@@ -1,7 +1,5 @@
 """From the engine's states to a simulated motion in the plan's frame."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import mujoco

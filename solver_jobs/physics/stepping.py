@@ -1,7 +1,5 @@
 """Simulated runs, stepped by MuJoCo's own loop, several at a time on threads of its own."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import mujoco

@@ -1,7 +1,5 @@
 """What a motion solver reports, as frozen values that carry nothing of the solver itself."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import StrEnum
 

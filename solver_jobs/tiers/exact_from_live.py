@@ -1,7 +1,5 @@
 """One answer from the two tiers: the exact one starts from the live one, and both tell why there is none."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from core.problem.motion_check import check_motion

@@ -3,8 +3,6 @@
 The solvers are imported where they are called, so that the public face loads none.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from functools import partial

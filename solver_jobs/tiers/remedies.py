@@ -1,7 +1,5 @@
 """What would make an infeasible gait feasible: single changes, each tried by the live tier first."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import permutations

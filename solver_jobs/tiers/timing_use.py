@@ -1,7 +1,5 @@
 """A fastest timing made usable: an ordinary timeline of whole samples that the exact tier has solved."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Simulations in batches: the displacements of gaits, from a process of its own."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 from core.errors import SimulationCancelledError, StateError

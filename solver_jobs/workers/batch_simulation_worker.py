@@ -1,7 +1,5 @@
 """The process that simulates gaits under many sets of parameters; it alone imports MuJoCo."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection
 

@@ -1,7 +1,5 @@
 """A job as others see it: what was asked, how far it is, what came out."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import StrEnum
 

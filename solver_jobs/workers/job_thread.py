@@ -1,7 +1,5 @@
 """The thread that gives jobs of the queue to one worker process and takes its answers back."""
 
-from __future__ import annotations
-
 import logging
 import threading
 import time

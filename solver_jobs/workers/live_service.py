@@ -1,7 +1,5 @@
 """The parent's hold on the live tier's process."""
 
-from __future__ import annotations
-
 import itertools
 import logging
 import threading

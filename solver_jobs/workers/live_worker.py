@@ -4,8 +4,6 @@ The solver is imported here and nowhere in the parent; when the parent ends, its
 the worker leaves.
 """
 
-from __future__ import annotations
-
 import traceback
 from dataclasses import dataclass
 from multiprocessing.connection import Connection

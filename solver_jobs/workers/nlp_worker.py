@@ -4,8 +4,6 @@ The solver is imported here and nowhere in the parent. Everything goes over one 
 whatever way, its end of the pipe closes and the worker leaves at its next look.
 """
 
-from __future__ import annotations
-
 import traceback
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Searches for patterns, in a process of their own."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from core.patterns.problem import PatternProblem, PatternProgress, PatternResult, PatternStatus

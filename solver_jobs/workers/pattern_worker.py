@@ -3,8 +3,6 @@
 OR-Tools is imported here and nowhere in the parent, because it cannot live in one process with HiGHS.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 

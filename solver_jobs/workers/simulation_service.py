@@ -1,7 +1,5 @@
 """Simulations, in a process of their own."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import ClassVar
 

@@ -1,7 +1,5 @@
 """The simulator's own process; MuJoCo is imported here and not in the parent."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 

@@ -1,7 +1,5 @@
 """Starting a process of our own with a pipe to it."""
 
-from __future__ import annotations
-
 import multiprocessing
 import os
 import signal

@@ -4,8 +4,6 @@ Whoever has questions of a kind derives a `Task`, which says what comes of one t
 `TaskService` over a process whose body calls `run_tasks`.
 """
 
-from __future__ import annotations
-
 import itertools
 import logging
 import queue

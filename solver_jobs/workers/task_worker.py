@@ -1,7 +1,5 @@
 """The worker's side of the task service: one task after the other, for as long as the parent lives."""
 
-from __future__ import annotations
-
 import traceback
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """One worker process, as its parent drives it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess

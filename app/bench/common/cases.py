@@ -1,7 +1,5 @@
 """The trajectories that were published or asked for, as gaits."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import product

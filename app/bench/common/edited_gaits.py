@@ -1,7 +1,5 @@
 """Seeded random edits of the built-in gaits, such as a person makes on the page."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 

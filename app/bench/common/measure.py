@@ -1,7 +1,5 @@
 """How benchmarks measure, and on what."""
 
-from __future__ import annotations
-
 import os
 import platform
 import time

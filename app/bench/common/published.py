@@ -1,7 +1,5 @@
 """What was published of simulated gaits: tables of thesis and paper, and the files behind them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A film of four feet under a platform, drawn through a lens with noise: where each foot is, is known."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Films of feet: how fast and how well they are tracked, how soon a look and a run's trial are there."""
 
-from __future__ import annotations
-
 import tempfile
 import time
 from pathlib import Path

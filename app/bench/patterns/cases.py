@@ -1,7 +1,5 @@
 """Seeded random searches for patterns: transitions between gaits, gaits for some limbs, and small ones."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from core.arrays import Bools

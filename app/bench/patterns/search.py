@@ -3,8 +3,6 @@
 Every answer is counted again by the check of patterns, and small ones are held against trying every pattern.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

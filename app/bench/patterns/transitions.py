@@ -16,8 +16,6 @@ at random. A motion counts where the live optimiser solves it with a margin of `
 confirms it; it is that of the whole document, both gaits included.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace

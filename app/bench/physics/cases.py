@@ -1,7 +1,5 @@
 """The gaits that the physics is measured by: as published, our own, and made to tip."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """How well physics that was fitted to the published trials predicts gaits that were left out."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Any

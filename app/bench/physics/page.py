@@ -1,7 +1,5 @@
 """The x–y plots of thesis Figures 4.2 to 4.8 beside ours, as one page to print."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from html import escape
 

@@ -1,7 +1,5 @@
 """Every simulated walk of the physics benchmark, run once and kept as far as tables and plots need it."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass

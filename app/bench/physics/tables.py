@@ -1,7 +1,5 @@
 """The physics beside what was published: thesis Tables 4.1 and 4.2, the paper's Table I, and the bars."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Every figure of the robot bridge."""
 
-from __future__ import annotations
-
 from app.bench.common.measure import Row
 from app.bench.robot.soak import bench_soak
 from app.bench.robot.standstill import bench_still

@@ -1,7 +1,5 @@
 """The studio and the emulated robot as processes of their own, and a tap on the line between them."""
 
-from __future__ import annotations
-
 import json
 import multiprocessing
 import os

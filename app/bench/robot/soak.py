@@ -1,7 +1,5 @@
 """Thousands of waypoints with random faults of every kind, in the robot's own time."""
 
-from __future__ import annotations
-
 import random
 from collections.abc import Callable, Sequence
 

@@ -1,7 +1,5 @@
 """From a stop's click to standing still, by the emulated motors, for stop bounds to choose from."""
 
-from __future__ import annotations
-
 import random
 
 import numpy as np

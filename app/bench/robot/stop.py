@@ -1,7 +1,5 @@
 """How soon a stop is on the wire and the robot still, and what a kill −9 in mid-run leaves behind."""
 
-from __future__ import annotations
-
 import random
 import tempfile
 import time

@@ -1,7 +1,5 @@
 """An hour of telemetry at the robot's full rate: memory, what is kept of it, and what a page sees of it."""
 
-from __future__ import annotations
-
 import json
 import tempfile
 import threading

@@ -1,7 +1,5 @@
 """How long the robot walks: waypoints merged and cut, one a knot, and a walk made for the firmware's law."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Random edits through both tiers: is every answer solved and checked, or infeasible and explained?"""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from enum import StrEnum
 

@@ -1,7 +1,5 @@
 """The exact tier in a warm process: cold, after one edit, long; and how both tiers grow with the knots."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial

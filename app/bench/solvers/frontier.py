@@ -1,7 +1,5 @@
 """How far every built-in gait gets, and what limits it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import product

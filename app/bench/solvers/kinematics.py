@@ -1,7 +1,5 @@
 """Walker poses a second."""
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

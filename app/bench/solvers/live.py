@@ -1,7 +1,5 @@
 """The live tier as users feel it: from a changed gait to a checked trajectory, through its own process."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """The shortest timing of the built-in gaits, beside the timing as drawn."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

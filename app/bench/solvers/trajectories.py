@@ -1,7 +1,5 @@
 """Every published trajectory, solved anew by both tiers in four directions and checked."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 

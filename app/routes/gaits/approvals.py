@@ -1,18 +1,15 @@
 """Approvals of a gait: their list, and what changed from one to another."""
 
-from __future__ import annotations
-
 from dataclasses import asdict
-from typing import Annotated, Any
+from typing import Any
 
-from fastapi import APIRouter, Depends
+from fastapi import APIRouter
 
 from app.gaits.approvals import ApprovalRecord, approval_difference, approval_figures
 from app.studio.studio import Studio
-from app.web.dependencies import on_planned, studio_of
+from app.web.dependencies import TheStudio, on_planned
 
 router = APIRouter(prefix="/api/gaits/{gait_id}/approvals", tags=["approvals"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 
 
 @router.get("")

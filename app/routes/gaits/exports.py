@@ -1,11 +1,9 @@
 """Gaits out and in: every form of a gait as a download, and other people's files as new gaits."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Query, Request, Response
+from fastapi import APIRouter, Query, Request, Response
 from pydantic import BaseModel, ConfigDict, ValidationError
 from starlette.concurrency import run_in_threadpool
 
@@ -14,19 +12,12 @@ from app.export.formats import NEED_NO_MOTION, ExportedFile, ExportFormat, expor
 from app.export.import_gait import NO_FILE, read_gait
 from app.export.source import Exportable, exportable_plan
 from app.gaits.open_gait import OpenGait
-from app.studio.studio import Studio
-from app.web.dependencies import (
-    changed,
-    on_command_thread,
-    on_planned,
-    studio_of,
-)
+from app.web.dependencies import TheStudio, changed, on_command_thread, on_planned
 from core.errors import InputError
 from core.gait.gait import MOST_NAME
 from core.gait.recording import MOST_FILE_NAME
 
 router = APIRouter(prefix="/api/gaits", tags=["gaits"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 MOST_BYTES = 20_000_000
 """Largest body of a request; the gait document that it becomes is smaller (`app.documents.gait_json`)."""
 

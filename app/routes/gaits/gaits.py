@@ -1,12 +1,10 @@
 """Gaits: list, documents, edits, plans, checks and approvals."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, replace
 from functools import partial
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Query, Request, Response
+from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from starlette.concurrency import run_in_threadpool
@@ -18,19 +16,11 @@ from app.gaits.open_gait import OpenGait
 from app.gaits.trash import ROUTE
 from app.gaits.views import approval_view, verdict_view
 from app.scene.overlay import plan_poses
-from app.studio.studio import Studio
-from app.web.dependencies import (
-    TheAuthor,
-    changed,
-    on_command_thread,
-    on_planned,
-    studio_of,
-)
+from app.web.dependencies import TheAuthor, TheStudio, changed, on_command_thread, on_planned
 from core.errors import InputError, StateError
 from core.gait.gait import MOST_NAME, Gait
 
 router = APIRouter(prefix="/api/gaits", tags=["gaits"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 
 _DOCUMENT = {
     "requestBody": {

@@ -1,7 +1,5 @@
 """Segment tables: made of a drawn timeline, and mended where an edited segment does not fit."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Annotated, Any
 

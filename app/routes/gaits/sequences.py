@@ -1,20 +1,16 @@
 """Sequences: gaits chained into one, and brought up to date with the gaits that they were made of."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Query
+from fastapi import APIRouter, Query
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.gaits.open_gait import OpenGait
 from app.gaits.sequence_documents import AskedPart, made_sequence, refreshed
-from app.studio.studio import Studio
-from app.web.dependencies import TheAuthor, changed, on_command_thread, studio_of
+from app.web.dependencies import TheAuthor, TheStudio, changed, on_command_thread
 from core.gait.gait import MOST_NAME, MOST_NOTES, MOST_PARTS, MOST_TIMES
 
 router = APIRouter(prefix="/api", tags=["sequences"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 
 
 class NewPart(BaseModel):

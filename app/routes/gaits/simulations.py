@@ -1,20 +1,16 @@
 """Simulations that are kept: figures with the motion, and the simulated robot for 3D."""
 
-from __future__ import annotations
+from typing import Any
 
-from typing import Annotated, Any
-
-from fastapi import APIRouter, Depends
+from fastapi import APIRouter
 from fastapi.responses import Response
 from starlette.concurrency import run_in_threadpool
 
 from app.scene.simulated_ghost import simulated_blob
-from app.studio.studio import Studio
-from app.web.dependencies import studio_of
+from app.web.dependencies import TheStudio
 from core.robot.model import load_robot
 
 router = APIRouter(prefix="/api/simulations", tags=["simulations"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 
 
 @router.get("/sets")

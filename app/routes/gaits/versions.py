@@ -1,30 +1,20 @@
 """Versions of a gait: list, naming, differences in words, going back."""
 
-from __future__ import annotations
-
 from datetime import UTC, datetime
-from typing import Annotated, Any
+from typing import Any
 
-from fastapi import APIRouter, Depends
+from fastapi import APIRouter
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.documents.gait_json import gait_content, motion_hash, parse_gait
 from app.gaits.open_gait import OpenGait
 from app.gaits.versions import MOST_NAME, VersionKind, is_said_already
 from app.store.gait_store import VersionRow
-from app.studio.studio import Studio
-from app.web.dependencies import (
-    TheAuthor,
-    changed,
-    on_command_thread,
-    on_planned,
-    studio_of,
-)
+from app.web.dependencies import TheAuthor, TheStudio, changed, on_command_thread, on_planned
 from core.gait.gait import Gait
 from core.gait.gait_difference import gait_difference
 
 router = APIRouter(prefix="/api/gaits/{gait_id}/versions", tags=["versions"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 
 
 class Naming(BaseModel):

@@ -1,13 +1,11 @@
 """Setups of cameras, and their lenses out of pictures of a checkerboard."""
 
-from __future__ import annotations
-
 import base64
 import binascii
 from typing import Annotated, Any
 
 import numpy as np
-from fastapi import APIRouter, Depends, Query, Request
+from fastapi import APIRouter, Query, Request
 from fastapi.responses import Response
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.concurrency import run_in_threadpool
@@ -27,11 +25,10 @@ from app.vision.worker import (
     Straighten,
     data_url,
 )
-from app.web.dependencies import studio_of
+from app.web.dependencies import TheStudio
 from core.errors import InputError
 
 router = APIRouter(prefix="/api", tags=["cameras"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 Corners = Annotated[int, Field(ge=3, le=30)]
 CornersAsked = Annotated[int, Query(ge=3, le=30)]
 

@@ -1,13 +1,11 @@
 """Cameras of the computer that the studio runs on."""
 
-from __future__ import annotations
-
 import asyncio
 import time
 from collections.abc import AsyncIterator
 from typing import Annotated, Any, Literal
 
-from fastapi import APIRouter, Depends, Query
+from fastapi import APIRouter, Query
 from fastapi.responses import Response, StreamingResponse
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.concurrency import run_in_threadpool
@@ -20,13 +18,11 @@ from app.routes.lab.picture_streams import (
     look_at,
     part,
 )
-from app.studio.studio import Studio
 from app.vision.worker import BoardIn, Source, data_url
-from app.web.dependencies import studio_of
+from app.web.dependencies import TheStudio
 from core.errors import FootfallError
 
 router = APIRouter(prefix="/api/cameras", tags=["cameras"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 
 
 class CameraChanges(BaseModel):

@@ -1,10 +1,8 @@
 """Learning parameters of the physics from trials: start, look at, cancel, keep as a named set."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends
+from fastapi import APIRouter
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.concurrency import run_in_threadpool
 
@@ -13,14 +11,13 @@ from app.learning.service import MOST_SET_NAME
 from app.learning.walks import SentTrial, walks_of
 from app.studio.studio import Studio
 from app.trials.record import ROBOT
-from app.web.dependencies import TheAuthor, studio_of
+from app.web.dependencies import TheAuthor, TheStudio
 from core.errors import InputError
 from core.identification.learning import Walk
 from core.physics.masses import default_physics
 from core.robot.model import load_robot
 
 router = APIRouter(prefix="/api/learning", tags=["learning"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 
 MOST_TRIALS = 200
 MOST_TEXT = 2_000_000

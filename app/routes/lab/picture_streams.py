@@ -1,7 +1,5 @@
 """What routes of videos and cameras share: a picture with what tracking finds in it, and streams."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Literal
 
 from fastapi import Query

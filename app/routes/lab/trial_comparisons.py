@@ -1,17 +1,13 @@
 """What stands beside trials: plan and physics, tracks in the plan's frame for 3D, bands over several."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Query
+from fastapi import APIRouter, Query
 from starlette.concurrency import run_in_threadpool
 
-from app.studio.studio import Studio
-from app.web.dependencies import studio_of
+from app.web.dependencies import TheStudio
 
 router = APIRouter(prefix="/api/trials", tags=["trials"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 
 
 @router.get("/band")

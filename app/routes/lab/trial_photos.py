@@ -1,19 +1,15 @@
 """Photos of trials: adding, captions, deleting, the pictures themselves."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Query, Request, Response
+from fastapi import APIRouter, Query, Request, Response
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.concurrency import run_in_threadpool
 
-from app.studio.studio import Studio
 from app.trials.photos import check_bytes
-from app.web.dependencies import TheAuthor, studio_of
+from app.web.dependencies import TheAuthor, TheStudio
 
 router = APIRouter(prefix="/api/trials/{trial}/photos", tags=["trials"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 
 _PICTURE = {
     "requestBody": {

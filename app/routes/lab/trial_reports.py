@@ -1,17 +1,11 @@
 """Reports of trials: one HTML file that opens offline, of one trial or of all gaits compared."""
 
-from __future__ import annotations
-
-from typing import Annotated
-
-from fastapi import APIRouter, Depends, Response
+from fastapi import APIRouter, Response
 from starlette.concurrency import run_in_threadpool
 
-from app.studio.studio import Studio
-from app.web.dependencies import studio_of
+from app.web.dependencies import TheStudio
 
 router = APIRouter(prefix="/api/trials", tags=["trials"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 
 
 @router.get("/report", response_class=Response)

@@ -1,10 +1,8 @@
 """Trials of the real robot: adding tracks, figures beside the plan, ends of iterations, tables."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Literal
 
-from fastapi import APIRouter, Depends, Query, Response
+from fastapi import APIRouter, Query, Response
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.concurrency import run_in_threadpool
 
@@ -12,11 +10,10 @@ from app.studio.studio import Studio
 from app.trials.planned import PlannedFeet, planned_of_gait, planned_of_run
 from app.trials.service import TrialDescription, compared
 from app.trials.tables import table_csv, table_latex
-from app.web.dependencies import TheAuthor, on_planned, studio_of
+from app.web.dependencies import TheAuthor, TheStudio, on_planned
 from core.vision.track_csv import FRAME_RATE, PixelScale, parse_track_csv
 
 router = APIRouter(prefix="/api/trials", tags=["trials"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 
 MOST_TEXT = 20_000_000
 """Characters of a track file."""

@@ -1,14 +1,12 @@
 """Videos: uploading, looking, tuning, tracking."""
 
-from __future__ import annotations
-
 import asyncio
 import time
 from collections.abc import AsyncIterator
 from typing import Annotated, Any
 from urllib.parse import quote
 
-from fastapi import APIRouter, Depends, Query, Request
+from fastapi import APIRouter, Query, Request
 from fastapi.responses import FileResponse, Response, StreamingResponse
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.concurrency import run_in_threadpool
@@ -28,17 +26,15 @@ from app.routes.lab.trials import (
     Name,
     planned_for,
 )
-from app.studio.studio import Studio
 from app.trials.service import TrialDescription
 from app.videos.files import MOST_BYTES, Upload
 from app.videos.tracking_service import TrackOrder
 from app.vision.frame_source import PICTURES
 from app.vision.worker import BoardIn, Source
-from app.web.dependencies import TheAuthor, on_command_thread, studio_of
+from app.web.dependencies import TheAuthor, TheStudio, on_command_thread
 from core.errors import FootfallError
 
 router = APIRouter(prefix="/api/videos", tags=["videos"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 Frame = Annotated[int | None, Query(ge=0)]
 
 GATHER = 1 << 20

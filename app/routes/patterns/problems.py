@@ -1,7 +1,5 @@
 """From a question to a pattern's problem, and from its answer to a gait."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 

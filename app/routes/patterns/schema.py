@@ -1,7 +1,5 @@
 """What is asked of the pattern search, as it comes over the wire; limbs and samples count from 0."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field

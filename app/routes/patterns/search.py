@@ -1,12 +1,10 @@
 """Footfall patterns found by a solver: searches, and what becomes of a pattern."""
 
-from __future__ import annotations
-
 import asyncio
 from dataclasses import replace
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Depends
+from fastapi import APIRouter, Body
 from fastapi.responses import JSONResponse
 from starlette.concurrency import run_in_threadpool
 
@@ -19,16 +17,10 @@ from app.routes.patterns.problems import AnyQuestion, Posed, posed
 from app.routes.patterns.schema import PatternUse, Question
 from app.studio.studio import Studio
 from app.undo.history import SCRIPT, Author
-from app.web.dependencies import (
-    TheAuthor,
-    changed,
-    on_command_thread,
-    studio_of,
-)
+from app.web.dependencies import TheAuthor, TheStudio, changed, on_command_thread
 from core.gait.gait import Gait
 
 router = APIRouter(prefix="/api/patterns", tags=["patterns"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 
 WAIT_SECONDS = 0.2
 """How long a question waits for its answer before it becomes a search that goes on by itself."""

@@ -1,23 +1,15 @@
 """Steps by hand: one motor, one foot or the body, looked at first and then made."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Response
+from fastapi import APIRouter, Response
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.concurrency import run_in_threadpool
 
 from app.robot.jog_service import JogLook, JogRequest
 from app.routes.robot.robot import SOMEBODY, ActorBody, named
 from app.scene.ghost import ghost_blob
-from app.studio.studio import Studio
-from app.web.dependencies import (
-    MOST_MOTORS,
-    TheAuthor,
-    strokes_from_mm,
-    studio_of,
-)
+from app.web.dependencies import MOST_MOTORS, TheAuthor, TheStudio, strokes_from_mm
 from core.errors import InputError
 from core.jog.steps import (
     MOST_STEPS,
@@ -28,7 +20,6 @@ from core.jog.steps import (
 from core.robot.model import RobotModel, load_robot
 
 router = APIRouter(prefix="/api/robot", tags=["robot"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 
 Millimetres = Annotated[float, Field(allow_inf_nan=False)]
 

@@ -1,24 +1,21 @@
 """The robot: its state, and the verbs that move it or stop it."""
 
-from __future__ import annotations
-
 import asyncio
 from collections.abc import Callable
 from dataclasses import replace
 from enum import StrEnum
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Depends
+from fastapi import APIRouter, Body
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.concurrency import run_in_threadpool
 
 from app.bridge.run_range import RunRange
 from app.studio.studio import Studio
 from app.undo.history import Author
-from app.web.dependencies import MOST_NAME, TheAuthor, on_planned, studio_of
+from app.web.dependencies import MOST_NAME, TheAuthor, TheStudio, on_planned
 
 router = APIRouter(prefix="/api/robot", tags=["robot"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 
 SOMEBODY = "somebody on the page"
 

@@ -1,7 +1,5 @@
 """Faults of the emulated robot, on request, so that a person can learn what each one looks like."""
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Depends

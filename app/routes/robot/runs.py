@@ -1,11 +1,9 @@
 """Runs that were kept: list, figures, strokes, note, deleting, files."""
 
-from __future__ import annotations
-
 from datetime import date, datetime, timedelta
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Depends, Query
+from fastapi import APIRouter, Query
 from fastapi.responses import Response
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.concurrency import run_in_threadpool
@@ -14,11 +12,9 @@ from app.runs.export import run_csv, run_mcap
 from app.runs.motion import measured_trajectory
 from app.scene.ghost import ghost_blob
 from app.store.run_store import RunFilter
-from app.studio.studio import Studio
-from app.web.dependencies import studio_of
+from app.web.dependencies import TheStudio
 
 router = APIRouter(prefix="/api/runs", tags=["runs"])
-TheStudio = Annotated[Studio, Depends(studio_of)]
 Word = Annotated[str, Query(max_length=200)]
 
 MOST_NOTE = 4000

@@ -1,7 +1,5 @@
 """Gaits by steps compared, as parts of a report: the table, and the trials of each over each other."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 

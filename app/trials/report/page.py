@@ -1,7 +1,5 @@
 """Parts of a report: one HTML file without scripts that opens offline and prints on A4."""
 
-from __future__ import annotations
-
 import base64
 import time
 from collections.abc import Iterable, Sequence

@@ -1,7 +1,5 @@
 """Plots of trials for print: planned dotted, simulated dashed, tracked solid, from above and over time."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any

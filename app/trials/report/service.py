@@ -1,7 +1,5 @@
 """Reports of trials as one HTML file: a trial with plan, physics, photos and origin, and gaits compared."""
 
-from __future__ import annotations
-
 import hashlib
 import math
 from collections.abc import Iterator, Mapping, Sequence

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any, Literal
 
 from fastapi import APIRouter
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 from starlette.concurrency import run_in_threadpool
 
 from app.gaits.views import plan_view
-from app.web.dependencies import TheAuthor, TheStudio, on_command_thread, on_planned
+from app.web.dependencies import RequestBody, TheAuthor, TheStudio, on_command_thread, on_planned
 from solver_jobs import JobKind
 
 router = APIRouter(prefix="/api/jobs", tags=["jobs"])
@@ -18,10 +18,9 @@ MOST_VARIATIONS = 256
 """Of a simulation."""
 
 
-class JobRequest(BaseModel):
+class JobRequest(RequestBody):
     """What to compute, for which gait."""
 
-    model_config = ConfigDict(extra="forbid")
     kind: Literal["optimise", "timing", "simulate"] = "optimise"
     gait: str
     physics: str | None = Field(default=None, description="of simulate: a set of physics parameters")

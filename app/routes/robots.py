@@ -3,9 +3,9 @@
 from typing import Any
 
 from fastapi import APIRouter
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
-from app.web.dependencies import TheStudio, changed
+from app.web.dependencies import FiniteBody, TheStudio, changed
 from core.gait.gait import MOST_NAME, Gait, Orientation
 from core.gait.options import GaitOptions
 from core.library.new_gait import (
@@ -19,10 +19,9 @@ from core.robot.model import ROBOT_NAMES, RobotModel, load_robot
 router = APIRouter(prefix="/api", tags=["robots"])
 
 
-class NewGait(BaseModel):
+class NewGait(FiniteBody):
     """What a new gait is drawn from; m, feet count from 1. Without an order the robot's first one holds."""
 
-    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
     name: str = Field(max_length=MOST_NAME)
     robot: str = "deltawalker"
     orientation: Orientation = Orientation.FB

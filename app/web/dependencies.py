@@ -10,6 +10,7 @@ import numpy as np
 from fastapi import Depends, FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
+from pydantic import BaseModel, ConfigDict
 
 from app.gaits.open_gait import OpenGait
 from app.studio.studio import Studio
@@ -48,6 +49,18 @@ _STATUS: tuple[tuple[type[FootfallError], int], ...] = (
     (InputError, 422),
     (InfeasibleError, 422),
 )
+
+
+class RequestBody(BaseModel):
+    """A request's body; unknown fields are refused."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
+class FiniteBody(RequestBody):
+    """A body whose numbers are finite."""
+
+    model_config = ConfigDict(allow_inf_nan=False)
 
 
 async def studio_of(request: Request) -> Studio:

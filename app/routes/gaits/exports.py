@@ -4,7 +4,7 @@ from dataclasses import replace
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Query, Request, Response
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import ValidationError
 from starlette.concurrency import run_in_threadpool
 
 from app.common.names import free_name
@@ -12,7 +12,7 @@ from app.export.formats import NEED_NO_MOTION, ExportedFile, ExportFormat, expor
 from app.export.import_gait import NO_FILE, read_gait
 from app.export.source import Exportable, exportable_plan
 from app.gaits.open_gait import OpenGait
-from app.web.dependencies import TheStudio, changed, on_command_thread, on_planned
+from app.web.dependencies import RequestBody, TheStudio, changed, on_command_thread, on_planned
 from core.errors import InputError
 from core.gait.gait import MOST_NAME
 from core.gait.recording import MOST_FILE_NAME
@@ -32,10 +32,9 @@ _FILE = {
 }
 
 
-class TrajectoryPair(BaseModel):
+class TrajectoryPair(RequestBody):
     """A trajectory CSV with its companion, each as text; `csv` comes first."""
 
-    model_config = ConfigDict(extra="forbid")
     csv: str
     companion: str | None = None
 

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import JSONResponse
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field, ValidationError
 from starlette.concurrency import run_in_threadpool
 
 from app.bridge.run_range import RunRange
@@ -16,7 +16,7 @@ from app.gaits.open_gait import OpenGait
 from app.gaits.trash import ROUTE
 from app.gaits.views import approval_view, verdict_view
 from app.scene.overlay import plan_poses
-from app.web.dependencies import TheAuthor, TheStudio, changed, on_command_thread, on_planned
+from app.web.dependencies import RequestBody, TheAuthor, TheStudio, changed, on_command_thread, on_planned
 from core.errors import InputError, StateError
 from core.gait.gait import MOST_NAME, Gait
 
@@ -30,28 +30,25 @@ _DOCUMENT = {
 }
 
 
-class Redraw(BaseModel):
+class Redraw(RequestBody):
     """A foot order and phase lengths to draw the timeline from."""
 
-    model_config = ConfigDict(extra="forbid")
     order: list[int]
     phase_knots: int = Field(default=5, ge=2, le=50)
     closing_knots: int = Field(default=5, ge=0, le=100)
 
 
-class Approve(BaseModel):
+class Approve(RequestBody):
     """Who approves, and the verdict that they saw."""
 
-    model_config = ConfigDict(extra="forbid")
     by: str = Field(max_length=80)
     verdict_hash: str | None = None
     accept_warnings: bool = Field(False, description="They have seen every warning of it and accept it.")
 
 
-class Live(BaseModel):
+class Live(RequestBody):
     """A document to try, and whether changes that make it feasible are wanted."""
 
-    model_config = ConfigDict(extra="forbid")
     document: dict[str, Any] | None = None
     remedies: bool = False
 

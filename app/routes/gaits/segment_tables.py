@@ -4,11 +4,11 @@ from dataclasses import replace
 from typing import Annotated, Any
 
 from fastapi import APIRouter
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from app.documents.gait_json import gait_content, gait_from_content
 from app.documents.gait_schema import SegmentTableModel
-from app.web.dependencies import MOST_MOTORS, strokes_from_mm
+from app.web.dependencies import MOST_MOTORS, RequestBody, strokes_from_mm
 from core.errors import InputError
 from core.jog.pose_to_segment import pose_to_segment
 from core.library.library import default_vocabulary
@@ -24,25 +24,22 @@ NOTICED_MM = 0.25
 """A foot that is further from where the names put it is named, mm."""
 
 
-class Make(BaseModel):
+class Make(RequestBody):
     """A gait document whose timeline is to be said in segments."""
 
-    model_config = ConfigDict(extra="forbid")
     document: dict[str, Any]
 
 
-class Mend(BaseModel):
+class Mend(RequestBody):
     """A table as it was typed, and its cells that must stay: foot and segment, counted from 0."""
 
-    model_config = ConfigDict(extra="forbid")
     table: SegmentTableModel
     kept: list[tuple[int, int]] = Field(default_factory=list, max_length=4000)
 
 
-class Take(BaseModel):
+class Take(RequestBody):
     """A gait document, and strokes of its robot's motors whose pose its table is to end with."""
 
-    model_config = ConfigDict(extra="forbid")
     document: dict[str, Any]
     strokes_mm: list[Annotated[float, Field(allow_inf_nan=False)]] = Field(max_length=MOST_MOTORS)
 

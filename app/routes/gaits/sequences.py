@@ -3,28 +3,26 @@
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Query
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from app.gaits.open_gait import OpenGait
 from app.gaits.sequence_documents import AskedPart, made_sequence, refreshed
-from app.web.dependencies import TheAuthor, TheStudio, changed, on_command_thread
+from app.web.dependencies import RequestBody, TheAuthor, TheStudio, changed, on_command_thread
 from core.gait.gait import MOST_NAME, MOST_NOTES, MOST_PARTS, MOST_TIMES
 
 router = APIRouter(prefix="/api", tags=["sequences"])
 
 
-class NewPart(BaseModel):
+class NewPart(RequestBody):
     """A gait by its id, and how often it runs."""
 
-    model_config = ConfigDict(extra="forbid")
     gait: str = Field(max_length=80)
     times: int = Field(default=1, ge=1, le=MOST_TIMES)
 
 
-class NewSequence(BaseModel):
+class NewSequence(RequestBody):
     """A name, and the gaits that follow each other; a sequence among them stands for its parts."""
 
-    model_config = ConfigDict(extra="forbid")
     name: str = Field(max_length=MOST_NAME)
     parts: list[NewPart] = Field(min_length=1, max_length=MOST_PARTS)
     notes: str = Field(default="", max_length=MOST_NOTES)

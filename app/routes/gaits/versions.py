@@ -4,23 +4,22 @@ from datetime import UTC, datetime
 from typing import Any
 
 from fastapi import APIRouter
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from app.documents.gait_json import gait_content, motion_hash, parse_gait
 from app.gaits.open_gait import OpenGait
 from app.gaits.versions import MOST_NAME, VersionKind, is_said_already
 from app.store.gait_store import VersionRow
-from app.web.dependencies import TheAuthor, TheStudio, changed, on_command_thread, on_planned
+from app.web.dependencies import RequestBody, TheAuthor, TheStudio, changed, on_command_thread, on_planned
 from core.gait.gait import Gait
 from core.gait.gait_difference import gait_difference
 
 router = APIRouter(prefix="/api/gaits/{gait_id}/versions", tags=["versions"])
 
 
-class Naming(BaseModel):
+class Naming(RequestBody):
     """What a person calls the present state."""
 
-    model_config = ConfigDict(extra="forbid")
     name: str = Field(pattern=r"\S", max_length=MOST_NAME)
 
 

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import numpy as np
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import Response
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.cameras.setup_schema import (
@@ -25,7 +25,7 @@ from app.vision.worker import (
     Straighten,
     data_url,
 )
-from app.web.dependencies import TheStudio
+from app.web.dependencies import RequestBody, TheStudio
 from core.errors import InputError
 
 router = APIRouter(prefix="/api", tags=["cameras"])
@@ -42,18 +42,14 @@ BOARD_SECONDS = 60.0
 """Longest wait for a checkerboard or a lens."""
 
 
-class _Body(BaseModel):
-    model_config = ConfigDict(extra="forbid")
-
-
-class SetupChange(_Body):
+class SetupChange(RequestBody):
     """A setup as it is to be, and the revision that was changed."""
 
     revision: int = Field(ge=1)
     setup: SetupDocument
 
 
-class Board(_Body):
+class Board(RequestBody):
     """Where a checkerboard's inner corners are in a picture."""
 
     name: str = Field(max_length=200)
@@ -63,7 +59,7 @@ class Board(_Body):
     points: list[tuple[Number, Number]] = Field(max_length=900)
 
 
-class LensRequest(_Body):
+class LensRequest(RequestBody):
     """Boards of which a lens is made."""
 
     columns: Corners
@@ -71,7 +67,7 @@ class LensRequest(_Body):
     boards: list[Board] = Field(max_length=MOST_BOARDS)
 
 
-class Straightening(_Body):
+class Straightening(RequestBody):
     """A picture that is to be shown as a lens without distortion would have it."""
 
     lens: LensDocument

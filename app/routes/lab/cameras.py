@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Query
 from fastapi.responses import Response, StreamingResponse
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.routes.lab.camera_setups import CornersAsked, board_of
@@ -19,16 +19,15 @@ from app.routes.lab.picture_streams import (
     part,
 )
 from app.vision.worker import BoardIn, Source, data_url
-from app.web.dependencies import TheStudio
+from app.web.dependencies import RequestBody, TheStudio
 from core.errors import FootfallError
 
 router = APIRouter(prefix="/api/cameras", tags=["cameras"])
 
 
-class CameraChanges(BaseModel):
+class CameraChanges(RequestBody):
     """What a camera is for; what is left out stays."""
 
-    model_config = ConfigDict(extra="forbid")
     use: Literal["under", "side"] | None = None
     setup: str | None = Field(default=None, max_length=200)
     records: bool | None = None

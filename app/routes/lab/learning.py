@@ -3,7 +3,7 @@
 from typing import Annotated, Any
 
 from fastapi import APIRouter
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.learning.published_trials import ITERATIONS, walks_of_table
@@ -11,7 +11,7 @@ from app.learning.service import MOST_SET_NAME
 from app.learning.walks import SentTrial, walks_of
 from app.studio.studio import Studio
 from app.trials.record import ROBOT
-from app.web.dependencies import TheAuthor, TheStudio
+from app.web.dependencies import RequestBody, TheAuthor, TheStudio
 from core.errors import InputError
 from core.identification.learning import Walk
 from core.physics.masses import default_physics
@@ -25,27 +25,24 @@ MOST_TEXT = 2_000_000
 File = Annotated[str, Field(max_length=MOST_TEXT)]
 
 
-class PublishedTable(BaseModel):
+class PublishedTable(RequestBody):
     """A table like `trajectory_averages.csv`, and the trajectories that were walked, by file name."""
 
-    model_config = ConfigDict(extra="forbid")
     csv: File
     trajectories: dict[Annotated[str, Field(max_length=200)], File] = Field(max_length=64)
     iterations: int = Field(default=ITERATIONS, ge=1, le=50)
 
 
-class NewLearning(BaseModel):
+class NewLearning(RequestBody):
     """From what is learned: kept trials by id, or a published table."""
 
-    model_config = ConfigDict(extra="forbid")
     trials: list[Annotated[str, Field(max_length=64)]] = Field(default=[], max_length=MOST_TRIALS)
     table: PublishedTable | None = None
 
 
-class SetName(BaseModel):
+class SetName(RequestBody):
     """What a set is to be called; a name that is there gets a new version."""
 
-    model_config = ConfigDict(extra="forbid")
     name: str = Field(min_length=1, max_length=MOST_SET_NAME)
 
 

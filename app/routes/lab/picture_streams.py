@@ -3,7 +3,7 @@
 from typing import Annotated, Any, Literal
 
 from fastapi import Query
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.cameras.setup_schema import Colours, LimitsDocument, SetupDocument
@@ -11,6 +11,7 @@ from app.studio.studio import Studio
 from app.videos.service import LOOK_SECONDS
 from app.vision.services import ask
 from app.vision.worker import LookAt, Source
+from app.web.dependencies import RequestBody
 from core.vision.setup import FEET, TrackingSetup
 
 Width = Annotated[int | None, Query(ge=16, le=8192)]
@@ -20,10 +21,9 @@ BOUNDARY = "picture"
 """Between two pictures of a stream."""
 
 
-class LookRequest(BaseModel):
+class LookRequest(RequestBody):
     """How a picture is looked at: whose colour (`foot` from 1, null for none), limits, setup for places."""
 
-    model_config = ConfigDict(extra="forbid")
     foot: int | None = Field(default=1, ge=1, le=FEET)
     colours: Colours
     limits: LimitsDocument = Field(default_factory=LimitsDocument)

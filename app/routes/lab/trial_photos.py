@@ -3,11 +3,11 @@
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Query, Request, Response
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.trials.photos import check_bytes
-from app.web.dependencies import TheAuthor, TheStudio
+from app.web.dependencies import RequestBody, TheAuthor, TheStudio
 
 router = APIRouter(prefix="/api/trials/{trial}/photos", tags=["trials"])
 
@@ -21,10 +21,9 @@ _PICTURE = {
 }
 
 
-class Caption(BaseModel):
+class Caption(RequestBody):
     """What a person says of a photo; nothing takes the words away."""
 
-    model_config = ConfigDict(extra="forbid")
     caption: str = Field(max_length=500)
 
 

@@ -3,14 +3,14 @@
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Query, Response
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.studio.studio import Studio
 from app.trials.planned import PlannedFeet, planned_of_gait, planned_of_run
 from app.trials.service import TrialDescription, compared
 from app.trials.tables import table_csv, table_latex
-from app.web.dependencies import TheAuthor, TheStudio, on_planned
+from app.web.dependencies import FiniteBody, RequestBody, TheAuthor, TheStudio, on_planned
 from core.vision.track_csv import FRAME_RATE, PixelScale, parse_track_csv
 
 router = APIRouter(prefix="/api/trials", tags=["trials"])
@@ -22,18 +22,16 @@ Length = Annotated[float, Field(gt=0, le=1000)]
 Iterations = Annotated[int, Field(ge=1, le=50)]
 
 
-class Pixels(BaseModel):
+class Pixels(RequestBody):
     """A track in pixels, y downwards, 0,0 a gap."""
 
-    model_config = ConfigDict(extra="forbid")
     per_cm: float = Field(gt=0, le=10_000)
     origin: tuple[float, float]
 
 
-class NewTrial(BaseModel):
+class NewTrial(FiniteBody):
     """A track; `run` brings the plan that the robot was sent, `gait` the plan that the gait has now."""
 
-    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
     name: Name
     csv: str = Field(max_length=MOST_TEXT)
     expected_cm: Length
@@ -45,10 +43,9 @@ class NewTrial(BaseModel):
     note: str = Field(default="", max_length=4000)
 
 
-class TrialChanges(BaseModel):
+class TrialChanges(FiniteBody):
     """What is to be changed of a revision; what is left out stays. `ends` null finds the ends again."""
 
-    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
     revision: int = Field(ge=1)
     name: Name | None = None
     note: str | None = Field(default=None, max_length=4000)

@@ -8,7 +8,7 @@ from urllib.parse import quote
 
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import FileResponse, Response, StreamingResponse
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import ClientDisconnect
 
@@ -31,7 +31,7 @@ from app.videos.files import MOST_BYTES, Upload
 from app.videos.tracking_service import TrackOrder
 from app.vision.frame_source import PICTURES
 from app.vision.worker import BoardIn, Source
-from app.web.dependencies import TheAuthor, TheStudio, on_command_thread
+from app.web.dependencies import FiniteBody, TheAuthor, TheStudio, on_command_thread
 from core.errors import FootfallError
 
 router = APIRouter(prefix="/api/videos", tags=["videos"])
@@ -44,11 +44,7 @@ BOARD_FRAMES = 24
 """Pictures of a video that are looked through for a checkerboard where none are named."""
 
 
-class _Body(BaseModel):
-    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
-
-
-class TrackRequest(_Body):
+class TrackRequest(FiniteBody):
     """What a video shows; `run` brings the plan that the robot was sent, `gait` the plan it has now."""
 
     setup: str = Field(max_length=200)
@@ -60,7 +56,7 @@ class TrackRequest(_Body):
     note: str = Field(default="", max_length=4000)
 
 
-class BoardsRequest(_Body):
+class BoardsRequest(FiniteBody):
     """In which pictures a checkerboard is looked for; null takes some from the whole video."""
 
     columns: Corners

@@ -2,8 +2,9 @@
 
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
+from app.web.dependencies import FiniteBody
 from core.gait.gait import MOST_NAME
 from core.patterns.problem import MOST_LEGS, MOST_SAMPLES
 from core.patterns.sources import F_RULES, F_WEIGHTS
@@ -17,11 +18,7 @@ Sample = Annotated[int, Field(ge=0, lt=MOST_SAMPLES)]
 Rows = Annotated[list[Annotated[str, Field(max_length=MOST_SAMPLES)]], Field(max_length=MOST_LEGS)]
 
 
-class _Asked(BaseModel):
-    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
-
-
-class AskedRules(_Asked):
+class AskedRules(FiniteBody):
     """The rules' numbers, the thesis's by default; null switches a rule off. `balance` is a margin in m."""
 
     shortest_swing: Number = F_RULES.shortest_swing
@@ -34,7 +31,7 @@ class AskedRules(_Asked):
     balance: float | None = F_RULES.balance
 
 
-class AskedWeights(_Asked):
+class AskedWeights(FiniteBody):
     """What a change costs; whole numbers."""
 
     sample_changes: int = F_WEIGHTS.sample_changes
@@ -42,7 +39,7 @@ class AskedWeights(_Asked):
     drawing: int = F_WEIGHTS.drawing
 
 
-class _Question(_Asked):
+class _Question(FiniteBody):
     gait: str = Field(max_length=80)
     rules: AskedRules = AskedRules()
     weights: AskedWeights = AskedWeights()
@@ -90,7 +87,7 @@ class DrawingQuestion(_Question):
 Question = Annotated[TransitionQuestion | LimbsQuestion | DrawingQuestion, Field(discriminator="kind")]
 
 
-class PatternUse(_Asked):
+class PatternUse(FiniteBody):
     """A question and the pattern, among its answers, that is to be used."""
 
     question: Question

@@ -3,13 +3,13 @@
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Response
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.robot.jog_service import JogLook, JogRequest
 from app.routes.robot.robot import SOMEBODY, ActorBody, named
 from app.scene.ghost import ghost_blob
-from app.web.dependencies import MOST_MOTORS, TheAuthor, TheStudio, strokes_from_mm
+from app.web.dependencies import MOST_MOTORS, RequestBody, TheAuthor, TheStudio, strokes_from_mm
 from core.errors import InputError
 from core.jog.steps import (
     MOST_STEPS,
@@ -24,10 +24,9 @@ router = APIRouter(prefix="/api/robot", tags=["robot"])
 Millimetres = Annotated[float, Field(allow_inf_nan=False)]
 
 
-class Step(BaseModel):
+class Step(RequestBody):
     """One step: of a `motor` of a `foot`, of a foot along an axis, or of the body along an axis."""
 
-    model_config = ConfigDict(extra="forbid")
     part: JogPart
     by_mm: Millimetres
     """How far, mm; of a motor the change of its stroke, which grows downwards."""
@@ -39,18 +38,16 @@ class Step(BaseModel):
     """Of the robot: x forwards, y to the left, z up."""
 
 
-class Look(BaseModel):
+class Look(RequestBody):
     """Whose ranges are to be told."""
 
-    model_config = ConfigDict(extra="forbid")
     part: JogPart
     foot: int = 1
 
 
-class Target(BaseModel):
+class Target(RequestBody):
     """Where steps begin and what they are."""
 
-    model_config = ConfigDict(extra="forbid")
     steps: list[Step] = Field(max_length=MOST_STEPS)
     robot: str = "deltawalker"
     from_mm: list[Millimetres] | None = Field(default=None, max_length=MOST_MOTORS)

@@ -7,23 +7,22 @@ from enum import StrEnum
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Body
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.bridge.run_range import RunRange
 from app.studio.studio import Studio
 from app.undo.history import Author
-from app.web.dependencies import MOST_NAME, TheAuthor, TheStudio, on_planned
+from app.web.dependencies import MOST_NAME, RequestBody, TheAuthor, TheStudio, on_planned
 
 router = APIRouter(prefix="/api/robot", tags=["robot"])
 
 SOMEBODY = "somebody on the page"
 
 
-class ActorBody(BaseModel):
+class ActorBody(RequestBody):
     """Who does it."""
 
-    model_config = ConfigDict(extra="forbid")
     by: str = Field(default=SOMEBODY, max_length=MOST_NAME)
 
 

@@ -3,20 +3,18 @@
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Depends
-from pydantic import BaseModel, ConfigDict
 from starlette.concurrency import run_in_threadpool
 
 from app.emulator.faults import Fault
 from app.studio.studio import Studio
-from app.web.dependencies import studio_of
+from app.web.dependencies import RequestBody, studio_of
 
 router = APIRouter(prefix="/api/robot", tags=["robot"])
 
 
-class FaultWish(BaseModel):
+class FaultWish(RequestBody):
     """Which fault strikes; `none` ends those that last."""
 
-    model_config = ConfigDict(extra="forbid")
     name: Fault | Literal["none"]
 
 

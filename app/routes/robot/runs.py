@@ -5,14 +5,14 @@ from typing import Annotated, Any
 
 from fastapi import APIRouter, Query
 from fastapi.responses import Response
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.runs.export import run_csv, run_mcap
 from app.runs.motion import measured_trajectory
 from app.scene.ghost import ghost_blob
 from app.store.run_store import RunFilter
-from app.web.dependencies import TheStudio
+from app.web.dependencies import RequestBody, TheStudio
 
 router = APIRouter(prefix="/api/runs", tags=["runs"])
 Word = Annotated[str, Query(max_length=200)]
@@ -21,10 +21,9 @@ MOST_NOTE = 4000
 """Characters of a note."""
 
 
-class Note(BaseModel):
+class Note(RequestBody):
     """What a person wrote of a run; nothing takes the note away."""
 
-    model_config = ConfigDict(extra="forbid")
     note: str = Field(max_length=MOST_NOTE)
 
 

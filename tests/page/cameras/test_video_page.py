@@ -157,7 +157,7 @@ def test_a_file_on_its_way_goes_on_where_its_panel_is_left_until_it_is_cancelled
 
 def test_videos_that_come_late_take_no_later_form_away(page: Page) -> None:
     page.get_by_role("button", name="All trials").click()
-    late = LateRequests(page, "GET", "/api/videos")
+    late = LateRequests(page, "GET", "/api/videos$")
     panel(page).get_by_role("button", name="From a video…").click()
     wait_for(lambda: late.count > 0, "the list of videos is asked for")
     panel(page).get_by_role("button", name="Add trials…").click()

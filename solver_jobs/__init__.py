@@ -12,23 +12,11 @@ from core.physics.problem import SimulationProblem
 from core.physics.variations import VariedRun
 from core.problem.motion_problem import MotionProblem
 from solver_jobs.nlp.timing import TimingResult, fastest_timing
-from solver_jobs.results.motion import (
-    Evidence,
-    Iterate,
-    Lack,
-    MotionResult,
-    SolveStatus,
-)
+from solver_jobs.results.motion import Evidence, Iterate, Lack, MotionResult, SolveStatus
 from solver_jobs.tiers.frontier import Frontier, FrontierSearch
 from solver_jobs.tiers.remedies import Remedy, RemedySearch
 from solver_jobs.workers.batch_simulation_service import BatchSimulation, BatchSimulator
-from solver_jobs.workers.job import (
-    OPEN_STATES,
-    Job,
-    JobKind,
-    JobState,
-    result_sentence,
-)
+from solver_jobs.workers.job import OPEN_STATES, Job, JobKind, JobState, result_sentence
 from solver_jobs.workers.job_queue import JobQueue
 from solver_jobs.workers.live_service import LiveSolver
 from solver_jobs.workers.pattern_service import PatternSearch, PatternSolver

@@ -17,12 +17,7 @@ from core.wire.lines import (
     TrajectoryPoint,
     numbers_equal,
 )
-from core.wire.messages import (
-    QUANTUM_MM,
-    THRESHOLD_MM,
-    name_motor,
-    payload_of,
-)
+from core.wire.messages import QUANTUM_MM, THRESHOLD_MM, name_motor, payload_of
 from core.wire.timing import ramp_time
 
 COAST_MM = 0.1

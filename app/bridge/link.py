@@ -21,12 +21,7 @@ from app.bridge.stop_procedure import StopProcedure
 from app.bridge.telemetry import TelemetryMonitor
 from app.bridge.write_gate import WriteGate
 from core.errors import RobotError
-from core.wire.lines import (
-    Line,
-    LineReader,
-    SetupFinished,
-    SetupMoving,
-)
+from core.wire.lines import Line, LineReader, SetupFinished, SetupMoving
 
 SILENCE_LIMIT = 4.0
 """An answering robot is never silent longer than 2.5 s (PROTOCOL 5.4), s."""

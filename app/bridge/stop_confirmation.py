@@ -1,11 +1,6 @@
 """Confirms one stop: the robot echoed it, and every motor stands still as measured."""
 
-from core.wire.lines import (
-    Echo,
-    Line,
-    NewData,
-    Telemetry,
-)
+from core.wire.lines import Echo, Line, NewData, Telemetry
 from core.wire.messages import encode_stop, payload_of
 
 STOP_LIMIT = 6.0

@@ -9,15 +9,7 @@ from concurrent.futures import Future
 from typing import Any
 
 from app.cameras.address import CameraAddress
-from app.cameras.worker import (
-    Finish,
-    Finished,
-    Record,
-    Show,
-    Shown,
-    Standing,
-    run_camera,
-)
+from app.cameras.worker import Finish, Finished, Record, Show, Shown, Standing, run_camera
 from app.vision.recorder import Recorded, RecordOrder
 from core.errors import RobotError, StateError
 from solver_jobs import WorkerEndedError, WorkerProcess

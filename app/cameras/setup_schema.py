@@ -7,12 +7,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from core.errors import InputError
-from core.vision.camera import (
-    FOOT_COLOURS,
-    BlobLimits,
-    ColourRange,
-    Lens,
-)
+from core.vision.camera import FOOT_COLOURS, BlobLimits, ColourRange, Lens
 from core.vision.setup import FEET, SPOTS, CameraSetup
 
 Number = Annotated[float, Field(allow_inf_nan=False)]

@@ -11,12 +11,7 @@ from multiprocessing.connection import Connection
 from app.cameras.address import CameraAddress
 from app.cameras.source import CameraSource, open_source
 from app.vision.recorder import Recorded, Recorder, RecordOrder
-from app.vision.video_io import (
-    Picture,
-    jpeg,
-    scaled,
-    use_one_thread,
-)
+from app.vision.video_io import Picture, jpeg, scaled, use_one_thread
 from core.errors import InputError
 
 RETRY_SECONDS = 0.3

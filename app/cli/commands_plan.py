@@ -18,12 +18,7 @@ from core.findings import Verdict
 from core.gait.gait import Gait, SequencePart
 from core.gait.manual_motion import manual_motion
 from core.library.new_gait import with_robot
-from core.library.sequence import (
-    chain_runs,
-    part_name,
-    require_own,
-    run_of,
-)
+from core.library.sequence import chain_runs, part_name, require_own, run_of
 from core.motion.trajectory import Trajectory
 from core.recorded.recorded_motion import gait_trajectory
 from core.robot.model import RobotModel, load_robot

@@ -11,14 +11,7 @@ from types import FrameType
 from typing import Any
 
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPlan
-from app.cli.output import (
-    INTERRUPTED,
-    NOT_FIT,
-    end_on_sigterm,
-    note,
-    show,
-    verdict_lines,
-)
+from app.cli.output import INTERRUPTED, NOT_FIT, end_on_sigterm, note, show, verdict_lines
 from app.cli.served_cameras import served_cameras
 from app.cli.streaming import stream
 from app.emulator.emulated_robot import start_emulator

@@ -10,14 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from app.cli.commands_plan import ROBOT, trajectory_of
-from app.cli.output import (
-    NOT_FIT,
-    Interrupted,
-    end_on_sigterm,
-    note,
-    show,
-    tally,
-)
+from app.cli.output import NOT_FIT, Interrupted, end_on_sigterm, note, show, tally
 from app.documents.gait_json import parse_gait
 from app.export.trajectory_files import read_text, read_trajectory
 from app.learning.parameter_sets import ParameterSets

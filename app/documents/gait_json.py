@@ -27,12 +27,7 @@ from core.gait.provenance import Provenance
 from core.gait.recording import Recording
 from core.motion.contact_timeline import ContactTimeline, bits_from_rows, rows_from_bits
 from core.robot.model import RobotModel, load_robot
-from core.segments.segment_table import (
-    Segment,
-    SegmentTable,
-    SegmentVocabulary,
-    require_heights,
-)
+from core.segments.segment_table import Segment, SegmentTable, SegmentVocabulary, require_heights
 
 FORMAT = "footfall-gait"
 MOST_BYTES = 2_000_000

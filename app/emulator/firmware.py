@@ -9,23 +9,10 @@ from dataclasses import dataclass
 from itertools import repeat
 
 from app.emulator.board import Board
-from app.emulator.c_text import (
-    Fields,
-    c_string,
-    padded_text,
-    to_float,
-    to_int,
-)
+from app.emulator.c_text import Fields, c_string, padded_text, to_float, to_int
 from app.emulator.memory import ARM, Layout, Memory
 from app.emulator.profiles import Profile
-from app.emulator.ramp import (
-    Controller,
-    longest_ramp,
-    motor_speeds,
-    ramp_durations,
-    ramp_reference,
-    single,
-)
+from app.emulator.ramp import Controller, longest_ramp, motor_speeds, ramp_durations, ramp_reference, single
 from core.wire.messages import MOTORS, RESET_MM, THRESHOLD_MM
 
 BUFFER_BYTES = 20000

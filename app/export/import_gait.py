@@ -4,12 +4,7 @@ import json
 from dataclasses import replace
 from typing import Any
 
-from app.documents.gait_json import (
-    FORMAT,
-    gait_from_content,
-    require_bytes,
-    require_size,
-)
+from app.documents.gait_json import FORMAT, gait_from_content, require_bytes, require_size
 from app.export.trajectory_files import require_world_frame
 from core.errors import InputError
 from core.gait.gait import MOST_NAME

@@ -9,13 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 from app.documents.gait_json import parse_gait
-from app.gaits.approvals import (
-    ApprovalRequest,
-    Approvals,
-    approval_record,
-    approved,
-    is_confirmed,
-)
+from app.gaits.approvals import ApprovalRequest, Approvals, approval_record, approved, is_confirmed
 from app.gaits.normalise import normalise, normalise_imported
 from app.gaits.open_gait import OpenGait, gait_text
 from app.gaits.plan_cache import AskedPlan, PlanCache

@@ -15,13 +15,7 @@ from app.simulation.problem import physics_from_content
 from app.store.database import Database
 from app.store.learning_store import LearningStore
 from core.errors import FootfallError, NotFoundError, StateError
-from core.identification.learning import (
-    POINTS,
-    Walk,
-    learn,
-    require_gaits,
-    simulation_count,
-)
+from core.identification.learning import POINTS, Walk, learn, require_gaits, simulation_count
 from core.physics.parameters import PhysicsSet
 
 _log = logging.getLogger(__name__)

@@ -4,12 +4,7 @@ import numpy as np
 
 from core.arrays import Floats
 from core.motion.trajectory import Trajectory
-from core.problem.motion_problem import (
-    CYLINDER,
-    MotionProblem,
-    Workspace,
-    turned_about_z,
-)
+from core.problem.motion_problem import CYLINDER, MotionProblem, Workspace, turned_about_z
 from core.robot.kinematics import actuator_plane_pose
 from core.robot.leg import vertex_directions
 from solver_jobs import Lack

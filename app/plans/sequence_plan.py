@@ -9,13 +9,7 @@ from typing import Any
 import numpy as np
 
 from app.documents.gait_json import motion_hash, sent_hash
-from app.plans.plan import (
-    Plan,
-    PlanSource,
-    Solve,
-    make_plan,
-    with_waypoints,
-)
+from app.plans.plan import Plan, PlanSource, Solve, make_plan, with_waypoints
 from app.plans.sequence_parts import placed_parts, unplaced_parts
 from app.plans.verified_result import verify
 from core.errors import CheckError, FootfallError, InfeasibleError, InputError
@@ -23,12 +17,7 @@ from core.gait.chain import Chain, Piece
 from core.gait.gait import Gait, motion_problem
 from core.gait.manual_motion import stance_slip
 from core.gait.transition import straight
-from core.library.sequence import (
-    chain_runs,
-    part_name,
-    require_own,
-    run_of,
-)
+from core.library.sequence import chain_runs, part_name, require_own, run_of
 from core.motion.trajectory import Trajectory
 from core.problem.initial_guess import initial_guess
 from core.problem.motion_problem import MotionProblem

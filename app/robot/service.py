@@ -16,12 +16,7 @@ from app.robot.operator_lease import OperatorLease, TellPage
 from app.robot.ports import RobotPorts
 from app.robot.recorded_bridge import RecordedBridge, RecordedRun
 from app.robot.run_summary import run_summary, unwired
-from app.robot.views import (
-    EMULATOR,
-    RunOrigin,
-    allowed,
-    robot_view,
-)
+from app.robot.views import EMULATOR, RunOrigin, allowed, robot_view
 from app.runs.plan_json import run_plan_content
 from app.store.database import Database
 from core.errors import StateError

@@ -9,13 +9,7 @@ from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunProgress
 from app.emulator.motors import TRAVEL_MM
 from core.arrays import Floats
 from core.wire.messages import RESET_MM
-from core.wire.timing import (
-    ARRIVAL_THRESHOLD,
-    LONGEST_SCAN,
-    OVERRUN,
-    ramp_time,
-    stop_time,
-)
+from core.wire.timing import ARRIVAL_THRESHOLD, LONGEST_SCAN, OVERRUN, ramp_time, stop_time
 from core.wire.waypoints import Waypoints
 
 EMULATOR = "emulator"

@@ -8,12 +8,7 @@ from pydantic import Field
 from app.web.dependencies import FiniteBody, TheStudio, changed
 from core.gait.gait import MOST_NAME, Gait, Orientation
 from core.gait.options import GaitOptions
-from core.library.new_gait import (
-    DEFAULT_STEP,
-    default_phase_knots,
-    drawn_gait,
-    named_orders,
-)
+from core.library.new_gait import DEFAULT_STEP, default_phase_knots, drawn_gait, named_orders
 from core.robot.model import ROBOT_NAMES, RobotModel, load_robot
 
 router = APIRouter(prefix="/api", tags=["robots"])

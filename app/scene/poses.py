@@ -15,15 +15,7 @@ from numpy.typing import NDArray
 
 from core.arrays import Floats
 from core.errors import InputError
-from core.robot.closed_chain import (
-    BODY,
-    TWINS,
-    foot_link,
-    knee_link,
-    knee_yaws,
-    rod_angles,
-    rod_link,
-)
+from core.robot.closed_chain import BODY, TWINS, foot_link, knee_link, knee_yaws, rod_angles, rod_link
 from core.robot.coupled_strokes import real_feet
 from core.robot.kinematics import actuator_plane_pose, feet_in_modules
 from core.robot.leg import strokes_from_foot, vertex_directions

@@ -8,12 +8,7 @@ import rich
 import viser
 from numpy.typing import NDArray
 
-from app.scene.environment import (
-    add_floor,
-    add_light,
-    add_overlay,
-    set_camera,
-)
+from app.scene.environment import add_floor, add_light, add_overlay, set_camera
 from app.scene.nodes import Surface, link_surfaces
 from app.scene.poses import ROBOT_ROOT, PoseBlob, pose_frames
 from core.errors import InputError, StateError

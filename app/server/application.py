@@ -11,44 +11,14 @@ from starlette.middleware import Middleware
 
 from app.common.version import VERSION
 from app.documents.gait_json import gait_schema
-from app.routes import (
-    events,
-    jobs,
-    robots,
-    scene,
-)
-from app.routes.gaits import (
-    approvals,
-    exports,
-    gaits,
-    sequences,
-    simulations,
-    versions,
-)
-from app.routes.gaits import (
-    segment_tables as tables,
-)
-from app.routes.lab import (
-    camera_setups as setups,
-)
-from app.routes.lab import (
-    cameras,
-    learning,
-    trial_photos,
-    trial_reports,
-    trials,
-    videos,
-)
-from app.routes.lab import (
-    trial_comparisons as trial_beside,
-)
+from app.routes import events, jobs, robots, scene
+from app.routes.gaits import approvals, exports, gaits, sequences, simulations, versions
+from app.routes.gaits import segment_tables as tables
+from app.routes.lab import camera_setups as setups
+from app.routes.lab import cameras, learning, trial_photos, trial_reports, trials, videos
+from app.routes.lab import trial_comparisons as trial_beside
 from app.routes.patterns import search as patterns
-from app.routes.robot import (
-    jog,
-    robot,
-    robot_faults,
-    runs,
-)
+from app.routes.robot import jog, robot, robot_faults, runs
 from app.routes.viser_proxy import make_viser_router
 from app.scene.registry import Scenes
 from app.studio.studio import Studio

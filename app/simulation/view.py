@@ -9,12 +9,7 @@ from app.common.json_values import finite
 from core.arrays import Floats
 from core.motion.support_polygon import stability_margins
 from core.physics.findings import SWING_LIMIT, TILT_LIMIT
-from core.physics.metrics import (
-    bearing,
-    carrying,
-    rotations,
-    soles,
-)
+from core.physics.metrics import bearing, carrying, rotations, soles
 from core.physics.motion import SimulatedMotion, plan_times
 from core.physics.problem import SimulationProblem
 from core.physics.report import SimulationReport

@@ -9,12 +9,7 @@ from dataclasses import astuple, dataclass
 from typing import Any
 
 from app.store.database import Database
-from app.undo.history import (
-    Action,
-    Author,
-    History,
-    LogEntry,
-)
+from app.undo.history import Action, Author, History, LogEntry
 
 MOST_AUTOMATIC = 200
 """Automatic versions that are kept of a gait; of all others every one is kept."""

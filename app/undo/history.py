@@ -13,13 +13,7 @@ from functools import cached_property
 from types import MappingProxyType
 from typing import Any
 
-from app.undo.merge import (
-    Path,
-    merge,
-    place_words,
-    say_the_same,
-    value_at,
-)
+from app.undo.merge import Path, merge, place_words, say_the_same, value_at
 from core.errors import StateError
 
 MOST_STEPS = 300

@@ -10,25 +10,11 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from app.vision.blobs import (
-    Blob,
-    Mask,
-    blobs_of,
-    find_feet,
-    in_colours,
-    mask_of,
-    shown_mask,
-)
+from app.vision.blobs import Blob, Mask, blobs_of, find_feet, in_colours, mask_of, shown_mask
 from app.vision.checkerboard import board_corners, lens_of_corners, straightened
 from app.vision.frame_source import Facts, FrameSource
 from app.vision.tracking import VideoTrack, open_frames, track_video
-from app.vision.video_io import (
-    Picture,
-    jpeg,
-    read_picture,
-    scaled,
-    use_one_thread,
-)
+from app.vision.video_io import Picture, jpeg, read_picture, scaled, use_one_thread
 from core.arrays import Floats
 from core.errors import InputError
 from core.vision.camera import BlobLimits, ColourRange, Lens

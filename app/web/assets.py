@@ -11,13 +11,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 from starlette.types import Receive, Scope, Send
 
-from app.web.page import (
-    STYLES,
-    VERSION_MARK,
-    ModulePage,
-    Stamp,
-    stamp_of,
-)
+from app.web.page import STYLES, VERSION_MARK, ModulePage, Stamp, stamp_of
 
 REVALIDATED = {"cache-control": "no-cache"}
 """Browsers ask whether a file changed before they use their copy."""

@@ -11,12 +11,7 @@ from core.checks.balance import check_balance, check_standing_balance
 from core.checks.checked_plan import CheckedPlan
 from core.checks.coupling import check_coupling
 from core.checks.document import check_document, check_origin
-from core.checks.ground import (
-    CLEARANCE_LIMIT,
-    check_clearance,
-    check_contact,
-    check_slip,
-)
+from core.checks.ground import CLEARANCE_LIMIT, check_clearance, check_contact, check_slip
 from core.checks.motors import (
     acceleration_note,
     check_deafness,

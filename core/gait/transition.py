@@ -10,13 +10,7 @@ from core.motion.contact_timeline import ContactTimeline
 from core.motion.heading_profile import eased
 from core.motion.trajectory import Trajectory
 from core.problem.initial_guess import closed_contact
-from core.problem.motion_problem import (
-    MotionLimits,
-    MotionProblem,
-    RestPose,
-    raised_feet,
-    turned_about_z,
-)
+from core.problem.motion_problem import MotionLimits, MotionProblem, RestPose, raised_feet, turned_about_z
 from core.problem.start_footholds import Placed, Placement
 from core.robot.model import RobotModel
 

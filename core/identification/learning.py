@@ -11,12 +11,7 @@ from core.arrays import Floats
 from core.errors import InputError
 from core.identification.baseline import baseline_left_out, linear_baseline
 from core.identification.bayes_fit import Fit, Measured, fit
-from core.identification.parameters import (
-    FIT_PARAMETERS,
-    FitParameter,
-    box,
-    physics_at,
-)
+from core.identification.parameters import FIT_PARAMETERS, FitParameter, box, physics_at
 from core.identification.surrogate import Surrogate, fit_surrogate, space_filling_points
 from core.physics.parameters import PhysicsSet
 from core.physics.problem import SimulationProblem

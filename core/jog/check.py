@@ -9,14 +9,7 @@ from core.arrays import Floats
 from core.checks.balance import BALANCE_RESERVE, STROKE_BALANCE_SLACK
 from core.checks.ground import CLEARANCE_LIMIT
 from core.findings import Finding, Severity, found
-from core.jog.steps import (
-    Axis,
-    JogStep,
-    jog_range,
-    jog_strokes,
-    jog_way,
-    within_range,
-)
+from core.jog.steps import Axis, JogStep, jog_range, jog_strokes, jog_way, within_range
 from core.motion.balance import STANDING_DEPTH
 from core.motion.support_polygon import stability_margins
 from core.robot.coupled_strokes import heights_over_standing, real_strokes

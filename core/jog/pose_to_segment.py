@@ -14,13 +14,7 @@ from core.jog.check import DOWN_DEPTH, feet_in_robot
 from core.motion.trajectory import quarter_turn
 from core.robot.leg import foot_from_strokes
 from core.robot.model import RobotModel
-from core.segments.segment_table import (
-    MOST_STEPS,
-    Segment,
-    SegmentTable,
-    SegmentVocabulary,
-    require_heights,
-)
+from core.segments.segment_table import MOST_STEPS, Segment, SegmentTable, SegmentVocabulary, require_heights
 
 SAME = 0.00025
 """A place or height that is nearer than this is taken for the pose's, m."""

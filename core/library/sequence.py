@@ -6,12 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.errors import FootfallError, InputError
-from core.gait.chain import (
-    Chain,
-    Cross,
-    Piece,
-    chain,
-)
+from core.gait.chain import Chain, Cross, Piece, chain
 from core.gait.gait import MOST_TIMES, Gait, SequencePart, motion_problem, with_iterations
 from core.gait.held_feet import HeldFeet
 from core.gait.manual_motion import manual_motion

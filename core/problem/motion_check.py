@@ -15,12 +15,7 @@ from core.errors import InputError
 from core.motion.speeds import motor_rates
 from core.motion.support_polygon import GRAVITY, centre_of_pressure, stability_margins
 from core.motion.trajectory import Trajectory
-from core.problem.motion_problem import (
-    CYLINDER,
-    Boundary,
-    MotionProblem,
-    Workspace,
-)
+from core.problem.motion_problem import CYLINDER, Boundary, MotionProblem, Workspace
 from core.robot.kinematics import actuator_plane_pose, feet_in_modules
 from core.robot.leg import strokes_from_foot
 

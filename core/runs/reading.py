@@ -12,14 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.arrays import Floats
-from core.wire.lines import (
-    EndOfTrajectories,
-    Line,
-    LineReader,
-    Telemetry,
-    TrajectoryPoint,
-    numbers_equal,
-)
+from core.wire.lines import EndOfTrajectories, Line, LineReader, Telemetry, TrajectoryPoint, numbers_equal
 from core.wire.messages import MOTORS, encode_stop
 from core.wire.waypoints import Waypoints
 

@@ -9,12 +9,7 @@ from core.arrays import Bools
 from core.errors import InputError
 from core.motion.contact_timeline import ContactTimeline
 from core.segments.from_timeline_edit import border_refusal, break_sentence
-from core.segments.segment_chains import (
-    Cell,
-    RowWish,
-    cheapest_chain,
-    first_break,
-)
+from core.segments.segment_chains import Cell, RowWish, cheapest_chain, first_break
 from core.segments.segment_table import SegmentTable, SegmentVocabulary
 
 HOME = "Home-Base"

@@ -17,13 +17,7 @@ from core.segments.segment_chains import (
     first_break,
 )
 from core.segments.segment_table import SegmentTable, SegmentVocabulary
-from core.segments.table_layout import (
-    Column,
-    Layout,
-    Part,
-    Shape,
-    layouts,
-)
+from core.segments.table_layout import Column, Layout, Part, Shape, layouts
 
 MOST_LAYOUTS = 24
 """Places at which an insertion or removal is tried, the likeliest ones first; more only until one will do."""

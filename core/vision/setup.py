@@ -7,14 +7,7 @@ import numpy as np
 
 from core.arrays import Floats, frozen_floats
 from core.errors import InputError
-from core.vision.camera import (
-    FOOT_COLOURS,
-    BlobLimits,
-    ColourRange,
-    Lens,
-    PlatformView,
-    view_of_points,
-)
+from core.vision.camera import FOOT_COLOURS, BlobLimits, ColourRange, Lens, PlatformView, view_of_points
 
 SPOTS = BlobLimits()
 """Limits where nothing else is said."""

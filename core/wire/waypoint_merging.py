@@ -18,13 +18,7 @@ from core.robot.coupled_strokes import heights_over_standing
 from core.robot.leg import foot_from_strokes
 from core.robot.model import RobotModel
 from core.wire.timing import ARRIVAL_THRESHOLD, ramp_time
-from core.wire.waypoint_path import (
-    SHORT_MOVE,
-    cut_parts,
-    move_seconds,
-    stays_near,
-    waypoints_from_trajectory,
-)
+from core.wire.waypoint_path import SHORT_MOVE, cut_parts, move_seconds, stays_near, waypoints_from_trajectory
 from core.wire.waypoints import Waypoints
 
 ON_GROUND = 0.00025

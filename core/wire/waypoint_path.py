@@ -13,13 +13,7 @@ from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.robot.coupled_strokes import real_strokes
 from core.robot.model import RobotModel
-from core.wire.timing import (
-    ARRIVAL_THRESHOLD,
-    LONGEST_SCAN,
-    largest_moves,
-    ramp_distance,
-    ramp_time,
-)
+from core.wire.timing import ARRIVAL_THRESHOLD, LONGEST_SCAN, largest_moves, ramp_distance, ramp_time
 from core.wire.waypoints import Waypoints
 
 TYPICAL_SCAN = 0.27

@@ -7,13 +7,7 @@ from itertools import pairwise
 import numpy as np
 
 from core.arrays import Floats
-from solver_jobs.live.qp import (
-    MOST_ELASTIC_ITERATIONS,
-    Answer,
-    QuadraticProgram,
-    Solver,
-    stacked,
-)
+from solver_jobs.live.qp import MOST_ELASTIC_ITERATIONS, Answer, QuadraticProgram, Solver, stacked
 from solver_jobs.live.rows import Rows
 from solver_jobs.nlp.constraint import Family
 

@@ -12,12 +12,7 @@ from core.arrays import Bools, Floats
 from core.motion.contact_timeline import Swing
 from core.motion.support_polygon import GRAVITY
 from core.problem.footholds import way_shares
-from core.problem.initial_guess import (
-    Indices,
-    clearance_knot,
-    closed_contact,
-    problem_swings,
-)
+from core.problem.initial_guess import Indices, clearance_knot, closed_contact, problem_swings
 from core.problem.motion_problem import Boundary, MotionProblem
 from core.problem.swing_height import held_climb, rest_heights
 

@@ -15,12 +15,7 @@ from solver_jobs.live.explain import lacks_of, low_lacks, sentences
 from solver_jobs.live.linearisation import MM, Linearisation, linearise
 from solver_jobs.live.motion import motion_cost, trajectory_of
 from solver_jobs.live.motors import motor_rows
-from solver_jobs.live.qp import (
-    Answer,
-    QuadraticProgram,
-    Solver,
-    stacked,
-)
+from solver_jobs.live.qp import Answer, QuadraticProgram, Solver, stacked
 from solver_jobs.live.reach import height_reach, reach_of, standing_reach, swinging_reach
 from solver_jobs.live.rows import DiscPolygon, Rows, balance, body_speed, foot_speed, friction, integration
 from solver_jobs.nlp.assembly import box_of

@@ -13,30 +13,11 @@ from solver_jobs.nlp.bounds import (
     GroundedHeight,
     GroundedVelocity,
 )
-from solver_jobs.nlp.constraint import (
-    BoundConstraint,
-    Box,
-    Family,
-    RowConstraint,
-    Situation,
-    open_box,
-)
+from solver_jobs.nlp.constraint import BoundConstraint, Box, Family, RowConstraint, Situation, open_box
 from solver_jobs.nlp.rows_forces import BodyTorque, Friction
-from solver_jobs.nlp.rows_motion import (
-    BodySpeed,
-    ClosedCycle,
-    FootSpeed,
-    ForceBalance,
-    Integration,
-)
+from solver_jobs.nlp.rows_motion import BodySpeed, ClosedCycle, FootSpeed, ForceBalance, Integration
 from solver_jobs.nlp.rows_motors import MotorAcceleration, MotorSpeed
-from solver_jobs.nlp.rows_reach import (
-    CylinderDisc,
-    CylinderHeight,
-    StabilityMargin,
-    StrokeLower,
-    StrokeUpper,
-)
+from solver_jobs.nlp.rows_reach import CylinderDisc, CylinderHeight, StabilityMargin, StrokeLower, StrokeUpper
 
 BOUND_CONSTRAINTS: tuple[BoundConstraint, ...] = (
     Boundary(),

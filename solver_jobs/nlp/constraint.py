@@ -13,12 +13,7 @@ from casadi import SX
 
 from core.arrays import Bools, Floats
 from core.motion.contact_timeline import Swing
-from core.problem.initial_guess import (
-    Indices,
-    closed_contact,
-    next_standing,
-    problem_swings,
-)
+from core.problem.initial_guess import Indices, closed_contact, next_standing, problem_swings
 from core.problem.motion_problem import MotionProblem
 from core.robot.model import RobotModel
 from solver_jobs.nlp.variables import MotionVector, Symbols

@@ -10,13 +10,7 @@ from solver_jobs.nlp.assembly import box_of
 from solver_jobs.nlp.attempts import Attempt, Attempts, Progress
 from solver_jobs.nlp.compiled_problem import CompiledProblem, CompiledProblemCache
 from solver_jobs.nlp.constraint import situation_of
-from solver_jobs.nlp.diagnosis import (
-    Shortfall,
-    broken_pose,
-    explanation,
-    lacks,
-    nearest_motion,
-)
+from solver_jobs.nlp.diagnosis import Shortfall, broken_pose, explanation, lacks, nearest_motion
 from solver_jobs.nlp.presolve import presolve
 from solver_jobs.nlp.warm_starts import WarmStarts
 from solver_jobs.results.motion import Evidence, MotionResult, SolveStatus

@@ -6,12 +6,7 @@ from casadi import SX, vertcat
 from core.arrays import Floats
 from core.motion.support_polygon import GRAVITY
 from core.robot.model import RobotModel
-from solver_jobs.nlp.constraint import (
-    Family,
-    RowConstraint,
-    Situation,
-    outside,
-)
+from solver_jobs.nlp.constraint import Family, RowConstraint, Situation, outside
 from solver_jobs.nlp.variables import Symbols, axes_of
 
 

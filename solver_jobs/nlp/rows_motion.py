@@ -6,19 +6,8 @@ from casadi import SX, repmat, vertcat
 from core.arrays import Floats
 from core.motion.support_polygon import GRAVITY
 from core.robot.model import RobotModel
-from solver_jobs.nlp.constraint import (
-    Family,
-    RowConstraint,
-    Situation,
-    SquaredRows,
-)
-from solver_jobs.nlp.variables import (
-    MM,
-    Symbols,
-    axes_of,
-    change_between_knots,
-    per_interval,
-)
+from solver_jobs.nlp.constraint import Family, RowConstraint, Situation, SquaredRows
+from solver_jobs.nlp.variables import MM, Symbols, axes_of, change_between_knots, per_interval
 
 
 class Integration(RowConstraint):

@@ -8,12 +8,7 @@ from core.robot.model import RobotModel
 from solver_jobs.nlp.constraint import Family, RowConstraint, Situation
 from solver_jobs.nlp.leg_equations import stroke_rates
 from solver_jobs.nlp.rows_reach import feet_from_body, motor_arms_world
-from solver_jobs.nlp.variables import (
-    MM,
-    Symbols,
-    change_between_knots,
-    per_interval,
-)
+from solver_jobs.nlp.variables import MM, Symbols, change_between_knots, per_interval
 
 
 def motor_rates(symbols: Symbols, model: RobotModel) -> SX:

@@ -9,13 +9,7 @@ from core.arrays import Floats
 from core.motion.support_polygon import GRAVITY
 from core.problem.motion_problem import CYLINDER, CylinderWorkspace
 from core.robot.model import RobotModel
-from solver_jobs.nlp.constraint import (
-    Family,
-    RowConstraint,
-    Situation,
-    SquaredRows,
-    outside,
-)
+from solver_jobs.nlp.constraint import Family, RowConstraint, Situation, SquaredRows, outside
 from solver_jobs.nlp.leg_equations import VERTICES, Arms, squared_offsets
 from solver_jobs.nlp.variables import MM, Symbols
 

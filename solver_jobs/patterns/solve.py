@@ -9,13 +9,7 @@ from ortools.sat.python.cp_model import INFEASIBLE, OPTIMAL, CpSolverSolutionCal
 
 from core.errors import InputError
 from core.patterns.check import scored, weighted_sum
-from core.patterns.problem import (
-    Pattern,
-    PatternProblem,
-    PatternProgress,
-    PatternResult,
-    PatternStatus,
-)
+from core.patterns.problem import Pattern, PatternProblem, PatternProgress, PatternResult, PatternStatus
 from solver_jobs.patterns.bounds import event_counts, floor_of, row_floors
 from solver_jobs.patterns.callbacks import SearchMonitor
 from solver_jobs.patterns.event_rules import ruled_model

@@ -16,13 +16,7 @@ from core.physics.masses import part_masses
 from core.physics.motors import motor_force_limits
 from core.physics.parameters import PhysicsSet
 from core.physics.problem import Rig
-from core.robot.closed_chain import (
-    BODY,
-    foot_joints,
-    foot_link,
-    knee_link,
-    motor_joint,
-)
+from core.robot.closed_chain import BODY, foot_joints, foot_link, knee_link, motor_joint
 from core.robot.kinematics import BodyPose
 from core.robot.leg import foot_from_strokes, vertex_directions
 from core.robot.model import RobotModel

@@ -10,12 +10,7 @@ from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
 from core.physics.variations import VariedRun, variations, varied_problem, varied_run
 from solver_jobs.physics.states import new_pool, simulated_motion
-from solver_jobs.physics.stepping import (
-    TIME_STEP,
-    VARIED_STEP,
-    SimulatedRun,
-    advance,
-)
+from solver_jobs.physics.stepping import TIME_STEP, VARIED_STEP, SimulatedRun, advance
 
 Progress = Callable[[float], bool]
 

@@ -10,13 +10,7 @@ from functools import partial
 import numpy as np
 
 from core.errors import FootfallError
-from core.gait.gait import (
-    Gait,
-    drawn_timeline,
-    heading_step,
-    motion_problem,
-    with_return,
-)
+from core.gait.gait import Gait, drawn_timeline, heading_step, motion_problem, with_return
 from core.motion.trajectory import Trajectory
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import MotionProblem

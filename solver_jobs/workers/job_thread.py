@@ -9,19 +9,8 @@ from typing import Protocol
 
 from solver_jobs.nlp.timing import TimingResult
 from solver_jobs.results.motion import Iterate, MotionResult
-from solver_jobs.workers.job import (
-    STATE_OF_STATUS,
-    Job,
-    JobState,
-    result_sentence,
-)
-from solver_jobs.workers.nlp_worker import (
-    Broke,
-    Finished,
-    Progressed,
-    Stop,
-    Work,
-)
+from solver_jobs.workers.job import STATE_OF_STATUS, Job, JobState, result_sentence
+from solver_jobs.workers.nlp_worker import Broke, Finished, Progressed, Stop, Work
 from solver_jobs.workers.worker_process import POLL_SECONDS, WorkerEndedError, WorkerProcess
 
 GRACE_SECONDS = 1.0

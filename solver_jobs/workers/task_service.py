@@ -17,12 +17,7 @@ from typing import Any, ClassVar, Generic, TypeVar
 
 from core.errors import FootfallError, StateError
 from solver_jobs.workers.spawning import NICENESS
-from solver_jobs.workers.task_worker import (
-    Answer,
-    Cancel,
-    Progress,
-    Submit,
-)
+from solver_jobs.workers.task_worker import Answer, Cancel, Progress, Submit
 from solver_jobs.workers.worker_process import POLL_SECONDS, WorkerEndedError, WorkerProcess
 
 _log = logging.getLogger(__name__)

@@ -7,24 +7,12 @@ import re
 import numpy as np
 import pytest
 
-from core.checks import (
-    balance as balance_check,
-)
-from core.checks import (
-    coupling as coupling_check,
-)
-from core.checks import (
-    document as document_check,
-)
-from core.checks import (
-    ground as ground_check,
-)
-from core.checks import (
-    motors as motor_check,
-)
-from core.checks import (
-    path as path_check,
-)
+from core.checks import balance as balance_check
+from core.checks import coupling as coupling_check
+from core.checks import document as document_check
+from core.checks import ground as ground_check
+from core.checks import motors as motor_check
+from core.checks import path as path_check
 from core.physics import findings as physics
 from core.robot.model import load_robot
 from core.wire.timing import ARRIVAL_THRESHOLD

@@ -7,12 +7,7 @@ import pytest
 import yourdfpy
 
 from core.arrays import Floats
-from core.robot.closed_chain import (
-    TWINS,
-    foot_link,
-    joint_values,
-    rod_link,
-)
+from core.robot.closed_chain import TWINS, foot_link, joint_values, rod_link
 from core.robot.leg import foot_from_strokes, vertex_directions
 from core.robot.model import ROBOT_NAMES, RobotModel, load_robot
 

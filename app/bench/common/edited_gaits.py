@@ -5,12 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.gait.gait import (
-    Gait,
-    drawn_timeline,
-    heading_step,
-    with_return,
-)
+from core.gait.gait import Gait, drawn_timeline, heading_step, with_return
 from core.library.library import Group, group_ids, library
 from core.motion.contact_timeline import ContactTimeline
 from core.problem.motion_problem import Workspace

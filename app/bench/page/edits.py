@@ -26,14 +26,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.bench.common.measure import Row
-from app.bench.page.long_timeline import (
-    NAME,
-    dragging,
-    forget,
-    long_gait,
-    tasks_and_frames,
-    watch,
-)
+from app.bench.page.long_timeline import NAME, dragging, forget, long_gait, tasks_and_frames, watch
 from core.errors import InputError, StateError
 
 if TYPE_CHECKING:

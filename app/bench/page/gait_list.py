@@ -18,12 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.bench.common.measure import Row, milliseconds, seconds_of
-from app.bench.page.edits import (
-    READY_MS,
-    SIZE,
-    headless_browser,
-    served_studio,
-)
+from app.bench.page.edits import READY_MS, SIZE, headless_browser, served_studio
 from app.store.gait_files import GaitFiles
 from core.library.library import library
 

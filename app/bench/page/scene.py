@@ -15,12 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from app.bench.common.measure import Row
-from app.bench.page.edits import (
-    READY_MS,
-    SIZE,
-    headless_browser,
-    served_studio,
-)
+from app.bench.page.edits import READY_MS, SIZE, headless_browser, served_studio
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page

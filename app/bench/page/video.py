@@ -8,18 +8,8 @@ from typing import Any
 import numpy as np
 
 from app.bench.common.measure import Row, milliseconds
-from app.bench.page.film import (
-    ACROSS,
-    Film,
-    draw_film,
-    stepping_feet,
-)
-from app.bench.robot.processes import (
-    Studio,
-    Tap,
-    emulator_process,
-    wait_until,
-)
+from app.bench.page.film import ACROSS, Film, draw_film, stepping_feet
+from app.bench.robot.processes import Studio, Tap, emulator_process, wait_until
 from app.bench.robot.stop import stop_latencies
 from app.cameras.setup_schema import SetupDocument
 from app.vision.frame_source import PICTURES

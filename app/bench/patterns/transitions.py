@@ -27,21 +27,10 @@ from app.bench.common.measure import Row
 from app.plans.verified_result import VerifiedResult, verify
 from core.arrays import Floats
 from core.gait.gait import Gait, heading_angle, motion_problem
-from core.library.library import (
-    Group,
-    group_ids,
-    library,
-    library_patterns,
-)
+from core.library.library import Group, group_ids, library, library_patterns
 from core.library.patterns import LibraryPattern
 from core.motion.support_polygon import stability_margins
-from core.patterns.baseline import (
-    TransitionFigures,
-    blended_strokes,
-    figures,
-    figures_of_strokes,
-    resting,
-)
+from core.patterns.baseline import TransitionFigures, blended_strokes, figures, figures_of_strokes, resting
 from core.patterns.limits import walking_rules
 from core.patterns.problem import PatternProblem, PatternResult, PatternRules, PatternStatus
 from core.patterns.sources import transition_problem

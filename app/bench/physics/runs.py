@@ -14,13 +14,7 @@ from app.bench.common.published import (
     PublishedRun,
     Reference,
 )
-from app.bench.physics.cases import (
-    manual_problem,
-    own_problem,
-    published_problem,
-    solved_cases,
-    tipping,
-)
+from app.bench.physics.cases import manual_problem, own_problem, published_problem, solved_cases, tipping
 from core.arrays import Floats
 from core.motion.trajectory import Trajectory
 from core.physics.findings import longest_slides

@@ -9,15 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from app.bench.common.measure import Row, milliseconds
-from app.bench.robot.processes import (
-    Piece,
-    Studio,
-    Tap,
-    busy_cores,
-    emulator_process,
-    sleeper,
-    wait_until,
-)
+from app.bench.robot.processes import Piece, Studio, Tap, busy_cores, emulator_process, sleeper, wait_until
 from app.store.database import Database
 from core.wire.messages import encode_flush, encode_stop
 from solver_jobs import NICENESS

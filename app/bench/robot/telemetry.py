@@ -12,13 +12,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from app.bench.common.measure import Row, milliseconds
-from app.bench.robot.processes import (
-    ANSWER_SECONDS,
-    Studio,
-    Tap,
-    emulator_process,
-    wait_until,
-)
+from app.bench.robot.processes import ANSWER_SECONDS, Studio, Tap, emulator_process, wait_until
 from app.emulator.profiles import ProfileName
 from app.store.database import Database
 from core.errors import StateError

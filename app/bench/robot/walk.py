@@ -23,12 +23,7 @@ from core.robot.kinematics import free_strokes
 from core.robot.model import RobotModel, load_robot
 from core.wire.messages import HIGHEST_MM, LOWEST_MM, encode_waypoint
 from core.wire.timing import stop_time
-from core.wire.waypoint_merging import (
-    WaypointPlan,
-    plan_of_knots,
-    plan_waypoints,
-    robot_feet,
-)
+from core.wire.waypoint_merging import WaypointPlan, plan_of_knots, plan_waypoints, robot_feet
 from core.wire.waypoints import Waypoints
 from solver_jobs import SolveStatus, solve_live
 

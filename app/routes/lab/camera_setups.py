@@ -10,21 +10,10 @@ from fastapi.responses import Response
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
-from app.cameras.setup_schema import (
-    LensDocument,
-    Number,
-    SetupDocument,
-    Side,
-)
+from app.cameras.setup_schema import LensDocument, Number, SetupDocument, Side
 from app.studio.studio import Studio
 from app.vision.services import ask
-from app.vision.worker import (
-    BoardIn,
-    LensOf,
-    Source,
-    Straighten,
-    data_url,
-)
+from app.vision.worker import BoardIn, LensOf, Source, Straighten, data_url
 from app.web.dependencies import RequestBody, TheStudio
 from core.errors import InputError
 

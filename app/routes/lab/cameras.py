@@ -11,13 +11,7 @@ from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.routes.lab.camera_setups import CornersAsked, board_of
-from app.routes.lab.picture_streams import (
-    BOUNDARY,
-    LookRequest,
-    Width,
-    look_at,
-    part,
-)
+from app.routes.lab.picture_streams import BOUNDARY, LookRequest, Width, look_at, part
 from app.vision.worker import BoardIn, Source, data_url
 from app.web.dependencies import RequestBody, TheStudio
 from core.errors import FootfallError

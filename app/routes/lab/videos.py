@@ -13,19 +13,8 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import ClientDisconnect
 
 from app.routes.lab.camera_setups import Corners, board_of
-from app.routes.lab.picture_streams import (
-    BOUNDARY,
-    LookRequest,
-    Width,
-    look_at,
-    part,
-)
-from app.routes.lab.trials import (
-    Iterations,
-    Length,
-    Name,
-    planned_for,
-)
+from app.routes.lab.picture_streams import BOUNDARY, LookRequest, Width, look_at, part
+from app.routes.lab.trials import Iterations, Length, Name, planned_for
 from app.trials.service import TrialDescription
 from app.videos.files import MOST_BYTES, Upload
 from app.videos.tracking_service import TrackOrder

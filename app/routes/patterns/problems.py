@@ -32,12 +32,7 @@ from core.patterns.sources import (
     transition_problem,
     with_locked_cells,
 )
-from core.patterns.to_gait import (
-    CycleUse,
-    completed_gait,
-    periodic_gait,
-    transition_gait,
-)
+from core.patterns.to_gait import CycleUse, completed_gait, periodic_gait, transition_gait
 from core.robot.model import load_robot
 
 AnyQuestion = TransitionQuestion | LimbsQuestion | DrawingQuestion

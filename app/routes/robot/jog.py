@@ -11,12 +11,7 @@ from app.routes.robot.robot import SOMEBODY, ActorBody, named
 from app.scene.ghost import ghost_blob
 from app.web.dependencies import MOST_MOTORS, RequestBody, TheAuthor, TheStudio, strokes_from_mm
 from core.errors import InputError
-from core.jog.steps import (
-    MOST_STEPS,
-    Axis,
-    JogPart,
-    JogStep,
-)
+from core.jog.steps import MOST_STEPS, Axis, JogPart, JogStep
 from core.robot.model import RobotModel, load_robot
 
 router = APIRouter(prefix="/api/robot", tags=["robot"])

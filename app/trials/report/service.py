@@ -13,18 +13,7 @@ from app.trials.comparison import TrialComparison
 from app.trials.photos import TrialPhotos
 from app.trials.record import ROBOT, TrialRecord
 from app.trials.report.comparison import compared_parts
-from app.trials.report.page import (
-    facts,
-    foot_name,
-    footer,
-    moment,
-    number,
-    page,
-    photo,
-    plot,
-    table,
-    text,
-)
+from app.trials.report.page import facts, foot_name, footer, moment, number, page, photo, plot, table, text
 from app.trials.report.plots import ways_from_above, ways_over_time
 from app.trials.service import TrialService
 from core.arrays import Floats

@@ -16,13 +16,7 @@ from app.bench.physics import runs as physics_runs
 from app.bench.physics.cases import manual_problem
 from app.bench.physics.page import physics_page
 from app.bench.physics.runs import ManualCase, OptimisedCase, walked
-from app.bench.physics.tables import (
-    bench_physics,
-    manual_row,
-    own_row,
-    paper_rows,
-    published_rows,
-)
+from app.bench.physics.tables import bench_physics, manual_row, own_row, paper_rows, published_rows
 from core.errors import InputError
 from core.physics.parameters import physics_set
 from core.physics.problem import SimulationProblem

@@ -7,13 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.bench.common.published import (
-    MANUAL_FEET,
-    TABLE_4_1,
-    TABLE_4_2,
-    PublishedRun,
-    Reference,
-)
+from app.bench.common.published import MANUAL_FEET, TABLE_4_1, TABLE_4_2, PublishedRun, Reference
 from core.errors import InputError
 from core.robot.model import load_robot
 from tests.support.reference import reference_path

@@ -10,14 +10,7 @@ from app.bench.robot.soak import SoakRound, bench_soak, soak
 from app.bridge.delivery import Delivery
 from app.bridge.states import RobotState
 from app.bridge.write_gate import WriteGate
-from app.emulator.faults import (
-    Cable,
-    Delayer,
-    Dropper,
-    Fault,
-    Garbler,
-    Splitter,
-)
+from app.emulator.faults import Cable, Delayer, Dropper, Fault, Garbler, Splitter
 from core.wire.lines import Telemetry
 from tests.support.virtual_robot import VirtualRobot, random_plan
 

@@ -10,12 +10,7 @@ from app.bridge.write_gate import WriteGate
 from core.errors import RobotError
 from core.wire.messages import encode_flush
 from tests.support.studio_process import wait_for
-from tests.support.virtual_robot import (
-    VirtualRobot,
-    make_plan,
-    payloads,
-    random_plan,
-)
+from tests.support.virtual_robot import VirtualRobot, make_plan, payloads, random_plan
 
 FLUSH, STOP = encode_flush(), b"<s,1>"
 WAYPOINT = b"<p,1,0.40,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000,8.5000>"

@@ -14,12 +14,7 @@ from core.errors import InputError, StateError
 from core.jog.check import check_jog
 from core.jog.steps import JogPart, JogStep
 from core.robot.model import load_robot
-from core.wire.messages import (
-    encode_release,
-    encode_reset,
-    encode_stop,
-    encode_waypoint,
-)
+from core.wire.messages import encode_release, encode_reset, encode_stop, encode_waypoint
 from tests.support.virtual_robot import VirtualRobot, make_plan
 
 WALKER = load_robot("deltawalker")

@@ -10,14 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from app.bench.robot.processes import (
-    Piece,
-    Studio,
-    Tap,
-    emulator_process,
-    sleeper,
-    wait_until,
-)
+from app.bench.robot.processes import Piece, Studio, Tap, emulator_process, sleeper, wait_until
 from app.bench.robot.standstill import BOUNDS, seconds_to_stand
 from app.bench.robot.stop import _lost, kill_rounds, stop_latencies
 from app.bench.robot.telemetry import LINES_A_SECOND, bench_telemetry, lines_between

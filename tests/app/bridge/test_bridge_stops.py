@@ -10,12 +10,7 @@ from app.bridge.states import LinkState, RobotState
 from app.emulator.faults import Fault
 from core.errors import StateError
 from core.wire.messages import encode_flush
-from tests.support.virtual_robot import (
-    VirtualRobot,
-    make_plan,
-    payloads,
-    random_plan,
-)
+from tests.support.virtual_robot import VirtualRobot, make_plan, payloads, random_plan
 
 FLUSH, STOP = encode_flush(), b"<s,1>"
 LONG = [[10.0] * 12, [3.0] * 12, [12.0] * 12]

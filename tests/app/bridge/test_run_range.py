@@ -8,12 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.bridge.run_range import (
-    MOST_ITERATIONS,
-    RunRange,
-    beginnings,
-    why_not_repeated,
-)
+from app.bridge.run_range import MOST_ITERATIONS, RunRange, beginnings, why_not_repeated
 from app.bridge.states import RobotState, RunPhase, RunPlan
 from core.errors import InputError
 from tests.support.virtual_robot import VirtualRobot, make_plan

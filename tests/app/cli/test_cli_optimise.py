@@ -12,12 +12,7 @@ import pytest
 from app.bench.solvers.live import grouped_gait
 from app.documents.gait_json import gait_content
 from app.export.trajectory_files import read_trajectory
-from core.gait.gait import (
-    Gait,
-    drawn_timeline,
-    heading_step,
-    motion_problem,
-)
+from core.gait.gait import Gait, drawn_timeline, heading_step, motion_problem
 from core.library.library import library
 from core.motion.contact_timeline import timeline_from_rows
 from core.robot.kinematics import walker_strokes

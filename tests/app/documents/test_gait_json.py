@@ -9,13 +9,7 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 
-from app.documents.gait_json import (
-    asked_hash,
-    gait_content,
-    motion_hash,
-    parse_gait,
-    require_size,
-)
+from app.documents.gait_json import asked_hash, gait_content, motion_hash, parse_gait, require_size
 from core.errors import InputError
 from core.gait.gait import Gait
 from core.gait.provenance import Provenance

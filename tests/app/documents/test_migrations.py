@@ -7,12 +7,7 @@ from typing import Any
 import pytest
 
 from app.documents.gait_json import gait_content
-from app.documents.migrations import (
-    STEPS,
-    VERSION,
-    Step,
-    migrated,
-)
+from app.documents.migrations import STEPS, VERSION, Step, migrated
 from core.errors import InputError
 from core.library.library import library
 

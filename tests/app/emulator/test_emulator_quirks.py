@@ -4,14 +4,7 @@ import threading
 
 import pytest
 
-from app.emulator.c_text import (
-    Fields,
-    c_string,
-    padded_text,
-    print_pieces,
-    to_float,
-    to_int,
-)
+from app.emulator.c_text import Fields, c_string, padded_text, print_pieces, to_float, to_int
 from app.emulator.emulated_robot import EmulatedRobot, start_emulator
 from app.emulator.faults import Fault
 from app.emulator.firmware import Firmware

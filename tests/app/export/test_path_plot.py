@@ -9,13 +9,7 @@ import numpy as np
 import pytest
 
 from app.export.drawing import Trace
-from app.export.path_plot import (
-    EDGE,
-    HEAD,
-    SIZE,
-    Ways,
-    way_plot,
-)
+from app.export.path_plot import EDGE, HEAD, SIZE, Ways, way_plot
 from app.export.png import png
 from app.export.svg import svg
 

@@ -10,13 +10,7 @@ import numpy as np
 import pytest
 
 from app.documents.gait_json import gait_content
-from app.gaits.live_preview import (
-    FAILED_SECONDS,
-    FIRST_SECONDS,
-    MOST_PLANS,
-    NEXT_SECONDS,
-    LivePreview,
-)
+from app.gaits.live_preview import FAILED_SECONDS, FIRST_SECONDS, MOST_PLANS, NEXT_SECONDS, LivePreview
 from app.gaits.normalise import normalise
 from app.gaits.views import plan_view
 from app.jobs.timing_view import timing_content

@@ -13,23 +13,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.documents.gait_json import (
-    gait_content,
-    gait_from_content,
-    motion_hash,
-    parse_gait,
-)
+from app.documents.gait_json import gait_content, gait_from_content, motion_hash, parse_gait
 from app.documents.trajectory_json import trajectory_content
 from app.export.gait_diagram import facts
 from app.gaits.approvals import ApprovalRequest
 from app.gaits.live_preview import LivePreview
-from app.gaits.sequence_documents import (
-    AskedPart,
-    SourceState,
-    made_sequence,
-    refreshed,
-    source_states,
-)
+from app.gaits.sequence_documents import AskedPart, SourceState, made_sequence, refreshed, source_states
 from app.gaits.service import GaitService
 from app.plans.plan import PlanSource
 from app.plans.sequence_plan import runs_without_result

@@ -13,25 +13,12 @@ from app.gaits.live_preview import LivePreview
 from app.gaits.service import GaitService
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
-from app.undo.history import (
-    LEAST_STEPS,
-    MOST_ENTRIES,
-    MOST_STEPS,
-    Author,
-    fresh_history,
-)
+from app.undo.history import LEAST_STEPS, MOST_ENTRIES, MOST_STEPS, Author, fresh_history
 from core.errors import StateError
 from core.gait.gait import Gait
 from core.library.library import library
 from solver_jobs import SolveStatus
-from tests.app.gaits.test_service import (
-    MANUAL,
-    WALK,
-    edit,
-    reopened,
-    service,
-    toggled,
-)
+from tests.app.gaits.test_service import MANUAL, WALK, edit, reopened, service, toggled
 from tests.support.live_tiers import FixedTier
 
 __all__ = ["service"]  # a fixture

@@ -11,12 +11,7 @@ import pytest
 from app.gaits.approvals import ApprovalRequest
 from app.gaits.live_preview import LivePreview
 from app.gaits.service import GaitService
-from app.gaits.versions import (
-    AUTOMATIC_EDITS,
-    AUTOMATIC_SECONDS,
-    MOST_NAME,
-    VersionKind,
-)
+from app.gaits.versions import AUTOMATIC_EDITS, AUTOMATIC_SECONDS, MOST_NAME, VersionKind
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
 from app.store.gait_store import MOST_AUTOMATIC
@@ -24,12 +19,7 @@ from app.undo.history import Author
 from core.errors import InputError, NotFoundError
 from core.library.library import library
 from solver_jobs import SolveStatus
-from tests.app.gaits.test_service import (
-    MANUAL,
-    WALK,
-    edit,
-    toggled,
-)
+from tests.app.gaits.test_service import MANUAL, WALK, edit, toggled
 from tests.support.live_tiers import FixedTier
 from tests.support.studio_process import StudioProcess, running_studio
 

@@ -17,12 +17,7 @@ from app.export.source import Exportable, exportable_plan
 from app.gaits.approvals import ApprovalRequest
 from app.gaits.sequence_documents import AskedPart, made_sequence
 from app.gaits.service import GaitService
-from app.plans.plan import (
-    Plan,
-    PlanSource,
-    make_plan,
-    verdict_of,
-)
+from app.plans.plan import Plan, PlanSource, make_plan, verdict_of
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
 from app.undo.history import Author

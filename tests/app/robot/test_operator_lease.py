@@ -15,12 +15,7 @@ from app.emulator.emulated_robot import EmulatedRobot
 from app.robot.operator_lease import OperatorLease
 from app.undo.history import Author
 from core.errors import StateError
-from tests.support.studio_process import (
-    Answer,
-    StudioProcess,
-    running_studio,
-    wait_for,
-)
+from tests.support.studio_process import Answer, StudioProcess, running_studio, wait_for
 from tests.support.virtual_robot import make_plan
 
 SPEED = 20.0

@@ -11,12 +11,7 @@ from app.bridge.run import plan_moves
 from app.bridge.states import JogProgress, LinkState, RobotSnapshot, RobotState, RunPhase, RunProgress
 from app.emulator.profiles import ProfileName
 from app.robot.run_summary import sent_waypoints
-from app.robot.views import (
-    RunOrigin,
-    robot_view,
-    run_end,
-    stop_seconds,
-)
+from app.robot.views import RunOrigin, robot_view, run_end, stop_seconds
 from core.wire.timing import LONGEST_SCAN, OVERRUN, ramp_time
 from tests.support.virtual_robot import VirtualRobot, make_plan
 

@@ -7,12 +7,7 @@ from typing import Any
 
 import pytest
 
-from tests.support.studio_process import (
-    Answer,
-    StudioProcess,
-    running_studio,
-    wait_for,
-)
+from tests.support.studio_process import Answer, StudioProcess, running_studio, wait_for
 
 LONG_SECONDS = 60.0
 

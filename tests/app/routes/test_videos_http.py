@@ -14,12 +14,7 @@ import pytest
 
 from app.vision.video_io import read_picture
 from tests.support.studio_process import StudioProcess, running_studio, wait_for
-from tests.support.trials.rendered import (
-    LENS,
-    SIZE,
-    VIEW,
-    write_video,
-)
+from tests.support.trials.rendered import LENS, SIZE, VIEW, write_video
 from tests.support.trials.tracks import RATE, stepping_track
 
 TRACK = stepping_track((0.0085, 0.0085), 1)

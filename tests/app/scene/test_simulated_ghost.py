@@ -13,12 +13,7 @@ from app.scene.simulated_ghost import FRAMES_A_SECOND, simulated_blob
 from app.simulation.view import motion_content
 from core.physics.metrics import report
 from core.physics.motion import SimulatedMotion
-from tests.support.simulated_walk import (
-    BEHIND,
-    followed,
-    walk_problem,
-    walk_report,
-)
+from tests.support.simulated_walk import BEHIND, followed, walk_problem, walk_report
 
 PROBLEM = walk_problem()
 MODEL = PROBLEM.model

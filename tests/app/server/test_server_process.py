@@ -12,12 +12,7 @@ import pytest
 
 from app.bridge.delivery import ARRIVAL_MM
 from app.emulator.emulated_robot import EmulatedRobot, start_emulator
-from tests.support.studio_process import (
-    StudioProcess,
-    footfall,
-    running_studio,
-    wait_for,
-)
+from tests.support.studio_process import StudioProcess, footfall, running_studio, wait_for
 
 SPEED = 15.0
 """Seconds of the emulated robot in a second."""

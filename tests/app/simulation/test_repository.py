@@ -23,12 +23,7 @@ from app.store.simulation_store import MOST_KEPT, SimulationRow, SimulationStore
 from core.errors import CheckError, NotFoundError
 from core.library.library import library
 from core.physics.parameters import PhysicsSet, physics_set, physics_sets
-from tests.support.simulated_walk import (
-    GAIT,
-    no_solver,
-    walk_plan,
-    walk_report,
-)
+from tests.support.simulated_walk import GAIT, no_solver, walk_plan, walk_report
 
 
 @pytest.fixture

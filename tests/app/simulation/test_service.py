@@ -20,12 +20,7 @@ from core.physics.motion import SimulatedMotion
 from core.physics.parameters import physics_set
 from core.physics.problem import SimulationProblem
 from core.physics.variations import VariedRun
-from tests.support.simulated_walk import (
-    BEHIND,
-    GAIT,
-    followed,
-    walk_plan,
-)
+from tests.support.simulated_walk import BEHIND, GAIT, followed, walk_plan
 from tests.support.studio_process import wait_for
 
 

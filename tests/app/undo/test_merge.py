@@ -9,13 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.undo.merge import (
-    MISSING,
-    merge,
-    place_words,
-    say_the_same,
-    value_at,
-)
+from app.undo.merge import MISSING, merge, place_words, say_the_same, value_at
 
 ROWS = st.lists(st.text("01", min_size=6, max_size=6), min_size=3, max_size=3)
 

@@ -8,23 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.vision.tracking import (
-    VideoTrack,
-    missing_remarks,
-    track_of_pixels,
-    track_video,
-)
+from app.vision.tracking import VideoTrack, missing_remarks, track_of_pixels, track_video
 from app.vision.video_io import VideoFile
 from core.errors import InputError
 from core.vision import image_header as picture_size
 from core.vision.camera import FOOT_COLOURS
 from core.vision.setup import TrackingSetup
-from tests.support.trials.rendered import (
-    LENS,
-    VIEW,
-    Hidden,
-    write_video,
-)
+from tests.support.trials.rendered import LENS, VIEW, Hidden, write_video
 from tests.support.trials.retimed import retimed
 from tests.support.trials.tracks import RATE, stepping_track
 

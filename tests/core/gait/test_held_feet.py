@@ -10,20 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.errors import InputError
-from core.gait.gait import (
-    Gait,
-    drawn_timeline,
-    motion_problem,
-    resting_poses,
-    travel_world,
-    with_iterations,
-)
-from core.gait.held_feet import (
-    LEAST_HEIGHT,
-    HeldFeet,
-    held_height,
-    held_sentence,
-)
+from core.gait.gait import Gait, drawn_timeline, motion_problem, resting_poses, travel_world, with_iterations
+from core.gait.held_feet import LEAST_HEIGHT, HeldFeet, held_height, held_sentence
 from core.gait.motion_source import MotionSource, motion_source
 from core.library.new_gait import with_robot
 from core.motion.contact_timeline import Swing
@@ -38,13 +26,7 @@ from core.problem.swing_height import held_climb, held_knots
 from core.recorded.recorded_gait import gait_of_motion
 from core.robot.model import load_robot
 from solver_jobs import solve_live
-from tests.support.held_gaits import (
-    DOWN,
-    drawn,
-    lifting,
-    lowering,
-    wave,
-)
+from tests.support.held_gaits import DOWN, drawn, lifting, lowering, wave
 
 HEXAPOD = load_robot("hexapod")
 WAVE = wave("hexapod", (1, 4))

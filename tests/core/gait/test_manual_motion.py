@@ -13,13 +13,7 @@ from core.checks.rules import check_plan
 from core.errors import InputError
 from core.gait.gait import Gait
 from core.gait.manual_motion import manual_motion
-from core.library.library import (
-    Group,
-    default_vocabulary,
-    group_ids,
-    library,
-    manual_entry,
-)
+from core.library.library import Group, default_vocabulary, group_ids, library, manual_entry
 from core.motion.trajectory import quarter_turn
 from core.robot.model import load_robot
 from core.segments.segment_table import SegmentTable

@@ -10,21 +10,10 @@ import numpy as np
 import pytest
 
 from core.errors import CheckError, InputError
-from core.identification.learning import (
-    Learned,
-    Simulate,
-    Task,
-    learn,
-    simulation_count,
-)
+from core.identification.learning import Learned, Simulate, Task, learn, simulation_count
 from core.identification.parameters import FIT_PARAMETERS, physics_at
 from core.physics.parameters import PhysicsSet, physics_set
-from core.trials.displacement import (
-    Displacement,
-    MeasuredWalk,
-    pooled_spread,
-    walk_of_trials,
-)
+from core.trials.displacement import Displacement, MeasuredWalk, pooled_spread, walk_of_trials
 from tests.support.trials.few_draws import few_draws
 
 __all__ = ["few_draws"]

@@ -16,12 +16,7 @@ from core.gait.gait import Gait
 from core.gait.manual_motion import manual_motion
 from core.jog.check import feet_in_robot
 from core.jog.pose_to_segment import SAME, PoseSegment, pose_to_segment
-from core.jog.steps import (
-    Axis,
-    JogPart,
-    JogStep,
-    jog_strokes,
-)
+from core.jog.steps import Axis, JogPart, JogStep, jog_strokes
 from core.library.library import library
 from core.robot.model import load_robot
 

@@ -14,14 +14,7 @@ from core.arrays import Floats
 from core.errors import InputError
 from core.findings import Finding, Severity
 from core.jog.check import JogAnswer, check_jog, feet_in_robot
-from core.jog.steps import (
-    Axis,
-    JogPart,
-    JogStep,
-    jog_range,
-    jog_strokes,
-    within_range,
-)
+from core.jog.steps import Axis, JogPart, JogStep, jog_range, jog_strokes, within_range
 from core.robot.leg import strokes_from_foot
 from core.robot.model import ROBOT_NAMES, load_robot
 from core.wire.timing import ARRIVAL_THRESHOLD, START_MOVE

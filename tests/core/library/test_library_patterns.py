@@ -9,12 +9,7 @@ import numpy as np
 import pytest
 
 from core.gait.gait import motion_problem
-from core.library.library import (
-    Group,
-    group_ids,
-    library,
-    library_patterns,
-)
+from core.library.library import Group, group_ids, library, library_patterns
 from core.patterns.check import check_pattern, scored, weighted_sum
 from core.patterns.problem import PatternStatus
 from core.problem.motion_check import check_motion

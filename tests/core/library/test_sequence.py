@@ -16,13 +16,7 @@ from core.gait.manual_motion import manual_motion
 from core.gait.options import GaitOptions
 from core.gait.transition import feet_transition
 from core.library.library import library, optimised_entry
-from core.library.sequence import (
-    chain_runs,
-    derived,
-    outline,
-    run_of,
-    sequence_gait,
-)
+from core.library.sequence import chain_runs, derived, outline, run_of, sequence_gait
 from core.motion.balance import balance_margins
 from core.motion.trajectory import Trajectory
 from core.problem.body_move import BodyPlace, MoveLimits, body_move

@@ -10,14 +10,7 @@ from hypothesis import strategies as st
 from core.arrays import Floats
 from core.errors import InputError
 from core.motion.support_polygon import polygon_margin, support_polygon
-from core.patterns.baseline import (
-    blended_strokes,
-    body_way,
-    figures,
-    figures_of_strokes,
-    level_feet,
-    resting,
-)
+from core.patterns.baseline import blended_strokes, body_way, figures, figures_of_strokes, level_feet, resting
 from core.robot.kinematics import BodyPose, free_strokes
 from core.robot.model import load_robot
 

@@ -10,12 +10,7 @@ import pytest
 from core.patterns.clause import Clause, asked_by
 from core.patterns.numerals import counted, listed, named, only, times
 from core.patterns.problem import BalanceModel, PatternProblem, PatternRules, Relaxation, Rule
-from core.patterns.sentences import (
-    conflict_sentence,
-    explanation,
-    failing_samples,
-    relaxation_words,
-)
+from core.patterns.sentences import conflict_sentence, explanation, failing_samples, relaxation_words
 from tests.support.solvers.conflicts import drawn, periodic, transition
 
 

@@ -10,13 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.physics.metrics import (
-    FALL_TILT,
-    LOAD,
-    report,
-    rotations,
-    tilts,
-)
+from core.physics.metrics import FALL_TILT, LOAD, report, rotations, tilts
 from core.physics.problem import Rig
 from tests.support import synthetic_motions as made
 from tests.support.synthetic_motions import PLANNED, PROBLEM

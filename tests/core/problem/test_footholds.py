@@ -9,12 +9,7 @@ import pytest
 
 from core.gait.gait import motion_problem
 from core.gait.held_feet import HeldFeet
-from core.library.library import (
-    Group,
-    group_ids,
-    library,
-    library_patterns,
-)
+from core.library.library import Group, group_ids, library, library_patterns
 from core.motion.contact_timeline import timeline_from_rows
 from core.problem.footholds import way_shares
 from core.problem.initial_guess import initial_guess, problem_swings

@@ -17,12 +17,7 @@ from core.problem.initial_guess import (
     problem_swings,
     standing_forces,
 )
-from core.problem.motion_problem import (
-    Cost,
-    MotionLimits,
-    MotionProblem,
-    standing_pose,
-)
+from core.problem.motion_problem import Cost, MotionLimits, MotionProblem, standing_pose
 from core.robot.model import load_robot
 
 ORDERS = [(3, 2, 4, 1), (3, 1, 4, 2), (1, 2, 4, 3), (1, 2, 3, 4)]

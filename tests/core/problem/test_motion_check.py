@@ -16,12 +16,7 @@ from core.motion.contact_timeline import ContactTimeline
 from core.motion.support_polygon import GRAVITY
 from core.motion.trajectory import Trajectory
 from core.problem.motion_check import FAMILIES, OPTIONAL_FAMILIES, check_motion
-from core.problem.motion_problem import (
-    Boundary,
-    MotionLimits,
-    MotionProblem,
-    Workspace,
-)
+from core.problem.motion_problem import Boundary, MotionLimits, MotionProblem, Workspace
 from core.robot.model import load_robot
 from core.wire.trajectory_csv import parse_trajectory_csv
 from tests.support.reference import reference_path

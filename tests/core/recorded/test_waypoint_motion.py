@@ -15,12 +15,7 @@ from core.motion.trajectory import Trajectory
 from core.recorded.waypoint_motion import motion_of_waypoints
 from core.robot.model import RobotModel, load_robot
 from core.wire.waypoint_path import waypoints_from_trajectory
-from core.wire.waypoints import (
-    Waypoints,
-    format_waypoint_csv,
-    parse_waypoint_csv,
-    waypoint_legs,
-)
+from core.wire.waypoints import Waypoints, format_waypoint_csv, parse_waypoint_csv, waypoint_legs
 from solver_jobs import solve_exact, solve_live
 
 ROUNDING = 2e-6

@@ -12,12 +12,7 @@ from hypothesis.extra.numpy import arrays
 
 from core.arrays import Floats
 from core.checks.checked_plan import CheckedPlan
-from core.checks.coupling import (
-    RULE,
-    check_coupling,
-    coupling_residual,
-    real_swings,
-)
+from core.checks.coupling import RULE, check_coupling, coupling_residual, real_swings
 from core.checks.rules import check_plan
 from core.errors import InputError
 from core.findings import TOLERANCE, Finding, Severity

@@ -4,12 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from core.robot.leg import (
-    foot_from_strokes,
-    foot_jacobian,
-    stroke_rates,
-    strokes_from_foot,
-)
+from core.robot.leg import foot_from_strokes, foot_jacobian, stroke_rates, strokes_from_foot
 from core.robot.model import load_robot
 
 LEG = load_robot("deltawalker").leg

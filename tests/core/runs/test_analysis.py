@@ -9,12 +9,7 @@ import pytest
 
 from core.runs.analysis import move_begins, plan_times, run_errors
 from core.runs.pose import RanPlan, measured_motion
-from core.runs.reading import (
-    START,
-    RunBytes,
-    RunSeries,
-    read_run,
-)
+from core.runs.reading import START, RunBytes, RunSeries, read_run
 from core.wire.messages import encode_stop, encode_waypoint
 from tests.support.ran_robot import ROBOT, TimedRobot, ran
 

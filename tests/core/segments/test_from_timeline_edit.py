@@ -11,12 +11,7 @@ from hypothesis import strategies as st
 
 from core.arrays import Bools
 from core.errors import InputError
-from core.library.library import (
-    Group,
-    default_vocabulary,
-    group_ids,
-    library,
-)
+from core.library.library import Group, default_vocabulary, group_ids, library
 from core.motion.contact_timeline import ContactTimeline, timeline_from_order
 from core.segments.from_timeline import table_from_timeline
 from core.segments.from_timeline_edit import Carried, carried

@@ -9,19 +9,9 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.library.library import (
-    Group,
-    default_vocabulary,
-    group_ids,
-    library,
-)
+from core.library.library import Group, default_vocabulary, group_ids, library
 from core.robot.model import load_robot
-from core.segments.segment_table import (
-    Segment,
-    SegmentTable,
-    SegmentVocabulary,
-    require_heights,
-)
+from core.segments.segment_table import Segment, SegmentTable, SegmentVocabulary, require_heights
 
 PERIOD = 8
 """Segments from one iteration to the next: each of four feet lifts and steps."""

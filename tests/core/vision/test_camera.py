@@ -6,13 +6,7 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.vision.camera import (
-    BlobLimits,
-    ColourRange,
-    Lens,
-    PlatformView,
-    view_of_points,
-)
+from core.vision.camera import BlobLimits, ColourRange, Lens, PlatformView, view_of_points
 from core.vision.outliers import find_outliers
 from tests.support.trials.tracks import stepping_track
 

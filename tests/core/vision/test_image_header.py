@@ -10,12 +10,7 @@ from hypothesis import strategies as st
 from PIL import Image
 
 from core.errors import InputError
-from core.vision.image_header import (
-    MOST_PIXELS,
-    PictureSize,
-    picture_size,
-    require_readable,
-)
+from core.vision.image_header import MOST_PIXELS, PictureSize, picture_size, require_readable
 
 
 def picture(form: str, size: tuple[int, int], **options: object) -> bytes:

@@ -14,12 +14,7 @@ from hypothesis.extra.numpy import arrays
 
 from core.errors import InputError
 from core.motion.trajectory import Trajectory, difference_velocities
-from core.wire.trajectory_csv import (
-    CsvLayout,
-    format_companion,
-    format_trajectory_csv,
-    parse_trajectory_csv,
-)
+from core.wire.trajectory_csv import CsvLayout, format_companion, format_trajectory_csv, parse_trajectory_csv
 from tests.support.reference import REFERENCE, reference_path
 
 numbers = st.floats(-1e3, 1e3, allow_nan=False)

@@ -9,12 +9,7 @@ from dataclasses import dataclass
 import pytest
 from playwright.sync_api import Browser, expect
 
-from tests.support.page.timeline_page import (
-    FOUR,
-    TimelinePage,
-    opened_timeline,
-    painted,
-)
+from tests.support.page.timeline_page import FOUR, TimelinePage, opened_timeline, painted
 from tests.support.studio_process import running_studio, wait_for
 
 ZEROS = "0" * 24

@@ -7,13 +7,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, expect
 
-from tests.support.page.timeline_page import (
-    FOUR,
-    TimelinePage,
-    opened_timeline,
-    painted,
-    rectangle,
-)
+from tests.support.page.timeline_page import FOUR, TimelinePage, opened_timeline, painted, rectangle
 from tests.support.studio_process import running_studio, wait_for
 
 

@@ -13,12 +13,7 @@ from core.arrays import Floats
 from core.motion.contact_timeline import timeline_from_order
 from core.problem.initial_guess import initial_guess
 from core.problem.motion_check import check_motion
-from core.problem.motion_problem import (
-    Boundary,
-    Cost,
-    MotionProblem,
-    Workspace,
-)
+from core.problem.motion_problem import Boundary, Cost, MotionProblem, Workspace
 from core.robot.kinematics import feet_in_modules
 from core.robot.leg import strokes_from_foot
 from solver_jobs.nlp.compiled_problem import (

@@ -10,14 +10,7 @@ import pytest
 from core.motion.contact_timeline import timeline_from_order, timeline_from_rows
 from core.motion.support_polygon import centre_of_pressure, stability_margins
 from core.motion.trajectory import Trajectory, turn_trajectory
-from core.problem.motion_problem import (
-    Cost,
-    MotionLimits,
-    MotionProblem,
-    RestPose,
-    Workspace,
-    standing_pose,
-)
+from core.problem.motion_problem import Cost, MotionLimits, MotionProblem, RestPose, Workspace, standing_pose
 from core.robot.model import load_robot
 from solver_jobs import Evidence, Iterate, MotionResult, SolveStatus
 from solver_jobs.nlp.motion_nlp import solve_motion

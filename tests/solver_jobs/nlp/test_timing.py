@@ -14,12 +14,7 @@ from core.problem.motion_check import check_motion
 from core.problem.motion_problem import MotionProblem, Workspace
 from solver_jobs import Iterate, SolveStatus
 from solver_jobs.nlp.motion_nlp import solve_motion
-from solver_jobs.nlp.timing import (
-    TimingResult,
-    fastest_timing,
-    phase_spans,
-    rounded_timeline,
-)
+from solver_jobs.nlp.timing import TimingResult, fastest_timing, phase_spans, rounded_timeline
 from solver_jobs.tiers.timing_use import made_usable
 from tests.support.solvers.cases import gait_problem
 

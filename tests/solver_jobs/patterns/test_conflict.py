@@ -14,12 +14,7 @@ from core.patterns.relaxation import relaxed
 from solver_jobs import solve_pattern
 from solver_jobs.patterns.explain import Explanation, explain
 from solver_jobs.patterns.probe import Answer, Probe
-from tests.support.solvers.conflicts import (
-    CLASHES,
-    F_RULES,
-    periodic,
-    transition,
-)
+from tests.support.solvers.conflicts import CLASHES, F_RULES, periodic, transition
 
 NO_ROOM = "at some sample only two feet are down, and at least 3 must be."
 

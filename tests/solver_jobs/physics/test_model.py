@@ -15,13 +15,7 @@ from core.arrays import Floats
 from core.physics.masses import part_masses, physics_for
 from core.physics.parameters import physics_set
 from core.physics.problem import Rig
-from core.robot.closed_chain import (
-    BODY,
-    foot_joints,
-    foot_link,
-    knee_link,
-    motor_joint,
-)
+from core.robot.closed_chain import BODY, foot_joints, foot_link, knee_link, motor_joint
 from core.robot.kinematics import BodyPose
 from core.robot.model import ROBOT_NAMES, load_robot
 from solver_jobs.physics.mjcf import arm_name, gravity_vector, mjcf_text

@@ -22,15 +22,7 @@ from solver_jobs import simulate, simulate_variations
 from solver_jobs.physics.simulate import simulate as simulate_at
 from solver_jobs.physics.simulate import simulate_together
 from solver_jobs.physics.stepping import TIME_STEP, VARIED_STEP
-from tests.support.solvers.rigs import (
-    MIDDLE,
-    MODEL,
-    SCALES,
-    problem_of_strokes,
-    resting,
-    strokes_of,
-    walk,
-)
+from tests.support.solvers.rigs import MIDDLE, MODEL, SCALES, problem_of_strokes, resting, strokes_of, walk
 
 
 def one_motor(to: float) -> Floats:

@@ -16,14 +16,7 @@ from core.robot.leg import foot_from_strokes
 from core.robot.model import load_robot
 from core.wire.waypoint_merging import robot_feet
 from solver_jobs import simulate
-from tests.support.solvers.rigs import (
-    MIDDLE,
-    MODEL,
-    SCALES,
-    problem_of_strokes,
-    resting,
-    strokes_of,
-)
+from tests.support.solvers.rigs import MIDDLE, MODEL, SCALES, problem_of_strokes, resting, strokes_of
 
 GRAVITY = SCALES.gravity
 

@@ -8,13 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from core.gait.gait import (
-    Gait,
-    drawn_timeline,
-    heading_step,
-    motion_problem,
-    with_return,
-)
+from core.gait.gait import Gait, drawn_timeline, heading_step, motion_problem, with_return
 from core.library.library import library
 from core.problem.motion_check import FAMILIES, OPTIONAL_FAMILIES, check_motion
 from core.problem.motion_problem import Workspace

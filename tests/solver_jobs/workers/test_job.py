@@ -16,13 +16,7 @@ import pytest
 
 from core.errors import InputError, StateError
 from core.motion.contact_timeline import timeline_from_order
-from core.problem.motion_problem import (
-    Cost,
-    MotionLimits,
-    MotionProblem,
-    Workspace,
-    standing_pose,
-)
+from core.problem.motion_problem import Cost, MotionLimits, MotionProblem, Workspace, standing_pose
 from core.robot.model import load_robot
 from solver_jobs import Job, JobQueue, JobState, SolveStatus
 from solver_jobs.workers import job_queue as runner_module

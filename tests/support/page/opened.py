@@ -9,8 +9,7 @@ from contextlib import contextmanager
 
 from playwright.sync_api import Browser, BrowserContext, Page, expect
 
-from app.bench.page.edits import CHROMIUM_WORDS
-from tests.support.chromium import LONG_MS, chromium_path
+from tests.support.chromium import FLAT_WORDS, LONG_MS, chromium_path
 
 _FLAT: dict[Browser, Browser] = {}
 """Beside each browser one that draws without a GPU, real or emulated; it ends with its Playwright."""
@@ -40,8 +39,7 @@ def opened_page(
 def flat_browser(browser: Browser) -> Browser:
     """A browser for pages without a 3D scene: an emulated GPU costs a quarter of their time."""
     if browser not in _FLAT:
-        words = [word for word in CHROMIUM_WORDS if "gl" not in word] + ["--disable-gpu"]
-        _FLAT[browser] = browser.browser_type.launch(executable_path=chromium_path(), args=words)
+        _FLAT[browser] = browser.browser_type.launch(executable_path=chromium_path(), args=FLAT_WORDS)
     return _FLAT[browser]
 
 

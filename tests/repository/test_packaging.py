@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from tests.support.studio_process import PROJECT, running_studio
+from tests.support.studio_process import PROGRAM, PROJECT, running_studio
 
 IGNORED = shutil.ignore_patterns(".git", ".venv", "build", "*.egg-info", "__pycache__", ".*_cache")
 
@@ -44,7 +44,7 @@ def test_a_wheel_serves_the_studio_far_from_the_checkout(tmp_path: Path) -> None
         check=True,
     )
     assert words.stdout.startswith(str(installed))
-    with running_studio(tmp_path / "data", cwd=tmp_path, environment=environment) as studio:
+    with running_studio(tmp_path / "data", cwd=tmp_path, environment=environment, program=PROGRAM) as studio:
         view = studio.ask("GET", "/api/gaits/walk/view").content
         assert view["plan"]["strokes_mm"] is not None
         assert studio.text("/").startswith("<!doctype html>")

@@ -8,6 +8,7 @@ import re
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 import urllib.error
 import urllib.request
@@ -19,9 +20,13 @@ from typing import Any
 
 PROJECT = Path(__file__).resolve().parents[2]
 START_SECONDS = 30.0
+ANSWER_SECONDS = 180.0
+"""How long an answer may take: a deadline for loaded machines, which no test waits out."""
+PROGRAM, PATIENT = "app", "tests.support.patient_studio"
+"""Modules that are run: the program itself, and the same with deadlines for loaded machines."""
 
 
-def wait_for(condition: Callable[[], bool], what: str, seconds: float = 60.0) -> None:
+def wait_for(condition: Callable[[], bool], what: str, seconds: float = 180.0) -> None:
     """Looks again and again until a condition holds, at most some seconds."""
     deadline = time.monotonic() + seconds
     while not condition():
@@ -44,6 +49,8 @@ class StudioProcess:
 
     process: subprocess.Popen[str]
     url: str
+    said: Path | None = None
+    """What it writes to standard error."""
 
     def ask(
         self, method: str, path: str, content: Any = None, headers: dict[str, str] | None = None
@@ -63,7 +70,7 @@ class StudioProcess:
             headers={"content-type": "application/json", **(headers or {})},
         )
         try:
-            with urllib.request.urlopen(request, timeout=60) as answer:
+            with urllib.request.urlopen(request, timeout=ANSWER_SECONDS) as answer:
                 return Answer(answer.status, json.loads(answer.read() or b"null"))
         except urllib.error.HTTPError as error:
             with error:
@@ -71,7 +78,7 @@ class StudioProcess:
 
     def blob(self, path: str) -> bytes:
         """The bytes at a path."""
-        with urllib.request.urlopen(self.url + path.lstrip("/"), timeout=60) as answer:
+        with urllib.request.urlopen(self.url + path.lstrip("/"), timeout=ANSWER_SECONDS) as answer:
             content: bytes = answer.read()
             return content
 
@@ -97,9 +104,25 @@ def footfall(*words: str, **options: Any) -> subprocess.CompletedProcess[str]:
         cwd=PROJECT,
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=ANSWER_SECONDS,
         **options,
     )
+
+
+RUNNING: list[StudioProcess] = []
+"""Studios of this process's tests, for reports of tests that fail."""
+
+
+def said_by_studios() -> str:
+    """The ends of what the running studios wrote to standard error."""
+    texts = [(one.url, text_of(one.said)) for one in RUNNING]
+    return "\n".join(f"{url}\n{text}" for url, text in texts if text)
+
+
+def text_of(path: Path | None) -> str:
+    """The end of a text file, or nothing."""
+    text = path.read_text(errors="replace") if path is not None and path.exists() else ""
+    return text[-20_000:]
 
 
 @contextmanager
@@ -108,29 +131,41 @@ def running_studio(
     *words: str,
     cwd: Path = PROJECT,
     environment: dict[str, str] | None = None,
+    program: str = PATIENT,
 ) -> Iterator[StudioProcess]:
     """A studio on a free port; ended by SIGTERM, and its exit status must be 0."""
-    command = [sys.executable, "-m", "app", "serve", "--port", "0", "--data", str(data), "--no-browser"]
+    command = [sys.executable, "-m", program, "serve", "--port", "0", "--data", str(data), "--no-browser"]
+    descriptor, name = tempfile.mkstemp(prefix="footfall-said-", suffix=".txt")
+    said = Path(name)
     process = subprocess.Popen(
         [*command, *words],
         cwd=cwd,
         stdout=subprocess.PIPE,
+        stderr=descriptor,
         text=True,
         env={**(environment or os.environ), "PYTHONUNBUFFERED": "1"},
     )
+    os.close(descriptor)
+    studio: StudioProcess | None = None
     try:
         if process.stdout is None:
             raise AssertionError("the studio has no standard output")
         line = process.stdout.readline()
         found = re.search(r"http://\S+", line)
         if found is None:
-            raise AssertionError(f"no address in {line!r}; exit status {process.wait(START_SECONDS)}")
-        yield StudioProcess(process, found.group())
+            status = process.wait(START_SECONDS)
+            raise AssertionError(f"no address in {line!r}; exit status {status}\n{text_of(said)}")
+        studio = StudioProcess(process, found.group(), said)
+        RUNNING.append(studio)
+        yield studio
         process.send_signal(signal.SIGTERM)
         if process.wait(60) != 0:
-            raise AssertionError(f"serve ended with status {process.returncode}")
+            raise AssertionError(f"serve ended with status {process.returncode}\n{text_of(said)}")
     finally:
+        if studio in RUNNING:
+            RUNNING.remove(studio)
         process.kill()
         process.wait()
         if process.stdout is not None:
             process.stdout.close()
+        said.unlink()

@@ -2,22 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 
 import pytest
-from hypothesis import HealthCheck, settings
+from hypothesis import HealthCheck, is_hypothesis_test, settings
 from playwright.sync_api import Browser, expect, sync_playwright
 
-from app.bench.page.edits import CHROMIUM_WORDS
 from app.emulator.emulated_robot import EmulatedRobot, start_emulator
-from tests.support.chromium import LONG_MS, chromium_path
+from tests.support.chromium import LONG_MS, WORDS, chromium_path
+from tests.support.studio_process import said_by_studios
 
-# A slow machine is no failure, and one commit gives one answer; `--hypothesis-profile explore` looks further.
+# A slow machine is no failure, and one commit gives one answer; `python -m tests --all` looks further.
+SLOW = [HealthCheck.too_slow]
 settings.register_profile(
-    "same", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
+    "same", deadline=None, derandomize=True, max_examples=25, suppress_health_check=SLOW
 )
-settings.register_profile("explore", deadline=None, max_examples=1000)
+settings.register_profile(
+    "explore", deadline=None, max_examples=300, print_blob=True, suppress_health_check=SLOW
+)
 settings.load_profile("same")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Marks what Hypothesis tries, so that it can be chosen."""
+    for item in items:
+        if isinstance(item, pytest.Function) and is_hypothesis_test(item.obj):
+            item.add_marker("property")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(
+    item: pytest.Item,
+) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """Shows what the studios wrote to standard error where a test fails."""
+    report = yield
+    said = said_by_studios() if report.failed else ""
+    if said:
+        report.sections.append((f"Standard error of the studios at the end of {item.name}", said))
+    return report
 
 
 @pytest.fixture(scope="module")
@@ -35,6 +57,6 @@ def browser() -> Iterator[Browser]:
         pytest.skip("Chromium is not installed; `python -m tests` says how to get it")
     expect.set_options(timeout=LONG_MS)
     with sync_playwright() as playwright:
-        opened = playwright.chromium.launch(executable_path=program, args=list(CHROMIUM_WORDS))
+        opened = playwright.chromium.launch(executable_path=program, args=WORDS)
         yield opened
         opened.close()

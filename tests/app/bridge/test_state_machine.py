@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from app.bridge.run import start_targets
@@ -72,7 +72,6 @@ def test_the_start_pose_is_left_out_when_the_robot_stands_there(robot: VirtualRo
     assert len(robot.sent) == 3
 
 
-@settings(max_examples=25, deadline=None)
 @given(st.floats(0.0, 12.0))
 def test_a_stop_at_any_time_ends_the_run_for_good(delay: float) -> None:
     robot, plan = VirtualRobot(), random_plan(2, 8)
@@ -307,7 +306,6 @@ def test_a_message_changed_on_its_way_is_noticed_and_only_a_stop_follows(robot: 
     assert robot.sent[-1] == b"<s,1>"
 
 
-@settings(max_examples=25, deadline=None)
 @given(st.integers(0, 2**32 - 1))
 def test_bytes_lost_on_the_way_never_let_a_waypoint_be_skipped(seed: int) -> None:
     robot, plan, rng = VirtualRobot(), make_plan(SHORT), np.random.default_rng(seed)

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from app.documents.gait_json import gait_content, gait_schema, parse_gait
 from core.errors import InputError
@@ -45,7 +45,6 @@ def test_every_library_document_keeps_to_the_schema(gait_id: str) -> None:
     assert broken(gait_content(library()[gait_id].gait)) == []
 
 
-@settings(deadline=None, max_examples=30)
 @given(documents())
 def test_every_document_that_is_written_keeps_to_the_schema(gait: Gait) -> None:
     assert broken(json.loads(json.dumps(gait_content(gait)))) == []

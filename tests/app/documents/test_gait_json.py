@@ -7,7 +7,7 @@ from dataclasses import asdict, replace
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from app.documents.gait_json import asked_hash, gait_content, motion_hash, parse_gait, require_size
 from core.errors import InputError
@@ -21,7 +21,6 @@ PROVENANCE = Provenance("a" * 64, "b" * 64, "nlp", "IPOPT", "solved", 0.1, "2026
 RECORDING = Recording("walk.csv", RecordingForm.TRAJECTORY, "1,2\n", "{}", ("Heading 0.",))
 
 
-@settings(deadline=None)
 @given(documents())
 def test_a_document_comes_back_as_it_was_written(gait: Gait) -> None:
     text = json.dumps(gait_content(gait))

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 import yourdfpy
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from app.scene.overlay import FRAMES_A_SECOND, MOST_POSES, frames_a_second, plan_poses
@@ -82,7 +82,6 @@ def test_body_hangs_the_height_of_the_mass_below_it_and_feet_are_where_the_plan_
 
 
 @given(moment=st.floats(0.0, 1.0))
-@settings(max_examples=30, deadline=None)
 def test_frames_are_linear_between_knots(moment: float) -> None:
     model, plan = walk()
     blob = pose_frames(model, plan.times, plan.body_world, plan.heading, plan.feet_world, fps=20)

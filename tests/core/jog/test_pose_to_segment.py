@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -37,7 +37,6 @@ def last_feet(gait: Gait) -> Floats:
     return np.asarray(motion.feet_world[-1] - motion.pose(WALKER).position_world[-1])
 
 
-@settings(max_examples=25, deadline=None)
 @given(arrays(np.float64, (4, 3), elements=st.floats(0.004, 0.016)), st.integers(1, 4))
 def test_the_gait_ends_with_every_foot_where_the_pose_has_it(strokes: Floats, direction: int) -> None:
     gait = replace(WALK, direction=direction, step=(0.01, 0.01, 0.0))

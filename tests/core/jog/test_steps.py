@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -61,7 +61,6 @@ def found(answer: JogAnswer, rule: str) -> Finding:
     return finding
 
 
-@settings(max_examples=40, deadline=None)
 @given(strokes_of_walker, any_steps)
 def test_no_step_leaves_the_range_that_may_be_sent(measured: Floats, steps: Sequence[JogStep]) -> None:
     answer = check_jog(WALKER, measured, steps)
@@ -72,7 +71,6 @@ def test_no_step_leaves_the_range_that_may_be_sent(measured: Floats, steps: Sequ
         assert answer.errors[0].rule == "stroke"
 
 
-@settings(max_examples=40, deadline=None)
 @given(strokes_of_walker, any_steps)
 def test_no_move_of_a_jog_is_longer_than_one_to_a_start_pose(measured: Floats, steps: list[JogStep]) -> None:
     answer = check_jog(WALKER, measured, steps)
@@ -82,7 +80,6 @@ def test_no_move_of_a_jog_is_longer_than_one_to_a_start_pose(measured: Floats, s
         np.testing.assert_allclose(answer.way[-1], answer.target, atol=ROUNDING)
 
 
-@settings(max_examples=40, deadline=None)
 @given(st.floats(0.004, 0.016), st.lists(body_steps, min_size=1, max_size=3))
 def test_the_body_goes_by_a_step_and_every_foot_stays_where_it_stands(
     stroke: float, steps: Sequence[JogStep]
@@ -96,7 +93,6 @@ def test_the_body_goes_by_a_step_and_every_foot_stays_where_it_stands(
         np.testing.assert_allclose(feet, feet_in_robot(WALKER, answer.start), atol=1e-9)
 
 
-@settings(max_examples=40, deadline=None)
 @given(strokes_of_walker, foot_steps)
 def test_a_foot_goes_by_its_step_along_the_robots_axis_and_the_others_stay(
     measured: Floats, step: JogStep
@@ -110,7 +106,6 @@ def test_a_foot_goes_by_its_step_along_the_robots_axis_and_the_others_stay(
     np.testing.assert_allclose(gone, wanted, atol=1e-9)
 
 
-@settings(max_examples=40, deadline=None)
 @given(strokes_of_walker, motor_steps)
 def test_a_motor_moves_alone(measured: Floats, step: JogStep) -> None:
     gone = jog_strokes(WALKER, measured, [step]) - measured
@@ -119,7 +114,6 @@ def test_a_motor_moves_alone(measured: Floats, step: JogStep) -> None:
     assert not gone.any()
 
 
-@settings(max_examples=40, deadline=None)
 @given(strokes_of_walker, foot_steps | body_steps | motor_steps)
 def test_the_range_of_a_step_is_as_far_as_it_can_go(measured: Floats, step: JogStep) -> None:
     start = np.clip(measured, LOWER, UPPER)

@@ -79,7 +79,6 @@ def test_a_chain_of_one_is_that_motion(name: str) -> None:
     assert whole.spans[0].last == motion.knot_count - 1
 
 
-@settings(max_examples=25, deadline=None)
 @given(
     st.lists(
         st.tuples(st.floats(-0.02, 0.02), st.floats(-0.6, 0.6)),
@@ -97,7 +96,6 @@ def test_headings_add_up_and_travel_turns_with_them(moves: list[tuple[float, flo
     assert whole.travel == pytest.approx(expected, abs=1e-12)
 
 
-@settings(max_examples=25, deadline=None)
 @given(st.floats(-0.6, 0.6), st.floats(-0.02, 0.02))
 def test_where_two_motions_meet_the_robot_stands_as_the_later_one_begins(turn: float, travel: float) -> None:
     before, after = standing(travel, turn), standing(0.01, 0.0)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from app.documents.gait_json import gait_content, gait_from_content
@@ -50,7 +50,6 @@ def use(name: str = "A cycle", **changes: object) -> CycleUse:
 
 
 @given(st.sampled_from([(WALK, AMBLE), (FOUR_UP, FIVE), (FIVE, TRIPOD), (TRIPOD, FOUR_UP)]), st.data())
-@settings(max_examples=60, deadline=None)
 def test_a_transition_s_document_holds_both_gaits_and_the_pattern(
     pair: tuple[Gait, Gait], data: st.DataObject
 ) -> None:
@@ -180,7 +179,6 @@ def cycles() -> st.SearchStrategy[Bools]:
 
 
 @given(cycles(), st.integers(1, 4), st.integers(1, 6))
-@settings(max_examples=80, deadline=None)
 def test_a_cycle_is_walked_from_standing_to_standing_with_one_swing_a_limb_each_time(
     cycle: Bools, iterations: int, stand: int
 ) -> None:

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core.errors import InputError
@@ -61,7 +61,6 @@ def test_a_ramp_s_speed_rises_and_falls_evenly_and_keeps_the_limit(count: int) -
     assert speeds.max() * distance / TURN <= RAMP_SPEED + 1e-12
 
 
-@settings(max_examples=30, deadline=None)
 @given(
     st.lists(st.floats(0.5, 19.5), min_size=2, max_size=6),
     st.floats(0.1, 1.0),

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core.arrays import Bools
@@ -89,7 +89,6 @@ def pairs(draw: st.DrawFn) -> tuple[SegmentTable, SegmentTable, int]:
     return table(), table(), draw(st.integers(1, 3))
 
 
-@settings(max_examples=50, deadline=None)
 @given(pairs(), st.integers(0, 3))
 def test_the_timeline_of_one_table_is_carried_into_another(
     case: tuple[SegmentTable, SegmentTable, int], turns: int
@@ -103,7 +102,6 @@ def test_the_timeline_of_one_table_is_carried_into_another(
     assert found.chains
 
 
-@settings(max_examples=50, deadline=None)
 @given(pairs(), st.data())
 def test_a_carried_table_implies_exactly_what_was_drawn_or_there_is_a_reason(
     case: tuple[SegmentTable, SegmentTable, int], data: st.DataObject
@@ -121,7 +119,6 @@ def test_a_carried_table_implies_exactly_what_was_drawn_or_there_is_a_reason(
         assert np.array_equal(implied(found.table, iterations).stance, stance)
 
 
-@settings(max_examples=50, deadline=None)
 @given(st.sampled_from(BY_HAND), st.integers(1, 3), st.integers(0, 3))
 def test_an_unchanged_timeline_changes_nothing(gait_id: str, iterations: int, turns: int) -> None:
     timeline = implied(table_of(gait_id), iterations, turns)
@@ -131,7 +128,6 @@ def test_an_unchanged_timeline_changes_nothing(gait_id: str, iterations: int, tu
 WAITS = {s.start: name for name, s in VOCABULARY.segments.items() if s.start == s.end}
 
 
-@settings(max_examples=50, deadline=None)
 @given(st.sampled_from(BY_HAND), st.integers(1, 3), st.data())
 def test_whole_segments_can_be_inserted_into_each_iteration_and_removed_again(
     gait_id: str, iterations: int, data: st.DataObject

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core.errors import InputError
@@ -101,7 +101,6 @@ def test_a_shape_that_cannot_be_is_refused(change: dict[str, Any], message: str)
         repairs(replace(draft(0, 4, "Wait A"), **change), set())
 
 
-@settings(max_examples=50, deadline=None)
 @given(st.integers(0, 3), st.integers(0, 10), st.sampled_from(sorted(walk().vocabulary.segments)))
 def test_every_repair_is_a_table_that_keeps_what_was_typed(foot: int, segment: int, name: str) -> None:
     typed = draft(foot, segment, name)

@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core.arrays import Floats
@@ -74,7 +74,6 @@ def test_a_foot_that_never_stands_hinders_no_pause() -> None:
     assert replace(plan, contact=np.zeros_like(contact)).hold_ok == (False,) * 4
 
 
-@settings(max_examples=40)
 @given(walks, st.floats(1e-5, 0.003))
 def test_merging_keeps_ends_time_and_path(rows: Floats, merge: float) -> None:
     plan = random_plan(rows, merge, None)
@@ -85,7 +84,6 @@ def test_merging_keeps_ends_time_and_path(rows: Floats, merge: float) -> None:
     assert distance_to_path(sent, rows) <= merge + 0.019 / 800
 
 
-@settings(max_examples=40)
 @given(walks, st.floats(least_stop_bound(), 3.0), st.sampled_from([0.0, 0.001]))
 def test_cut_moves_keep_the_bound_and_every_part_moves(rows: Floats, bound: float, merge: float) -> None:
     whole, cut = random_plan(rows, merge, None), random_plan(rows, merge, bound)

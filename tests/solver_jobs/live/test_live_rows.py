@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core.motion.support_polygon import centre_of_pressure, stability_margins, trajectory_pressure
@@ -80,7 +80,6 @@ def turned(problem: MotionProblem, angle: float) -> MotionProblem:
     foot=st.integers(0, 3),
     workspace=st.sampled_from(list(Workspace)),
 )
-@settings(deadline=None, max_examples=60)
 def test_inner_polygons_are_within_reach_and_outer_ones_around_it(
     angle: float, way: float, height: float, foot: int, workspace: Workspace
 ) -> None:

@@ -1,4 +1,9 @@
-"""Runs all tests, the browser tests included: `python -m tests [PYTEST ARGUMENTS]`.
+"""Runs the tests, the browser tests included: `python -m tests [--all] [PYTEST ARGUMENTS]`.
+
+Without `--all` it is every test but those marked `heavy`, two files at a time; properties are tried with few
+examples, the same each time. `--all` runs what that leaves out: the heavy tests (soaks, kill storms, the
+benchmarks' own), and every property with many examples, other ones each time. `pytest FILE` runs all that a
+file has.
 
 Where Chromium is absent it is installed on Debian and Ubuntu by their package manager, as root; elsewhere it
 says what to install.
@@ -16,9 +21,17 @@ from tests.support.chromium import chromium_path
 
 PROJECT = Path(__file__).resolve().parents[1]
 
+LANES = ("-n", "2", "--dist", "loadfile")
+"""Two files at a time; the tests of one file share its studio and its page."""
+USUAL = ("-m", "not heavy")
+REST = ("-m", "heavy or property", "--hypothesis-profile", "explore")
 
-def main() -> int:
+
+def main(words: list[str]) -> int:
     """Provides Chromium, then hands over to pytest."""
+    if words[:1] in (["--help"], ["-h"]):
+        sys.stdout.write(__doc__ or "")
+        return 0
     if chromium_path() is None:
         install_chromium()
     if chromium_path() is None:
@@ -28,7 +41,16 @@ def main() -> int:
             "FOOTFALL_CHROMIUM. Then run this again.\n"
         )
         return 2
-    return subprocess.call([sys.executable, "-m", "pytest", *sys.argv[1:]], cwd=PROJECT)
+    chosen = REST if "--all" in words else USUAL
+    more = [word for word in words if word != "--all"]
+    return subprocess.call(
+        [sys.executable, "-m", "pytest", *LANES, *chosen, *more], cwd=PROJECT, env=environment()
+    )
+
+
+def environment() -> dict[str, str]:
+    """This one, but modules stay compiled: else each of a hundred processes compiles the program anew."""
+    return {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
 
 
 def install_chromium() -> None:
@@ -37,10 +59,10 @@ def install_chromium() -> None:
     if apt is None or os.geteuid() != 0:
         return
     sys.stderr.write("Installing Chromium by apt-get …\n")
-    environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
+    quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
     for words in (["update"], ["install", "-y", "--no-install-recommends", "chromium"]):
-        subprocess.call([apt, "-q", *words], env=environment, stdout=sys.stderr, stdin=subprocess.DEVNULL)
+        subprocess.call([apt, "-q", *words], env=quiet, stdout=sys.stderr, stdin=subprocess.DEVNULL)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))

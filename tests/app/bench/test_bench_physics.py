@@ -22,6 +22,8 @@ from core.physics.parameters import physics_set
 from core.physics.problem import SimulationProblem
 from tests.support.simulated_walk import BEHIND, followed
 
+pytestmark = pytest.mark.heavy
+
 
 @pytest.fixture(autouse=True)
 def _robot_beside_its_plan(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -19,6 +19,8 @@ from app.bench.patterns.transitions import (
 from core.library.library import library
 from core.patterns.problem import FREE
 
+pytestmark = pytest.mark.heavy
+
 
 @pytest.fixture(scope="module")
 def both() -> Iterator[Solvers]:

@@ -5,9 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from app.bench.page.film import draw_film, stepping_feet
 from app.vision.tracking import track_video
+
+pytestmark = pytest.mark.heavy
 
 
 def test_the_feet_of_the_film_are_found_where_they_were_drawn(tmp_path: Path) -> None:

@@ -10,6 +10,8 @@ from app.bench.common.measure import Row
 from app.bench.robot.walk import PUBLISHED, bench_walk
 from core.wire.timing import OVERRUN
 
+pytestmark = pytest.mark.heavy
+
 
 @cache
 def rows() -> list[Row]:

@@ -14,6 +14,8 @@ from app.emulator.faults import Cable, Delayer, Dropper, Fault, Garbler, Splitte
 from core.wire.lines import Telemetry
 from tests.support.virtual_robot import VirtualRobot, random_plan
 
+pytestmark = pytest.mark.heavy
+
 
 @pytest.mark.parametrize("fault", list(Fault))
 def test_a_fault_of_each_kind_breaks_no_promise(fault: Fault) -> None:

@@ -76,6 +76,7 @@ def test_a_pattern_keeps_every_rule_that_was_asked(gait_id: str, solver: Pattern
     assert check_pattern(pattern.problem, pattern.stance, witness) == ()
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("gait_id", LIMBS_UP)
 def test_a_new_search_finds_nothing_better(gait_id: str, solver: PatternSolver) -> None:
     pattern = PATTERNS[gait_id]

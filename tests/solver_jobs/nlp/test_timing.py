@@ -50,6 +50,7 @@ def test_no_phase_is_shorter_than_the_smallest_and_together_they_are_the_whole()
     assert [(phase.first, phase.last) for phase in timing.phases] == [(5 * k, 5 * k + 4) for k in range(9)]
 
 
+@pytest.mark.heavy
 def test_a_longer_smallest_phase_is_kept_and_costs_time() -> None:
     timing = fastest_timing(limited_walk(), smallest_phase=0.5)
     assert timing.status is SolveStatus.SOLVED
@@ -79,6 +80,7 @@ def test_what_no_timing_makes_possible_is_explained() -> None:
     assert timing.total_seconds == timing.drawn_seconds
 
 
+@pytest.mark.heavy
 def test_a_turned_problem_gets_the_turned_timing() -> None:
     problem = limited_walk()
     timing = fastest_timing(problem.turned(1))
@@ -134,6 +136,7 @@ def test_a_rounded_timeline_is_an_ordinary_gait() -> None:
     assert check_motion(problem, result.trajectory).confirmed
 
 
+@pytest.mark.heavy
 def test_a_usable_timeline_is_the_shortest_that_the_exact_tier_solves() -> None:
     timing = made_usable(fastest_walk(), lambda iterate: True)
     timeline = timing.usable_timeline

@@ -23,6 +23,7 @@ def gait_with(gait_id: str, **options: Any) -> Gait:
     return replace(gait, options=replace(gait.options, **{"margin": 0.0, **options}))
 
 
+@pytest.mark.heavy
 def test_the_exact_tier_confirms_the_frontier_and_finds_nothing_a_millimetre_above() -> None:
     found = FrontierSearch(gait_with("amble", workspace=Workspace.CYLINDER), MODEL).run()
     assert found.confirmed
@@ -54,6 +55,7 @@ def test_a_margin_and_the_cylinder_shorten_the_step() -> None:
     assert wide > safe > narrow > 0.01
 
 
+@pytest.mark.heavy
 def test_free_heights_get_at_least_as_far_as_the_given_one() -> None:
     high = gait_with("s-gait", plane_height=0.060)
     given = FrontierSearch(high, MODEL, heights=(), exact=False).run()
@@ -63,6 +65,7 @@ def test_free_heights_get_at_least_as_far_as_the_given_one() -> None:
     assert free.gait.options.plane_height < 0.060
 
 
+@pytest.mark.heavy
 def test_longer_phases_get_further_where_foot_speed_is_the_limit() -> None:
     found = FrontierSearch(gait_with("walk"), MODEL, free_phases=True, exact=False).run()
     fixed = FrontierSearch(gait_with("walk"), MODEL, exact=False).run()

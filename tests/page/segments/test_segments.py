@@ -24,6 +24,8 @@ from tests.support.page.segments_page import (
 )
 from tests.support.studio_process import StudioProcess, wait_for
 
+SHARES_STUDIO = True
+
 
 @pytest.fixture(scope="module")
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:

@@ -13,6 +13,8 @@ from tests.page.shell.test_accessibility import serious_findings
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess, wait_for
 
+SHARES_STUDIO = True
+
 
 @pytest.fixture(scope="module")
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:

@@ -9,15 +9,16 @@ import pytest
 from playwright.sync_api import Browser, expect
 
 from tests.support.page.timeline_page import FOUR, TimelinePage, opened_timeline, painted
-from tests.support.studio_process import running_studio, wait_for
+from tests.support.studio_process import StudioProcess, wait_for
+
+SHARES_STUDIO = True
 
 NONE = "0" * 24
 
 
 @pytest.fixture(scope="module")
-def timeline(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[TimelinePage]:
-    data = tmp_path_factory.mktemp("data")
-    with running_studio(data) as studio, opened_timeline(browser, studio) as opened:
+def timeline(browser: Browser, studio: StudioProcess) -> Iterator[TimelinePage]:
+    with opened_timeline(browser, studio) as opened:
         yield opened
 
 

@@ -46,7 +46,7 @@ class Planner:
     def after(
         self, gait_id: str, action: Callable[[], Result], future: Future[Result] | None = None
     ) -> Future[Result]:
-        """Does something on the session's thread once the plan of a gait's present revision is known.
+        """Does something on the command queue's thread once the plan of a gait's present revision is known.
 
         Args:
             gait_id: which gait.
@@ -61,7 +61,7 @@ class Planner:
         return waiting.future
 
     def _go_on(self, waiting: _Waiting[Result], *, retry: bool) -> None:
-        """On the session's thread: the action, or its plan first."""
+        """On the command queue's thread: the action, or its plan first."""
         try:
             asked = self._service.unplanned(waiting.gait, retry=retry)
             if asked is None:

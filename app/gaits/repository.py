@@ -1,6 +1,6 @@
 """All gaits that nobody has open: the library, the saved files, and the edits that were kept.
 
-Only the session's thread calls this.
+Only the command queue's thread calls this.
 """
 
 import json

@@ -1,6 +1,6 @@
 """The open gaits: opening, editing, saving, planning, checking and approving.
 
-Only the session's thread calls this.
+Only the command queue's thread calls this.
 """
 
 import time

@@ -20,12 +20,12 @@ class JobHandle(Protocol):
 
 
 class JobTracker:
-    """Jobs that are on. Only the session's thread calls this, but for what says otherwise.
+    """Jobs that are on. Only the command queue's thread calls this, but for what says otherwise.
 
     Args:
         job_repository: the list of jobs.
-        later: does something on the session's thread.
-        shown: told of each job that changed, on the session's thread.
+        later: does something on the command queue's thread.
+        shown: told of each job that changed, on the command queue's thread.
         sentence: what a job says of itself while it is at work.
     """
 

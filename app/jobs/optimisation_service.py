@@ -1,6 +1,6 @@
 """Optimisation jobs: asked for by gait, run in worker processes, believed only through the checker.
 
-Only the session's thread calls this.
+Only the command queue's thread calls this.
 """
 
 from collections import OrderedDict

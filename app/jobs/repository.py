@@ -1,6 +1,6 @@
 """The list of jobs that pages and scripts see, kept in the database so that it survives a restart.
 
-Only the session's thread calls this.
+Only the command queue's thread calls this.
 """
 
 import time

@@ -1,6 +1,6 @@
 """Searches for footfall patterns: each page has one at a time, and its newest question wins.
 
-Any thread may ask; nothing here knows the open gaits, and the session's thread never waits for it.
+Any thread may ask; nothing here knows the open gaits, and the command queue's thread never waits for it.
 """
 
 import itertools

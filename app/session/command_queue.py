@@ -19,7 +19,7 @@ Result = TypeVar("Result")
 
 @dataclass(frozen=True, eq=False)
 class Command:
-    """Something to do on the session's thread, and where its result goes."""
+    """Something to do on the command queue's thread, and where its result goes."""
 
     action: Callable[[], Any]
     future: Future[Any]

@@ -1,6 +1,6 @@
 """Simulations as jobs in the list: asked for by gait, run in the physics' own process, then kept.
 
-Only the session's thread calls this; a thread a simulation waits for its answer.
+Only the command queue's thread calls this; a thread a simulation waits for its answer.
 """
 
 import logging
@@ -99,8 +99,8 @@ class SimulationService:
         tier: what simulates.
         job_repository: the list of jobs.
         kept: where simulations are kept.
-        later: does something on the session's thread.
-        shown: told of each job that changed, on the session's thread.
+        later: does something on the command queue's thread.
+        shown: told of each job that changed, on the command queue's thread.
     """
 
     def __init__(

@@ -26,7 +26,7 @@ Content = dict[str, Any]
 
 
 class Publisher:
-    """Makes the views of what changed and sends them to the pages; for the session's thread.
+    """Makes the views of what changed and sends them to the pages; for the command queue's thread.
 
     `tell_page`, `publish_trial` and `publish_robot` may be called from any thread.
 

@@ -71,53 +71,57 @@ class Studio:
     def __init__(self, data: Path, device: str, cameras: Sequence[CameraAddress] = ()) -> None:
         with ExitStack() as self._parts:
             files = GaitFiles(data)
-            self._database = self._kept(Database(data / "studio.sqlite3"))
+            self._database = self._register(Database(data / "studio.sqlite3"))
             self.stop_lane = self._parts.enter_context(ThreadPoolExecutor(2, "stop"))
-            self.hub = self._kept(EventHub())
-            self.commands = self._kept(CommandQueue())
+            self.hub = self._register(EventHub())
+            self.commands = self._register(CommandQueue())
             self._open_gaits(files)
             self._open_jobs()
             self._open_trials(data, cameras)
             self._open_robot(device, RobotPorts(data / "robot.json"))
             self._parts = self._parts.pop_all()
 
-    def _kept(self, part: Part) -> Part:
-        """The part, which is closed with the studio from now on."""
+    def _register(self, part: Part) -> Part:
+        """Returns the part, and closes it with the studio from now on."""
         self._parts.callback(part.close)
         return part
 
     def _open_gaits(self, files: GaitFiles) -> None:
         """Gaits, their plans, patterns and learned parameters, and what the pages are shown."""
         database, hub = self._database, self.hub
-        solver = self._kept(LiveSolver(likely_problem()))
+        solver = self._register(LiveSolver(likely_problem()))
         solver.start()
         self.live = LivePreview(solver)
-        travellers = tuple(self._kept(BatchSimulator()) for _ in range(LEARNING_PROCESSES))
-        self.learning = self._kept(LearningService(database, travellers))
+        simulators = tuple(self._register(BatchSimulator()) for _ in range(LEARNING_PROCESSES))
+        self.learning = self._register(LearningService(database, simulators))
         sets = self.learning.sets
         self.simulations = SimulationRepository(SimulationStore(database), self._simulated, sets.physics)
         self.gaits = GaitService(
             files, database, self.live.solve_for, hub.pages, simulated_for=self.simulations.simulated
         )
-        self._plans = self._kept(Planner(self.commands, self.gaits))
-        self._kept(solver)  # closed before the plans too, which wait for it
+        self._plans = self._register(Planner(self.commands, self.gaits))
+        self._register(solver)  # closed before the plans too, which wait for it
         self.job_repository = JobRepository(database)
         self.publisher = Publisher(hub, self.gaits, self._plans, self.simulations, self.job_repository)
         self.commands.tell(self.publisher.summaries)
-        searches = tuple(self._kept(PatternSolver()) for _ in range(PATTERN_PROCESSES))
+        searches = tuple(self._register(PatternSolver()) for _ in range(PATTERN_PROCESSES))
         self.patterns = PatternSearchService(searches, self.publisher.tell_page)
 
     def _open_jobs(self) -> None:
         """Optimisations and simulations."""
-        runner = self._kept(JobQueue(self._job_changed, warm_up=likely_problem()))
+        runner = self._register(JobQueue(self._job_changed, warm_up=likely_problem()))
         self.jobs = OptimisationService(self.job_repository, runner, self._take_result)
         simulator, shown = Simulator(), self.publisher.publish_simulation
         simulations = SimulationService(
             simulator, self.job_repository, self.simulations, self.commands.tell, shown
         )
-        self._simulating = self._kept(simulations)
-        self._trial_simulations = self._kept(TrialSimulations(TrialReferenceStore(self._database), simulator))
-        self._kept(simulator)  # closed before both, which wait for it; it starts with the first simulation
+        self._simulating = self._register(simulations)
+        self._trial_simulations = self._register(
+            TrialSimulations(TrialReferenceStore(self._database), simulator)
+        )
+        self._register(
+            simulator
+        )  # closed before both, which wait for it; it starts with the first simulation
 
     def _open_trials(self, data: Path, cameras: Sequence[CameraAddress]) -> None:
         """Runs, trials, videos and cameras."""
@@ -127,7 +131,7 @@ class Studio:
         self.comparison = TrialComparison(trials, self._trial_simulations)
         later, shown, publish = self.commands.tell, publisher.publish_job, self.hub.publish
         lab = Lab(data, database, job_repository, trials, runs, cameras, later, shown, publish)
-        self.lab = self._kept(lab)
+        self.lab = self._register(lab)
         self.photos = TrialPhotos(trials, database, data, lab.vision)
         self.reports = TrialReportService(trials, self.comparison, self.photos, runs)
         sets, tracks = self.learning.sets, lab.tracks
@@ -137,7 +141,7 @@ class Studio:
 
     def _open_robot(self, device: str, ports: RobotPorts) -> None:
         show, tell_page = self.publisher.publish_robot, self.publisher.tell_page
-        self.robot = self._kept(RobotService(self._database, device, show, ports, tell_page))
+        self.robot = self._register(RobotService(self._database, device, show, ports, tell_page))
         self.jog = JogService(self.robot.bridge)
         self.robot.bridge.subscribe(self.lab.recordings.follow)
 
@@ -151,15 +155,15 @@ class Studio:
             self.stop_lane.submit(self.robot.bridge.stop, by)
 
     def call(self, action: Callable[[], Result]) -> Future[Result]:
-        """Does something on the session's thread."""
+        """Does something on the command queue's thread."""
         return self.commands.submit(action)
 
     def call_planned(self, gait_id: str, action: Callable[[], Result]) -> Future[Result]:
-        """Does something on the session's thread that finds the plan of a gait made; see `Planner`."""
+        """Does something on the command queue's thread that finds the plan of a gait made; see `Planner`."""
         return self._plans.after(gait_id, action)
 
     def change(self, action: Callable[[], OpenGait]) -> Future[dict[str, Any]]:
-        """Changes a gait on the session's thread, and shows it to every page once its plan is known.
+        """Changes a gait on the command queue's thread, and shows it to every page once its plan is known.
 
         Returns:
             A future with the gait's view.

@@ -30,15 +30,15 @@ class Lab:
         trials: where tracks go.
         runs: the records of runs.
         files: video files that are played as cameras.
-        later: does something on the session's thread.
-        show_job: told of a job that changed, on the session's thread.
+        later: does something on the command queue's thread.
+        show_job: told of a job that changed, on the command queue's thread.
         publish: tells every page.
 
     Attributes:
         vision: the processes that look at pictures.
         setups: how cameras see the platform.
         videos: uploads and recordings.
-        tracks: videos that are tracked; for the session's thread.
+        tracks: videos that are tracked; for the command queue's thread.
         cameras: of this computer.
         recordings: of runs.
     """

@@ -1,6 +1,6 @@
 """Tracking videos as jobs in the list: asked for by video, done in a process of its own, then kept as trials.
 
-Only the session's thread calls this.
+Only the command queue's thread calls this.
 """
 
 import uuid
@@ -55,8 +55,8 @@ class TrackingService:
         setups: which setups there are.
         trials: where tracks go.
         runs: the records of runs.
-        later: does something on the session's thread.
-        shown: told of a job that changed, on the session's thread.
+        later: does something on the command queue's thread.
+        shown: told of a job that changed, on the command queue's thread.
     """
 
     def __init__(

@@ -97,12 +97,12 @@ TheAuthor = Annotated[Author, Depends(author_of)]
 
 
 async def on_command_thread(studio: Studio, action: Callable[[], Result]) -> Result:
-    """Does something on the session's thread and waits for it."""
+    """Does something on the command queue's thread and waits for it."""
     return await asyncio.wrap_future(studio.call(action))
 
 
 async def on_planned(studio: Studio, gait_id: str, action: Callable[[], Result]) -> Result:
-    """Does something on the session's thread that finds the plan of a gait made, and waits for it."""
+    """Does something on the command queue's thread that finds the plan of a gait made, and waits for it."""
     return await asyncio.wrap_future(studio.call_planned(gait_id, action))
 
 

@@ -17,12 +17,12 @@ import subprocess
 import sys
 from pathlib import Path
 
-from tests.support.chromium import chromium_path
+from tests.support.chromium import SHELL, chromium_path
 
 PROJECT = Path(__file__).resolve().parents[1]
 
-LANES = ("-n", "2", "--dist", "loadfile")
-"""Two files at a time; the tests of one file share its studio and its page."""
+LANES = ("-n", "2", "--dist", "loadfile", "--no-loadscope-reorder")
+"""Two files at a time, in the order of `conftest.py`; the tests of one file share its studio and its page."""
 USUAL = ("-m", "not heavy")
 REST = ("-m", "heavy or property", "--hypothesis-profile", "explore")
 
@@ -32,7 +32,7 @@ def main(words: list[str]) -> int:
     if words[:1] in (["--help"], ["-h"]):
         sys.stdout.write(__doc__ or "")
         return 0
-    if chromium_path() is None:
+    if "FOOTFALL_CHROMIUM" not in os.environ and shutil.which(SHELL) is None:
         install_chromium()
     if chromium_path() is None:
         sys.stderr.write(
@@ -54,14 +54,22 @@ def environment() -> dict[str, str]:
 
 
 def install_chromium() -> None:
-    """Installs Debian's or Ubuntu's Chromium where this process may."""
+    """Installs Debian's or Ubuntu's Chromium if this process may: without windows, else the whole one."""
     apt = shutil.which("apt-get")
     if apt is None or os.geteuid() != 0:
         return
     sys.stderr.write("Installing Chromium by apt-get …\n")
     quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
-    for words in (["update"], ["install", "-y", "--no-install-recommends", "chromium"]):
-        subprocess.call([apt, "-q", *words], env=quiet, stdout=sys.stderr, stdin=subprocess.DEVNULL)
+
+    def run(*words: str) -> bool:
+        done = subprocess.call([apt, "-q", *words], env=quiet, stdout=sys.stderr, stdin=subprocess.DEVNULL)
+        return done == 0
+
+    install = ("install", "-y", "--no-install-recommends")
+    if chromium_path() is None:
+        run("update")
+    if not run(*install, SHELL) and chromium_path() is None:
+        run(*install, "chromium")
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, is_hypothesis_test, settings
@@ -24,10 +25,20 @@ settings.load_profile("same")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Marks what Hypothesis tries, so that it can be chosen."""
+    """Marks what Hypothesis tries, so that it can be chosen; puts the slow files first.
+
+    Files with a browser take longest, those with a studio come next. Short files at the end keep both lanes
+    busy to the last second.
+    """
+    slowness: dict[Path, int] = {}
     for item in items:
-        if isinstance(item, pytest.Function) and is_hypothesis_test(item.obj):
+        if not isinstance(item, pytest.Function):
+            continue
+        if is_hypothesis_test(item.obj):
             item.add_marker("property")
+        needs = 2 * ("browser" in item.fixturenames) + ("studio" in item.fixturenames)
+        slowness[item.path] = max(needs, slowness.get(item.path, 0))
+    items.sort(key=lambda item: -slowness.get(item.path, 0))
 
 
 @pytest.hookimpl(wrapper=True)

@@ -6,6 +6,7 @@ import os
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
+from urllib.parse import urljoin
 
 from playwright.sync_api import Browser, BrowserContext, Page, expect
 
@@ -13,6 +14,11 @@ from tests.support.chromium import FLAT_WORDS, LONG_MS, chromium_path
 
 _FLAT: dict[Browser, Browser] = {}
 """Beside each browser one that draws without a GPU, real or emulated; it ends with its Playwright."""
+_PROFILES: dict[Browser, BrowserContext] = {}
+_BUSY: set[Browser] = set()
+"""Browsers of which a page is open."""
+NO_FRAME = "Object.defineProperty(HTMLIFrameElement.prototype, 'src', { set() {}, get: () => '' })"
+"""Lighter than an answer in the place of the server's, which has every request pass through Playwright."""
 
 
 @contextmanager
@@ -24,16 +30,43 @@ def opened_page(
     Without its 3D scene, which is seconds of drawing in software, where a test has nothing to do with it.
     """
     drawing = browser if has_scene else flat_browser(browser)
-    page = drawing.new_page(viewport={"width": width, "height": height})
-    page.set_default_timeout(LONG_MS)
-    if not has_scene:
-        leave_scene_out(page)
-    problems: list[str] = []
-    page.on("pageerror", lambda error: problems.append(str(error)))
-    page.goto(url)
-    yield page
-    page.close()
+    with window(drawing, url) as page:
+        page.set_viewport_size({"width": width, "height": height})
+        page.set_default_timeout(LONG_MS)
+        if not has_scene:
+            leave_scene_out(page)
+        problems: list[str] = []
+        page.on("pageerror", lambda error: problems.append(str(error)))
+        page.goto(url)
+        yield page
     assert problems == []
+
+
+@contextmanager
+def window(browser: Browser, url: str) -> Iterator[Page]:
+    """A page without anything stored for the address.
+
+    Pages that follow one another share a profile, and with it the files that the browser has kept.
+    A page beside another one gets a profile of its own, as another person has.
+    """
+    if browser in _BUSY:
+        page = browser.new_page()
+        yield page
+        page.close()
+        return
+    context = _PROFILES.get(browser)
+    if context is None:
+        context = _PROFILES[browser] = browser.new_context()
+    _BUSY.add(browser)
+    try:
+        page = context.new_page()
+        page.goto(f"{urljoin(url, '/')}static/icon.svg")
+        page.evaluate("localStorage.clear(), sessionStorage.clear()")
+        yield page
+        for opened in context.pages:
+            opened.close()
+    finally:
+        _BUSY.discard(browser)
 
 
 def flat_browser(browser: Browser) -> Browser:
@@ -45,7 +78,7 @@ def flat_browser(browser: Browser) -> Browser:
 
 def leave_scene_out(where: Page | BrowserContext) -> None:
     """An empty frame instead of the 3D scene, in a page or in all of a window's."""
-    where.route("**/viser/**", lambda route: route.fulfill(body="<html></html>", content_type="text/html"))
+    where.add_init_script(NO_FRAME)
 
 
 def look(page: Page, name: str) -> None:

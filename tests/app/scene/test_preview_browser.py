@@ -13,6 +13,8 @@ from app.scene import Scenes
 from tests.support.page.preview_page import preview_application, walk
 from tests.support.page.serving import serving, stop_under_clients
 
+pytestmark = pytest.mark.heavy
+
 START_MS = 60_000
 
 PLAIN_LINES = """(name, pieces) => {

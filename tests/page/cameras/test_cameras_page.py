@@ -18,6 +18,8 @@ from tests.support.studio_process import StudioProcess, running_studio
 from tests.support.trials.rendered import SIZE, write_video
 from tests.support.trials.tracks import RATE
 
+pytestmark = pytest.mark.heavy
+
 SPEED = 3.0
 """Of the robot: its walk lasts long enough for a track, and no longer."""
 EVERY = 4

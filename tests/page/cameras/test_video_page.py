@@ -20,6 +20,8 @@ from tests.support.studio_process import StudioProcess, wait_for
 from tests.support.trials import rendered
 from tests.support.trials.tracks import RATE, stepping_track
 
+pytestmark = pytest.mark.heavy
+
 EVERY = 4
 """Every so many frames of the track are rendered."""
 

@@ -15,6 +15,8 @@ from tests.support.studio_process import StudioProcess, running_studio
 from tests.support.trials.synthetic_walks import keep_course
 from tests.support.trials.tracks import stepping_track
 
+pytestmark = pytest.mark.heavy
+
 GAITS = ("walk-manual-0", "walk-manual-1", "walk-manual-2")
 
 

@@ -12,6 +12,8 @@ from core.robot.model import load_robot
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess
 
+pytestmark = pytest.mark.heavy
+
 INSIDE = "document.querySelector('#viser').contentWindow?.__viserMutable"
 
 

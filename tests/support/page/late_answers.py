@@ -43,18 +43,21 @@ class LateRequests(Late):
         super().__init__(page)
         self._method = method
         self._address = re.compile(address)
+        self._holds = True
         page.route(self._address, self._take)
 
     def _take(self, route: Route) -> None:
-        if route.request.method == self._method and not self._held:
+        if route.request.method == self._method and self._holds and not self._held:
             self._held.append(self._later(route))
         else:
             route.fallback()
 
     def let_go(self) -> None:
         """Passes on what was held back; what comes later is no longer looked at."""
-        self._page.unroute(self._address)
+        self._holds = False
         super().let_go()
+        # Not before: Playwright itself lets requests go that no route handles any more.
+        self._page.unroute(self._address)
 
     def _later(self, route: Route) -> Callable[[], None]:
         return route.continue_

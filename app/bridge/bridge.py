@@ -322,17 +322,17 @@ class RobotBridge:
 
     def _await_stop(self) -> None:
         deadline = self._clock() + STOP_LIMIT
-        normalise = threading.Event()
+        stop_confirmed = threading.Event()
 
         def look(_: RobotSnapshot | None = None) -> None:
             with self._lock:
                 if not self._session.awaits_stop:
-                    normalise.set()
+                    stop_confirmed.set()
 
         unsubscribe = self.subscribe(look)
         look()
-        while not normalise.is_set() and self._clock() < deadline:
-            normalise.wait(self._tick)
+        while not stop_confirmed.is_set() and self._clock() < deadline:
+            stop_confirmed.wait(self._tick)
         unsubscribe()
 
     def _work(self) -> None:

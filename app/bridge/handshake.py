@@ -46,7 +46,7 @@ class Handshake:
         self.began = self.flushed_at = now
         monitor.idle_lines = 0
 
-    def normalise(self, now: float, monitor: TelemetryMonitor) -> bool:
+    def is_ready(self, now: float, monitor: TelemetryMonitor) -> bool:
         """Whether the flush has had its effect and the robot idles."""
         if self.flushed_at is None or now < self.flushed_at + FLUSH_TIME:
             return False

@@ -120,7 +120,7 @@ class RobotLink(StateLog, ABC):
         self.become(now, "The board restarted.", self.sentence, link=LinkState.CONNECTING)
 
     def _open_up(self, line: Line, now: float) -> None:
-        if self._handshake.normalise(now, self.monitor):
+        if self._handshake.is_ready(now, self.monitor):
             self._become_ready(now)
         elif self._handshake.flush_due(line, self.monitor):
             self._handshake.flushed(now, self.monitor)

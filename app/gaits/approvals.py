@@ -7,7 +7,7 @@ from typing import Any
 from app.documents.gait_json import parse_gait
 from app.gaits.open_gait import OpenGait, VerdictOf, approval_of
 from app.plans.plan import Plan
-from app.store.gait_store import GaitStore
+from app.store.edit_history_store import EditHistoryStore
 from core.errors import FootfallError, NotFoundError, StateError
 from core.findings import Approval, Verdict, approve
 from core.gait.gait import Gait
@@ -116,7 +116,7 @@ class Approvals:
         log: where they and the versions of documents are kept.
     """
 
-    def __init__(self, log: GaitStore) -> None:
+    def __init__(self, log: EditHistoryStore) -> None:
         self._log = log
 
     def all(self, gait_id: str) -> tuple[ApprovalRecord, ...]:

@@ -25,7 +25,7 @@ from solver_jobs import MotionResult, RemedySearch, SolveStatus
 FIRST_SECONDS = 40.0
 """How long a plan may wait for the first answer of the live tier's process, which still loads the solver."""
 NEXT_SECONDS = 4.0
-"""How long it may wait for the answers after that: the session waits along."""
+"""How long it may wait for the answers after that: the command queue waits along."""
 FAILED_SECONDS = 5.0
 """How long a solver that broke off is not asked for the same motion again."""
 MOST_RESULTS, MOST_PLANS = 64, 12

@@ -27,7 +27,7 @@ class _Waiting(Generic[Result]):
 
 
 class Planner:
-    """Makes the plan that a command needs, and then lets the session do the command.
+    """Makes the plan that a command needs, and then lets the command queue run it.
 
     Args:
         commands: the queue whose thread owns the open gaits.
@@ -72,7 +72,7 @@ class Planner:
             waiting.future.set_exception(error)
 
     def _make(self, asked: AskedPlan, waiting: _Waiting[Result]) -> None:
-        """On a thread of its own: the plan, which the session then takes over."""
+        """On a thread of its own: the plan, which the command queue then takes over."""
         try:
             plan = self._service.planned(asked.open_gait.gait)
         except BaseException as error:  # it belongs to whoever waits for the result

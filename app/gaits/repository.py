@@ -10,8 +10,8 @@ from typing import Any
 from app.documents.gait_json import parse_gait
 from app.gaits.open_gait import OpenGait, fresh_gait, gait_of
 from app.gaits.trash import ROUTE, DeletedGait, deleted_gaits
+from app.store.edit_history_store import EditHistoryRow, EditHistoryStore, VersionRow
 from app.store.gait_files import GaitFiles, free_id
-from app.store.gait_store import EditingRow, GaitStore, VersionRow
 from app.undo.history import History
 from core.errors import NotFoundError
 from core.gait.gait import Gait
@@ -26,7 +26,7 @@ class GaitRepository:
         log: what is edited of any.
     """
 
-    def __init__(self, files: GaitFiles, log: GaitStore) -> None:
+    def __init__(self, files: GaitFiles, log: EditHistoryStore) -> None:
         self._files = files
         self._log = log
         self._logged: dict[str, History] = {}
@@ -75,7 +75,7 @@ class GaitRepository:
         """Keeps what is edited of a gait, with version and approval record."""
         kept = open_gait.kept_approval
         approval = kept if open_gait.approval is None else json.dumps(asdict(open_gait.approval))
-        row = EditingRow(open_gait.revision, open_gait.history, open_gait.notice, approval)
+        row = EditHistoryRow(open_gait.revision, open_gait.history, open_gait.notice, approval)
         self._log.put(open_gait.id, row, self._logged.get(open_gait.id), version, record)
         self._logged[open_gait.id] = open_gait.history
 

@@ -61,16 +61,16 @@ def normalise_sequence(before: Gait, after: Gait) -> Gait:
     """
     if not after.sequence:
         raise InputError("A sequence has at least one part; delete the sequence instead.", "sequence")
-    normalise = derived(after)
+    normalised = derived(after)
     for field in DERIVED:
         asked = getattr(after, field)
-        if before.sequence and asked not in (getattr(before, field), getattr(normalise, field)):
+        if before.sequence and asked not in (getattr(before, field), getattr(normalised, field)):
             raise InputError(
                 f"The {field.replace('_', ' ')} of a sequence follows from its parts. Edit the gait that a "
                 "part comes from, and take it over again.",
                 field,
             )
-    return normalise
+    return normalised
 
 
 def source_states(gait: Gait, gait_of: GaitOf) -> tuple[SourceState, ...]:

@@ -21,8 +21,8 @@ from app.plans.plan import Plan, Solve, verdict_of
 from app.plans.provenance import with_result
 from app.plans.sequence_plan import run_motions
 from app.store.database import Database
+from app.store.edit_history_store import EditHistoryStore, VersionRow
 from app.store.gait_files import GaitFiles
-from app.store.gait_store import GaitStore, VersionRow
 from app.undo.history import Author, Step
 from core.checks.simulation import Simulated
 from core.errors import StateError
@@ -59,7 +59,7 @@ class GaitService:
         self._simulated_for = simulated_for
         self._plans = PlanCache(database, solve_for, self._verdict_of)
         self._connected = connected
-        log = GaitStore(database)
+        log = EditHistoryStore(database)
         self.versions = Versions(log, clock)
         self.approvals = Approvals(log)
         self._repository = GaitRepository(files, log)

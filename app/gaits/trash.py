@@ -4,8 +4,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 from app.documents.gait_json import parse_gait
+from app.store.edit_history_store import EditHistoryStore
 from app.store.gait_files import GaitFiles
-from app.store.gait_store import GaitStore
 from core.errors import FootfallError
 from core.library.library import library
 
@@ -28,7 +28,7 @@ class DeletedGait:
     when: float
 
 
-def deleted_gaits(files: GaitFiles, log: GaitStore) -> tuple[DeletedGait, ...]:
+def deleted_gaits(files: GaitFiles, log: EditHistoryStore) -> tuple[DeletedGait, ...]:
     """What can be brought back, the last deleted first.
 
     A damaged file cannot, nor one whose id is in use again.

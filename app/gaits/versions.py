@@ -11,7 +11,7 @@ from enum import StrEnum
 
 from app.documents.gait_json import motion_hash
 from app.gaits.open_gait import OpenGait, gait_text
-from app.store.gait_store import GaitStore, VersionRow
+from app.store.edit_history_store import EditHistoryStore, VersionRow
 from app.undo.history import Author
 from core.errors import InputError, NotFoundError
 from core.gait.gait import Gait
@@ -53,7 +53,7 @@ class Versions:
         clock: gives the time, s since the epoch.
     """
 
-    def __init__(self, log: GaitStore, clock: Callable[[], float] = time.time) -> None:
+    def __init__(self, log: EditHistoryStore, clock: Callable[[], float] = time.time) -> None:
         self._log = log
         self._clock = clock
 

@@ -30,7 +30,7 @@ class CommandQueue:
 
     def __init__(self) -> None:
         self._commands: queue.SimpleQueue[Command | None] = queue.SimpleQueue()
-        self._thread = threading.Thread(target=self._work, name="session", daemon=True)
+        self._thread = threading.Thread(target=self._work, name="commands", daemon=True)
         self._thread.start()
 
     def submit(self, action: Callable[[], Result]) -> Future[Result]:

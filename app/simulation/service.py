@@ -157,7 +157,7 @@ class SimulationService:
         return self._running.cancel(job_id)
 
     def _await(self, work: _Work) -> None:
-        """Waits for the answer, in a thread of its own, and hands it to the session."""
+        """Waits for the answer, in a thread of its own, and hands it to the command queue."""
         end: Content
         try:
             content = _content(work, work.handle.result())

@@ -1,1 +1,1 @@
-"""Everything on disk: gait files in the data folder, and all the rest in one SQLite file."""
+"""The data folder: gait files, journals of runs, and one SQLite file; not pictures and videos."""

@@ -1,4 +1,4 @@
-"""The gaits that come with the program, built from the data beside this file."""
+"""The gaits that come with the program, built from the tables of `core/data`."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass

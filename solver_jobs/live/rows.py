@@ -1,4 +1,4 @@
-"""Linear rows over the unknowns of an outline, and the families of rows that make up the convex problem."""
+"""Linear rows over the unknowns of a linearisation, in the families that make up the convex problem."""
 
 from __future__ import annotations
 

@@ -92,8 +92,8 @@ async def create_gait(
 
 def _copy(gait: Gait, name: str | None) -> Gait:
     """The gait under another name; its own with “copy” behind it where none is given."""
-    request = " copy"
-    return replace(gait, name=name or f"{gait.name[: MOST_NAME - len(request)]}{request}")
+    suffix = " copy"
+    return replace(gait, name=name or f"{gait.name[: MOST_NAME - len(suffix)]}{suffix}")
 
 
 @router.get("/{gait_id}")

@@ -9,7 +9,7 @@ from pydantic import Field
 from app.documents.gait_json import gait_content, motion_hash, parse_gait
 from app.gaits.open_gait import OpenGait
 from app.gaits.versions import MOST_NAME, VersionKind, is_said_already
-from app.store.gait_store import VersionRow
+from app.store.edit_history_store import VersionRow
 from app.web.dependencies import RequestBody, TheAuthor, TheStudio, changed, on_command_thread, on_planned
 from core.gait.gait import Gait
 from core.gait.gait_difference import gait_difference

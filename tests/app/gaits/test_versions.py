@@ -13,8 +13,8 @@ from app.gaits.live_preview import LivePreview
 from app.gaits.service import GaitService
 from app.gaits.versions import AUTOMATIC_EDITS, AUTOMATIC_SECONDS, MOST_NAME, VersionKind
 from app.store.database import Database
+from app.store.edit_history_store import MOST_AUTOMATIC
 from app.store.gait_files import GaitFiles
-from app.store.gait_store import MOST_AUTOMATIC
 from app.undo.history import Author
 from core.errors import InputError, NotFoundError
 from core.library.library import library

@@ -18,7 +18,7 @@ _VERSION_COLUMNS = "number, made, kind, name, by, position, motion, document"
 
 
 @dataclass(frozen=True)
-class EditingRow:
+class EditHistoryRow:
     """Where a gait's editing stands."""
 
     revision: int
@@ -52,7 +52,7 @@ class VersionRow:
     document: str
 
 
-class GaitStore:
+class EditHistoryStore:
     """Histories and versions.
 
     Args:
@@ -62,7 +62,7 @@ class GaitStore:
     def __init__(self, database: Database) -> None:
         self._database = database
 
-    def editing(self, gait: str) -> EditingRow | None:
+    def editing(self, gait: str) -> EditHistoryRow | None:
         """A gait's editing state, or None where it was never edited."""
         rows = self._database.rows(
             "SELECT revision, last, done, undone, notice, approval FROM open_gait WHERE gait=?", gait
@@ -75,7 +75,7 @@ class GaitStore:
         )
         entries = {at: LogEntry(label, text, Author(page, name)) for at, label, text, page, name in found}
         history = History(entries, last, _actions(done), _actions(undone))
-        return EditingRow(revision, history, notice, approval)
+        return EditHistoryRow(revision, history, notice, approval)
 
     def ids(self) -> frozenset[str]:
         """Every gait of which anything is kept."""
@@ -94,7 +94,7 @@ class GaitStore:
     def put(
         self,
         gait: str,
-        row: EditingRow,
+        row: EditHistoryRow,
         stored: History | None,
         version: VersionRow | None = None,
         approval: dict[str, Any] | None = None,

@@ -71,7 +71,7 @@ class RobotBridge:
         self._tick = tick
         self._opener = opener
         self._gate = WriteGate(log, clock)
-        self._session = RobotStateMachine(self._gate)
+        self._machine = RobotStateMachine(self._gate)
         self._lock = threading.Lock()
         self._handshake = threading.Lock()
         self._leaving = threading.Lock()
@@ -90,13 +90,13 @@ class RobotBridge:
     def snapshot(self) -> RobotSnapshot:
         """Everything there is to show, now."""
         with self._lock:
-            return self._session.snapshot(self._clock())
+            return self._machine.snapshot(self._clock())
 
     @property
     def transitions(self) -> tuple[Transition, ...]:
         """The last thousand changes of state with their causes."""
         with self._lock:
-            return tuple(self._session.transitions)
+            return tuple(self._machine.transitions)
 
     def subscribe(self, callback: Callback) -> Callable[[], None]:
         """Calls `callback` from the worker's thread, soon and on each change, on telemetry at most at 20 Hz.
@@ -134,7 +134,7 @@ class RobotBridge:
             with self._lock:
                 self._transport = transport
                 self._gate.attach(transport)
-                self._session.opened(device, self._clock())
+                self._machine.opened(device, self._clock())
         self._inbox.put(None)
 
     def disconnect(self) -> None:
@@ -163,11 +163,11 @@ class RobotBridge:
         Raises:
             StateError: the robot is not disarmed or done.
         """
-        self._do(lambda now: self._session.arm(by, now))
+        self._do(lambda now: self._machine.arm(by, now))
 
     def disarm(self, by: str) -> None:
         """Takes back the permission to move an armed robot; does nothing in any other state."""
-        self._do(lambda now: self._session.disarm(by, now))
+        self._do(lambda now: self._machine.disarm(by, now))
 
     def send(self, plan: RunPlan, by: str, run_id: str | None = None) -> str:
         """Moves to the start pose slowly, then through the approved waypoints.
@@ -185,7 +185,7 @@ class RobotBridge:
             InputError: a stroke cannot be sent.
         """
         with self._lock:
-            name = self._session.send(plan, by, self._clock(), run_id)
+            name = self._machine.send(plan, by, self._clock(), run_id)
         self._inbox.put(None)
         return name
 
@@ -195,7 +195,7 @@ class RobotBridge:
         Raises:
             StateError: no run is moving.
         """
-        self._do(lambda now: self._session.pause(by, now))
+        self._do(lambda now: self._machine.pause(by, now))
 
     def resume(self, by: str) -> None:
         """Goes on with a paused run.
@@ -203,7 +203,7 @@ class RobotBridge:
         Raises:
             StateError: no run is paused, or a motor was moved meanwhile.
         """
-        self._do(lambda now: self._session.resume(by, now))
+        self._do(lambda now: self._machine.resume(by, now))
 
     def stop(self, by: str) -> None:
         """Sends the stop at once and latches it; never refuses, and may be repeated."""
@@ -245,7 +245,7 @@ class RobotBridge:
         Raises:
             StateError: nothing is stopped, the robot still moves, or may yet confirm the stop in time.
         """
-        self._do(lambda now: self._session.clear(by, now))
+        self._do(lambda now: self._machine.clear(by, now))
 
     def reset(self, by: str) -> None:
         """Sends every motor to 0.5 mm.
@@ -253,7 +253,7 @@ class RobotBridge:
         Raises:
             StateError: the robot is not armed.
         """
-        self._do(lambda now: self._session.reset(by, now))
+        self._do(lambda now: self._machine.reset(by, now))
 
     def jog(self, plan: JogPlan, by: str) -> None:
         """Moves motors by steps that a person chose.
@@ -262,7 +262,7 @@ class RobotBridge:
             StateError: the robot is not armed, does not stand still, or stands elsewhere than thought.
             InputError: a stroke cannot be sent.
         """
-        self._do(lambda now: self._session.jog(plan, by, now))
+        self._do(lambda now: self._machine.jog(plan, by, now))
 
     # Inside
 
@@ -272,8 +272,8 @@ class RobotBridge:
 
     def _latch_stop(self, by: str, reason: str | None) -> None:
         if reason is not None:
-            self._session.hung_up(reason, self._clock())
-        self._session.stop(by, self._clock(), is_sent=reason is None)
+            self._machine.hung_up(reason, self._clock())
+        self._machine.stop(by, self._clock(), is_sent=reason is None)
         self._inbox.put(None)
 
     def _do(self, wish: Callable[[float], None]) -> None:
@@ -288,8 +288,8 @@ class RobotBridge:
 
     def _require_free(self) -> None:
         with self._lock:
-            if self._session.link not in (LinkState.DISCONNECTED, LinkState.LOST):
-                raise StateError(f"{self._session.device} is connected. Disconnect it first.")
+            if self._machine.link not in (LinkState.DISCONNECTED, LinkState.LOST):
+                raise StateError(f"{self._machine.device} is connected. Disconnect it first.")
             self._close_line()
 
     def _open(self, device: str, line: int) -> Transport:
@@ -300,7 +300,7 @@ class RobotBridge:
             return self._opener(device, self._hear, report)
         except RobotError as error:
             with self._lock:
-                self._session.refused(device, error.sentence)
+                self._machine.refused(device, error.sentence)
             self._inbox.put(None)
             raise
 
@@ -310,8 +310,8 @@ class RobotBridge:
         self._await_stop()
         with self._lock:
             self._close_line()
-            if self._session.link is not LinkState.DISCONNECTED:
-                self._session.closed(self._clock())
+            if self._machine.link is not LinkState.DISCONNECTED:
+                self._machine.closed(self._clock())
         self._inbox.put(None)
 
     def _close_line(self) -> None:
@@ -326,7 +326,7 @@ class RobotBridge:
 
         def look(_: RobotSnapshot | None = None) -> None:
             with self._lock:
-                if not self._session.awaits_stop:
+                if not self._machine.awaits_stop:
                     stop_confirmed.set()
 
         unsubscribe = self.subscribe(look)
@@ -341,7 +341,7 @@ class RobotBridge:
             with self._lock:
                 for item in items:
                     self._feed(item)
-                self._session.tick(self._clock())
+                self._machine.tick(self._clock())
             self._tell()
 
     def _take(self) -> list[_Bytes | _HungUp]:
@@ -356,22 +356,22 @@ class RobotBridge:
             return items
 
     def _feed(self, item: _Bytes | _HungUp) -> None:
-        if self._session.link is LinkState.DISCONNECTED:
+        if self._machine.link is LinkState.DISCONNECTED:
             return
         if isinstance(item, _Bytes):
-            self._session.received(item.data, item.time)
+            self._machine.received(item.data, item.time)
         elif item.line == self._lines_opened:
-            self._session.hung_up(item.reason, self._clock())
+            self._machine.hung_up(item.reason, self._clock())
 
     def _tell(self) -> None:
         now = self._clock()
         with self._lock:
-            revision, readings = self._session.revision, self._session.monitor.readings
+            revision, readings = self._machine.revision, self._machine.monitor.readings
             fresh = readings != self._told_readings and now - self._told_at >= TELEMETRY_PERIOD
             if revision == self._told_revision and not fresh:
                 return
             self._told_revision, self._told_readings, self._told_at = revision, readings, now
-            snapshot = self._session.snapshot(now)
+            snapshot = self._machine.snapshot(now)
         for callback in self._subscribers:
             try:
                 callback(snapshot)

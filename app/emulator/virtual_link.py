@@ -24,7 +24,7 @@ class VirtualLink:
 
     Attributes:
         firmware: the robot.
-        session: the host.
+        machine: the host.
         troubles: what is wrong with the robot and its cable.
         log: every piece of bytes both ways, as the host sent and received it.
         to_robot, from_robot: what happens to bytes before the troubles, or after them.
@@ -42,7 +42,7 @@ class VirtualLink:
         self.to_robot: Callable[[bytes], bytes] = bytes
         self.from_robot: Callable[[bytes], bytes] = bytes
         self.gate = WriteGate(lambda way, data, _: self.log.append((way, data)), lambda: self.now)
-        self.session = RobotStateMachine(self.gate)
+        self.machine = RobotStateMachine(self.gate)
         self.troubles = Troubles(self.firmware, self._pull, seed)
         self._plugged = True
         self._program = self.firmware.run()
@@ -55,7 +55,7 @@ class VirtualLink:
     @property
     def snapshot(self) -> RobotSnapshot:
         """Everything there is to show, now."""
-        return self.session.snapshot(self.now)
+        return self.machine.snapshot(self.now)
 
     @property
     def strokes_mm(self) -> list[float]:
@@ -82,8 +82,8 @@ class VirtualLink:
         data = self.from_robot(self.troubles.to_host.carry(said, self.now)) if self._plugged else b""
         if data:
             self.heard.append(data)
-            self.session.received(data, self.now)
-        self.session.tick(self.now)
+            self.machine.received(data, self.now)
+        self.machine.tick(self.now)
 
     def boot(self) -> None:
         """Lets the board boot before anyone listens."""
@@ -124,15 +124,15 @@ class VirtualLink:
             self.gate.stop()
         except RobotError as error:
             is_sent = False
-            self.session.hung_up(error.sentence, self.now)
-        self.session.stop(by, self.now, is_sent=is_sent)
+            self.machine.hung_up(error.sentence, self.now)
+        self.machine.stop(by, self.now, is_sent=is_sent)
 
     def open(self) -> None:
         """Plugs the cable in and opens the line."""
         self._plugged = True
         self.gate.attach(self)
-        self.session.opened(DEVICE, self.now)
+        self.machine.opened(DEVICE, self.now)
 
     def _pull(self) -> None:
         self._plugged = False
-        self.session.hung_up(f"{DEVICE} has hung up.", self.now)
+        self.machine.hung_up(f"{DEVICE} has hung up.", self.now)

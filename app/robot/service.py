@@ -51,8 +51,8 @@ class RobotService:
         self._device = device
         self._emulator: EmulatedRobot | None = None
         self._connecting = threading.Lock()
-        self._runs = RecordedBridge(database, self._show)
-        self.bridge = self._runs.bridge
+        self._recorded_bridge = RecordedBridge(database, self._show)
+        self.bridge = self._recorded_bridge.bridge
         self._changed = changed
         self.ports = ports
         self.lease = OperatorLease(self.bridge, self._show, tell_page)
@@ -61,7 +61,7 @@ class RobotService:
     def close(self) -> None:
         """Stops a run, closes the line and ends the emulated robot."""
         self.lease.close()
-        self._runs.close()
+        self._recorded_bridge.close()
         self._close_emulator()
 
     def connect(self, device: str | None) -> None:
@@ -146,7 +146,7 @@ class RobotService:
         run_plan = RunPlan(waypoints, approval, way.hold_ok, run_range)
         content = run_plan_content(plan, way, approval)
         origin = RunOrigin(secrets.token_hex(6), open_gait.id, open_gait.gait.name, waypoints, way.times)
-        self._runs.send(run_plan, RecordedRun(origin, content), by)
+        self._recorded_bridge.send(run_plan, RecordedRun(origin, content), by)
 
     def run_summary(self, open_gait: OpenGait, plan: Plan, run_range: RunRange = WHOLE) -> dict[str, Any]:
         """What a person should know before they press Send; see `app.robot.run_summary`."""
@@ -162,9 +162,9 @@ class RobotService:
     def view(self, snapshot: RobotSnapshot | None = None) -> dict[str, Any]:
         """The robot as JSON content."""
         return {
-            **robot_view(snapshot or self.bridge.snapshot, self._device, self._runs.origin),
-            "previous_run": self._runs.previous,
-            "record_trouble": self._runs.trouble,
+            **robot_view(snapshot or self.bridge.snapshot, self._device, self._recorded_bridge.origin),
+            "previous_run": self._recorded_bridge.previous,
+            "record_trouble": self._recorded_bridge.trouble,
             "lease": self.lease.view(),
         }
 

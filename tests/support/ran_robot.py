@@ -61,12 +61,12 @@ def ran() -> Ran:
     robot = TimedRobot()
     robot.begin(make_plan([[9.0] * 12]))
     robot.until_robot(RobotState.DONE)
-    robot.session.arm("Ada", robot.now)
-    began, before, known = robot.now, len(robot.log), len(robot.session.transitions)
-    robot.session.send(RunPlan(way.waypoints, approval, way.hold_ok), "Ada", robot.now)
+    robot.machine.arm("Ada", robot.now)
+    began, before, known = robot.now, len(robot.log), len(robot.machine.transitions)
+    robot.machine.send(RunPlan(way.waypoints, approval, way.hold_ok), "Ada", robot.now)
     robot.pieces = [RunBytes(robot.now, True, data) for _, data in robot.log[before:]]
     robot.until_robot(RobotState.DONE)
-    return Ran(robot, motion, way, approval, began, tuple(robot.session.transitions)[known:])
+    return Ran(robot, motion, way, approval, began, tuple(robot.machine.transitions)[known:])
 
 
 def keep_run(database: Database, by: str = "Ada", gait: str = "walk", day: int = 0) -> str:

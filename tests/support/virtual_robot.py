@@ -41,11 +41,11 @@ class VirtualRobot(VirtualLink):
 
     def arm(self) -> None:
         self.connect()
-        self.session.arm("Ada", self.now)
+        self.machine.arm("Ada", self.now)
 
     def begin(self, plan: RunPlan) -> None:
         self.arm()
-        self.session.send(plan, "Ada", self.now)
+        self.machine.send(plan, "Ada", self.now)
 
 
 def payloads(robot: VirtualRobot) -> list[str]:

@@ -180,7 +180,7 @@ class Judge:
         self.findings.out_of_range += not _in_range(data)
         if self.clearing:
             self.findings.unapproved += not (data == encode_release() or data.startswith(b"<p,1,"))
-        elif self._bridge.session.robot not in IN_RUN:
+        elif self._bridge.machine.robot not in IN_RUN:
             self.findings.unapproved += 1
         elif self._sent < len(self._approved) and data == self._approved[self._sent]:
             self._sent += 1
@@ -199,7 +199,7 @@ class Judge:
 
     def _see_line(self, line: Line) -> None:
         now = self._bridge.now
-        if self._bridge.session.robot not in IN_RUN or self._bridge.session.link is not LinkState.READY:
+        if self._bridge.machine.robot not in IN_RUN or self._bridge.machine.link is not LinkState.READY:
             return
         if isinstance(line, SetupMoving) or (isinstance(line, Echo) and line.payload != self._written[-1]):
             self.show(now)

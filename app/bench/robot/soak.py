@@ -106,7 +106,7 @@ class SoakRound:
 
     @property
     def _robot(self) -> RobotState:
-        return self._bridge.session.robot
+        return self._bridge.machine.robot
 
     def _plan(self) -> RunPlan:
         """A random walk within the range, approved."""
@@ -121,13 +121,13 @@ class SoakRound:
 
     def _connect(self) -> None:
         self._bridge.open()
-        self._until(lambda: self._bridge.session.link is LinkState.READY)
+        self._until(lambda: self._bridge.machine.link is LinkState.READY)
 
     def _stream(self, plan: RunPlan, *, strikes: bool) -> None:
         bridge = self._bridge
-        bridge.session.arm(BY, bridge.now)
+        bridge.machine.arm(BY, bridge.now)
         self._judge.expect(plan)
-        bridge.session.send(plan, BY, bridge.now)
+        bridge.machine.send(plan, BY, bridge.now)
         strike_at = self._dice.randrange(plan.waypoints.count) if strikes else -1
         strike_time = float("inf")
         end = bridge.now + LIMIT + LIMIT_A_WAYPOINT * plan.waypoints.count
@@ -161,19 +161,19 @@ class SoakRound:
         bridge.troubles.mend()
         self._judge.blind_motors.clear()
         if self._robot is RobotState.FAULT and (
-            self._fault in NEEDS_POWER_CYCLE or NOT_STOPPED in bridge.session.sentence
+            self._fault in NEEDS_POWER_CYCLE or NOT_STOPPED in bridge.machine.sentence
         ):
             bridge.firmware.power_cycle()
             self._wait(SETTLED)
-        if bridge.session.link is LinkState.LOST:
+        if bridge.machine.link is LinkState.LOST:
             self._connect()
-        self._until(lambda: bridge.session.link is LinkState.READY)
+        self._until(lambda: bridge.machine.link is LinkState.READY)
         if self._robot is RobotState.FAULT:
             self._clear()
 
     def _clear(self) -> None:
         bridge = self._bridge
-        self._until(lambda: not bridge.session.awaits_stop)
+        self._until(lambda: not bridge.machine.awaits_stop)
         stood = bridge.strokes_mm
         self._wait(WATCHED)
         self._findings.resumed += _farthest(stood, bridge.strokes_mm) > RESUMED_MM
@@ -185,7 +185,7 @@ class SoakRound:
 
     def _cleared(self) -> bool:
         try:
-            self._bridge.session.clear(BY, self._bridge.now)
+            self._bridge.machine.clear(BY, self._bridge.now)
         except StateError:
             return False
         return True

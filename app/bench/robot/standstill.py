@@ -50,16 +50,16 @@ def seconds_to_stand(bound: float, profile: ProfileName, dice: random.Random) ->
     bridge.boot()
     bridge.open()
     bridge.until(lambda s: s.link is LinkState.READY)
-    bridge.session.arm(BY, bridge.now)
-    bridge.session.send(_plan(bound, dice), BY, bridge.now)
+    bridge.machine.arm(BY, bridge.now)
+    bridge.machine.send(_plan(bound, dice), BY, bridge.now)
     bridge.until(lambda s: s.run is not None and s.run.sent > 0)
     stop_at = bridge.now + dice.uniform(0.0, LATEST_STOP)
-    while bridge.now < stop_at and bridge.session.robot in IN_RUN:
+    while bridge.now < stop_at and bridge.machine.robot in IN_RUN:
         bridge.step()
     asked = moved = bridge.now
     bridge.stop(BY)
     stood = bridge.strokes_mm
-    while bridge.session.robot is not RobotState.STOPPED:
+    while bridge.machine.robot is not RobotState.STOPPED:
         bridge.step()
         if bridge.strokes_mm != stood:
             stood, moved = bridge.strokes_mm, bridge.now

@@ -72,8 +72,8 @@ def test_the_judge_sees_a_wrong_stroke() -> None:
     robot.boot()
     robot.connect()
     judge.expect(random_plan(1, 3))
-    robot.session.arm("Ada", robot.now)
-    robot.session.send(random_plan(2, 3), "Ada", robot.now)
+    robot.machine.arm("Ada", robot.now)
+    robot.machine.send(random_plan(2, 3), "Ada", robot.now)
     while robot.snapshot.robot is RobotState.MOVING:
         robot.step()
         judge.look()

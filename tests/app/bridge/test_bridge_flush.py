@@ -58,7 +58,7 @@ def test_a_robot_with_nothing_pending_ignores_the_flush(robot: VirtualRobot) -> 
 
 def test_the_flush_waits_until_the_board_has_booted(robot: VirtualRobot) -> None:
     robot.gate.attach(robot)
-    robot.session.opened("virtual", robot.now)
+    robot.machine.opened("virtual", robot.now)
     robot.until(lambda _: bool(robot.sent))
     received = b"".join(robot.heard)
     assert b"SETUP FINISHED" in received
@@ -70,7 +70,7 @@ def test_a_stop_before_the_flush_brings_a_flush_of_its_own(robot: VirtualRobot) 
     robot.write(WAYPOINT[:30])
     robot.run_unheard(0.1)
     robot.gate.attach(robot)
-    robot.session.opened("virtual", robot.now)
+    robot.machine.opened("virtual", robot.now)
     robot.stop()
     assert robot.sent == [FLUSH + STOP]
     robot.until_robot(RobotState.STOPPED)
@@ -93,7 +93,7 @@ def test_a_robot_that_never_rests_is_said_to_answer(robot: VirtualRobot) -> None
     robot.write(WAYPOINT)
     robot.run_unheard(0.1)
     robot.gate.attach(robot)
-    robot.session.opened("virtual", robot.now)
+    robot.machine.opened("virtual", robot.now)
     sentence = robot.until(lambda s: s.link is LinkState.LOST).sentence
     assert "answers but did not come to rest within 15 s" in sentence
 
@@ -121,7 +121,7 @@ def test_a_stop_that_was_cut_off_is_made_whole_by_the_next(robot: VirtualRobot) 
     robot.to_robot = breaking(robot, 2)
     with pytest.raises(RobotError):
         robot.gate.stop()
-    robot.session.hung_up("virtual took no message.", robot.now)
+    robot.machine.hung_up("virtual took no message.", robot.now)
     robot.stop("Grace")
     assert robot.sent[-1] == FLUSH + STOP
     robot.until_robot(RobotState.STOPPED)

@@ -35,7 +35,7 @@ def jog_plan(robot: VirtualRobot, *steps: JogStep) -> JogPlan:
 def armed(profile: ProfileName = ProfileName.PUBLISHED) -> VirtualRobot:
     robot = VirtualRobot(profile)
     robot.arm()
-    robot.until(lambda s: robot.session.monitor.stands_still(robot.now))
+    robot.until(lambda s: robot.machine.monitor.stands_still(robot.now))
     return robot
 
 
@@ -43,7 +43,7 @@ def armed(profile: ProfileName = ProfileName.PUBLISHED) -> VirtualRobot:
 def test_a_jog_moves_one_motor_in_small_moves_and_leaves_the_robot_armed(profile: ProfileName) -> None:
     robot = armed(profile)
     before, sent = robot.strokes_mm, len(robot.sent)
-    robot.session.jog(jog_plan(robot), "Ada", robot.now)
+    robot.machine.jog(jog_plan(robot), "Ada", robot.now)
     moving = robot.snapshot
     assert (moving.robot, moving.run) == (RobotState.MOVING, None)
     assert moving.jog is not None
@@ -55,31 +55,31 @@ def test_a_jog_moves_one_motor_in_small_moves_and_leaves_the_robot_armed(profile
     gone = np.array(robot.strokes_mm) - before
     assert gone[5] == pytest.approx(7.0, abs=1.0)
     assert np.abs(np.delete(gone, 5)).max() < 0.5
-    assert robot.session.transitions[-2].cause == "Jog by Ada: motor 3 of foot 2 by +7.0 mm."
+    assert robot.machine.transitions[-2].cause == "Jog by Ada: motor 3 of foot 2 by +7.0 mm."
 
 
 def test_a_jog_may_follow_a_jog_and_then_a_run() -> None:
     robot = armed()
     for _ in range(2):
-        robot.until(lambda s: robot.session.monitor.stands_still(robot.now))
-        robot.session.jog(jog_plan(robot), "Ada", robot.now)
+        robot.until(lambda s: robot.machine.monitor.stands_still(robot.now))
+        robot.machine.jog(jog_plan(robot), "Ada", robot.now)
         assert robot.until_robot(RobotState.ARMED, RobotState.FAULT).robot is RobotState.ARMED
-    robot.session.send(make_plan([[4.0] * 12]), "Ada", robot.now)
+    robot.machine.send(make_plan([[4.0] * 12]), "Ada", robot.now)
     assert robot.until_robot(RobotState.DONE, RobotState.FAULT).robot is RobotState.DONE
 
 
 @pytest.mark.parametrize("wait", [0.0, 0.4, 1.5])
 def test_a_stop_in_the_middle_of_a_jog_holds_and_nothing_resumes(wait: float) -> None:
     robot = armed()
-    robot.session.jog(jog_plan(robot), "Ada", robot.now)
+    robot.machine.jog(jog_plan(robot), "Ada", robot.now)
     robot.wait(wait)
     robot.stop("Grace")
     sent = robot.sent
     stopped = robot.until_robot(RobotState.STOPPED)
     assert (stopped.jog, stopped.stop_text) == (None, "stopped by Grace")
-    robot.session.clear("Grace", robot.now)
+    robot.machine.clear("Grace", robot.now)
     robot.until_robot(RobotState.DISARMED)
-    robot.session.arm("Grace", robot.now)
+    robot.machine.arm("Grace", robot.now)
     stands = robot.strokes_mm
     robot.wait(5.0)
     assert robot.strokes_mm == pytest.approx(stands, abs=0.02)
@@ -91,7 +91,7 @@ def test_a_stop_in_the_middle_of_a_jog_holds_and_nothing_resumes(wait: float) ->
 def test_motors_stand_within_the_stop_time_that_is_stated_of_a_jog(profile: ProfileName) -> None:
     for number in range(15):
         robot = armed(profile)
-        robot.session.jog(jog_plan(robot), "Ada", robot.now)
+        robot.machine.jog(jog_plan(robot), "Ada", robot.now)
         robot.wait(number * 0.137)
         shown = robot.snapshot
         assert shown.jog is not None
@@ -108,7 +108,7 @@ def test_a_jog_that_is_not_reached_ends_as_a_fault_that_names_it() -> None:
     robot = armed()
     board = robot.firmware.board
     board.motors.jam(5, board.now_us)
-    robot.session.jog(jog_plan(robot), "Ada", robot.now)
+    robot.machine.jog(jog_plan(robot), "Ada", robot.now)
     fault = robot.until_robot(RobotState.FAULT)
     assert fault.jog is None
     assert "motor 6 (foot 2, motor 3 of 3)" in str(fault.last_error)
@@ -117,9 +117,9 @@ def test_a_jog_that_is_not_reached_ends_as_a_fault_that_names_it() -> None:
 
 def test_a_jog_whose_cable_comes_out_ends_as_a_fault() -> None:
     robot = armed()
-    robot.session.jog(jog_plan(robot), "Ada", robot.now)
+    robot.machine.jog(jog_plan(robot), "Ada", robot.now)
     robot.wait(0.5)
-    robot.session.hung_up("virtual has hung up.", robot.now)
+    robot.machine.hung_up("virtual has hung up.", robot.now)
     lost = robot.snapshot
     assert (lost.link, lost.robot, lost.jog) == (LinkState.LOST, RobotState.FAULT, None)
 
@@ -129,14 +129,14 @@ def test_only_an_armed_robot_that_stands_still_is_jogged() -> None:
     robot.connect()
     plan = jog_plan(robot)
     with pytest.raises(StateError, match="Arm the robot"):
-        robot.session.jog(plan, "Ada", robot.now)
-    robot.session.arm("Ada", robot.now)
-    robot.session.send(make_plan([[4.0] * 12]), "Ada", robot.now)
+        robot.machine.jog(plan, "Ada", robot.now)
+    robot.machine.arm("Ada", robot.now)
+    robot.machine.send(make_plan([[4.0] * 12]), "Ada", robot.now)
     with pytest.raises(StateError, match="The robot is moving"):
-        robot.session.jog(plan, "Ada", robot.now)
+        robot.machine.jog(plan, "Ada", robot.now)
     robot.stop()
     with pytest.raises(StateError, match="The robot is stopping"):
-        robot.session.jog(plan, "Ada", robot.now)
+        robot.machine.jog(plan, "Ada", robot.now)
 
 
 def test_a_robot_that_is_pushed_by_hand_is_not_jogged_before_it_stands() -> None:
@@ -145,7 +145,7 @@ def test_a_robot_that_is_pushed_by_hand_is_not_jogged_before_it_stands() -> None
     board.motors.command(0, 40, board.now_us)
     robot.wait(0.5)
     with pytest.raises(StateError, match="does not stand still"):
-        robot.session.jog(jog_plan(robot), "Ada", robot.now)
+        robot.machine.jog(jog_plan(robot), "Ada", robot.now)
 
 
 def test_a_jog_that_was_worked_out_elsewhere_is_refused() -> None:
@@ -153,7 +153,7 @@ def test_a_jog_that_was_worked_out_elsewhere_is_refused() -> None:
     plan = jog_plan(robot)
     elsewhere = JogPlan(plan.text, plan.start + 0.0006, plan.way)
     with pytest.raises(StateError, match=r"0\.60 mm from where the jog was worked out"):
-        robot.session.jog(elsewhere, "Ada", robot.now)
+        robot.machine.jog(elsewhere, "Ada", robot.now)
     assert robot.snapshot.robot is RobotState.ARMED
 
 
@@ -164,7 +164,7 @@ def test_a_jog_out_of_range_sends_nothing_at_all(outside_mm: float) -> None:
     last = np.array(plan.way[-1])
     last[0, 0] = outside_mm / 1000.0
     with pytest.raises(InputError):
-        robot.session.jog(JogPlan(plan.text, plan.start, (*plan.way, last)), "Ada", robot.now)
+        robot.machine.jog(JogPlan(plan.text, plan.start, (*plan.way, last)), "Ada", robot.now)
     assert len(robot.sent) == sent
     assert robot.snapshot.robot is RobotState.ARMED
 
@@ -172,14 +172,14 @@ def test_a_jog_out_of_range_sends_nothing_at_all(outside_mm: float) -> None:
 def test_a_jog_without_a_move_is_refused() -> None:
     robot = armed()
     with pytest.raises(InputError, match="moves nothing"):
-        robot.session.jog(JogPlan("nothing", jog_plan(robot).start, ()), "Ada", robot.now)
+        robot.machine.jog(JogPlan("nothing", jog_plan(robot).start, ()), "Ada", robot.now)
 
 
 def test_a_jog_is_not_paused() -> None:
     robot = armed()
-    robot.session.jog(jog_plan(robot), "Ada", robot.now)
+    robot.machine.jog(jog_plan(robot), "Ada", robot.now)
     with pytest.raises(StateError, match="A jog cannot be paused"):
-        robot.session.pause("Ada", robot.now)
+        robot.machine.pause("Ada", robot.now)
 
 
 WAYPOINT = encode_waypoint(np.full((4, 3), 0.005), 1.0)

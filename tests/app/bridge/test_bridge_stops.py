@@ -43,12 +43,12 @@ def test_a_faults_stop_is_repeated_until_it_is_confirmed(robot: VirtualRobot) ->
     snapshot = robot.until_robot(RobotState.FAULT)
     assert "Stop was sent" in snapshot.sentence
     with pytest.raises(StateError, match="not confirmed the stop yet"):
-        robot.session.clear("Ada", robot.now)
+        robot.machine.clear("Ada", robot.now)
     snapshot = robot.until(lambda s: "Clear it" in s.sentence, 8.0)
     assert snapshot.robot is RobotState.FAULT
     assert "motor 5" in snapshot.sentence
     assert payloads(robot)[-1] == "s,1"
-    robot.session.clear("Ada", robot.now)
+    robot.machine.clear("Ada", robot.now)
     robot.until_robot(RobotState.DISARMED)
 
 
@@ -60,8 +60,8 @@ def test_a_faults_stop_that_is_never_heard_is_said_and_may_be_cleared(robot: Vir
     assert snapshot.robot is RobotState.FAULT
     assert "motor 5" in snapshot.sentence
     assert "power switch" in snapshot.sentence
-    robot.until(lambda _: robot.session.monitor.stands_still(robot.now))
-    robot.session.clear("Ada", robot.now)
+    robot.until(lambda _: robot.machine.monitor.stands_still(robot.now))
+    robot.machine.clear("Ada", robot.now)
     assert robot.snapshot.sentence.startswith("The robot has not confirmed the stop. Clearing")
 
 
@@ -81,7 +81,7 @@ def test_a_stop_after_a_loss_is_repeated_when_the_line_is_back(robot: VirtualRob
 def test_a_stop_that_a_broken_line_took_away_is_sent_on_the_next_line(robot: VirtualRobot) -> None:
     robot.begin(random_plan(13, 20))
     robot.wait(2.0)
-    robot.session.hung_up("virtual has hung up. Check the cable, then connect again.", robot.now)
+    robot.machine.hung_up("virtual has hung up. Check the cable, then connect again.", robot.now)
     assert "connect again" in robot.snapshot.sentence
     robot.wait(7.0)
     assert "NOT STOPPED" in robot.snapshot.sentence
@@ -99,7 +99,7 @@ def test_a_stop_that_was_not_confirmed_is_not_called_stopped_after_reconnecting(
     robot.wait(2.0)
     robot.to_robot = losing(1000)
     robot.stop()
-    robot.session.closed(robot.now)
+    robot.machine.closed(robot.now)
     robot.to_robot = losing(1000, FLUSH + STOP)
     robot.connect()
     assert robot.snapshot.robot is RobotState.STOPPING
@@ -172,9 +172,9 @@ def test_a_stop_stands_that_comes_while_one_which_was_not_confirmed_is_cleared(
     robot.to_robot = losing(1000)
     robot.stop()
     robot.until(lambda s: NOT_STOPPED in s.sentence)
-    robot.until(lambda _: robot.session.monitor.stands_still(robot.now))
+    robot.until(lambda _: robot.machine.monitor.stands_still(robot.now))
     robot.to_robot = bytes
-    robot.session.clear("Ada", robot.now)
+    robot.machine.clear("Ada", robot.now)
     robot.until(lambda _: robot.sent[-1].startswith(last))
     robot.stop("Grace")
     assert robot.snapshot.sentence.startswith("Stop was sent")
@@ -190,7 +190,7 @@ def test_clearing_says_which_motor_it_moves(robot: VirtualRobot) -> None:
     robot.until_robot(RobotState.STOPPED)
     robot.from_robot = lambda data: re.sub(rb"j,[\d.]+,", b"j,20.5000,", data)
     robot.wait(1.0)
-    robot.session.clear("Ada", robot.now)
+    robot.machine.clear("Ada", robot.now)
     sentence = robot.snapshot.sentence
     assert "motor 1 (foot 1, motor 1 of 3) moves 1.00 mm to 19.50 mm" in sentence
     assert "no motor moves" not in sentence

@@ -94,7 +94,7 @@ def opened(from_robot: bytes) -> VirtualRobot:
     robot = VirtualRobot()
     robot.from_robot = lambda data: from_robot if data else b""
     robot.gate.attach(robot)
-    robot.session.opened("/dev/ttyACM0", robot.now)
+    robot.machine.opened("/dev/ttyACM0", robot.now)
     return robot
 
 

@@ -29,7 +29,7 @@ def test_connecting_says_that_the_motors_may_move_and_waits_until_the_board_is_u
     robot: VirtualRobot,
 ) -> None:
     robot.gate.attach(robot)
-    robot.session.opened("virtual", robot.now)
+    robot.machine.opened("virtual", robot.now)
     assert "may then move for about 8 s" in robot.snapshot.sentence
     robot.until(lambda s: s.link is LinkState.READY)
     assert robot.snapshot.robot is RobotState.DISARMED
@@ -113,14 +113,14 @@ def test_clear_moves_nothing_and_the_robot_runs_again_after_arming(start_mm: flo
     robot.stop()
     robot.until_robot(RobotState.STOPPED)
     strokes = robot.strokes_mm
-    robot.session.clear("Ada", robot.now)
+    robot.machine.clear("Ada", robot.now)
     robot.until_robot(RobotState.DISARMED)
     robot.wait(3.0)
     assert robot.strokes_mm == strokes
     assert robot.snapshot.stop_text is None
     assert robot.sent[-1] == b"<s,0>"
-    robot.session.arm("Ada", robot.now)
-    robot.session.send(make_plan(SHORT), "Ada", robot.now)
+    robot.machine.arm("Ada", robot.now)
+    robot.machine.send(make_plan(SHORT), "Ada", robot.now)
     assert robot.until_robot(RobotState.DONE, RobotState.FAULT).robot is RobotState.DONE
 
 
@@ -129,7 +129,7 @@ def test_a_stop_while_clearing_keeps_the_robot_stopped(robot: VirtualRobot) -> N
     robot.wait(1.0)
     robot.stop()
     robot.until_robot(RobotState.STOPPED)
-    robot.session.clear("Ada", robot.now)
+    robot.machine.clear("Ada", robot.now)
     robot.stop("Grace")
     robot.until_robot(RobotState.STOPPED)
     assert b"<s,0>" not in robot.sent
@@ -140,11 +140,11 @@ def test_a_stop_is_latched_even_over_a_new_connection(robot: VirtualRobot) -> No
     robot.wait(2.0)
     robot.stop()
     robot.until_robot(RobotState.STOPPED)
-    robot.session.closed(robot.now)
+    robot.machine.closed(robot.now)
     robot.connect()
     assert robot.snapshot.robot is RobotState.STOPPED
     with pytest.raises(StateError, match="stopped"):
-        robot.session.arm("Ada", robot.now)
+        robot.machine.arm("Ada", robot.now)
 
 
 def test_an_edited_plan_is_refused(robot: VirtualRobot) -> None:
@@ -152,7 +152,7 @@ def test_an_edited_plan_is_refused(robot: VirtualRobot) -> None:
     plan = make_plan(SHORT)
     edited = replace(plan, waypoints=random_plan(6, 4).waypoints)
     with pytest.raises(StateError, match="not the ones that were approved"):
-        robot.session.send(edited, "Ada", robot.now)
+        robot.machine.send(edited, "Ada", robot.now)
     assert robot.sent == [encode_flush()]
     assert robot.snapshot.robot is RobotState.ARMED
 
@@ -160,14 +160,14 @@ def test_an_edited_plan_is_refused(robot: VirtualRobot) -> None:
 def test_a_plan_out_of_range_is_refused_before_anything_is_sent(robot: VirtualRobot) -> None:
     robot.arm()
     with pytest.raises(InputError, match="motor 12"):
-        robot.session.send(make_plan([*SHORT, [5.0] * 11 + [19.6]]), "Ada", robot.now)
+        robot.machine.send(make_plan([*SHORT, [5.0] * 11 + [19.6]]), "Ada", robot.now)
     assert robot.sent == [encode_flush()]
 
 
 @pytest.mark.parametrize("verb", ["send", "reset", "pause", "resume", "clear"])
 def test_a_robot_that_is_not_armed_refuses_with_a_sentence(robot: VirtualRobot, verb: str) -> None:
     robot.connect()
-    wish = getattr(robot.session, verb)
+    wish = getattr(robot.machine, verb)
     with pytest.raises(StateError, match="disarmed"):
         wish(make_plan(SHORT), "Ada", robot.now) if verb == "send" else wish("Ada", robot.now)
 
@@ -175,7 +175,7 @@ def test_a_robot_that_is_not_armed_refuses_with_a_sentence(robot: VirtualRobot, 
 @pytest.mark.parametrize("verb", ["arm", "reset", "clear"])
 def test_a_robot_that_is_not_connected_refuses_with_a_sentence(robot: VirtualRobot, verb: str) -> None:
     with pytest.raises(StateError, match="Connect it"):
-        getattr(robot.session, verb)("Ada", robot.now)
+        getattr(robot.machine, verb)("Ada", robot.now)
 
 
 UNREADABLE = b"j,99.0000,"
@@ -187,7 +187,7 @@ def test_what_moves_the_robot_needs_to_know_where_it_stands_now(robot: VirtualRo
     robot.arm()
     robot.from_robot = lambda data: re.sub(rb"j,[\d.]+,", UNREADABLE, data)
     robot.wait(1.5)
-    wish = getattr(robot.session, verb)
+    wish = getattr(robot.machine, verb)
     with pytest.raises(StateError, match="not told its strokes for 1"):
         wish(make_plan(SHORT), "Ada", robot.now) if verb == "send" else wish("Ada", robot.now)
     assert robot.snapshot.robot is RobotState.ARMED
@@ -196,26 +196,26 @@ def test_what_moves_the_robot_needs_to_know_where_it_stands_now(robot: VirtualRo
 
 def test_a_pause_does_not_end_before_it_is_known_where_the_robot_stands(robot: VirtualRobot) -> None:
     robot.begin(make_plan(SHORT))
-    robot.session.pause("Ada", robot.now)
+    robot.machine.pause("Ada", robot.now)
     robot.until_robot(RobotState.PAUSED)
     robot.from_robot = lambda data: re.sub(rb"j,[\d.]+,", UNREADABLE, data)
     robot.wait(1.5)
     with pytest.raises(StateError, match="not told its strokes"):
-        robot.session.resume("Ada", robot.now)
+        robot.machine.resume("Ada", robot.now)
     robot.from_robot = bytes
     robot.wait(0.2)
-    robot.session.resume("Ada", robot.now)
+    robot.machine.resume("Ada", robot.now)
     assert robot.snapshot.robot is RobotState.MOVING
 
 
 def test_a_robot_that_was_disarmed_needs_arming_again(robot: VirtualRobot) -> None:
     robot.arm()
-    robot.session.disarm("Ada", robot.now)
+    robot.machine.disarm("Ada", robot.now)
     with pytest.raises(StateError, match="The robot is disarmed"):
-        robot.session.send(random_plan(1, 2), "Ada", robot.now)
-    robot.session.arm("Ada", robot.now)
-    robot.session.send(random_plan(1, 2), "Ada", robot.now)
-    robot.session.disarm("Ada", robot.now)
+        robot.machine.send(random_plan(1, 2), "Ada", robot.now)
+    robot.machine.arm("Ada", robot.now)
+    robot.machine.send(random_plan(1, 2), "Ada", robot.now)
+    robot.machine.disarm("Ada", robot.now)
     assert robot.until_robot(RobotState.DONE).run is not None
 
 
@@ -223,28 +223,28 @@ def test_a_finished_run_needs_arming_again(robot: VirtualRobot) -> None:
     robot.begin(make_plan(SHORT))
     robot.until_robot(RobotState.DONE)
     with pytest.raises(StateError, match="Arm the robot"):
-        robot.session.send(make_plan(SHORT), "Ada", robot.now)
+        robot.machine.send(make_plan(SHORT), "Ada", robot.now)
 
 
 def test_a_pause_ends_at_the_next_pose_with_all_feet_down_and_resume_goes_on(robot: VirtualRobot) -> None:
     robot.begin(make_plan(SHORT, [False, False, True, True]))
     robot.until(lambda s: s.run is not None and s.run.sent == 1)
-    robot.session.pause("Ada", robot.now)
+    robot.machine.pause("Ada", robot.now)
     paused = robot.until_robot(RobotState.PAUSED)
     assert paused.run is not None
     assert paused.run.reached == 3
     robot.wait(5.0)
     assert robot.snapshot.run is not None
     assert robot.snapshot.run.sent == 3
-    robot.session.resume("Ada", robot.now)
+    robot.machine.resume("Ada", robot.now)
     robot.until_robot(RobotState.DONE)
 
 
 def test_reset_draws_every_motor_in_and_leaves_the_robot_armed(robot: VirtualRobot) -> None:
     robot.begin(make_plan(SHORT))
     robot.until_robot(RobotState.DONE)
-    robot.session.arm("Ada", robot.now)
-    robot.session.reset("Ada", robot.now)
+    robot.machine.arm("Ada", robot.now)
+    robot.machine.reset("Ada", robot.now)
     robot.until_robot(RobotState.ARMED)
     assert robot.strokes_mm == pytest.approx([0.5] * 12, abs=1.0)
 
@@ -278,7 +278,7 @@ def test_a_restart_of_the_board_is_recognised_and_can_be_cleared(robot: VirtualR
     robot.until(lambda s: s.link is LinkState.READY)
     assert robot.snapshot.robot is RobotState.FAULT
     robot.wait(1.0)
-    robot.session.clear("Ada", robot.now)
+    robot.machine.clear("Ada", robot.now)
     robot.until_robot(RobotState.DISARMED)
 
 
@@ -286,19 +286,19 @@ def test_a_robot_that_holds_an_old_stop_is_found_out_and_can_be_cleared(robot: V
     robot.arm()
     robot.write(b"<s,1>")
     robot.wait(0.5)
-    robot.session.send(make_plan(SHORT), "Ada", robot.now)
+    robot.machine.send(make_plan(SHORT), "Ada", robot.now)
     snapshot = robot.until_robot(RobotState.FAULT)
     assert snapshot.last_error is not None
     assert "old stop" in snapshot.last_error
     robot.wait(1.0)
-    robot.session.clear("Ada", robot.now)
+    robot.machine.clear("Ada", robot.now)
     robot.until_robot(RobotState.DISARMED)
 
 
 def test_a_message_changed_on_its_way_is_noticed_and_only_a_stop_follows(robot: VirtualRobot) -> None:
     robot.arm()
     robot.to_robot = lambda data: data.replace(b"6.0000", b"6.0010", 1)
-    robot.session.send(make_plan(SHORT), "Ada", robot.now)
+    robot.machine.send(make_plan(SHORT), "Ada", robot.now)
     snapshot = robot.until_robot(RobotState.FAULT)
     assert snapshot.last_error is not None
     assert "was sent" in snapshot.last_error
@@ -323,7 +323,7 @@ def test_bytes_lost_on_the_way_never_let_a_waypoint_be_skipped(seed: int) -> Non
 def test_something_that_is_no_robot_is_said_to_be_none(robot: VirtualRobot) -> None:
     robot.from_robot = lambda data: b"hello\r\n" if data else b""
     robot.gate.attach(robot)
-    robot.session.opened("virtual", robot.now)
+    robot.machine.opened("virtual", robot.now)
     snapshot = robot.until(lambda s: s.link is LinkState.LOST)
     assert "answered like the robot" in snapshot.sentence
     assert snapshot.unknown_lines > 10

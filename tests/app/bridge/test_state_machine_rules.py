@@ -67,12 +67,12 @@ class CommandQueue(RuleBasedStateMachine):
 
     def judge(self, data: bytes) -> bytes:
         """Looks at every message as it leaves the host; what is wrong is told by the invariant."""
-        session = self.robot.session
+        machine = self.robot.machine
         if data in STOPS:
             return data
-        if not self.may_move and not session._clearing:
+        if not self.may_move and not machine._clearing:
             self.wrong.append(f"{data!r} without Clear and Arm since the last stop")
-        elif session._clearing:
+        elif machine._clearing:
             if data != encode_release() and not self.is_where_it_stands(data):
                 self.wrong.append(f"{data!r} to clear a stop")
         elif data == encode_reset():
@@ -95,30 +95,30 @@ class CommandQueue(RuleBasedStateMachine):
         return len(fields) == 12 and all(LOWEST_MM <= field <= HIGHEST_MM for field in fields)
 
     def is_where_it_stands(self, data: bytes) -> bool:
-        measured_mm = np.clip(self.robot.session.monitor.strokes_mm or (), LOWEST_MM, HIGHEST_MM)
+        measured_mm = np.clip(self.robot.machine.monitor.strokes_mm or (), LOWEST_MM, HIGHEST_MM)
         return self.is_in_range(data) and data == encode_waypoint((measured_mm / 1000.0).tolist(), 1.0)
 
     def wish(self, deed: Callable[[], object]) -> bool:
         """Does something; what is refused changes nothing."""
-        session, sent = self.robot.session, len(self.robot.sent)
-        before = (session.link, session.robot)
+        machine, sent = self.robot.machine, len(self.robot.sent)
+        before = (machine.link, machine.robot)
         try:
             deed()
         except StateError:
-            assert (session.link, session.robot) == before
+            assert (machine.link, machine.robot) == before
             assert len(self.robot.sent) == sent
             return False
         return True
 
     @rule()
     def arm(self) -> None:
-        self.may_move |= self.wish(lambda: self.robot.session.arm(BY, self.robot.now))
+        self.may_move |= self.wish(lambda: self.robot.machine.arm(BY, self.robot.now))
 
     @rule()
     def disarm(self) -> None:
-        if self.robot.session.robot is RobotState.ARMED:
+        if self.robot.machine.robot is RobotState.ARMED:
             self.may_move = False
-        self.robot.session.disarm(BY, self.robot.now)
+        self.robot.machine.disarm(BY, self.robot.now)
 
     @rule(seed=st.integers(0, 999), count=st.integers(1, 6))
     def send(self, seed: int, count: int) -> None:
@@ -131,10 +131,10 @@ class CommandQueue(RuleBasedStateMachine):
             encode_waypoint(strokes, duration)
             for strokes, duration in zip(waypoints.strokes, waypoints.durations.tolist(), strict=True)
         ]
-        if not self.wish(lambda: self.robot.session.send(plan, BY, self.robot.now)):
+        if not self.wish(lambda: self.robot.machine.send(plan, BY, self.robot.now)):
             self.approved = before
 
-    @precondition(lambda self: self.robot.session.robot in (RobotState.DISARMED, RobotState.DONE))
+    @precondition(lambda self: self.robot.machine.robot in (RobotState.DISARMED, RobotState.DONE))
     @rule(seed=st.integers(0, 999), count=st.integers(2, 6), seconds=st.floats(0.0, 8.0))
     def run(self, seed: int, count: int, seconds: float) -> None:
         self.arm()
@@ -143,11 +143,11 @@ class CommandQueue(RuleBasedStateMachine):
 
     @rule()
     def pause(self) -> None:
-        self.wish(lambda: self.robot.session.pause(BY, self.robot.now))
+        self.wish(lambda: self.robot.machine.pause(BY, self.robot.now))
 
     @rule()
     def resume(self) -> None:
-        self.wish(lambda: self.robot.session.resume(BY, self.robot.now))
+        self.wish(lambda: self.robot.machine.resume(BY, self.robot.now))
 
     @rule()
     def stop(self) -> None:
@@ -156,26 +156,26 @@ class CommandQueue(RuleBasedStateMachine):
 
     @rule()
     def clear(self) -> None:
-        self.wish(lambda: self.robot.session.clear(BY, self.robot.now))
+        self.wish(lambda: self.robot.machine.clear(BY, self.robot.now))
 
     @rule()
     def reset(self) -> None:
         self.may_reset = True
-        self.may_reset &= self.wish(lambda: self.robot.session.reset(BY, self.robot.now))
+        self.may_reset &= self.wish(lambda: self.robot.machine.reset(BY, self.robot.now))
 
-    @precondition(lambda self: self.robot.session.link in (LinkState.DISCONNECTED, LinkState.LOST))
+    @precondition(lambda self: self.robot.machine.link in (LinkState.DISCONNECTED, LinkState.LOST))
     @rule()
     def connect(self) -> None:
         self.robot.open()
 
-    @precondition(lambda self: self.robot.session.robot not in IN_RUN)
+    @precondition(lambda self: self.robot.machine.robot not in IN_RUN)
     @rule()
     def disconnect(self) -> None:
         self.may_move = False
         self.robot.gate.attach(None)
-        self.robot.session.closed(self.robot.now)
+        self.robot.machine.closed(self.robot.now)
 
-    @precondition(lambda self: self.robot.session.robot is not RobotState.FAULT)
+    @precondition(lambda self: self.robot.machine.robot is not RobotState.FAULT)
     @rule(fault=st.sampled_from(Fault), motor=st.integers(0, 11))
     def strike(self, fault: Fault, motor: int) -> None:
         self.robot.troubles.strike(fault, motor)
@@ -196,10 +196,10 @@ class CommandQueue(RuleBasedStateMachine):
 
     @property
     def is_at_rest(self) -> bool:
-        session = self.robot.session
-        moves = session.robot in (RobotState.MOVING, RobotState.PAUSING) or session._clearing
-        waits = session.awaits_stop and NOT_STOPPED not in session.sentence
-        return not moves and not waits and session.link is not LinkState.CONNECTING
+        machine = self.robot.machine
+        moves = machine.robot in (RobotState.MOVING, RobotState.PAUSING) or machine._clearing
+        waits = machine.awaits_stop and NOT_STOPPED not in machine.sentence
+        return not moves and not waits and machine.link is not LinkState.CONNECTING
 
     @invariant()
     def only_what_was_approved_was_sent(self) -> None:
@@ -207,7 +207,7 @@ class CommandQueue(RuleBasedStateMachine):
 
     @invariant()
     def each_state_follows_one_that_it_may_follow(self) -> None:
-        states = [RobotState.UNKNOWN, *(change.robot for change in self.robot.session.transitions)]
+        states = [RobotState.UNKNOWN, *(change.robot for change in self.robot.machine.transitions)]
         for before, after in itertools.pairwise(states):
             assert after in {before, *_ANYWHERE, *ALLOWED[before]}, (before, after)
 

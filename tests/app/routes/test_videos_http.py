@@ -17,6 +17,8 @@ from tests.support.studio_process import StudioProcess, running_studio, wait_for
 from tests.support.trials.rendered import LENS, SIZE, VIEW, write_video
 from tests.support.trials.tracks import RATE, stepping_track
 
+pytestmark = pytest.mark.heavy
+
 TRACK = stepping_track((0.0085, 0.0085), 1)
 FILMED = TRACK.feet[::2]
 """Twice as fast as the robot, which halves the film."""

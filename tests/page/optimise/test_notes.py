@@ -11,6 +11,8 @@ from tests.support.chromium import LONG_MS
 from tests.support.page.opened import flat_browser, leave_scene_out
 from tests.support.studio_process import StudioProcess, wait_for
 
+pytestmark = pytest.mark.heavy
+
 SHARES_STUDIO = True
 
 WORDS = "Slips on tape.\nTry 2 mm more."

@@ -14,6 +14,8 @@ from tests.support.page.late_answers import LateList
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess, wait_for
 
+pytestmark = pytest.mark.heavy
+
 SEARCH = {"include": [[".pattern-panel"], [".pattern-view"], [".right .tabs"]]}
 """What belongs to the search; the scene is left out."""
 

@@ -13,6 +13,8 @@ from tests.support.page.opened import look, opened_page
 from tests.support.page.robot_panel import name
 from tests.support.studio_process import StudioProcess, wait_for
 
+pytestmark = pytest.mark.heavy
+
 SPEED = 20.0
 
 SCROLLED = "() => document.getElementById('sections').scrollTop"

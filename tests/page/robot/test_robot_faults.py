@@ -7,6 +7,8 @@ from tests.support.page.opened import look, opened_page
 from tests.support.page.robot_panel import name
 from tests.support.studio_process import running_studio
 
+pytestmark = pytest.mark.heavy
+
 
 def test_a_fault_is_chosen_and_its_effect_is_shown(
     browser: Browser, tmp_path_factory: pytest.TempPathFactory

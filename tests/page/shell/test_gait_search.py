@@ -13,6 +13,8 @@ from app.bench.page.gait_list import fill
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess, running_studio
 
+pytestmark = pytest.mark.heavy
+
 COUNT = 40
 
 

@@ -12,6 +12,8 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from tests.support.page.opened import choose, opened_page
 from tests.support.studio_process import StudioProcess, wait_for
 
+pytestmark = pytest.mark.heavy
+
 ROOM_FOR_PLACEHOLDER = """field => {
   const style = getComputedStyle(field);
   const pen = document.createElement("canvas").getContext("2d");

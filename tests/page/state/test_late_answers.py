@@ -14,6 +14,8 @@ from tests.support.page.late_answers import LateAnswers, LateList, LateRequests
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess, wait_for
 
+pytestmark = pytest.mark.heavy
+
 SHARES_STUDIO = True
 
 

@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 from typing import Any
 
+import pytest
 from playwright.sync_api import Browser, FilePayload, Locator, Page, expect
 
 from core.vision.track_csv import format_track_csv
@@ -13,6 +14,8 @@ from tests.core.vision.test_image_header import picture
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess
 from tests.support.trials.tracks import stepping_track
+
+pytestmark = pytest.mark.heavy
 
 INSIDE = "document.querySelector('#viser').contentWindow?.__viserMutable"
 ENDS = f"""(name) => {{

@@ -13,6 +13,8 @@ from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess
 from tests.support.trials.tracks import stepping_track
 
+pytestmark = pytest.mark.heavy
+
 
 @pytest.fixture
 def track(tmp_path: Path) -> Path:

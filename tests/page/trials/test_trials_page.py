@@ -27,6 +27,7 @@ def test_a_track_is_added_compared_moved_deleted_and_brought_back(
     browser: Browser, studio: StudioProcess, track: Path
 ) -> None:
     with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
+        expect(page.get_by_label("Gait name")).not_to_have_value("")  # the distance is that of the shown gait
         page.get_by_role("button", name="All trials").click()
         panel = page.get_by_role("region", name="Trials")
         expect(panel.get_by_text("No trial yet.")).to_be_visible()
@@ -139,6 +140,7 @@ def test_a_trial_that_is_changed_elsewhere_is_followed_and_what_was_typed_stays(
         expect(page.get_by_role("alert").filter(has_text="Bring it back first")).to_be_visible()
         expect(note).to_have_value("too late")
         panel.get_by_role("button", name="Bring it back").click()
+        expect(panel.get_by_text("This trial is deleted.")).to_be_hidden()
         two.get_by_role("button", name="Keep what I typed").click()
         expect(two).to_be_hidden()
         panel.get_by_role("button", name="All trials").click()

@@ -15,9 +15,14 @@ export function mountIterates(store, section) {
   const gone = h("p", { class: "why" });
   section.append(row, gone);
 
-  const leave = () => { if (store.state.iterate) store.set({ iterate: null }); };
-  const offer = latestOnly(async ({ job, at }) => {
-    const isWanted = () => jobOf(store.state)?.id === job && Number(slider.value) === at;
+  let asked = null;
+  const leave = () => {
+    asked = null;
+    if (store.state.iterate) store.set({ iterate: null });
+  };
+  const offer = latestOnly(async (wanted) => {
+    const { job, at } = wanted;
+    const isWanted = () => asked === wanted && jobOf(store.state)?.id === job;
     try {
       const plan = await api.iterate(job, at);
       if (isWanted()) store.set({ iterate: { job, number: at, plan } });
@@ -28,7 +33,10 @@ export function mountIterates(store, section) {
     }
   });
 
-  slider.addEventListener("input", () => offer({ job: jobOf(store.state).id, at: Number(slider.value) }));
+  slider.addEventListener("input", () => {
+    asked = { job: jobOf(store.state).id, at: Number(slider.value) };
+    offer(asked);
+  });
   back.addEventListener("click", () => {
     leave();
     slider.focus();
@@ -39,7 +47,7 @@ export function mountIterates(store, section) {
     const count = job && !jobIsOn(job) ? (job.course ?? 0) : 0;
     row.hidden = count === 0;
     slider.max = String(Math.max(count - 1, 0));
-    if (!state.iterate) slider.value = slider.max;
+    if (!state.iterate && !asked) slider.value = slider.max;
     const appears = back.hidden && state.iterate;
     back.hidden = !state.iterate;
     if (appears) back.scrollIntoView({ block: "nearest" });

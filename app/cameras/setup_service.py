@@ -4,12 +4,11 @@ import sqlite3
 import time
 import uuid
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
 from app.cameras.setup_schema import SetupDocument
-from app.common.json_values import finite
+from app.common.json_values import Json, finite
 from app.store.camera_setup_store import CameraSetupRow, CameraSetupStore
 from app.store.database import Database
 from core.errors import NotFoundError, StateError
@@ -28,15 +27,15 @@ class CameraSetupService:
         self._log = CameraSetupStore(database)
         self._changed = changed
 
-    def views(self, *, is_deleted: bool = False) -> list[dict[str, Any]]:
+    def views(self, *, is_deleted: bool = False) -> list[Json]:
         """All setups, the last changed first."""
         return [_view(row) for row in self._log.found(is_deleted=is_deleted)]
 
-    def view(self, setup: str, revision: int | None = None) -> dict[str, Any]:
+    def view(self, setup: str, revision: int | None = None) -> Json:
         """A setup with what it amounts to."""
         return _view(self._known(setup, revision))
 
-    def check(self, document: SetupDocument) -> dict[str, Any]:
+    def check(self, document: SetupDocument) -> Json:
         """What a setup would amount to; nothing is kept.
 
         Raises:
@@ -44,11 +43,11 @@ class CameraSetupService:
         """
         return _view(CameraSetupRow("", 0, 0.0, document.model_dump(mode="json"), False))
 
-    def add(self, document: SetupDocument) -> dict[str, Any]:
+    def add(self, document: SetupDocument) -> Json:
         """Keeps a new setup."""
         return self._keep(uuid.uuid4().hex[:12], 1, document)
 
-    def change(self, setup: str, revision: int, document: SetupDocument) -> dict[str, Any]:
+    def change(self, setup: str, revision: int, document: SetupDocument) -> Json:
         """Keeps a new revision.
 
         Raises:
@@ -58,7 +57,7 @@ class CameraSetupService:
             raise self._moved_on(setup, revision)
         return self._keep(setup, revision + 1, document)
 
-    def _keep(self, setup: str, revision: int, document: SetupDocument) -> dict[str, Any]:
+    def _keep(self, setup: str, revision: int, document: SetupDocument) -> Json:
         row = CameraSetupRow(setup, revision, time.time(), document.model_dump(mode="json"), False)
         view = _view(row)
         try:
@@ -82,7 +81,7 @@ class CameraSetupService:
         self._log.put_deleted(setup, time.time())
         self._changed()
 
-    def restore(self, setup: str) -> dict[str, Any]:
+    def restore(self, setup: str) -> Json:
         """Brings a deleted setup back."""
         self._known(setup)
         self._log.put_deleted(setup, None)
@@ -108,7 +107,7 @@ class CameraSetupService:
         return row
 
 
-def _view(row: CameraSetupRow) -> dict[str, Any]:
+def _view(row: CameraSetupRow) -> Json:
     setup = SetupDocument.model_validate(row.content).setup()
     return {
         "id": row.id,
@@ -122,12 +121,12 @@ def _view(row: CameraSetupRow) -> dict[str, Any]:
     }
 
 
-def _platform(setup: CameraSetup) -> dict[str, Any]:
+def _platform(setup: CameraSetup) -> Json:
     """Where the platform is, and how well the clicked points agree."""
     off_mm = setup.off * 1000.0
     outline = setup.outline
     across = np.linalg.norm(np.roll(outline, -1, axis=0) - outline, axis=1).mean()
-    content: dict[str, Any] = finite(
+    content: Json = finite(
         {
             "off_mm": np.round(off_mm, 4).tolist(),
             "worst_mm": float(off_mm.max()),

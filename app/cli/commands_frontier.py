@@ -2,12 +2,12 @@
 
 import time
 from argparse import Namespace
-from typing import Any
 
 import numpy as np
 
 from app.cli.gait_options import Method, asked_gait, returns_anew
 from app.cli.output import INFEASIBLE, end_on_sigterm, show
+from app.common.json_values import Json
 from app.export.trajectory_files import write_trajectory
 from core.errors import InputError
 from core.gait.gait import Gait, drawn_timeline
@@ -57,7 +57,7 @@ def _search(gait: Gait, options: Namespace) -> FrontierSearch:
     )
 
 
-def _content(options: Namespace, frontier: Frontier) -> dict[str, Any]:
+def _content(options: Namespace, frontier: Frontier) -> Json:
     gait = frontier.gait
     step, yaw = ("max_step", "live_step"), ("max_yaw", "live_yaw")
     found, absent = (yaw, step) if frontier.turns else (step, yaw)
@@ -77,7 +77,7 @@ def _content(options: Namespace, frontier: Frontier) -> dict[str, Any]:
     }
 
 
-def _lines(content: dict[str, Any]) -> list[str]:
+def _lines(content: Json) -> list[str]:
     turns = content["max_yaw"] is not None
     reach, live = (
         (_degrees(content["max_yaw"]), _degrees(content["live_yaw"]))
@@ -100,7 +100,7 @@ def _lines(content: dict[str, Any]) -> list[str]:
     ]
 
 
-def _limits(content: dict[str, Any]) -> list[str]:
+def _limits(content: Json) -> list[str]:
     if not content["limited_by"]:
         return ["The live tier does not say what limits it."]
     families = ", ".join(content["limited_by"]).replace("_", " ")

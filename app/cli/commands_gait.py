@@ -6,10 +6,10 @@ from dataclasses import replace
 from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
-from typing import Any
 
 from app.cli.gait_options import SOLVERS, Method, asked_gait
 from app.cli.output import end_on_sigterm, note, show
+from app.common.json_values import Json
 from app.documents.gait_json import gait_schema
 from app.export.trajectory_files import write_trajectory
 from app.plans.verified_result import VerifiedResult, verify
@@ -53,7 +53,7 @@ def run_gaits(options: Namespace) -> int:
     return 0
 
 
-def _listed(gait_id: str, gait: Gait, kind: str) -> dict[str, Any]:
+def _listed(gait_id: str, gait: Gait, kind: str) -> Json:
     return {
         "id": gait_id,
         "name": gait.name,
@@ -65,7 +65,7 @@ def _listed(gait_id: str, gait: Gait, kind: str) -> dict[str, Any]:
     }
 
 
-def _line(listed: dict[str, Any]) -> str:
+def _line(listed: Json) -> str:
     order = "-".join(map(str, listed["order"]))
     return (
         f"  {listed['id']:<18} {listed['name']:<28} {listed['robot']:<12} {listed['orientation']:<4} "
@@ -152,7 +152,7 @@ def run_optimise(options: Namespace) -> int:
     output = options.output if verified.status is SolveStatus.SOLVED else None
     if output is not None:
         write_trajectory(output, verified.trajectory)
-    content: dict[str, Any] = {
+    content: Json = {
         "gait": options.gait,
         "method": options.method.value,
         "knots": gait.timeline.sample_count,
@@ -166,7 +166,7 @@ def run_optimise(options: Namespace) -> int:
     return EXIT_OF_STATUS[verified.status]
 
 
-def _optimise_lines(content: dict[str, Any]) -> list[str]:
+def _optimise_lines(content: Json) -> list[str]:
     margins = [content["min_margin"], content["min_cop_margin"]]
     shown = ["–" if margin is None else f"{margin * 1000:.2f} mm" for margin in margins]
     lines = [
@@ -179,5 +179,5 @@ def _optimise_lines(content: dict[str, Any]) -> list[str]:
     return [*lines, *content["explanation"]]
 
 
-def _iterations(content: dict[str, Any]) -> str:
+def _iterations(content: Json) -> str:
     return f" in {content['iterations']} iterations" if content["iterations"] else ""

@@ -4,11 +4,11 @@ import threading
 from argparse import Namespace
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from typing import Any
 
 from app.cli.output import INFEASIBLE, Interrupted, end_on_sigterm, ignore_interrupts, show
 from app.cli.pattern_options import asked_pattern
 from app.cli.pattern_text import CHANGE, STANCE, SWING, drawn_pattern
+from app.common.json_values import Json
 from core.patterns.check import broken_rules, check_pattern, weighted_sum
 from core.patterns.numerals import counted
 from core.patterns.problem import (
@@ -24,7 +24,7 @@ from solver_jobs import shortest_problem, solve_pattern
 FAILED = 4
 TICK_SECONDS = 0.1
 """Between looks for Ctrl-C."""
-NOTHING: dict[str, Any] = {"objective": None, "limb_changes": None, "score": None, "pattern": []}
+NOTHING: Json = {"objective": None, "limb_changes": None, "score": None, "pattern": []}
 
 
 def run_pattern(options: Namespace) -> int:
@@ -83,7 +83,7 @@ def _failure(problem: PatternProblem, result: PatternResult, seconds: float) -> 
     )
 
 
-def _content(problem: PatternProblem, result: PatternResult, failure: str | None) -> dict[str, Any]:
+def _content(problem: PatternProblem, result: PatternResult, failure: str | None) -> Json:
     patterns = () if failure is not None else result.patterns
     answers = [_answer(problem, pattern) for pattern in patterns]
     best = answers[0] if answers else NOTHING
@@ -101,7 +101,7 @@ def _content(problem: PatternProblem, result: PatternResult, failure: str | None
     }
 
 
-def _answer(problem: PatternProblem, pattern: Pattern) -> dict[str, Any]:
+def _answer(problem: PatternProblem, pattern: Pattern) -> Json:
     return {
         "objective": pattern.sample_changes,
         "limb_changes": pattern.limb_changes,
@@ -110,7 +110,7 @@ def _answer(problem: PatternProblem, pattern: Pattern) -> dict[str, Any]:
     }
 
 
-def _relaxation(one: Relaxation) -> dict[str, Any]:
+def _relaxation(one: Relaxation) -> Json:
     cells = [{"limb": limb + 1, "sample": sample + 1} for limb, sample in one.cells]
     return {
         "words": one.words,
@@ -122,9 +122,7 @@ def _relaxation(one: Relaxation) -> dict[str, Any]:
     }
 
 
-def _lines(
-    problem: PatternProblem, result: PatternResult, failure: str | None, content: dict[str, Any]
-) -> list[str]:
+def _lines(problem: PatternProblem, result: PatternResult, failure: str | None, content: Json) -> list[str]:
     name = "transition" if problem.kind is PatternKind.TRANSITION else "periodic gait"
     asked = f"{name} of {problem.sample_count} samples for {problem.leg_count} limbs"
     if failure is not None:
@@ -144,7 +142,7 @@ def _lines(
     ]
 
 
-def _gap(content: dict[str, Any]) -> str:
+def _gap(content: Json) -> str:
     return f"the best found (weighted sum {content['score']}, none is below {content['bound']:g})"
 
 

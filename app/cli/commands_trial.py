@@ -5,9 +5,9 @@ from argparse import Namespace
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from app.cli.output import end_on_sigterm, note, show
+from app.common.json_values import Json
 from app.export.trajectory_files import read_text
 from app.trials.figures import movement_content, part_content
 from core.errors import InputError
@@ -108,8 +108,8 @@ def _gap_words(track: FootTrack) -> str:
     )
 
 
-def _content(trial: _Trial) -> dict[str, Any]:
-    content: dict[str, Any] = {"file": str(trial.path), **movement_content(trial.mean)}
+def _content(trial: _Trial) -> Json:
+    content: Json = {"file": str(trial.path), **movement_content(trial.mean)}
     content["feet"] = [movement_content(foot) for foot in trial.feet]
     content["frames"] = trial.track.times.size
     content["filled"] = int(trial.track.filled.sum())

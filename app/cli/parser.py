@@ -111,34 +111,33 @@ def make_parser() -> argparse.ArgumentParser:
 
 
 def _serve_words(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--host", default="127.0.0.1", help="address to listen on (default 127.0.0.1)")
-    parser.add_argument("--port", type=whole(0, 65535), default=8400, help="port (default 8400; 0 any free)")
-    parser.add_argument(
-        "--robot", default="emulator", help="emulator, a serial device, or socket://HOST:PORT"
-    )
-    parser.add_argument("--data", type=Path, default=None, help="data folder")
-    parser.add_argument("--token", default=None, help="demanded of every request; made where host is public")
+    add = parser.add_argument
+    add("--host", default="127.0.0.1", help="address to listen on (default 127.0.0.1)")
+    add("--port", type=whole(0, 65535), default=8400, help="port (default 8400; 0 any free)")
+    add("--robot", default="emulator", help="emulator, a serial device, or socket://HOST:PORT")
+    add("--data", type=Path, default=None, help="data folder")
+    add("--token", default=None, help="demanded of every request; made where host is public")
     text = "play a video file as a camera of that name; may be given several times"
-    parser.add_argument("--camera", action="append", default=[], metavar="NAME=VIDEO", help=text)
-    parser.add_argument("--no-browser", action="store_true", help="do not open a browser")
+    add("--camera", action="append", default=[], metavar="NAME=VIDEO", help=text)
+    add("--no-browser", action="store_true", help="do not open a browser")
 
 
 def _gaits_words(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--data", type=Path, default=None, help="data folder")
-    parser.add_argument(
-        "--schema", action="store_true", help="print the JSON Schema of the gait document instead"
-    )
+    add = parser.add_argument
+    add("--data", type=Path, default=None, help="data folder")
+    add("--schema", action="store_true", help="print the JSON Schema of the gait document instead")
 
 
 def _manual_words(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("gait", help="walk, amble or s-gait")
-    parser.add_argument("--version", type=whole(0, 9), default=0, help="0, 1 or 2 (default 0)")
-    parser.add_argument("--step", type=number(0.0, 0.2, "m"), default=0.010, help="m (default 0.010)")
-    parser.add_argument("--direction", type=whole(1, 4), default=1)
-    parser.add_argument("--iterations", type=whole(1, 20), default=1)
-    parser.add_argument("--segment-samples", type=whole(2, 50), default=5)
+    add = parser.add_argument
+    add("gait", help="walk, amble or s-gait")
+    add("--version", type=whole(0, 9), default=0, help="0, 1 or 2 (default 0)")
+    add("--step", type=number(0.0, 0.2, "m"), default=0.010, help="m (default 0.010)")
+    add("--direction", type=whole(1, 4), default=1)
+    add("--iterations", type=whole(1, 20), default=1)
+    add("--segment-samples", type=whole(2, 50), default=5)
     add_robot(parser, "default deltawalker")
-    parser.add_argument("-o", "--output", type=Path, default=None, help="trajectory CSV to write")
+    add("-o", "--output", type=Path, default=None, help="trajectory CSV to write")
 
 
 def _optimise_words(parser: argparse.ArgumentParser) -> None:
@@ -152,65 +151,57 @@ def _frontier_words(parser: argparse.ArgumentParser) -> None:
 
 def _gait_words(parser: argparse.ArgumentParser) -> None:
     """A gait and everything that can be asked of it; what is left out stays as the gait has it."""
-    parser.add_argument("gait", help="walk, amble, s-gait, c-gait, rotate, or a gait file")
+    add = parser.add_argument
+    add("gait", help="walk, amble, s-gait, c-gait, rotate, or a gait file")
     add_robot(parser, "default the gait's own; with other legs it is drawn anew")
     travel = parser.add_mutually_exclusive_group()
     travel.add_argument("--step", type=number(0.0, 0.2, "m"), default=None, help="m an iteration")
     travel.add_argument(
         "--goal", type=pair, default=None, metavar="X,Y", help="total travel at direction 1, m"
     )
-    parser.add_argument("--yaw", type=number(-math.pi, math.pi, "rad"), default=None, help="rad an iteration")
-    parser.add_argument("--direction", type=whole(1, 4), default=None)
-    parser.add_argument("--order", type=foot_order, default=None, help="feet such as 3,2,4,1")
-    parser.add_argument("--iterations", type=whole(1, 20), default=None)
-    parser.add_argument(
-        "--phase-knots", type=whole(2, 50), default=None, help="knots of each stance phase and of each swing"
-    )
-    parser.add_argument(
-        "--closing-knots", type=whole(0, 100), default=None, help="knots of stance after the last swing"
-    )
-    parser.add_argument(
-        "--knot-time", type=number(0.01, 10.0, "s"), default=None, help="s between knots (default 0.4)"
-    )
+    add("--yaw", type=number(-math.pi, math.pi, "rad"), default=None, help="rad an iteration")
+    add("--direction", type=whole(1, 4), default=None)
+    add("--order", type=foot_order, default=None, help="feet such as 3,2,4,1")
+    add("--iterations", type=whole(1, 20), default=None)
+    add("--phase-knots", type=whole(2, 50), default=None, help="knots of each stance phase and of each swing")
+    add("--closing-knots", type=whole(0, 100), default=None, help="knots of stance after the last swing")
+    add("--knot-time", type=number(0.01, 10.0, "s"), default=None, help="s between knots (default 0.4)")
     _limit_words(parser)
-    parser.add_argument("--boundary", type=one_of(Boundary), metavar=words_of(Boundary), default=None)
-    parser.add_argument("--cost", type=one_of(Cost), metavar=words_of(Cost), default=None)
-    parser.add_argument(
+    add("--boundary", type=one_of(Boundary), metavar=words_of(Boundary), default=None)
+    add("--cost", type=one_of(Cost), metavar=words_of(Cost), default=None)
+    add(
         "--method",
         type=one_of(Method),
         metavar=words_of(Method),
         default=Method.NLP,
         help="live: convex, given footholds and heights; nlp: exact (default)",
     )
-    parser.add_argument("-o", "--output", type=Path, default=None, help="trajectory CSV to write")
+    add("-o", "--output", type=Path, default=None, help="trajectory CSV to write")
 
 
 def _limit_words(parser: argparse.ArgumentParser) -> None:
     """What a motion keeps."""
-    parser.add_argument(
-        "--clearance", type=number(0.0, 0.02, "m"), default=None, help="m that a swing rises (default 0.003)"
-    )
-    parser.add_argument(
+    add = parser.add_argument
+    add("--clearance", type=number(0.0, 0.02, "m"), default=None, help="m that a swing rises (default 0.003)")
+    add(
         "--margin",
         type=number(-0.05, 0.05, "m"),
         default=None,
         help="m that the centre of pressure stays inside the support polygon (default 0)",
     )
-    parser.add_argument(
-        "--body-speed", type=number(0.0005, 1.0, "m/s"), default=None, help="m/s (default 0.015)"
-    )
+    add("--body-speed", type=number(0.0005, 1.0, "m/s"), default=None, help="m/s (default 0.015)")
     height = number(0.03, 0.1, "m")
-    parser.add_argument("--plane-height", type=height, default=None, help="actuator plane at the start, m")
-    parser.add_argument("--end-plane-height", type=height, default=None, help="and at the goal, m")
-    parser.add_argument("--workspace", type=one_of(Workspace), metavar=words_of(Workspace), default=None)
-    parser.add_argument("--friction", type=number(0.01, 10.0, ""), default=None, help="coefficient")
-    parser.add_argument(
+    add("--plane-height", type=height, default=None, help="actuator plane at the start, m")
+    add("--end-plane-height", type=height, default=None, help="and at the goal, m")
+    add("--workspace", type=one_of(Workspace), metavar=words_of(Workspace), default=None)
+    add("--friction", type=number(0.01, 10.0, ""), default=None, help="coefficient")
+    add(
         "--motor-speed",
         type=number(0.0005, 1.0, "m/s"),
         default=None,
         help="limit of every motor, m/s (default none)",
     )
-    parser.add_argument(
+    add(
         "--motor-acceleration",
         type=number(0.0005, 10.0, "m/s²"),
         default=None,
@@ -219,111 +210,110 @@ def _limit_words(parser: argparse.ArgumentParser) -> None:
 
 
 def _pattern_words(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--legs", type=whole(2, MOST_LEGS), required=True, metavar="N")
+    add = parser.add_argument
+    add("--legs", type=whole(2, MOST_LEGS), required=True, metavar="N")
     samples = whole(LEAST_SAMPLES, MOST_SAMPLES)
     text = "how many, both ends of a transition included"
-    parser.add_argument("--samples", type=samples, required=True, metavar="M", help=text)
+    add("--samples", type=samples, required=True, metavar="M", help=text)
     text = "first state, foot 1 first: 1 stance, 0 swing"
-    parser.add_argument("--from", dest="from_state", default=None, metavar="BITS", help=text)
-    parser.add_argument("--to", dest="to_state", default=None, metavar="BITS", help="last state")
-    parser.add_argument("--periodic", action="store_true", help="a gait: the first sample follows the last")
+    add("--from", dest="from_state", default=None, metavar="BITS", help=text)
+    add("--to", dest="to_state", default=None, metavar="BITS", help="last state")
+    add("--periodic", action="store_true", help="a gait: the first sample follows the last")
     text = "feet that keep one state: 1,4; in a periodic gait 1:swing,4:stance"
-    parser.add_argument("--locked", default=None, metavar="FEET", help=text)
+    add("--locked", default=None, metavar="FEET", help=text)
     text = "the fewest samples that work, up to --samples"
-    parser.add_argument("--shortest", action="store_true", help=text)
-    parser.add_argument("--best", type=whole(1, 50), default=1, metavar="K", help="how many patterns")
+    add("--shortest", action="store_true", help=text)
+    add("--best", type=whole(1, 50), default=1, metavar="K", help="how many patterns")
     seconds = number(0.001, 3600.0, "s")
-    parser.add_argument("--seconds", type=seconds, default=30.0, help="longest search (default 30)")
+    add("--seconds", type=seconds, default=30.0, help="longest search (default 30)")
     for option, (rule, text) in PATTERN_RULES.items():
         default = getattr(PatternRules(), rule)
         words = f"{text} (default {default})"
-        parser.add_argument(option, dest=rule, type=rule_number, default=default, metavar="N|off", help=words)
+        add(option, dest=rule, type=rule_number, default=default, metavar="N|off", help=words)
 
 
 def _waypoint_words(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("file", type=Path, help="trajectory CSV")
+    add = parser.add_argument
+    add("file", type=Path, help="trajectory CSV")
     add_robot(parser, "default deltawalker")
     _way_words(parser)
-    parser.add_argument("-o", "--output", type=Path, default=None, help="waypoint CSV to write")
+    add("-o", "--output", type=Path, default=None, help="waypoint CSV to write")
 
 
 def _way_words(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
     merge = "leave out waypoints this near the motors' straight way; 0.001 is the firmware's own tolerance"
-    parser.add_argument("--merge", type=number(0.0, 0.02, "m"), default=None, metavar="M", help=merge)
+    add("--merge", type=number(0.0, 0.02, "m"), default=None, metavar="M", help=merge)
     bound = "cut moves so that the robot is never deaf for longer, at least 0.77 s"
-    parser.add_argument("--stop-bound", type=number(0.1, 60.0, "s"), default=None, metavar="S", help=bound)
+    add("--stop-bound", type=number(0.1, 60.0, "s"), default=None, metavar="S", help=bound)
 
 
 def _simulate_words(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("file", type=Path, help="TRAJ.csv or GAIT.json")
+    add = parser.add_argument
+    add("file", type=Path, help="TRAJ.csv or GAIT.json")
     add_robot(parser, "default the gait's own, else deltawalker")
     _way_words(parser)
     text = f"parameters: {', '.join(physics_sets())}, or a learned set (default the robot's usual one)"
-    parser.add_argument("--physics", default=None, metavar="SET", help=text)
-    parser.add_argument("--data", type=Path, default=None, help="data folder, where learned sets are kept")
-    parser.add_argument("--rig", type=one_of(Rig), metavar=words_of(Rig), default=Rig.WALKING)
+    add("--physics", default=None, metavar="SET", help=text)
+    add("--data", type=Path, default=None, help="data folder, where learned sets are kept")
+    add("--rig", type=one_of(Rig), metavar=words_of(Rig), default=Rig.WALKING)
     text = "try so many seeded variations of the parameters as well"
-    parser.add_argument("--variations", type=whole(0, MOST_VARIATIONS), default=0, metavar="N", help=text)
-    parser.add_argument("--seed", type=whole(0, 2**31), default=0, help="of the variations (default 0)")
+    add("--variations", type=whole(0, MOST_VARIATIONS), default=0, metavar="N", help=text)
+    add("--seed", type=whole(0, 2**31), default=0, help="of the variations (default 0)")
 
 
 def _export_words(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("source", help="a gait's id, GAIT.json, TRAJ.csv or MOTION.npz")
-    parser.add_argument("--format", type=one_of(ExportFormat), metavar=words_of(ExportFormat), required=True)
-    parser.add_argument(
+    add = parser.add_argument
+    add("source", help="a gait's id, GAIT.json, TRAJ.csv or MOTION.npz")
+    add("--format", type=one_of(ExportFormat), metavar=words_of(ExportFormat), required=True)
+    add(
         "--method",
         type=one_of(Method),
         metavar=words_of(Method),
         default=Method.NLP,
         help="what makes the plan of a gait, as for optimise (default nlp)",
     )
-    parser.add_argument("--data", type=Path, default=None, help="data folder")
-    parser.add_argument("-o", "--output", type=Path, default=None, help="file to write")
+    add("--data", type=Path, default=None, help="data folder")
+    add("-o", "--output", type=Path, default=None, help="file to write")
 
 
 def _import_words(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("file", type=Path, help="TRAJ.csv, WAY.csv, MOTION.npz, PHASES.json or GAIT.json")
-    parser.add_argument("--name", default=None, help="of the gait; the file's where left out")
-    parser.add_argument(
-        "--robot", default=None, help="whose motion it is; the first one with so many feet where left out"
-    )
-    parser.add_argument(
-        "--sample-time", type=number(0.001, 60.0, "s"), default=None, help="of a phase list, s"
-    )
-    parser.add_argument("-o", "--output", type=Path, default=None, help="gait file to write")
+    add = parser.add_argument
+    add("file", type=Path, help="TRAJ.csv, WAY.csv, MOTION.npz, PHASES.json or GAIT.json")
+    add("--name", default=None, help="of the gait; the file's where left out")
+    add("--robot", default=None, help="whose motion it is; the first one with so many feet where left out")
+    add("--sample-time", type=number(0.001, 60.0, "s"), default=None, help="of a phase list, s")
+    add("-o", "--output", type=Path, default=None, help="gait file to write")
 
 
 def _send_words(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("file", type=Path, help="waypoint CSV")
-    parser.add_argument("--robot", required=True, help="emulator, a serial device, or socket://HOST:PORT")
-    parser.add_argument("--yes", action="store_true", help="approve in your name without being asked")
-    parser.add_argument("--data", type=Path, default=None, help="data folder, where the run is kept")
+    add = parser.add_argument
+    add("file", type=Path, help="waypoint CSV")
+    add("--robot", required=True, help="emulator, a serial device, or socket://HOST:PORT")
+    add("--yes", action="store_true", help="approve in your name without being asked")
+    add("--data", type=Path, default=None, help="data folder, where the run is kept")
 
 
 def _trial_words(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "files", type=Path, nargs="+", metavar="TRACK.csv|VIDEO", help="X_D1, Y_D1, …, a row a frame"
-    )
+    add = parser.add_argument
+    add("files", type=Path, nargs="+", metavar="TRACK.csv|VIDEO", help="X_D1, Y_D1, …, a row a frame")
     text = "the files are videos: how their camera sees the platform, as the studio exports it"
-    parser.add_argument("--setup", type=Path, default=None, metavar="SETUP.json", help=text)
+    add("--setup", type=Path, default=None, metavar="SETUP.json", help=text)
     length = number(0.01, 1000.0, "cm")
-    parser.add_argument("--expect", type=length, required=True, metavar="CM", help="the whole wanted way")
+    add("--expect", type=length, required=True, metavar="CM", help="the whole wanted way")
     text = "find the ends of so many iterations, and print each"
-    parser.add_argument("--iterations", type=whole(1, 50), default=None, metavar="N", help=text)
+    add("--iterations", type=whole(1, 50), default=None, metavar="N", help=text)
     rate = number(0.1, 1000.0, "Hz")
-    parser.add_argument("--frame-rate", type=rate, default=None, metavar="HZ", help="frames a second (13)")
+    add("--frame-rate", type=rate, default=None, metavar="HZ", help="frames a second (13)")
     text = "the files are in pixels, y downwards, 0,0 a gap: how many are a centimetre"
-    parser.add_argument("--pixels-per-cm", type=number(0.1, 10_000.0, "px"), default=None, help=text)
+    add("--pixels-per-cm", type=number(0.1, 10_000.0, "px"), default=None, help=text)
     text = "pixel of the platform's centre"
-    parser.add_argument("--origin", type=pixel, default=None, metavar="X,Y", help=text)
+    add("--origin", type=pixel, default=None, metavar="X,Y", help=text)
 
 
 def _emulate_words(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--tcp", type=whole(0, 65535), default=None, metavar="PORT", help="a port, 0 any free"
-    )
-    parser.add_argument(
-        "--profile", type=one_of(ProfileName), metavar=words_of(ProfileName), default="published"
-    )
-    parser.add_argument("--speed", type=number(0.01, 1000.0, ""), default=1.0)
-    parser.add_argument("--fault", type=one_of(Fault), metavar=words_of(Fault), nargs="+", default=[])
+    add = parser.add_argument
+    add("--tcp", type=whole(0, 65535), default=None, metavar="PORT", help="a port, 0 any free")
+    add("--profile", type=one_of(ProfileName), metavar=words_of(ProfileName), default="published")
+    add("--speed", type=number(0.01, 1000.0, ""), default=1.0)
+    add("--fault", type=one_of(Fault), metavar=words_of(Fault), nargs="+", default=[])

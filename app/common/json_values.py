@@ -1,7 +1,10 @@
-"""JSON knows no infinities: numbers that are none become null."""
+"""What JSON can say: its objects, and null for numbers that are not finite."""
 
 import math
 from typing import Any
+
+Json = dict[str, Any]
+"""A JSON object; its values are what `json.loads` gives."""
 
 
 def finite(content: Any) -> Any:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
+from app.common.json_values import Json
 from app.documents.gait_schema import (
     GaitDocument,
     OptionsModel,
@@ -34,7 +35,7 @@ MOST_BYTES = 2_000_000
 """A document of more bytes is not taken."""
 
 
-def gait_schema() -> dict[str, Any]:
+def gait_schema() -> Json:
     """The published JSON Schema (2020-12) of the document."""
     return GaitDocument.model_json_schema()
 
@@ -74,7 +75,7 @@ def gait_from_content(content: Any, where: str = "gait") -> Gait:
     return _to_gait(document, tuple(parts))
 
 
-def _require_whole(content: dict[str, Any], where: str) -> None:
+def _require_whole(content: Json, where: str) -> None:
     """Every text and name can be written down: none holds half of a character (a lone surrogate).
 
     Raises:
@@ -88,7 +89,7 @@ def _require_whole(content: dict[str, Any], where: str) -> None:
         raise InputError(f"{where} holds half a character after “{beside}”; type it again.", where) from error
 
 
-def _parts_migrated(content: dict[str, Any], where: str) -> dict[str, Any]:
+def _parts_migrated(content: Json, where: str) -> Json:
     """A sequence's parts in the present version as well; what is no part is left to the schema."""
     parts = content.get("sequence")
     if not isinstance(parts, list):
@@ -165,11 +166,11 @@ def _to_recording(model: RecordingModel | None) -> Recording | None:
     return recording
 
 
-def gait_content(gait: Gait) -> dict[str, Any]:
+def gait_content(gait: Gait) -> Json:
     """The document as JSON content; reading it back gives the same gait."""
     table = gait.segment_table
     options = gait.options
-    content: dict[str, Any] = {
+    content: Json = {
         "format": FORMAT,
         "version": VERSION,
         "name": gait.name,
@@ -202,7 +203,7 @@ def gait_content(gait: Gait) -> dict[str, Any]:
     return content
 
 
-def _recording_content(recording: Recording) -> dict[str, Any]:
+def _recording_content(recording: Recording) -> Json:
     return {
         "file": recording.file,
         "form": recording.form.value,
@@ -213,7 +214,7 @@ def _recording_content(recording: Recording) -> dict[str, Any]:
     }
 
 
-def _table_content(table: SegmentTable) -> dict[str, Any]:
+def _table_content(table: SegmentTable) -> Json:
     words = table.vocabulary
     return {
         "samples_per_segment": table.samples_per_segment,

@@ -2,23 +2,21 @@
 
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import Any
 
+from app.common.json_values import Json
 from core.errors import InputError
 
 VERSION = 1
 """The version that this program writes."""
 
-Step = Callable[[dict[str, Any]], dict[str, Any]]
+Step = Callable[[Json], Json]
 """Takes a document of one version and gives it back as the next one; `version` is set for it."""
 
 STEPS: Mapping[int, Step] = MappingProxyType({})
 """Step by the version that it takes. There is no version before 1, so that there is none yet."""
 
 
-def migrated(
-    content: dict[str, Any], where: str, steps: Mapping[int, Step] = STEPS, version: int = VERSION
-) -> dict[str, Any]:
+def migrated(content: Json, where: str, steps: Mapping[int, Step] = STEPS, version: int = VERSION) -> Json:
     """A document in the present version; what was handed in stays as it is.
 
     Args:
@@ -43,7 +41,7 @@ def migrated(
     return filled(content)
 
 
-def filled(content: dict[str, Any]) -> dict[str, Any]:
+def filled(content: Json) -> Json:
     """What version 1 gained with time, where it is not as the schema's defaults say.
 
     A recorded motion of before merging is sent as it stands, one waypoint a knot.

@@ -2,8 +2,8 @@
 
 import hashlib
 import json
-from typing import Any
 
+from app.common.json_values import Json
 from core.motion.trajectory import Trajectory
 
 _FIELDS = (
@@ -18,17 +18,17 @@ _FIELDS = (
 )
 
 
-def trajectory_content(trajectory: Trajectory) -> dict[str, Any]:
+def trajectory_content(trajectory: Trajectory) -> Json:
     """Nested lists by field name; None where the trajectory does not know."""
     values = {name: getattr(trajectory, name) for name in _FIELDS}
     return {name: None if value is None else value.tolist() for name, value in values.items()}
 
 
-def trajectory_from_content(content: dict[str, Any]) -> Trajectory:
+def trajectory_from_content(content: Json) -> Trajectory:
     """Inverse of `trajectory_content`."""
     return Trajectory(**{name: content[name] for name in _FIELDS})
 
 
-def content_sha256(content: dict[str, Any]) -> str:
+def content_sha256(content: Json) -> str:
     """SHA-256 of a trajectory's content, hexadecimal."""
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()

@@ -2,8 +2,8 @@
 
 import json
 from dataclasses import replace
-from typing import Any
 
+from app.common.json_values import Json
 from app.documents.gait_json import FORMAT, gait_from_content, require_bytes, require_size
 from app.export.trajectory_files import require_world_frame
 from core.errors import InputError
@@ -108,9 +108,9 @@ def _from_json(text: str, where: str, name: str | None, sample_time: float | Non
     )
 
 
-def _parsed(text: str, where: str) -> dict[str, Any]:
+def _parsed(text: str, where: str) -> Json:
     try:
-        content: dict[str, Any] = json.loads(text)
+        content: Json = json.loads(text)
     except RecursionError as error:
         raise InputError(f"{where} is nested too deeply to be a gait.", where) from error
     except ValueError as error:

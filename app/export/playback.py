@@ -3,11 +3,10 @@
 import json
 from html import escape
 from importlib import resources
-from typing import Any
 
 import numpy as np
 
-from app.common.json_values import finite
+from app.common.json_values import Json, finite
 from app.export.gait_diagram import facts, gait_diagram, plot_area
 from app.export.source import Motion
 from app.export.svg import svg
@@ -52,7 +51,7 @@ def _part(name: str) -> str:
     return resources.files("app.export").joinpath("page", name).read_text("utf-8")
 
 
-def _content(gait: Gait, motion: Motion) -> dict[str, Any]:
+def _content(gait: Gait, motion: Motion) -> Json:
     """What the page plays: SI, a row a knot."""
     t, area = motion.trajectory, plot_area(gait, is_headed=False)
     return {
@@ -77,7 +76,7 @@ def _content(gait: Gait, motion: Motion) -> dict[str, Any]:
     }
 
 
-def _shape(model: RobotModel) -> dict[str, Any]:
+def _shape(model: RobotModel) -> Json:
     """Sizes and places of the robot's parts in its own frame, m."""
     shape, R = model.shape, model.R_robot_from_module[:, :2, :2]
     directions = np.einsum("lij,kj->lki", R, vertex_directions())

@@ -2,8 +2,8 @@
 
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
-from typing import Any
 
+from app.common.json_values import Json
 from app.documents.gait_json import parse_gait
 from app.gaits.open_gait import OpenGait, VerdictOf, approval_of
 from app.plans.plan import Plan
@@ -32,7 +32,7 @@ class ApprovalRecord:
     number: int
     approval: Approval
     version: int | None
-    figures: dict[str, Any]
+    figures: Json
 
 
 @dataclass(frozen=True)
@@ -91,12 +91,12 @@ def is_confirmed(open_gait: OpenGait, plan: Plan, verdict_of: VerdictOf) -> bool
         return False
 
 
-def approval_record(approval: Approval, version: int, plan: Plan, verdict: Verdict) -> dict[str, Any]:
+def approval_record(approval: Approval, version: int, plan: Plan, verdict: Verdict) -> Json:
     """What is kept of an approval, as JSON content."""
     return {**asdict(approval), "version": version, "figures": approval_figures(plan, verdict)}
 
 
-def approval_figures(plan: Plan, verdict: Verdict) -> dict[str, Any]:
+def approval_figures(plan: Plan, verdict: Verdict) -> Json:
     """Figures of a plan by which two approvals are told apart, SI."""
     if plan.waypoints is None:
         return {}
@@ -146,7 +146,7 @@ class Approvals:
 
 
 def approval_difference(
-    documents: tuple[Gait | None, Gait | None], before: dict[str, Any], after: dict[str, Any]
+    documents: tuple[Gait | None, Gait | None], before: Json, after: Json
 ) -> tuple[DifferenceGroup, ...]:
     """What changed from one approval to another, or to the gait as it is: document, way, margins, parameters.
 
@@ -167,7 +167,7 @@ def approval_difference(
     return (*groups, *(DifferenceGroup(title, said) for title, said in sides.items() if said))
 
 
-def _sent(before: dict[str, Any], after: dict[str, Any]) -> tuple[str, ...]:
+def _sent(before: Json, after: Json) -> tuple[str, ...]:
     said = []
     if after["waypoints_hash"] is not None and before["waypoints_hash"] != after["waypoints_hash"]:
         said.append("Other waypoints")
@@ -184,7 +184,7 @@ def _sent(before: dict[str, Any], after: dict[str, Any]) -> tuple[str, ...]:
     return tuple(said)
 
 
-def _margins(before: dict[str, Any], after: dict[str, Any]) -> tuple[str, ...]:
+def _margins(before: Json, after: Json) -> tuple[str, ...]:
     old, new = before.get("margins", {}), after.get("margins", {})
     said = []
     for rule in (rule for rule in new if rule in old):

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, Protocol, TypeVar
 
+from app.common.json_values import Json
 from app.documents.gait_json import gait_content, gait_from_content, motion_hash
 from app.gaits.normalise import normalise
 from app.gaits.views import plan_view
@@ -129,7 +130,7 @@ class LivePreview:
         """What a gait amounts to by the live tier; it is kept for a while (see `keep`)."""
         return self.keep(plan_of(gait, lambda motion: None, self.solve_for))
 
-    def answer(self, before: Gait, document: Any | None, wants_remedies: bool) -> dict[str, Any]:
+    def answer(self, before: Gait, document: Any | None, wants_remedies: bool) -> Json:
         """What a gait would amount to, as JSON content.
 
         Args:
@@ -163,11 +164,11 @@ def _ends(problem: MotionProblem) -> str:
     ).hexdigest()
 
 
-def _summary(view: dict[str, Any]) -> dict[str, Any]:
+def _summary(view: Json) -> Json:
     """The answer in short; a gait made by hand is not the live tier's business."""
     if view["live"] is not None:
         return {"method": "live", **view["live"]}
-    nothing: dict[str, Any] = {
+    nothing: Json = {
         "seconds": 0.0,
         "evidence": None,
         "explanation": [],
@@ -177,7 +178,7 @@ def _summary(view: dict[str, Any]) -> dict[str, Any]:
     return {"method": "table", "status": view["source"], **nothing}
 
 
-def _remedies_content(found: RemedySearch | None) -> dict[str, Any]:
+def _remedies_content(found: RemedySearch | None) -> Json:
     if found is None:
         return {"remedies": None, "remedies_complete": None}
     remedies = [

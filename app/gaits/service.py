@@ -6,8 +6,8 @@ Only the command queue's thread calls this.
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
+from app.common.json_values import Json
 from app.documents.gait_json import parse_gait
 from app.gaits.approvals import ApprovalRequest, Approvals, approval_record, approved, is_confirmed
 from app.gaits.normalise import normalise, normalise_imported
@@ -330,7 +330,7 @@ class GaitService:
         touched = [g for g in checked if g.verdict and g.verdict.waypoints_hash == waypoints_hash]
         return tuple(self._put(gait.unapproved("It was simulated since")) for gait in touched)
 
-    def on_result(self, motion: str, content: dict[str, Any]) -> tuple[OpenGait, ...]:
+    def on_result(self, motion: str, content: Json) -> tuple[OpenGait, ...]:
         """Stores a checked result and gives back the open gaits whose plan it becomes."""
         self._database.put_result(motion, content)
         touched = []
@@ -340,7 +340,7 @@ class GaitService:
                 touched.append(self._resulted(open_gait, motion, content))
         return tuple(touched)
 
-    def _resulted(self, open_gait: OpenGait, motion: str, content: dict[str, Any]) -> OpenGait:
+    def _resulted(self, open_gait: OpenGait, motion: str, content: Json) -> OpenGait:
         """The gait with a result's provenance in its present document, which is no edit of anybody."""
         resulted = open_gait.unapproved("The motion was optimised")
         gait = with_result(open_gait.gait, motion, content)
@@ -350,7 +350,7 @@ class GaitService:
         return self._put(replace(open_gait, gait=gait, history=open_gait.history.restated(gait_text(gait))))
 
     def _put(
-        self, open_gait: OpenGait, version: VersionRow | None = None, record: dict[str, Any] | None = None
+        self, open_gait: OpenGait, version: VersionRow | None = None, record: Json | None = None
     ) -> OpenGait:
         """Keeps a changed gait, in memory and in the repository, with its version and approval record."""
         self._repository.put(open_gait, version, record)

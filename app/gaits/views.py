@@ -3,11 +3,10 @@
 import time
 from dataclasses import asdict
 from datetime import UTC, datetime
-from typing import Any
 
 import numpy as np
 
-from app.common.json_values import finite
+from app.common.json_values import Json, finite
 from app.documents.gait_json import gait_content
 from app.gaits.open_gait import OpenGait
 from app.plans.plan import Plan
@@ -30,7 +29,7 @@ from core.wire.waypoint_merging import WaypointPlan
 from core.wire.waypoint_path import estimate_seconds
 
 
-def line_view(gait_id: str, gait: Gait, builtin: bool, edited: bool) -> dict[str, Any]:
+def line_view(gait_id: str, gait: Gait, builtin: bool, edited: bool) -> Json:
     """A line of the list of gaits.
 
     Args:
@@ -54,7 +53,7 @@ def line_view(gait_id: str, gait: Gait, builtin: bool, edited: bool) -> dict[str
     }
 
 
-def steps_view(open_gait: OpenGait, pages: frozenset[str]) -> dict[str, Any]:
+def steps_view(open_gait: OpenGait, pages: frozenset[str]) -> Json:
     """What can be undone and redone: by a script, and by each connected page."""
     steps = {
         page: {"undo": open_gait.undo_label(pages - {page}), "redo": open_gait.redo_label(pages - {page})}
@@ -63,7 +62,7 @@ def steps_view(open_gait: OpenGait, pages: frozenset[str]) -> dict[str, Any]:
     return {"undo": open_gait.undo_label(pages), "redo": open_gait.redo_label(pages), "steps": steps}
 
 
-def gait_view(open_gait: OpenGait, plan: Plan, pages: frozenset[str] = frozenset()) -> dict[str, Any]:
+def gait_view(open_gait: OpenGait, plan: Plan, pages: frozenset[str] = frozenset()) -> Json:
     """Everything that the page shows of one gait.
 
     Args:
@@ -92,11 +91,11 @@ def gait_view(open_gait: OpenGait, plan: Plan, pages: frozenset[str] = frozenset
     }
 
 
-def plan_view(plan: Plan) -> dict[str, Any]:
+def plan_view(plan: Plan) -> Json:
     """A plan for preview and plots, SI but for strokes."""
     refusal = plan.refusal
     limits = plan.model.stroke
-    content: dict[str, Any] = {
+    content: Json = {
         "hash": plan.hash,
         "source": plan.source.value,
         "note": plan.note,
@@ -150,7 +149,7 @@ def plan_view(plan: Plan) -> dict[str, Any]:
     return content
 
 
-def _way_view(way: WaypointPlan) -> dict[str, Any]:
+def _way_view(way: WaypointPlan) -> Json:
     """What is sent of a plan."""
     return {
         "strokes_mm": way.knots.strokes_mm.tolist(),
@@ -170,7 +169,7 @@ def _motor_speeds_mm_s(model: RobotModel, trajectory: Trajectory) -> Floats:
     return np.round(speeds * 1000, 2)
 
 
-def live_view(answer: VerifiedResult) -> dict[str, Any]:
+def live_view(answer: VerifiedResult) -> Json:
     """The live tier's answer as the checker sees it; indices count from 0."""
     result, check = answer.result, answer.check
     figures = {
@@ -189,15 +188,15 @@ def live_view(answer: VerifiedResult) -> dict[str, Any]:
             "min_cop_margin": check.min_cop_margin,
         },
     }
-    content: dict[str, Any] = finite(figures)
+    content: Json = finite(figures)
     return content
 
 
-def verdict_view(verdict: Verdict) -> dict[str, Any]:
+def verdict_view(verdict: Verdict) -> Json:
     """A verdict with its findings, errors first; indices count from 0."""
     return {**asdict(verdict), "passed": verdict.passed, "hash": verdict.content_hash}
 
 
-def approval_view(approval: Approval) -> dict[str, Any]:
+def approval_view(approval: Approval) -> Json:
     """An approval."""
     return asdict(approval)

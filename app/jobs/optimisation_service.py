@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
+from app.common.json_values import Json
 from app.documents.gait_json import asked_hash
 from app.documents.trajectory_json import trajectory_content
 from app.gaits.open_gait import OpenGait
@@ -56,7 +57,7 @@ class OptimisationService:
         self,
         job_repository: JobRepository,
         job_queue: JobQueue,
-        on_result: Callable[[str, dict[str, Any]], None],
+        on_result: Callable[[str, Json], None],
     ) -> None:
         self._job_repository = job_repository
         self._job_queue = job_queue
@@ -64,7 +65,7 @@ class OptimisationService:
         self._origins: dict[str, JobOrigin] = {}
         self._iterate_motions: OrderedDict[str, tuple[Trajectory, ...]] = OrderedDict()
 
-    def submit(self, open_gait: OpenGait, kind: JobKind = JobKind.MOTION) -> dict[str, Any]:
+    def submit(self, open_gait: OpenGait, kind: JobKind = JobKind.MOTION) -> Json:
         """Starts the optimisation of a gait as it is now, or the search for its fastest timing.
 
         Raises:
@@ -87,14 +88,14 @@ class OptimisationService:
         self._origins[job_id] = origin
         return self._job_repository.begin(job_id, KIND_WORDS[kind], origin.gait_id, gait.name, origin.motion)
 
-    def cancel(self, job_id: str) -> dict[str, Any]:
+    def cancel(self, job_id: str) -> Json:
         """Asks a job to end; one that ended already stays as it is."""
         content = self._job_repository.content(job_id)
         if content["state"] not in ENDED:
             self._job_queue.cancel(job_id)
         return content
 
-    def changed(self, job: Job) -> dict[str, Any] | None:
+    def changed(self, job: Job) -> Json | None:
         """Takes news from the runner and gives back the job as it is now."""
         origin = self._origins.get(job.id)
         if origin is None:
@@ -118,7 +119,7 @@ class OptimisationService:
         self._job_repository.keep(content)
         return content
 
-    def _keep_iterates(self, content: dict[str, Any], iterate_motions: tuple[Trajectory, ...]) -> None:
+    def _keep_iterates(self, content: Json, iterate_motions: tuple[Trajectory, ...]) -> None:
         """Keeps the motions of a job's iterations in memory, in place of those of the oldest job."""
         self._iterate_motions[content["id"]] = iterate_motions
         content["course"] = len(iterate_motions)
@@ -169,7 +170,7 @@ class OptimisationService:
         self._take_result(motion, {**result, "provenance": asdict(provenance)})
         return provenance
 
-    def _judge(self, content: dict[str, Any], origin: JobOrigin, result: MotionResult) -> None:
+    def _judge(self, content: Json, origin: JobOrigin, result: MotionResult) -> None:
         """Believes a solved result only if the independent checker confirms it."""
         verified = verify(origin.problem, result)
         content["result"] = verified.content
@@ -179,7 +180,7 @@ class OptimisationService:
             content |= {"state": JobState.FAILED.value, "sentence": verified.explanation[0]}
 
 
-def _iterate_content(iterate: Any) -> dict[str, Any]:
+def _iterate_content(iterate: Any) -> Json:
     values = asdict(iterate)
     return {
         "iteration": values["number"],

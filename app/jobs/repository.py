@@ -6,6 +6,7 @@ Only the command queue's thread calls this.
 import time
 from typing import Any
 
+from app.common.json_values import Json
 from app.store.database import Database
 from core.errors import NotFoundError
 
@@ -35,9 +36,7 @@ class JobRepository:
                 content["sentence"] = f"The studio ended while this job was on. {again}"
                 database.put_job(content)
 
-    def begin(
-        self, job_id: str, kind: str, gait_id: str, gait_name: str, motion: str, **more: Any
-    ) -> dict[str, Any]:
+    def begin(self, job_id: str, kind: str, gait_id: str, gait_name: str, motion: str, **more: Any) -> Json:
         """Adds a job that waits for a worker.
 
         Args:
@@ -68,12 +67,12 @@ class JobRepository:
         self._database.put_job(content)
         return content
 
-    def keep(self, content: dict[str, Any]) -> None:
+    def keep(self, content: Json) -> None:
         """Stores a job that has ended; until then it is worth nothing after a restart."""
         if content["state"] in ENDED:
             self._database.put_job(content)
 
-    def content(self, job_id: str) -> dict[str, Any]:
+    def content(self, job_id: str) -> Json:
         """A job as JSON content.
 
         Raises:
@@ -81,9 +80,9 @@ class JobRepository:
         """
         if job_id not in self._contents:
             raise NotFoundError(f"There is no job “{job_id}”.", job_id)
-        found: dict[str, Any] = self._contents[job_id]
+        found: Json = self._contents[job_id]
         return found
 
-    def contents(self) -> list[dict[str, Any]]:
+    def contents(self) -> list[Json]:
         """The newest jobs, newest first."""
         return list(reversed(self._contents.values()))[:MOST_SHOWN]

@@ -1,9 +1,8 @@
 """The search for a gait's fastest timing: what is asked, and what the page is shown of the answer."""
 
 from dataclasses import replace
-from typing import Any
 
-from app.common.json_values import finite
+from app.common.json_values import Json, finite
 from app.documents.gait_json import gait_content
 from core.errors import StateError
 from core.gait.gait import Gait
@@ -42,7 +41,7 @@ def timed_gait(gait: Gait, result: TimingResult) -> Gait | None:
     return replace(gait, timeline=result.usable_timeline, options=options)
 
 
-def timing_content(gait: Gait, result: TimingResult) -> dict[str, Any]:
+def timing_content(gait: Gait, result: TimingResult) -> Json:
     """A timing as JSON content, with the gait's document in these timings where they can be used.
 
     Args:
@@ -73,5 +72,5 @@ def timing_content(gait: Gait, result: TimingResult) -> dict[str, Any]:
         "explanation": list(result.explanation),
         "usable": usable,
     }
-    content: dict[str, Any] = finite(figures)
+    content: Json = finite(figures)
     return content

@@ -2,8 +2,8 @@
 
 import time
 from dataclasses import dataclass
-from typing import Any
 
+from app.common.json_values import Json
 from app.simulation.problem import fitting_sets, physics_content, physics_from_content
 from app.store.database import Database
 from app.store.learning_store import LearningStore
@@ -38,7 +38,7 @@ class ParameterSet:
     note: str
 
     @property
-    def line(self) -> dict[str, Any]:
+    def line(self) -> Json:
         """As pages and scripts get it; the parameters are SI."""
         words = {key: value for key, value in vars(self).items() if key != "physics"}
         parameters = physics_content(self.physics)
@@ -137,7 +137,7 @@ class ParameterSets:
             raise NotFoundError(f"There is no set “{name}”, version {version}.", "name")
 
 
-def _set(content: dict[str, Any]) -> ParameterSet:
+def _set(content: Json) -> ParameterSet:
     key = f"{content['name']}, version {content['version']}"
     named = {**content["physics"], "name": key, "title": f"{key} ({content['note']})"}
     physics = physics_from_content(named)

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from app.common.json_values import finite
+from app.common.json_values import Json, finite
 from app.simulation.problem import physics_content
 from app.trials.figures import CM
 from core.identification.learning import Learned, Prediction
@@ -24,14 +24,14 @@ WAYS = {
 """Ways of foretelling in words; a line is measured = a × wanted + b, or a × simulated + b."""
 
 
-def learned_content(learned: Learned, cuts: Sequence[float]) -> dict[str, Any]:
+def learned_content(learned: Learned, cuts: Sequence[float]) -> Json:
     """Everything of it as JSON content.
 
     Args:
         learned: what was learned.
         cuts: (gaits,) most that was cut off a stroke of each, m.
     """
-    content: dict[str, Any] = finite(
+    content: Json = finite(
         {
             "defaults": learned.defaults.name,
             "defaults_title": learned.defaults.title,
@@ -48,7 +48,7 @@ def learned_content(learned: Learned, cuts: Sequence[float]) -> dict[str, Any]:
     return content
 
 
-def _parameter(learned: Learned, place: int) -> dict[str, Any]:
+def _parameter(learned: Learned, place: int) -> Json:
     parameter, fit = learned.parameters[place], learned.fit
     told = bool(fit.is_identifiable[place])
     value = parameter.scale * parameter.value(learned.defaults, float(fit.z[place]))
@@ -75,7 +75,7 @@ def _ends(learned: Learned, parameter: FitParameter, place: int) -> tuple[float,
     return low, high
 
 
-def _gait(learned: Learned, gait: int, cut: float) -> dict[str, Any]:
+def _gait(learned: Learned, gait: int, cut: float) -> Json:
     walk = learned.measured[gait]
     return {
         "name": walk.name,
@@ -89,7 +89,7 @@ def _gait(learned: Learned, gait: int, cut: float) -> dict[str, Any]:
     }
 
 
-def _prediction(learned: Learned, way: Prediction) -> dict[str, Any]:
+def _prediction(learned: Learned, way: Prediction) -> Json:
     distance, angle = learned.errors(way)
     return {
         "name": way.name,

@@ -1,14 +1,13 @@
 """The pattern search as the page and scripts see it, as JSON content; limbs and samples count from 0."""
 
-from typing import Any
-
+from app.common.json_values import Json
 from core.motion.contact_timeline import rows_from_bits
 from core.patterns.problem import FREE, Pattern, PatternProblem, PatternProgress, PatternResult, Relaxation
 
 _FREE_MARK = "."
 
 
-def result_content(problem: PatternProblem, result: PatternResult) -> dict[str, Any]:
+def result_content(problem: PatternProblem, result: PatternResult) -> Json:
     """An answer with its problem's fixed cells.
 
     Args:
@@ -30,7 +29,7 @@ def result_content(problem: PatternProblem, result: PatternResult) -> dict[str, 
     }
 
 
-def pattern_content(problem: PatternProblem, pattern: Pattern) -> dict[str, Any]:
+def pattern_content(problem: PatternProblem, pattern: Pattern) -> Json:
     """A pattern with its weighted sum."""
     weights = problem.weights
     score = weights.sample_changes * pattern.sample_changes + weights.limb_changes * pattern.limb_changes
@@ -44,7 +43,7 @@ def pattern_content(problem: PatternProblem, pattern: Pattern) -> dict[str, Any]
     }
 
 
-def progress_content(problem: PatternProblem, progress: PatternProgress) -> dict[str, Any]:
+def progress_content(problem: PatternProblem, progress: PatternProgress) -> Json:
     """What is known in the middle of a search; a bound below any pattern's sum is 0."""
     return {
         "seconds": progress.seconds,
@@ -54,7 +53,7 @@ def progress_content(problem: PatternProblem, progress: PatternProgress) -> dict
     }
 
 
-def _relaxation_content(relaxation: Relaxation) -> dict[str, Any]:
+def _relaxation_content(relaxation: Relaxation) -> Json:
     return {
         "rule": relaxation.rule.value,
         "value": relaxation.value,

@@ -4,10 +4,10 @@ import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import Any
 
 import numpy as np
 
+from app.common.json_values import Json
 from app.documents.gait_json import sent_hash
 from app.documents.trajectory_json import content_sha256, trajectory_from_content
 from app.plans.planned_part import PlannedPart
@@ -142,7 +142,7 @@ class Plan:
         return stability_margins(t.body_world[:, :2], t.feet_world, t.contact)
 
 
-def make_plan(gait: Gait, result: dict[str, Any] | None, solve: Solve) -> Plan:
+def make_plan(gait: Gait, result: Json | None, solve: Solve) -> Plan:
     """The plan of a gait: recorded, by hand table, by a stored result of the exact tier, or by the live tier.
 
     Args:
@@ -187,7 +187,7 @@ def iterate_plan(model: RobotModel, trajectory: Trajectory, number: int, last: i
     return with_waypoints(Plan(PlanSource.ITERATE, note, model, trajectory, None, None), AS_PLANNED)
 
 
-def _with_origin(plan: Plan, result: dict[str, Any]) -> Plan:
+def _with_origin(plan: Plan, result: Json) -> Plan:
     kept = result.get("provenance")
     return replace(
         plan,
@@ -240,7 +240,7 @@ def with_waypoints(plan: Plan, options: GaitOptions) -> Plan:
     return replace(plan, way=way, note=" ".join(filter(None, words)))
 
 
-def _confirmed(problem: MotionProblem, result: dict[str, Any] | None) -> Trajectory | None:
+def _confirmed(problem: MotionProblem, result: Json | None) -> Trajectory | None:
     """A stored result's motion, if the checker still confirms it for this problem and this robot."""
     if result is None:
         return None
@@ -277,7 +277,7 @@ def _held_note(gait: Gait, model: RobotModel) -> str:
     return " ".join(filter(None, words))
 
 
-def _optimised_note(result: dict[str, Any]) -> str:
+def _optimised_note(result: Json) -> str:
     return (
         f"Optimised in {result['iterations']} iterations, {result['solve_seconds'] * 1000:.0f} ms; every "
         f"constraint confirmed, largest violation {result['max_violation']:.1e}."

@@ -4,8 +4,8 @@ from dataclasses import asdict, replace
 from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import version
-from typing import Any
 
+from app.common.json_values import Json
 from app.common.version import VERSION
 from app.documents.gait_json import asked_hash
 from app.documents.trajectory_json import content_sha256
@@ -22,7 +22,7 @@ def _solver() -> str:
     return f"IPOPT in CasADi {version('casadi')}"
 
 
-def result_provenance(motion: str, content: dict[str, Any]) -> Provenance:
+def result_provenance(motion: str, content: Json) -> Provenance:
     """The provenance of a result of the exact tier that the checker has confirmed just now.
 
     Args:
@@ -41,7 +41,7 @@ def result_provenance(motion: str, content: dict[str, Any]) -> Provenance:
     )
 
 
-def with_result(gait: Gait, motion: str, content: dict[str, Any]) -> Gait:
+def with_result(gait: Gait, motion: str, content: Json) -> Gait:
     """The gait with the provenance of a result, where it is of this gait; else the gait as it is.
 
     Args:
@@ -55,7 +55,7 @@ def with_result(gait: Gait, motion: str, content: dict[str, Any]) -> Gait:
     return replace(gait, provenance=Provenance(**kept))
 
 
-def provenance_view(gait: Gait, plan: Plan) -> dict[str, Any] | None:
+def provenance_view(gait: Gait, plan: Plan) -> Json | None:
     """Where the result came from that is shown, or else the one that the document names, and its worth.
 
     Args:

@@ -1,9 +1,8 @@
 """A solver's result after the independent checker: only what it confirms counts as solved."""
 
 from dataclasses import dataclass
-from typing import Any
 
-from app.common.json_values import finite
+from app.common.json_values import Json, finite
 from core.motion.trajectory import Trajectory
 from core.problem.motion_check import MotionCheck, check_motion
 from core.problem.motion_problem import MotionProblem
@@ -34,7 +33,7 @@ class VerifiedResult:
         return self.result.trajectory
 
     @property
-    def content(self) -> dict[str, Any]:
+    def content(self) -> Json:
         """The figures as JSON content."""
         figures = {
             "status": self.status.value,
@@ -48,7 +47,7 @@ class VerifiedResult:
             "min_cop_margin": self.check.min_cop_margin,
             "explanation": list(self.explanation),
         }
-        content: dict[str, Any] = finite(figures)
+        content: Json = finite(figures)
         return content
 
 

@@ -4,13 +4,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
 from app.bridge.bridge import RobotBridge
 from app.bridge.jog import MOVED_MM, JogPlan
 from app.bridge.states import RobotSnapshot
+from app.common.json_values import Json
 from app.robot.views import allowed, jog_stop_seconds
 from core.arrays import Floats
 from core.errors import CheckError, InfeasibleError, StateError
@@ -71,7 +71,7 @@ class JogService:
     def __init__(self, bridge: RobotBridge) -> None:
         self._bridge = bridge
 
-    def preview(self, wish: JogRequest) -> dict[str, Any]:
+    def preview(self, wish: JogRequest) -> Json:
         """Where the steps would lead, and what is to be said of it, as JSON content; nothing moves."""
         snapshot = self._bridge.snapshot
         begin, measured = _beginning(wish, snapshot)
@@ -223,7 +223,7 @@ def _moves(answer: JogAnswer) -> list[float]:
     return [float(np.abs(b - a).max()) for a, b in pairwise(places)]
 
 
-def _handles(wish: JogRequest, look: JogLook, answer: JogAnswer) -> list[dict[str, Any]]:
+def _handles(wish: JogRequest, look: JogLook, answer: JogAnswer) -> list[Json]:
     """Present place, target and range of what can be stepped, mm, in the order x, y, z or of the motors.
 
     A foot's x and y are from its module's centre and its z from the deepest foot as they stand; the body's
@@ -234,14 +234,14 @@ def _handles(wish: JogRequest, look: JogLook, answer: JogAnswer) -> list[dict[st
     return [_place_handle(wish, look, answer, axis) for axis in Axis]
 
 
-def _motor_handle(model: RobotModel, answer: JogAnswer, foot: int, motor: int) -> dict[str, Any]:
+def _motor_handle(model: RobotModel, answer: JogAnswer, foot: int, motor: int) -> Json:
     start = float(answer.start[foot, motor])
     target = start if answer.target is None else float(answer.target[foot, motor])
     least, most = model.stroke.lower, model.stroke.upper
     return {"motor": motor + 1, "axis": None} | _row_mm(start, target, least, most)
 
 
-def _place_handle(wish: JogRequest, look: JogLook, answer: JogAnswer, axis: Axis) -> dict[str, Any]:
+def _place_handle(wish: JogRequest, look: JogLook, answer: JogAnswer, axis: Axis) -> Json:
     model, along = wish.model, list(Axis).index(axis)
     foot = None if look.part is JogPart.BODY else look.foot
     step = JogStep(look.part, 0.0, foot, None, axis)
@@ -264,7 +264,7 @@ def _row_mm(start: float, target: float, least: float, most: float) -> dict[str,
     return {name: round(value * 1000, 2) + 0.0 for name, value in named.items()}
 
 
-def _finding(finding: Finding) -> dict[str, Any]:
+def _finding(finding: Finding) -> Json:
     return {
         "rule": finding.rule,
         "severity": finding.severity.value,

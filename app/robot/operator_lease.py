@@ -5,11 +5,11 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
 
 from app.bridge.bridge import RobotBridge
 from app.bridge.lease import Holding, Lease, Person, policy, refusal
 from app.bridge.states import IN_RUN, LinkState, RobotState
+from app.common.json_values import Json
 from app.undo.history import SCRIPT, Author
 from core.errors import StateError
 
@@ -18,7 +18,7 @@ logger = logging.getLogger(__name__)
 BEAT_SECONDS = 2.0
 """The holder's page is asked for a sign of life this often, s."""
 
-TellPage = Callable[[str, dict[str, Any]], None]
+TellPage = Callable[[str, Json], None]
 
 
 class OperatorLease:
@@ -119,7 +119,7 @@ class OperatorLease:
 
         self._hand_over(author, let_go)
 
-    def view(self) -> dict[str, Any]:
+    def view(self) -> Json:
         """The lease as JSON content."""
         with self._lock:
             now = self._lease.now

@@ -4,10 +4,10 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 from app.bridge.bridge import RobotBridge
 from app.bridge.states import LinkState, RobotSnapshot, RunPlan
+from app.common.json_values import Json
 from app.robot.run_recorder import RunRecorder
 from app.robot.views import RUNNING, RunOrigin, run_end
 from app.runs.recovery import end_abandoned
@@ -25,7 +25,7 @@ class RecordedRun:
     """
 
     origin: RunOrigin
-    plan: dict[str, Any] | None
+    plan: Json | None
 
 
 class RecordedBridge:
@@ -46,7 +46,7 @@ class RecordedBridge:
         self.previous = next(iter(database.runs(1)), None)
         self.origin: RunOrigin | None = None
         self._recorder = RunRecorder(database, changed)
-        self._record: dict[str, Any] | None = None
+        self._record: Json | None = None
         self._sending = threading.Lock()
         self._recording = threading.Lock()
         self.bridge = RobotBridge(self._recorder.log)

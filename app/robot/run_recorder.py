@@ -6,9 +6,9 @@ import sqlite3
 import threading
 import time
 from collections.abc import Callable, Iterable
-from typing import Any
 
 from app.bridge.states import Direction, Transition
+from app.common.json_values import Json
 from app.store.database import Database
 from app.store.run_journal import Entry, EntryKind, RunJournal
 from app.store.run_store import RunStore
@@ -103,7 +103,7 @@ class RunRecorder:
                 words = (change.link.value, change.robot.value, change.cause)
                 self._put(Entry(EntryKind.STATE, change.time, json.dumps(words).encode()))
 
-    def begin(self, content: dict[str, Any], plan: dict[str, Any] | None = None, after: int = 0) -> None:
+    def begin(self, content: Json, plan: Json | None = None, after: int = 0) -> None:
         """Starts the record of a run.
 
         Args:
@@ -132,7 +132,7 @@ class RunRecorder:
             self._journals[run] = journal
             self._left_out, self._noted, self._run = 0, after, run
 
-    def end(self, content: dict[str, Any]) -> None:
+    def end(self, content: Json) -> None:
         """Completes the record of a run, after every byte that was logged before."""
         whole = {**content, "left_out": self._left_out} if self._left_out else content
         self._put(Entry(EntryKind.END, time.monotonic(), json.dumps(whole, allow_nan=False).encode()))

@@ -1,12 +1,11 @@
 """What a person should know of a run before they confirm it."""
 
-from typing import Any
-
 import numpy as np
 
 from app.bridge.run import start_targets
 from app.bridge.run_range import RunRange, beginnings, why_not_repeated
 from app.bridge.states import RobotSnapshot
+from app.common.json_values import Json
 from app.plans.plan import Plan
 from app.robot.views import stop_seconds
 from core.errors import StateError
@@ -16,9 +15,7 @@ from core.wire.waypoint_path import estimate_seconds
 from core.wire.waypoints import Waypoints
 
 
-def run_summary(
-    plan: Plan, run_range: RunRange, snapshot: RobotSnapshot, reason: str | None
-) -> dict[str, Any]:
+def run_summary(plan: Plan, run_range: RunRange, snapshot: RobotSnapshot, reason: str | None) -> Json:
     """The run as JSON content.
 
     Args:
@@ -93,7 +90,7 @@ def _start(sent: Waypoints, snapshot: RobotSnapshot, longest_mm: float) -> tuple
     return distance_mm, moves
 
 
-def _beginnings(way: WaypointPlan) -> list[dict[str, Any]]:
+def _beginnings(way: WaypointPlan) -> list[Json]:
     """Where a run may begin: waypoint and sample, 0-based, and the plan's time there in s."""
     return [
         {"waypoint": i, "sample": way.kept[i], "time": float(way.times[i])} for i in beginnings(way.hold_ok)

@@ -4,10 +4,10 @@ import secrets
 import threading
 import time
 from collections.abc import Callable
-from typing import Any
 
 from app.bridge.run_range import WHOLE, RunRange
 from app.bridge.states import LinkState, RobotSnapshot, RunPlan
+from app.common.json_values import Json
 from app.emulator.emulated_robot import EmulatedRobot, start_emulator
 from app.emulator.faults import Fault
 from app.gaits.open_gait import OpenGait
@@ -44,7 +44,7 @@ class RobotService:
         self,
         database: Database,
         device: str,
-        changed: Callable[[dict[str, Any]], None],
+        changed: Callable[[Json], None],
         ports: RobotPorts,
         tell_page: TellPage = lambda page, event: None,
     ) -> None:
@@ -79,12 +79,12 @@ class RobotService:
                 self.ports.connected(wanted)
             self._device = wanted
 
-    def ports_view(self) -> dict[str, Any]:
+    def ports_view(self) -> Json:
         """Serial devices, the one that was used last, and where a lost one is plugged in now."""
         is_lost = self.bridge.snapshot.link is LinkState.LOST and self._device != EMULATOR
         return self.ports.view(is_lost=is_lost)
 
-    def transitions(self) -> list[dict[str, Any]]:
+    def transitions(self) -> list[Json]:
         """The last changes of link and robot with their causes, oldest first; `at` is seconds since 1970."""
         offset = time.time() - time.monotonic()
         return [
@@ -148,7 +148,7 @@ class RobotService:
         origin = RunOrigin(secrets.token_hex(6), open_gait.id, open_gait.gait.name, waypoints, way.times)
         self._recorded_bridge.send(run_plan, RecordedRun(origin, content), by)
 
-    def run_summary(self, open_gait: OpenGait, plan: Plan, run_range: RunRange = WHOLE) -> dict[str, Any]:
+    def run_summary(self, open_gait: OpenGait, plan: Plan, run_range: RunRange = WHOLE) -> Json:
         """What a person should know before they press Send; see `app.robot.run_summary`."""
         snapshot = self.bridge.snapshot
         reason = unwired(plan) or self._send_hindrance(open_gait, snapshot)
@@ -159,7 +159,7 @@ class RobotService:
             return "This gait is not approved as it is now. Check it and approve it first."
         return allowed(snapshot)["send"]
 
-    def view(self, snapshot: RobotSnapshot | None = None) -> dict[str, Any]:
+    def view(self, snapshot: RobotSnapshot | None = None) -> Json:
         """The robot as JSON content."""
         return {
             **robot_view(snapshot or self.bridge.snapshot, self._device, self._recorded_bridge.origin),

@@ -1,11 +1,11 @@
 """What is shown of the robot: JSON content from the bridge's snapshot."""
 
 from dataclasses import asdict, dataclass
-from typing import Any
 
 import numpy as np
 
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunProgress
+from app.common.json_values import Json
 from app.emulator.motors import TRAVEL_MM
 from core.arrays import Floats
 from core.wire.messages import RESET_MM
@@ -34,7 +34,7 @@ class RunOrigin:
     """(count,) the plan's time of each waypoint, s."""
 
 
-def robot_view(shown: RobotSnapshot, device: str, origin: RunOrigin | None) -> dict[str, Any]:
+def robot_view(shown: RobotSnapshot, device: str, origin: RunOrigin | None) -> Json:
     """The robot for pages and scripts.
 
     Args:
@@ -98,9 +98,9 @@ def run_end(shown: RobotSnapshot, run: RunProgress) -> str:
     return shown.robot.value
 
 
-def _run_view(shown: RobotSnapshot, run: RunProgress, known: RunOrigin | None) -> dict[str, Any]:
+def _run_view(shown: RobotSnapshot, run: RunProgress, known: RunOrigin | None) -> Json:
     """The run that is on or was the last; where its gait is known, also where in the plan it is."""
-    content: dict[str, Any] = {
+    content: Json = {
         "id": run.run_id,
         "phase": run.phase.value if shown.robot in RUNNING else "ended",
         "sent": run.sent,

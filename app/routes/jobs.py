@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Literal
 
 from fastapi import APIRouter
 from pydantic import Field, model_validator
 from starlette.concurrency import run_in_threadpool
 
+from app.common.json_values import Json
 from app.gaits.views import plan_view
 from app.web.dependencies import RequestBody, TheAuthor, TheStudio, on_command_thread, on_planned
 from solver_jobs import JobKind
@@ -34,7 +35,7 @@ class JobRequest(RequestBody):
 
 
 @router.post("", status_code=202)
-async def submit(job: JobRequest, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+async def submit(job: JobRequest, studio: TheStudio, author: TheAuthor) -> Json:
     """Starts the optimisation of a gait as it is now, the search for its fastest timing, or a simulation."""
     commands = studio.job_commands
     if job.kind == "simulate":
@@ -48,13 +49,13 @@ async def submit(job: JobRequest, studio: TheStudio, author: TheAuthor) -> dict[
 
 
 @router.get("")
-async def list_jobs(studio: TheStudio) -> dict[str, Any]:
+async def list_jobs(studio: TheStudio) -> Json:
     """The newest jobs, newest first."""
     return {"jobs": await on_command_thread(studio, studio.publisher.job_views)}
 
 
 @router.get("/{job_id}")
-async def read_job(job_id: str, studio: TheStudio) -> dict[str, Any]:
+async def read_job(job_id: str, studio: TheStudio) -> Json:
     """A job with its course so far."""
     return await on_command_thread(
         studio, lambda: studio.publisher.job_view(studio.job_repository.content(job_id))
@@ -62,13 +63,13 @@ async def read_job(job_id: str, studio: TheStudio) -> dict[str, Any]:
 
 
 @router.delete("/{job_id}")
-async def cancel(job_id: str, studio: TheStudio) -> dict[str, Any]:
+async def cancel(job_id: str, studio: TheStudio) -> Json:
     """Cancels a job; one that has ended stays as it is."""
     return await on_command_thread(studio, lambda: studio.job_commands.cancel_job(job_id))
 
 
 @router.get("/{job_id}/course/{number}")
-async def iterate(job_id: str, number: int, studio: TheStudio) -> dict[str, Any]:
+async def iterate(job_id: str, number: int, studio: TheStudio) -> Json:
     """The motion at one of a job's iterations, as a plan to look at; 0 is the start."""
     plan = await on_command_thread(studio, lambda: studio.jobs.iterate(job_id, number))
     return await run_in_threadpool(lambda: plan_view(studio.live.keep(plan)))

@@ -1,10 +1,9 @@
 """The robots that a gait may be for, and new gaits for them."""
 
-from typing import Any
-
 from fastapi import APIRouter
 from pydantic import Field
 
+from app.common.json_values import Json
 from app.web.dependencies import FiniteBody, TheStudio, changed
 from core.gait.gait import MOST_NAME, Gait, Orientation
 from core.gait.options import GaitOptions
@@ -28,12 +27,12 @@ class NewGait(FiniteBody):
 
 
 @router.get("/robots")
-async def list_robots() -> dict[str, Any]:
+async def list_robots() -> Json:
     """Every robot with its title, its legs and motors, and foot orders that work for it."""
     return {"robots": [robot_content(load_robot(name)) for name in ROBOT_NAMES]}
 
 
-def robot_content(model: RobotModel) -> dict[str, Any]:
+def robot_content(model: RobotModel) -> Json:
     """A robot as JSON content; feet count from 1, m."""
     return {
         "name": model.name,
@@ -55,7 +54,7 @@ def robot_content(model: RobotModel) -> dict[str, Any]:
 
 
 @router.post("/gaits/drawn", status_code=201, tags=["gaits"])
-async def create_drawn_gait(asked: NewGait, studio: TheStudio) -> dict[str, Any]:
+async def create_drawn_gait(asked: NewGait, studio: TheStudio) -> Json:
     """Saves a new gait whose feet step one after the other."""
     gait = _drawn(asked)
     return await changed(studio, lambda: studio.gaits.create(gait))

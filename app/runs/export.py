@@ -7,8 +7,9 @@ import io
 import json
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from app.common.json_values import Json
 from app.common.version import VERSION
 from app.runs.record import RunRecord
 from core.wire.messages import MOTORS
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 _NUMBERS = {"type": "array", "items": {"type": "number"}, "minItems": 12, "maxItems": 12}
 _SECONDS = {"type": "number", "description": "s since the run began"}
 
-_CHANNELS: dict[str, dict[str, Any]] = {
+_CHANNELS: dict[str, Json] = {
     "measured": {"time": _SECONDS, "strokes_mm": _NUMBERS},
     "commanded": {
         "time": _SECONDS,
@@ -45,7 +46,7 @@ _CHANNELS: dict[str, dict[str, Any]] = {
 }
 """Fields of each channel's messages; the topic is `/run/` and the name."""
 
-_Message = tuple[float, str, dict[str, Any]]
+_Message = tuple[float, str, Json]
 
 
 def run_csv(record: RunRecord) -> str:
@@ -91,7 +92,7 @@ def run_mcap(record: RunRecord) -> bytes:
     return stream.getvalue()
 
 
-def _register(writer: Writer, name: str, fields: dict[str, Any]) -> int:
+def _register(writer: Writer, name: str, fields: Json) -> int:
     schema = {"title": name, "type": "object", "properties": fields, "required": list(fields)}
     number = writer.register_schema(f"footfall.{name}", "jsonschema", json.dumps(schema).encode())
     return writer.register_channel(topic=f"/run/{name}", message_encoding="json", schema_id=number)

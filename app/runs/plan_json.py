@@ -1,11 +1,11 @@
 """What a run was to do, as JSON content that stays readable when its gait has changed or gone."""
 
 from dataclasses import asdict
-from typing import Any
 
 import numpy as np
 
 from app.bridge.states import RunPlan
+from app.common.json_values import Json
 from app.documents.trajectory_json import trajectory_content, trajectory_from_content
 from app.plans.plan import Plan
 from core.arrays import Floats
@@ -19,7 +19,7 @@ from core.wire.waypoint_merging import WaypointPlan
 from core.wire.waypoints import Waypoints
 
 
-def run_plan_content(plan: Plan, way: WaypointPlan, approval: Approval) -> dict[str, Any]:
+def run_plan_content(plan: Plan, way: WaypointPlan, approval: Approval) -> Json:
     """What is kept of a plan with a run of it.
 
     Args:
@@ -36,7 +36,7 @@ def run_plan_content(plan: Plan, way: WaypointPlan, approval: Approval) -> dict[
     return sent | {"approval": asdict(approval), "merge": way.merge, "stop_bound": way.stop_bound}
 
 
-def file_plan_content(model: RobotModel, plan: RunPlan) -> dict[str, Any] | None:
+def file_plan_content(model: RobotModel, plan: RunPlan) -> Json | None:
     """What is kept of a file's waypoints with a run of them; None where they make no motion of a gait.
 
     Args:
@@ -51,9 +51,7 @@ def file_plan_content(model: RobotModel, plan: RunPlan) -> dict[str, Any] | None
     return sent | {"approval": asdict(plan.approval)}
 
 
-def sent_content(
-    model: RobotModel, waypoints: Waypoints, times: Floats, trajectory: Trajectory
-) -> dict[str, Any]:
+def sent_content(model: RobotModel, waypoints: Waypoints, times: Floats, trajectory: Trajectory) -> Json:
     """Waypoints with the motion that they were made from.
 
     Args:
@@ -71,7 +69,7 @@ def sent_content(
     }
 
 
-def ran_plan(content: dict[str, Any]) -> RanPlan:
+def ran_plan(content: Json) -> RanPlan:
     """Inverse of `sent_content`, for comparing what was done with the plan."""
     model = load_robot(content["robot"])
     rows_mm = np.array(content["strokes_mm"])

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from app.common.json_values import finite
+from app.common.json_values import Json, finite
 from app.runs.record import RunRecord, known_row, read_record
 from app.runs.recovery import end_abandoned
 from app.store.database import Database
@@ -30,7 +30,7 @@ class RunService:
         self._database = database
         self._log = RunStore(database)
 
-    def found(self, wanted: RunFilter, offset: int, most: int) -> dict[str, Any]:
+    def found(self, wanted: RunFilter, offset: int, most: int) -> Json:
         """Some of the runs that a filter leaves, the newest first, and what can be filtered by."""
         end_abandoned(self._database)
         rows = self._log.found(wanted, offset, most)
@@ -41,7 +41,7 @@ class RunService:
             **self._log.choices(),
         }
 
-    def summary(self, run: str) -> dict[str, Any]:
+    def summary(self, run: str) -> Json:
         """A run with its plan's words, its states and its errors."""
         row = known_row(self._log, run)
         plan, began = self._log.plan(run) or {}, row.content["started_monotonic"]
@@ -56,7 +56,7 @@ class RunService:
             ],
         }
 
-    def strokes(self, run: str, most: int) -> dict[str, Any]:
+    def strokes(self, run: str, most: int) -> Json:
         """Measured and commanded strokes over time, thinned to about `most` samples, arrivals always kept."""
         record = self.record(run)
         kept = _thinned(record, most)
@@ -80,25 +80,25 @@ class RunService:
         """A run as it was kept, for its files."""
         return read_record(self._log, run)
 
-    def note(self, run: str, text: str) -> dict[str, Any]:
+    def note(self, run: str, text: str) -> Json:
         """Keeps a person's note."""
         known_row(self._log, run)
         self._log.put_note(run, text)
         return self.summary(run)
 
-    def delete(self, run: str) -> dict[str, Any]:
+    def delete(self, run: str) -> Json:
         """Takes a run out of every list; `restore` brings it back."""
         known_row(self._log, run)
         self._log.put_deleted(run, time.time())
         return {"id": run, "deleted": True}
 
-    def restore(self, run: str) -> dict[str, Any]:
+    def restore(self, run: str) -> Json:
         """Brings a deleted run back."""
         known_row(self._log, run)
         self._log.put_deleted(run, None)
         return self.summary(run)
 
-    def _line(self, row: RunRow) -> dict[str, Any]:
+    def _line(self, row: RunRow) -> Json:
         content = row.content
         keys = ("id", "gait", "gait_name", "waypoints_hash", "by", "state", "sentence")
         return {
@@ -114,7 +114,7 @@ class RunService:
             "errors": self._errors(row),
         }
 
-    def _errors(self, row: RunRow) -> dict[str, Any] | None:
+    def _errors(self, row: RunRow) -> Json | None:
         """Figures of a run; kept once it has ended. None where it was kept without its plan."""
         run, is_on = row.content["id"], row.content["ended"] is None and row.content["state"] == "running"
         kept = None if is_on else self._log.figures(run)
@@ -129,7 +129,7 @@ class RunService:
         return figures
 
 
-def _figures(record: RunRecord) -> dict[str, Any]:
+def _figures(record: RunRecord) -> Json:
     errors = run_errors(record.plan, record.series)
     largest = errors.motor_largest
     worst = int(largest.argmax()) if errors.arrived else None

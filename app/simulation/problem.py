@@ -3,11 +3,10 @@
 import hashlib
 import json
 from dataclasses import asdict, fields
-from typing import Any
 
 import numpy as np
 
-from app.common.json_values import finite
+from app.common.json_values import Json, finite
 from app.common.version import VERSION
 from app.plans.plan import Plan
 from core.errors import CheckError, InputError
@@ -71,40 +70,40 @@ def simulation_key(plan: Plan, physics: PhysicsSet) -> str:
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
-def physics_content(physics: PhysicsSet) -> dict[str, Any]:
+def physics_content(physics: PhysicsSet) -> Json:
     """A set of physics parameters as JSON content, SI."""
-    content: dict[str, Any] = finite(asdict(physics))
+    content: Json = finite(asdict(physics))
     return content
 
 
-def physics_from_content(content: dict[str, Any]) -> PhysicsSet:
+def physics_from_content(content: Json) -> PhysicsSet:
     """Inverse of `physics_content`."""
-    values: dict[str, Any] = {
+    values: Json = {
         name: tuple(value) if isinstance(value, list) else value for name, value in content.items()
     }
     return PhysicsSet(**values)
 
 
-def report_content(report: SimulationReport) -> dict[str, Any]:
+def report_content(report: SimulationReport) -> Json:
     """A report as JSON content, SI."""
     values = {field.name: getattr(report, field.name) for field in fields(report)}
-    content: dict[str, Any] = finite(
+    content: Json = finite(
         {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in values.items()}
     )
     return content
 
 
-def report_from_content(content: dict[str, Any]) -> SimulationReport:
+def report_from_content(content: Json) -> SimulationReport:
     """Inverse of `report_content`."""
-    values: dict[str, Any] = {
+    values: Json = {
         name: np.array(value) if isinstance(value, list) else value for name, value in content.items()
     }
     return SimulationReport(**values)
 
 
-def report_figures(report: SimulationReport) -> dict[str, Any]:
+def report_figures(report: SimulationReport) -> Json:
     """The figures that scripts get of a simulated run, SI, those of feet and motors from foot 1 on."""
-    content: dict[str, Any] = finite(
+    content: Json = finite(
         {
             "mean_error": {
                 "body": report.body_error,

@@ -1,8 +1,8 @@
 """The kept simulations: which of them belongs to the present plan, and its report. Thread-safe."""
 
 from collections.abc import Callable, Iterable
-from typing import Any
 
+from app.common.json_values import Json
 from app.plans.plan import Plan
 from app.simulation.problem import report_from_content, simulation_key, simulation_problem
 from app.store.simulation_store import SimulationRow, SimulationStore
@@ -31,7 +31,7 @@ class SimulationRepository:
         self._told = told
         self._sets = sets
 
-    def put(self, row: SimulationRow, content: dict[str, Any]) -> None:
+    def put(self, row: SimulationRow, content: Json) -> None:
         """Keeps a simulation; variations that are known of the same stay where it has none of its own."""
         before = self._log.content(row.key)
         if content["variations"] is None and before is not None:
@@ -39,7 +39,7 @@ class SimulationRepository:
         self._log.put(row, content)
         self._told(row.waypoints)
 
-    def content(self, key: str) -> dict[str, Any]:
+    def content(self, key: str) -> Json:
         """A simulation for pages and scripts.
 
         Raises:
@@ -52,7 +52,7 @@ class SimulationRepository:
             )
         return content
 
-    def standing(self, gait_id: str, plan: Plan) -> dict[str, Any] | None:
+    def standing(self, gait_id: str, plan: Plan) -> Json | None:
         """The newest simulation of a gait, rather one of its plan as it is; None where there is none."""
         rows = self._log.of_gait(gait_id)
         if not rows:

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from app.common.json_values import finite
+from app.common.json_values import Json, finite
 from core.arrays import Floats
 from core.motion.support_polygon import stability_margins
 from core.physics.findings import SWING_LIMIT, TILT_LIMIT
@@ -22,9 +22,7 @@ SHOWN_SLIP = 0.0003
 """A move in which a standing foot slid further leaves a mark, m."""
 
 
-def motion_content(
-    problem: SimulationProblem, motion: SimulatedMotion, report: SimulationReport
-) -> dict[str, Any]:
+def motion_content(problem: SimulationProblem, motion: SimulatedMotion, report: SimulationReport) -> Json:
     """A simulated motion for 3D and plots, thinned, on the plan's time axis; SI but for strokes."""
     kept = shown_samples(motion)
     times = plan_times(problem, motion)
@@ -32,7 +30,7 @@ def motion_content(
     bears = bearing(motion)[kept]
     margins = stability_margins(motion.centre_world[kept, :2], motion.feet_world[kept], bears)
     margins = np.where(bears.sum(axis=1) >= 3, margins, np.nan)
-    content: dict[str, Any] = finite(
+    content: Json = finite(
         {
             "times": _rounded(times[kept], 5),
             "robot_times": _rounded(motion.times[kept], 4),
@@ -56,9 +54,7 @@ def shown_samples(motion: SimulatedMotion) -> list[int]:
     return sorted({*found.tolist(), *motion.arrivals.tolist(), len(motion.times) - 1})
 
 
-def _slips(
-    problem: SimulationProblem, motion: SimulatedMotion, report: SimulationReport
-) -> list[dict[str, Any]]:
+def _slips(problem: SimulationProblem, motion: SimulatedMotion, report: SimulationReport) -> list[Json]:
     """Where soles slid that should have stood: from and to on the ground, of each move, m."""
     marks = []
     places = soles(problem, motion, rotations(motion.attitude))
@@ -81,7 +77,7 @@ def _rounded(values: Floats, digits: int) -> list[Any]:
     return rounded
 
 
-def report_sentence(figures: dict[str, Any]) -> str:
+def report_sentence(figures: Json) -> str:
     """How a simulated run came out, in words, of its report's content."""
     if figures["fell"]:
         return f"The robot falls over at {figures['fell_time']:.1f} s."
@@ -96,9 +92,9 @@ def report_sentence(figures: dict[str, Any]) -> str:
     return f"The robot stays on its feet, leans by {tilt:.1f}° at most and {way}."
 
 
-def variations_content(runs: Sequence[VariedRun]) -> dict[str, Any]:
+def variations_content(runs: Sequence[VariedRun]) -> Json:
     """What came of each variation, and the share that walks; SI."""
-    content: dict[str, Any] = finite(
+    content: Json = finite(
         {
             "count": len(runs),
             "share": sum(run.walks for run in runs) / len(runs),

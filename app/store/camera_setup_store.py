@@ -2,8 +2,8 @@
 
 import json
 from dataclasses import dataclass
-from typing import Any
 
+from app.common.json_values import Json
 from app.store.database import Database
 
 _NEWEST = """
@@ -20,7 +20,7 @@ class CameraSetupRow:
     id: str
     revision: int
     made: float
-    content: dict[str, Any]
+    content: Json
     is_deleted: bool
 
 
@@ -51,7 +51,7 @@ class CameraSetupStore:
             rows = self._database.rows(query, setup, revision)
         return _row(*rows[0]) if rows else None
 
-    def add(self, setup: str, revision: int, made: float, content: dict[str, Any]) -> None:
+    def add(self, setup: str, revision: int, made: float, content: Json) -> None:
         """Stores a new revision.
 
         Raises:
@@ -73,11 +73,11 @@ class CameraSetupStore:
                     "INSERT OR REPLACE INTO camera_setup_deleted VALUES(?,?)", (setup, deleted)
                 )
 
-    def cameras(self) -> dict[str, dict[str, Any]]:
+    def cameras(self) -> dict[str, Json]:
         """What each camera is for."""
         return {key: json.loads(text) for key, text in self._database.rows("SELECT id, content FROM camera")}
 
-    def put_camera(self, camera: str, content: dict[str, Any]) -> None:
+    def put_camera(self, camera: str, content: Json) -> None:
         """Stores what a camera is for."""
         with self._database.writing() as connection:
             connection.execute("INSERT OR REPLACE INTO camera VALUES(?,?)", (camera, json.dumps(content)))

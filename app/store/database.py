@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from app.common.json_values import Json
 from app.store import run_rows
 from app.store.schema import bring_up_to_date
 from core.errors import InputError
@@ -56,24 +57,24 @@ class Database:
         with self._lock:
             return self._connection.execute(query, values).fetchall()
 
-    def result(self, motion: str) -> dict[str, Any] | None:
+    def result(self, motion: str) -> Json | None:
         """The stored result for a motion hash."""
         rows = self.rows("SELECT content FROM result WHERE motion=?", motion)
         return json.loads(rows[0][0]) if rows else None
 
-    def put_result(self, motion: str, content: dict[str, Any]) -> None:
+    def put_result(self, motion: str, content: Json) -> None:
         """Stores a checked result."""
         with self.writing() as connection:
             connection.execute(
                 "INSERT OR REPLACE INTO result VALUES(?,?)", (motion, json.dumps(content, allow_nan=False))
             )
 
-    def jobs(self, most: int = 50) -> list[dict[str, Any]]:
+    def jobs(self, most: int = 50) -> list[Json]:
         """The newest jobs, newest first."""
         rows = self.rows("SELECT content FROM job ORDER BY created DESC LIMIT ?", most)
         return [json.loads(row[0]) for row in rows]
 
-    def put_job(self, content: dict[str, Any]) -> None:
+    def put_job(self, content: Json) -> None:
         """Stores a job as it is now."""
         with self.writing() as connection:
             connection.execute(
@@ -81,12 +82,12 @@ class Database:
                 (content["id"], content["created"], json.dumps(content, allow_nan=False)),
             )
 
-    def runs(self, most: int = 100) -> list[dict[str, Any]]:
+    def runs(self, most: int = 100) -> list[Json]:
         """The newest runs, newest first."""
         rows = self.rows("SELECT content FROM run ORDER BY started DESC LIMIT ?", most)
         return [json.loads(row[0]) for row in rows]
 
-    def put_run(self, content: dict[str, Any]) -> None:
+    def put_run(self, content: Json) -> None:
         """Stores a run as it is now."""
         with self.writing() as connection:
             run_rows.put_run(connection, content)

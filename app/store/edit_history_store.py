@@ -6,8 +6,8 @@ A change and the version that goes with it are one transaction: after a kill bot
 import json
 import sqlite3
 from dataclasses import astuple, dataclass
-from typing import Any
 
+from app.common.json_values import Json
 from app.store.database import Database
 from app.undo.history import Action, Author, History, LogEntry
 
@@ -97,7 +97,7 @@ class EditHistoryStore:
         row: EditHistoryRow,
         stored: History | None,
         version: VersionRow | None = None,
-        approval: dict[str, Any] | None = None,
+        approval: Json | None = None,
     ) -> None:
         """Stores an editing state, and in the same transaction a version and an approval's record with it.
 
@@ -140,7 +140,7 @@ class EditHistoryStore:
                 content = json.dumps(approval, allow_nan=False)
                 connection.execute("INSERT INTO approval(gait, content) VALUES(?,?)", (gait, content))
 
-    def approvals(self, gait: str) -> list[tuple[int, dict[str, Any]]]:
+    def approvals(self, gait: str) -> list[tuple[int, Json]]:
         """The record of a gait's approvals with their numbers, the newest first."""
         rows = self._database.rows(
             "SELECT number, content FROM approval WHERE gait=? ORDER BY number DESC", gait

@@ -5,6 +5,7 @@ import sqlite3
 from dataclasses import dataclass
 from typing import Any
 
+from app.common.json_values import Json
 from app.store.database import Database
 from app.store.run_rows import StateRow, add_states, put_run
 
@@ -13,7 +14,7 @@ from app.store.run_rows import StateRow, add_states, put_run
 class RunRow:
     """A run as it is kept: its content, a person's note, and when it was deleted, s since the epoch."""
 
-    content: dict[str, Any]
+    content: Json
     note: str
     deleted: float | None
 
@@ -83,7 +84,7 @@ class RunStore:
         where, values = wanted.condition()
         return int(self._database.rows(f"SELECT COUNT(*) FROM run WHERE {where}", *values)[0][0])
 
-    def running(self) -> tuple[dict[str, Any], ...]:
+    def running(self) -> tuple[Json, ...]:
         """Runs that have not ended as far as is known, also deleted ones."""
         rows = self._database.rows(
             "SELECT content FROM run WHERE json_extract(content, '$.state') = 'running'"
@@ -124,22 +125,22 @@ class RunStore:
         with self._database.writing() as connection:
             connection.execute("UPDATE run SET deleted=? WHERE id=?", (deleted, run))
 
-    def plan(self, run: str) -> dict[str, Any] | None:
+    def plan(self, run: str) -> Json | None:
         """What the run was to do; None where it was not kept."""
         return self._content("run_plan", run)
 
-    def begin(self, content: dict[str, Any], plan: dict[str, Any] | None) -> None:
+    def begin(self, content: Json, plan: Json | None) -> None:
         """Stores a run that begins, and what it is to do, together."""
         with self._database.writing() as connection:
             put_run(connection, content)
             if plan is not None:
                 _put_content(connection, "run_plan", content["id"], plan)
 
-    def figures(self, run: str) -> dict[str, Any] | None:
+    def figures(self, run: str) -> Json | None:
         """What was computed from a run that has ended."""
         return self._content("run_figures", run)
 
-    def put_figures(self, run: str, content: dict[str, Any]) -> None:
+    def put_figures(self, run: str, content: Json) -> None:
         """Stores what was computed from a run."""
         with self._database.writing() as connection:
             _put_content(connection, "run_figures", run, content)
@@ -167,11 +168,11 @@ class RunStore:
             )
         ]
 
-    def _content(self, table: str, run: str) -> dict[str, Any] | None:
+    def _content(self, table: str, run: str) -> Json | None:
         rows = self._database.rows(f"SELECT content FROM {table} WHERE run=?", run)
         return json.loads(rows[0][0]) if rows else None
 
 
-def _put_content(connection: sqlite3.Connection, table: str, run: str, content: dict[str, Any]) -> None:
+def _put_content(connection: sqlite3.Connection, table: str, run: str, content: Json) -> None:
     text = json.dumps(content, allow_nan=False)
     connection.execute(f"INSERT OR REPLACE INTO {table} VALUES(?,?)", (run, text))

@@ -2,8 +2,8 @@
 
 import json
 from dataclasses import dataclass
-from typing import Any
 
+from app.common.json_values import Json
 from app.store.database import Database
 
 MOST_KEPT = 100
@@ -39,7 +39,7 @@ class SimulationStore:
     def __init__(self, database: Database) -> None:
         self._database = database
 
-    def put(self, row: SimulationRow, content: dict[str, Any]) -> None:
+    def put(self, row: SimulationRow, content: Json) -> None:
         """Stores a simulation in place of one of the same."""
         text = json.dumps(content, allow_nan=False)
         with self._database.writing() as connection:
@@ -61,7 +61,7 @@ class SimulationStore:
         """The simulations of waypoints, of whatever gait they are, the newest first."""
         return self._rows("waypoints=?", waypoints)
 
-    def content(self, key: str) -> dict[str, Any] | None:
+    def content(self, key: str) -> Json | None:
         """A simulation with its states; None where there is none, or it was long ago."""
         rows = self._database.rows("SELECT content FROM simulation WHERE key=? ORDER BY made DESC", key)
         return json.loads(rows[0][0]) if rows else None

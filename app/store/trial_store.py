@@ -2,8 +2,8 @@
 
 import json
 from dataclasses import dataclass
-from typing import Any
 
+from app.common.json_values import Json
 from app.store.database import Database
 
 
@@ -11,7 +11,7 @@ from app.store.database import Database
 class TrialRow:
     """A trial as it is kept: what is known of it, its track as text in cm, and whether it was deleted."""
 
-    content: dict[str, Any]
+    content: Json
     track: str
     is_deleted: bool
 
@@ -38,7 +38,7 @@ class TrialStore:
         rows = self._database.rows("SELECT content, track, deleted FROM trial WHERE id=?", trial)
         return _row(*rows[0]) if rows else None
 
-    def add(self, content: dict[str, Any], track: str) -> None:
+    def add(self, content: Json, track: str) -> None:
         """Stores a new trial."""
         with self._database.writing() as connection:
             connection.execute(
@@ -46,7 +46,7 @@ class TrialStore:
                 (content["id"], content["made"], json.dumps(content, allow_nan=False), track),
             )
 
-    def change(self, content: dict[str, Any], revision: int) -> bool:
+    def change(self, content: Json, revision: int) -> bool:
         """Stores what is known of a trial now; False where it is deleted, or no longer of this revision.
 
         Args:

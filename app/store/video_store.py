@@ -1,8 +1,8 @@
 """Videos in the database; the files themselves are in the data folder."""
 
 import json
-from typing import Any
 
+from app.common.json_values import Json
 from app.store.database import Database
 
 
@@ -16,7 +16,7 @@ class VideoStore:
     def __init__(self, database: Database) -> None:
         self._database = database
 
-    def found(self, run: str = "", *, is_deleted: bool = False) -> list[dict[str, Any]]:
+    def found(self, run: str = "", *, is_deleted: bool = False) -> list[Json]:
         """Videos, the newest first.
 
         Args:
@@ -32,7 +32,7 @@ class VideoStore:
         )
         return [_content(*row) for row in rows]
 
-    def get(self, video: str) -> dict[str, Any] | None:
+    def get(self, video: str) -> Json | None:
         """One video, also a deleted one; None where there is none."""
         rows = self._database.rows("SELECT content, deleted FROM video WHERE id=?", video)
         return _content(*rows[0]) if rows else None
@@ -58,7 +58,7 @@ class VideoStore:
             found.setdefault(source, []).append({"id": trial, "name": name})
         return found
 
-    def put(self, content: dict[str, Any]) -> None:
+    def put(self, content: Json) -> None:
         """Stores what is known of a video now; whether it is deleted stays as it is."""
         kept = {key: value for key, value in content.items() if key != "deleted"}
         text = json.dumps(kept, allow_nan=False)
@@ -79,5 +79,5 @@ class VideoStore:
             connection.execute("UPDATE video SET deleted=? WHERE id=?", (deleted, video))
 
 
-def _content(content: str, deleted: float | None) -> dict[str, Any]:
+def _content(content: str, deleted: float | None) -> Json:
     return {**json.loads(content), "deleted": deleted is not None}

@@ -5,9 +5,10 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from typing import Protocol, TypeVar
 
 from app.cameras.address import CameraAddress
+from app.common.json_values import Json
 from app.gaits.live_preview import LivePreview
 from app.gaits.open_gait import OpenGait
 from app.gaits.planner import Planner
@@ -162,23 +163,23 @@ class Studio:
         """Does something on the command queue's thread that finds the plan of a gait made; see `Planner`."""
         return self._plans.after(gait_id, action)
 
-    def change(self, action: Callable[[], OpenGait]) -> Future[dict[str, Any]]:
+    def change(self, action: Callable[[], OpenGait]) -> Future[Json]:
         """Changes a gait on the command queue's thread, and shows it to every page once its plan is known.
 
         Returns:
             A future with the gait's view.
         """
-        shown: Future[dict[str, Any]] = Future()
+        shown: Future[Json] = Future()
         self.commands.tell(partial(self._change, action, shown))
         return shown
 
-    def _change(self, action: Callable[[], OpenGait], shown: Future[dict[str, Any]]) -> None:
+    def _change(self, action: Callable[[], OpenGait], shown: Future[Json]) -> None:
         try:
             self.publisher.publish_soon(action().id, shown)
         except BaseException as error:  # it belongs to whoever waits for the view
             shown.set_exception(error)
 
-    def hello(self) -> dict[str, Any]:
+    def hello(self) -> Json:
         """The first event of every page: everything that it renders from."""
         return self.publisher.hello(self.robot.view())
 
@@ -196,7 +197,7 @@ class Studio:
         if content is not None:
             self.publisher.publish_job(content)
 
-    def _take_result(self, motion: str, content: dict[str, Any]) -> None:
+    def _take_result(self, motion: str, content: Json) -> None:
         self.publisher.publish_all_soon(self.gaits.on_result(motion, content))
 
     def _simulated(self, waypoints: str) -> None:

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from app.common.json_values import Json
 from app.trials.figures import CM
 from app.trials.record import TrialRecord
 from core.arrays import Floats, interpolated
@@ -12,7 +13,7 @@ from core.trials.alignment import track_of_motion
 from core.trials.band import TrialBand, trial_band
 
 
-def band_content(records: Sequence[TrialRecord]) -> dict[str, Any]:
+def band_content(records: Sequence[TrialRecord]) -> Json:
     """The trials' mean way, how far they lie apart, each of them, and the first plan that one has.
 
     `place` is from above; `way` is along the direction of the plan, or else of the trials.
@@ -46,7 +47,7 @@ def _plan_ways(record: TrialRecord, iterations: Floats) -> Floats | None:
     return interpolated(times, planned.times, planned.feet - planned.feet[0])
 
 
-def _feet(band: TrialBand, plan: Floats | None, begin: Floats) -> list[dict[str, Any]]:
+def _feet(band: TrialBand, plan: Floats | None, begin: Floats) -> list[Json]:
     mean = band.mean
     direction = (mean if plan is None else plan)[-1].mean(axis=0)
     along = band.along(direction if np.hypot(*direction) > 0 else np.array([1.0, 0.0]))
@@ -73,7 +74,7 @@ def _feet(band: TrialBand, plan: Floats | None, begin: Floats) -> list[dict[str,
     ]
 
 
-def _places(way: Floats) -> dict[str, Any]:
+def _places(way: Floats) -> Json:
     return {"x": _cm(way[:, 0]), "y": _cm(way[:, 1])}
 
 

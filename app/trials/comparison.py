@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from app.common.json_values import Json
 from app.trials.bands import band_content
 from app.trials.figures import movement_content, path_content
 from app.trials.record import ROBOT, TrialRecord
@@ -35,7 +36,7 @@ class TrialComparison:
         self._service = service
         self._simulations = simulations
 
-    def figures(self, trial: str) -> dict[str, Any]:
+    def figures(self, trial: str) -> Json:
         """How the trial's simulation stands, a row of figures a source, and physics' feet for a plot."""
         record = self._service.record(trial)
         simulated, remark = self._simulated(record)
@@ -53,7 +54,7 @@ class TrialComparison:
         known = {"planned": record.placed_plan, "simulated": simulated, "tracked": record.track}
         return {source: motion for source, motion in known.items() if motion is not None}
 
-    def simulate(self, trial: str) -> dict[str, Any]:
+    def simulate(self, trial: str) -> Json:
         """Starts a trial's simulation where there is none; tells how it stands."""
         self._service.record(trial)
         return self._simulations.begin(trial)
@@ -67,7 +68,7 @@ class TrialComparison:
         words = f"Physics: {feet.physics}. {feet.ended_early}".strip()
         return placed_motion(times, places, record.alignment), words
 
-    def scene(self, trial: str, lap: int = 1) -> dict[str, Any]:
+    def scene(self, trial: str, lap: int = 1) -> Json:
         """The track in the frame of the plan's lap, m, by shares of the whole walk; and how the robot stood.
 
         Raises:
@@ -92,7 +93,7 @@ class TrialComparison:
             "filled": track.filled[kept].T.tolist(),
         }
 
-    def band(self, trials: Sequence[str]) -> dict[str, Any]:
+    def band(self, trials: Sequence[str]) -> Json:
         """Several trials over each other in the plan's frame: their mean way, the spread, and the plan; cm.
 
         Raises:
@@ -116,7 +117,7 @@ def _playing(record: TrialRecord, lap: int) -> list[float]:
     return [(time - begin) / (end - begin) for time in (first, first + record.lap_seconds)]
 
 
-def _row(source: str, record: TrialRecord, motion: FootTrack) -> dict[str, Any]:
+def _row(source: str, record: TrialRecord, motion: FootTrack) -> Json:
     """Mean figures of a motion, and how far its feet are from the tracked ones on the average."""
     mean = movement_content(mean_movement(foot_movements(motion, record.expected)))
     keys = ("distance", "angle_deg", "error_percent", "net_distance", "net_angle_deg", "net_error_percent")

@@ -2,10 +2,10 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
+from app.common.json_values import Json
 from core.arrays import Floats
 from core.trials.alignment import Alignment, placed_motion
 from core.trials.iterations import FoundIterations, IterationMovement, iteration_movements, standing_slip
@@ -34,12 +34,12 @@ def movement_content(movement: Movement) -> dict[str, float]:
     }
 
 
-def feet_content(feet: Sequence[Movement]) -> dict[str, Any]:
+def feet_content(feet: Sequence[Movement]) -> Json:
     """The mean of the feet's movements, with each foot's beside it."""
     return {**movement_content(mean_movement(feet)), "feet": [movement_content(foot) for foot in feet]}
 
 
-def part_content(part: IterationMovement, end: int, body_length: float | None = None) -> dict[str, Any]:
+def part_content(part: IterationMovement, end: int, body_length: float | None = None) -> Json:
     """An iteration: the mean of its columns, its time and its speed.
 
     Args:
@@ -54,7 +54,7 @@ def part_content(part: IterationMovement, end: int, body_length: float | None = 
 
 def track_content(
     track: FootTrack, expected: float, found: FoundIterations, ends: tuple[int, ...], body_length: float
-) -> dict[str, Any]:
+) -> Json:
     """Everything that a track tells by itself.
 
     Args:
@@ -78,7 +78,7 @@ def track_content(
     }
 
 
-def plan_content(times: Floats, feet_world: Floats, alignment: Alignment, expected: float) -> dict[str, Any]:
+def plan_content(times: Floats, feet_world: Floats, alignment: Alignment, expected: float) -> Json:
     """A planned or simulated motion by the same definitions, and how it was laid over the track.
 
     Args:
@@ -95,7 +95,7 @@ def plan_content(times: Floats, feet_world: Floats, alignment: Alignment, expect
     }
 
 
-def path_content(track: FootTrack, most: int) -> dict[str, Any]:
+def path_content(track: FootTrack, most: int) -> Json:
     """Each foot's way for a plot, thinned to about `most` places, cm; frames, and their shares of time."""
     every = max(1, -(-track.times.size // most))
     kept = np.unique(np.append(np.arange(0, track.times.size, every), track.times.size - 1))

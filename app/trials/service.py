@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from app.common.json_values import Json
 from app.store.database import Database
 from app.store.trial_reference_store import TrialReferenceStore
 from app.store.trial_store import TrialRow, TrialStore
@@ -60,13 +61,11 @@ class TrialService:
         changed: told the id, revision and whether it is deleted, of a trial that is new or another now.
     """
 
-    def __init__(
-        self, database: Database, changed: Callable[[dict[str, Any]], None] = lambda change: None
-    ) -> None:
+    def __init__(self, database: Database, changed: Callable[[Json], None] = lambda change: None) -> None:
         self._changed = changed
         self._log = TrialStore(database)
         self._beside = TrialReferenceStore(database)
-        self._lines: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {}
+        self._lines: dict[str, tuple[Json, Json]] = {}
 
     def add(
         self,
@@ -74,7 +73,7 @@ class TrialService:
         words: TrialDescription,
         planned: PlannedFeet | None,
         track_record: TrackRecord | None = None,
-    ) -> dict[str, Any]:
+    ) -> Json:
         """Keeps a new trial and tells its figures.
 
         Args:
@@ -101,11 +100,11 @@ class TrialService:
             self._beside.put_sent(content["id"], dict(planned.sent))
         return self._told(content["id"])
 
-    def lines(self) -> list[dict[str, Any]]:
+    def lines(self) -> list[Json]:
         """All trials, the newest first, each with its mean figures."""
         return [self._line(row) for row in self._log.found()]
 
-    def _line(self, row: TrialRow) -> dict[str, Any]:
+    def _line(self, row: TrialRow) -> Json:
         """A trial's line, computed once for what is known of it."""
         content, line = self._lines.get(row.content["id"], ({}, {}))
         if content != row.content:
@@ -113,22 +112,22 @@ class TrialService:
             self._lines[row.content["id"]] = (row.content, line)
         return line
 
-    def summary(self, trial: str) -> dict[str, Any]:
+    def summary(self, trial: str) -> Json:
         """A trial's figures, each foot's and each iteration's, beside its plan's."""
         return _summary(self._known(trial))
 
-    def paths(self, trial: str) -> dict[str, Any]:
+    def paths(self, trial: str) -> Json:
         """The feet's ways, tracked and planned, for a plot; cm in the track's frame."""
         row = self._known(trial)
         track, plan = kept_track(row), row.content["plan"]
-        content: dict[str, Any] = {"id": trial, "track": path_content(track, MOST_PLACES), "plan": None}
+        content: Json = {"id": trial, "track": path_content(track, MOST_PLACES), "plan": None}
         if plan is not None:
             times, feet = _plan_arrays(plan)
             placed = placed_motion(times, feet, align(track, feet[0]))
             content["plan"] = path_content(placed, MOST_PLACES)
         return content
 
-    def change(self, trial: str, revision: int, changes: dict[str, Any]) -> dict[str, Any]:
+    def change(self, trial: str, revision: int, changes: Json) -> Json:
         """Changes name, note, wanted distance, iterations or their ends.
 
         Args:
@@ -160,7 +159,7 @@ class TrialService:
         self._log.put_deleted(trial, time.time())
         self._tell(self._known(trial))
 
-    def restore(self, trial: str) -> dict[str, Any]:
+    def restore(self, trial: str) -> Json:
         """Brings a deleted trial back."""
         self._known(trial)
         self._log.put_deleted(trial, None)
@@ -170,7 +169,7 @@ class TrialService:
         """A trial as it was kept, for what is laid over it."""
         return trial_record(self._known(trial))
 
-    def sent(self, trial: str) -> dict[str, Any] | None:
+    def sent(self, trial: str) -> Json | None:
         """What the robot was sent in a trial (`app.runs.plan_json.sent_content`); None where not known."""
         return self._beside.sent(self._known(trial).content["id"])
 
@@ -189,7 +188,7 @@ class TrialService:
             raise StateError(f"The trial “{row.content['name']}” is deleted. Bring it back first.", "trial")
         return row
 
-    def _told(self, trial: str) -> dict[str, Any]:
+    def _told(self, trial: str) -> Json:
         row = self._known(trial)
         self._tell(row)
         return _summary(row)
@@ -205,7 +204,7 @@ class TrialService:
         return row
 
 
-def revision_of(content: dict[str, Any]) -> int:
+def revision_of(content: Json) -> int:
     """How often a trial was changed, from 1; trials kept before revisions were counted have 1."""
     return int(content.get("revision", 1))
 
@@ -218,20 +217,20 @@ def _moved_on(row: TrialRow, revision: int) -> StateError:
     )
 
 
-def _kept_plan(planned: PlannedFeet) -> dict[str, Any]:
+def _kept_plan(planned: PlannedFeet) -> Json:
     feet = np.round(planned.feet, 6)
     laps = {"laps": planned.laps, "lap_seconds": planned.lap_seconds}
     return {"times": planned.times.tolist(), "feet": feet.tolist(), **laps}
 
 
-def _plan_arrays(plan: dict[str, Any]) -> tuple[Floats, Floats]:
+def _plan_arrays(plan: Json) -> tuple[Floats, Floats]:
     return np.array(plan["times"]), np.array(plan["feet"])
 
 
 _WORDS = ("id", "made", "name", "by", "note", "gait", "gait_name", "run", "expected_cm", "iterations")
 
 
-def _summary(row: TrialRow) -> dict[str, Any]:
+def _summary(row: TrialRow) -> Json:
     content, track = row.content, kept_track(row)
     expected = content["expected_cm"] / 100.0
     found = find_iterations(track, content["iterations"])
@@ -259,7 +258,7 @@ def _summary(row: TrialRow) -> dict[str, Any]:
     return summary
 
 
-def _record_content(track_record: dict[str, Any] | None) -> dict[str, Any]:
+def _record_content(track_record: Json | None) -> Json:
     if track_record is None:
         return {"source": None, "unseen": [], "false": [], "remarks": [], "first_seconds": 0.0}
     return {
@@ -268,7 +267,7 @@ def _record_content(track_record: dict[str, Any] | None) -> dict[str, Any]:
     }
 
 
-def _line(row: TrialRow) -> dict[str, Any]:
+def _line(row: TrialRow) -> Json:
     summary = _summary(row)
     mean = summary["figures"]
     speeds = [part["speed_mm_s"] for part in summary["parts"]]
@@ -287,7 +286,7 @@ def _line(row: TrialRow) -> dict[str, Any]:
     }
 
 
-def compared(lines: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+def compared(lines: Sequence[Json]) -> list[Json]:
     """Trials of one gait, step and count of iterations together: mean and spread of their figures, by name.
 
     The step is the plan's that is kept with a trial; without a plan it is what was wanted.
@@ -295,14 +294,14 @@ def compared(lines: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     Args:
         lines: of the list.
     """
-    groups: dict[tuple[str, float, int], list[dict[str, Any]]] = {}
+    groups: dict[tuple[str, float, int], list[Json]] = {}
     for line in lines:
         key = (line["gait_name"] or line["name"], line["step_cm"], line["iterations"])
         groups.setdefault(key, []).append(line)
     return [_group(*key, groups[key]) for key in sorted(groups)]
 
 
-def _group(name: str, step: float, iterations: int, trials: Sequence[dict[str, Any]]) -> dict[str, Any]:
+def _group(name: str, step: float, iterations: int, trials: Sequence[Json]) -> Json:
     def folded(key: str, fold: Callable[[list[float]], Any]) -> float:
         return float(fold([trial[key] for trial in trials]))
 

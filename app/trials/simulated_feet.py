@@ -9,10 +9,10 @@ import logging
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
+from app.common.json_values import Json
 from app.common.version import VERSION
 from app.simulation.problem import FORM, physics_content
 from app.simulation.service import SimulationHandle, SimulationTier
@@ -96,12 +96,12 @@ class TrialSimulations:
         problem = self._problem(trial)
         return None if problem is None else self._feet(trial, _key(problem))
 
-    def standing(self, trial: str) -> dict[str, Any]:
+    def standing(self, trial: str) -> Json:
         """How a trial's simulation stands: state `none`, `absent`, `running`, `failed` or `done`."""
         problem = self._problem(trial)
         return _state("none", sentence=NOT_KNOWN) if problem is None else self._standing(trial, _key(problem))
 
-    def begin(self, trial: str) -> dict[str, Any]:
+    def begin(self, trial: str) -> Json:
         """Starts a trial's simulation where there is none and none is on; tells how it stands."""
         problem = self._problem(trial)
         if problem is None:
@@ -119,7 +119,7 @@ class TrialSimulations:
         times, feet = np.array(content["times"]), np.array(content["feet"])
         return SimulatedFeet(times, feet, content["physics"], content["ended_early"])
 
-    def _standing(self, trial: str, key: str) -> dict[str, Any]:
+    def _standing(self, trial: str, key: str) -> Json:
         if self._feet(trial, key) is not None:
             return _state("done", 1.0)
         with self._lock:
@@ -167,7 +167,7 @@ def _teller(work: _Work) -> Callable[[float], object]:
     return tell
 
 
-def _state(state: str, share: float = 0.0, sentence: str = "") -> dict[str, Any]:
+def _state(state: str, share: float = 0.0, sentence: str = "") -> Json:
     return {"state": state, "share": share, "sentence": sentence}
 
 
@@ -179,7 +179,7 @@ def _key(problem: SimulationProblem) -> str:
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
-def _content(motion: SimulatedMotion, problem: SimulationProblem) -> dict[str, Any]:
+def _content(motion: SimulatedMotion, problem: SimulationProblem) -> Json:
     kept = shown_samples(motion)
     return {
         "times": np.round(motion.times[kept] - motion.times[kept[0]], 4).tolist(),

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from app.common.json_values import Json
 from app.vision.tracking import VideoTrack
 from core.arrays import Bools, stretches
 
@@ -54,7 +55,7 @@ class TrackRecord:
     remarks: tuple[str, ...] = ()
     run_ends: tuple[int, ...] | None = None
 
-    def content(self) -> dict[str, Any]:
+    def content(self) -> Json:
         """As it is kept."""
         return {
             "source": vars(self.source),
@@ -75,7 +76,7 @@ def marks(marked: Bools) -> list[dict[str, int]]:
     ]
 
 
-def fit_content(gaps_cm: list[float]) -> dict[str, Any]:
+def fit_content(gaps_cm: list[float]) -> Json:
     """Whether feet stand at the first frame as the plan's, and what to do where they do not.
 
     Args:
@@ -92,7 +93,7 @@ def fit_content(gaps_cm: list[float]) -> dict[str, Any]:
     return {"residual_cm": worst, "fits": fits, "fit_sentence": sentence}
 
 
-def astray_content(tracked: Mapping[str, Any], planned: Mapping[str, Any]) -> dict[str, Any]:
+def astray_content(tracked: Mapping[str, Any], planned: Mapping[str, Any]) -> Json:
     """How far to the left of the plan's direction a trial went, and a sentence where that is far.
 
     Args:

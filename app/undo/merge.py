@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Any, Final
 
+from app.common.json_values import Json
 from core.gait.gait_difference import OPTION_WORDS
 from core.library.sequence import DERIVED
 
@@ -121,10 +122,8 @@ class _Merging:
         cells = zip(base, want, present, strict=True)
         return "".join(self.merged(*three, (*path, at)) for at, three in enumerate(cells))
 
-    def _keys(
-        self, base: dict[str, Any], want: dict[str, Any], present: dict[str, Any], path: Path
-    ) -> dict[str, Any]:
-        merged: dict[str, Any] = {}
+    def _keys(self, base: Json, want: Json, present: Json, path: Path) -> Json:
+        merged: Json = {}
         for key in [*present, *(key for key in want if key not in present)]:
             old, new, now = (content.get(key, MISSING) for content in (base, want, present))
             value = self.merged(old, new, now, (*path, key))
@@ -133,7 +132,7 @@ class _Merging:
         return merged
 
 
-def _is_replaced(path: Path, base: dict[str, Any], want: dict[str, Any]) -> bool:
+def _is_replaced(path: Path, base: Json, want: Json) -> bool:
     """Whether another gait takes a place in a sequence, as where two parts change places."""
     if len(path) != 2 or path[0] != "sequence":
         return False
@@ -146,7 +145,7 @@ def _alike(kind: type[list[Any]] | type[str], values: tuple[Any, Any, Any]) -> b
     return all(isinstance(value, kind) for value in values) and len({len(value) for value in values}) == 1
 
 
-def say_the_same(one: dict[str, Any], other: dict[str, Any]) -> bool:
+def say_the_same(one: Json, other: Json) -> bool:
     """Whether two documents agree in all that is edited."""
     beside = {path[0] for path in _BESIDE}
     keys = (one.keys() | other.keys()) - beside

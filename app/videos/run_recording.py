@@ -11,12 +11,12 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from typing import Any
 
 from app.bridge.states import LinkState, RobotSnapshot
 from app.cameras.process import CameraError, CameraProcess
 from app.cameras.service import UNDER, CameraService
 from app.cameras.setup_service import CameraSetupService
+from app.common.json_values import Json
 from app.robot.views import RUNNING
 from app.runs.service import RunService
 from app.store.database import Database
@@ -170,7 +170,7 @@ class RunRecordings:
                 self._break_off(video)
         self._cameras.tell()
 
-    def _record(self, video: str, view: dict[str, Any], run: dict[str, Any]) -> _Recording:
+    def _record(self, video: str, view: Json, run: Json) -> _Recording:
         self._videos.make_room()
         self._videos.files.require_room(0)
         link = self._cameras.link(view["id"])

@@ -10,6 +10,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from app.common.json_values import Json
 from app.vision.blobs import Blob, Mask, blobs_of, find_feet, in_colours, mask_of, shown_mask
 from app.vision.checkerboard import board_corners, lens_of_corners, straightened
 from app.vision.frame_source import Facts, FrameSource
@@ -174,7 +175,7 @@ class LookAt:
     shows_mask: bool
     most: int | None
 
-    def answer(self, repository: FrameSourceCache, report: Report) -> dict[str, Any]:
+    def answer(self, repository: FrameSourceCache, report: Report) -> Json:
         """Looks."""
         del report
         picture = self.source.picture(repository)
@@ -204,7 +205,7 @@ class LookAt:
         return data_url(jpeg(small))
 
 
-def _blob(values: dict[str, Any]) -> dict[str, Any]:
+def _blob(values: Json) -> Json:
     return {
         "reason": values.pop("refusal"),
         **values,
@@ -212,7 +213,7 @@ def _blob(values: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def _feet(pixels: Floats, setup: TrackingSetup | None) -> list[dict[str, Any] | None]:
+def _feet(pixels: Floats, setup: TrackingSetup | None) -> list[Json | None]:
     places = np.full(pixels.shape, np.nan) if setup is None else setup.places(pixels) * 100.0
     return [
         None
@@ -237,7 +238,7 @@ class BoardIn:
     source: Source
     corners: tuple[int, int]
 
-    def answer(self, repository: FrameSourceCache, report: Report) -> dict[str, Any]:
+    def answer(self, repository: FrameSourceCache, report: Report) -> Json:
         """Looks for them."""
         del report
         picture = self.source.picture(repository)
@@ -266,7 +267,7 @@ class LensOf:
     size: tuple[int, int]
     corners: tuple[int, int]
 
-    def answer(self, repository: FrameSourceCache, report: Report) -> dict[str, Any]:
+    def answer(self, repository: FrameSourceCache, report: Report) -> Json:
         """Computes it."""
         del repository, report
         boards = [np.asarray(board, dtype=np.float32).reshape(-1, 1, 2) for board in self.boards]

@@ -16,6 +16,7 @@ import numpy as np
 
 from app.bench.common.measure import Row
 from app.bench.page.edits import READY_MS, SIZE, headless_browser, served_studio
+from app.common.json_values import Json
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -70,7 +71,7 @@ def bench_scene(rounds: int = ROUNDS) -> list[Row]:
         return [*rows, _row(page, address, "the same, optimising", EVERYTHING, rounds)]
 
 
-def _row(page: Page, address: str, name: str, choices: dict[str, Any], rounds: int) -> Row:
+def _row(page: Page, address: str, name: str, choices: Json, rounds: int) -> Row:
     page.goto(address)
     for key, choice in choices.items():
         page.evaluate(
@@ -106,7 +107,7 @@ def _keep_solvers_busy(address: str) -> None:
             _ask(f"{address}api/jobs", "POST", {"kind": "timing", "gait": gait["id"]})
 
 
-def _ask(url: str, method: str, content: dict[str, Any] | None = None) -> Any:
+def _ask(url: str, method: str, content: Json | None = None) -> Any:
     body = None if content is None else json.dumps(content).encode()
     request = urllib.request.Request(url, body, {"content-type": "application/json"}, method=method)
     with urllib.request.urlopen(request) as answer:

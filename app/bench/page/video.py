@@ -3,7 +3,6 @@
 import tempfile
 import time
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -12,6 +11,7 @@ from app.bench.page.film import ACROSS, Film, draw_film, stepping_feet
 from app.bench.robot.processes import Studio, Tap, emulator_process, wait_until
 from app.bench.robot.stop import stop_latencies
 from app.cameras.setup_schema import SetupDocument
+from app.common.json_values import Json
 from app.vision.frame_source import PICTURES
 from app.vision.services import ask, open_vision_services
 from app.vision.tracking import track_video
@@ -156,8 +156,8 @@ def _records(studio: Studio, film: Film) -> None:
     wait_until(lambda: _camera(studio)["state"] == "live", "the camera is live")
 
 
-def _camera(studio: Studio) -> dict[str, Any]:
-    camera: dict[str, Any] = studio.ask("GET", "api/cameras")["cameras"][0]
+def _camera(studio: Studio) -> Json:
+    camera: Json = studio.ask("GET", "api/cameras")["cameras"][0]
     return camera
 
 
@@ -185,8 +185,8 @@ def _recorded_run(studio: Studio, laps: int) -> Row:
     }
 
 
-def _video(studio: Studio, run: str) -> dict[str, Any]:
-    video: dict[str, Any] = studio.ask("GET", f"api/videos?run={run}")["videos"][0]
+def _video(studio: Studio, run: str) -> Json:
+    video: Json = studio.ask("GET", f"api/videos?run={run}")["videos"][0]
     return video
 
 

@@ -2,10 +2,10 @@
 
 import math
 from pathlib import Path
-from typing import Any
 
 from app.bench.common.measure import Row
 from app.bench.common.published import Reference
+from app.common.json_values import Json
 from app.export.trajectory_files import read_text
 from app.learning.published_trials import walks_of_table
 from app.learning.runner import WalkRunner
@@ -54,7 +54,7 @@ def bench_learning(reference: Path | None = None, points: int = POINTS) -> list[
     return [*_ways(content), *_parameters(content), *_gaits(content), _conditions(content, points)]
 
 
-def _ways(content: dict[str, Any]) -> list[Row]:
+def _ways(content: Json) -> list[Row]:
     return [
         {
             "predicted by": way["title"],
@@ -67,7 +67,7 @@ def _ways(content: dict[str, Any]) -> list[Row]:
     ]
 
 
-def _parameters(content: dict[str, Any]) -> list[Row]:
+def _parameters(content: Json) -> list[Row]:
     return [
         {
             "parameter": one["title"],
@@ -84,7 +84,7 @@ def _parameters(content: dict[str, Any]) -> list[Row]:
     ]
 
 
-def _gaits(content: dict[str, Any]) -> list[Row]:
+def _gaits(content: Json) -> list[Row]:
     return [
         {
             "gait": gait["name"],
@@ -103,13 +103,13 @@ def _gaits(content: dict[str, Any]) -> list[Row]:
     ]
 
 
-def _degrees(content: dict[str, Any], name: str, place: int) -> int | None:
+def _degrees(content: Json, name: str, place: int) -> int | None:
     way = next(way for way in content["foretold"] if way["name"] == name)
     angle = way["angles_deg"][place]
     return None if angle is None else round(float(angle))
 
 
-def _conditions(content: dict[str, Any], points: int) -> Row:
+def _conditions(content: Json, points: int) -> Row:
     return {
         "simulations": content["simulations"],
         "points": points,

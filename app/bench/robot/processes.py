@@ -21,6 +21,7 @@ from typing import Any
 
 import numpy as np
 
+from app.common.json_values import Json
 from app.emulator.ports import PtyPort
 from app.emulator.profiles import ProfileName
 from core.errors import StateError
@@ -148,7 +149,7 @@ class Studio:
             raise StateError("This system does not tell a process's memory. Measure on Linux.", "memory")
         return int(found.group(1)) / 1000.0
 
-    def ask(self, method: str, path: str, content: dict[str, Any] | None = None) -> Any:
+    def ask(self, method: str, path: str, content: Json | None = None) -> Any:
         """One request; the content of its answer.
 
         Raises:
@@ -160,9 +161,9 @@ class Studio:
         with urllib.request.urlopen(request, timeout=ANSWER_SECONDS) as answer:
             return json.loads(answer.read())
 
-    def robot(self) -> dict[str, Any]:
+    def robot(self) -> Json:
         """What is shown of the robot."""
-        view: dict[str, Any] = self.ask("GET", "api/robot")
+        view: Json = self.ask("GET", "api/robot")
         return view
 
     def connect(self) -> None:

@@ -1,10 +1,10 @@
 """Approvals of a gait: their list, and what changed from one to another."""
 
 from dataclasses import asdict
-from typing import Any
 
 from fastapi import APIRouter
 
+from app.common.json_values import Json
 from app.gaits.approvals import ApprovalRecord, approval_difference, approval_figures
 from app.studio.studio import Studio
 from app.web.dependencies import TheStudio, on_planned
@@ -13,10 +13,10 @@ router = APIRouter(prefix="/api/gaits/{gait_id}/approvals", tags=["approvals"])
 
 
 @router.get("")
-async def list_approvals(gait_id: str, studio: TheStudio) -> dict[str, Any]:
+async def list_approvals(gait_id: str, studio: TheStudio) -> Json:
     """A gait's approvals, the newest first, and which one stands."""
 
-    def approvals() -> dict[str, Any]:
+    def approvals() -> Json:
         stands = studio.gaits.open_gait(gait_id).approval
         records = studio.gaits.approvals.all(gait_id)
         return {"approvals": [_line(record, record.approval == stands) for record in records]}
@@ -25,10 +25,10 @@ async def list_approvals(gait_id: str, studio: TheStudio) -> dict[str, Any]:
 
 
 @router.get("/{number}/difference")
-async def difference(gait_id: str, number: int, studio: TheStudio, to: int | None = None) -> dict[str, Any]:
+async def difference(gait_id: str, number: int, studio: TheStudio, to: int | None = None) -> Json:
     """What another approval, or the gait as it is now, has that this one has not; in sentences."""
 
-    def groups() -> dict[str, Any]:
+    def groups() -> Json:
         approvals = studio.gaits.approvals
         before = approvals.get(gait_id, number)
         after = _present(studio, gait_id) if to is None else _sides(approvals.get(gait_id, to))
@@ -45,7 +45,7 @@ async def difference(gait_id: str, number: int, studio: TheStudio, to: int | Non
     return await on_planned(studio, gait_id, groups)
 
 
-def _line(record: ApprovalRecord, stands: bool) -> dict[str, Any]:
+def _line(record: ApprovalRecord, stands: bool) -> Json:
     return {
         "number": record.number,
         **asdict(record.approval),
@@ -55,11 +55,11 @@ def _line(record: ApprovalRecord, stands: bool) -> dict[str, Any]:
     }
 
 
-def _sides(record: ApprovalRecord) -> dict[str, Any]:
+def _sides(record: ApprovalRecord) -> Json:
     return {**asdict(record.approval), "figures": record.figures}
 
 
-def _present(studio: Studio, gait_id: str) -> dict[str, Any]:
+def _present(studio: Studio, gait_id: str) -> Json:
     """The gait as it is; without figures where it was not checked."""
     open_gait, plan = studio.gaits.open_gait(gait_id), studio.gaits.plan(gait_id)
     verdict = open_gait.verdict

@@ -2,7 +2,7 @@
 
 from dataclasses import asdict, replace
 from functools import partial
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter, Query, Request, Response
 from fastapi.responses import JSONResponse
@@ -10,6 +10,7 @@ from pydantic import Field, ValidationError
 from starlette.concurrency import run_in_threadpool
 
 from app.bridge.run_range import RunRange
+from app.common.json_values import Json
 from app.documents.gait_json import MOST_BYTES, gait_content, parse_gait
 from app.gaits.approvals import ApprovalRequest
 from app.gaits.open_gait import OpenGait
@@ -49,7 +50,7 @@ class Approve(RequestBody):
 class Live(RequestBody):
     """A document to try, and whether changes that make it feasible are wanted."""
 
-    document: dict[str, Any] | None = None
+    document: Json | None = None
     remedies: bool = False
 
 
@@ -61,13 +62,13 @@ async def _document(request: Request) -> bytes:
 
 
 @router.get("")
-async def list_gaits(studio: TheStudio) -> dict[str, Any]:
+async def list_gaits(studio: TheStudio) -> Json:
     """Built-in and saved gaits."""
     return {"gaits": await on_command_thread(studio, studio.publisher.summaries)}
 
 
 @router.get(f"/{ROUTE}")
-async def list_deleted(studio: TheStudio) -> dict[str, Any]:
+async def list_deleted(studio: TheStudio) -> Json:
     """Deleted gaits that can be brought back, the last deleted first: id, name, when (s since the epoch)."""
     deleted = await on_command_thread(studio, studio.gaits.deleted)
     return {"gaits": [asdict(gait) for gait in deleted]}
@@ -79,7 +80,7 @@ async def create_gait(
     studio: TheStudio,
     copy_of: Annotated[str | None, Query(max_length=80)] = None,
     name: Annotated[str | None, Query(max_length=MOST_NAME)] = None,
-) -> dict[str, Any]:
+) -> Json:
     """Saves a new gait from a document, or from a copy of another."""
     body = await _document(request)
 
@@ -97,13 +98,13 @@ def _copy(gait: Gait, name: str | None) -> Gait:
 
 
 @router.get("/{gait_id}")
-async def read_gait(gait_id: str, studio: TheStudio) -> dict[str, Any]:
+async def read_gait(gait_id: str, studio: TheStudio) -> Json:
     """The gait's document as it is now."""
     return await on_command_thread(studio, lambda: gait_content(studio.gaits.open_gait(gait_id).gait))
 
 
 @router.get("/{gait_id}/view")
-async def view_gait(gait_id: str, studio: TheStudio) -> dict[str, Any]:
+async def view_gait(gait_id: str, studio: TheStudio) -> Json:
     """The gait with its plan, verdict and approval."""
     return await on_planned(studio, gait_id, lambda: studio.publisher.view(gait_id))
 
@@ -116,7 +117,7 @@ async def edit_gait(
     author: TheAuthor,
     label: Annotated[str, Query(max_length=120)] = "Edit",
     revision: int | None = None,
-) -> dict[str, Any]:
+) -> Json:
     """Changes the document, as one undo step."""
     body = await _document(request)
 
@@ -127,10 +128,10 @@ async def edit_gait(
 
 
 @router.delete("/{gait_id}")
-async def delete_gait(gait_id: str, studio: TheStudio) -> dict[str, Any]:
+async def delete_gait(gait_id: str, studio: TheStudio) -> Json:
     """Takes a saved gait away; it can be restored."""
 
-    def delete() -> dict[str, Any]:
+    def delete() -> Json:
         instead = studio.gaits.delete(gait_id)
         if instead is not None:
             studio.publisher.publish_soon(instead.id)
@@ -141,7 +142,7 @@ async def delete_gait(gait_id: str, studio: TheStudio) -> dict[str, Any]:
 
 
 @router.post("/{gait_id}/redraw")
-async def redraw_gait(gait_id: str, redraw: Redraw, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+async def redraw_gait(gait_id: str, redraw: Redraw, studio: TheStudio, author: TheAuthor) -> Json:
     """Draws the timeline anew from a foot order."""
     change = partial(
         studio.gaits.redraw, gait_id, tuple(redraw.order), redraw.phase_knots, redraw.closing_knots, author
@@ -150,30 +151,30 @@ async def redraw_gait(gait_id: str, redraw: Redraw, studio: TheStudio, author: T
 
 
 @router.post("/{gait_id}/undo")
-async def undo(gait_id: str, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+async def undo(gait_id: str, studio: TheStudio, author: TheAuthor) -> Json:
     """Takes back the newest edit of who asks; a page names itself by the header X-Footfall-Page."""
     return await changed(studio, lambda: studio.gaits.undo(gait_id, author))
 
 
 @router.post("/{gait_id}/redo")
-async def redo(gait_id: str, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+async def redo(gait_id: str, studio: TheStudio, author: TheAuthor) -> Json:
     """Does the newest undone edit of who asks again."""
     return await changed(studio, lambda: studio.gaits.redo(gait_id, author))
 
 
 @router.post("/{gait_id}/save")
-async def save(gait_id: str, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+async def save(gait_id: str, studio: TheStudio, author: TheAuthor) -> Json:
     """Writes the gait to the data folder."""
     return await changed(studio, lambda: studio.gaits.save(gait_id, author))
 
 
 @router.post("/{gait_id}/restore")
-async def restore(gait_id: str, studio: TheStudio) -> dict[str, Any]:
+async def restore(gait_id: str, studio: TheStudio) -> Json:
     """Brings a deleted gait back."""
     return await changed(studio, lambda: studio.gaits.restore(gait_id))
 
 
-@router.post("/{gait_id}/live", response_model=dict[str, Any])
+@router.post("/{gait_id}/live", response_model=Json)
 async def live(gait_id: str, request: Request, studio: TheStudio) -> JSONResponse:
     """The plan of the gait, or of a changed document of it; nothing is changed."""
     asked = _asked(await _document(request))
@@ -194,10 +195,10 @@ def _asked(body: bytes) -> Live:
 
 
 @router.post("/{gait_id}/check")
-async def check(gait_id: str, studio: TheStudio) -> dict[str, Any]:
+async def check(gait_id: str, studio: TheStudio) -> Json:
     """Checks the plan by every rule and gives the verdict."""
 
-    def checked() -> dict[str, Any]:
+    def checked() -> Json:
         open_gait = studio.gaits.check(gait_id)
         studio.publisher.publish_gait(open_gait)
         if open_gait.verdict is None:
@@ -208,10 +209,10 @@ async def check(gait_id: str, studio: TheStudio) -> dict[str, Any]:
 
 
 @router.post("/{gait_id}/approve")
-async def approve(gait_id: str, approval: Approve, studio: TheStudio) -> dict[str, Any]:
+async def approve(gait_id: str, approval: Approve, studio: TheStudio) -> Json:
     """Records a person's approval of the present verdict."""
 
-    def approved() -> dict[str, Any]:
+    def approved() -> Json:
         request = ApprovalRequest(approval.by, approval.verdict_hash, approval.accept_warnings)
         open_gait = studio.gaits.approve(gait_id, request)
         studio.publisher.publish_gait(open_gait)
@@ -238,10 +239,10 @@ async def poses(gait_id: str, plan: str, studio: TheStudio) -> Response:
 @router.get("/{gait_id}/run")
 async def run(
     gait_id: str, studio: TheStudio, first: Annotated[int, Query(alias="from")] = 0, iterations: int = 1
-) -> dict[str, Any]:
+) -> Json:
     """What a person should know before they press Send."""
 
-    def summary() -> dict[str, Any]:
+    def summary() -> Json:
         open_gait, plan = studio.gaits.open_gait(gait_id), studio.gaits.plan(gait_id)
         return studio.robot.run_summary(open_gait, plan, RunRange(first, iterations))
 

@@ -1,11 +1,12 @@
 """Segment tables: made of a drawn timeline, and mended where an edited segment does not fit."""
 
 from dataclasses import replace
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter
 from pydantic import Field
 
+from app.common.json_values import Json
 from app.documents.gait_json import gait_content, gait_from_content
 from app.documents.gait_schema import SegmentTableModel
 from app.web.dependencies import MOST_MOTORS, RequestBody, strokes_from_mm
@@ -27,7 +28,7 @@ NOTICED_MM = 0.25
 class Make(RequestBody):
     """A gait document whose timeline is to be said in segments."""
 
-    document: dict[str, Any]
+    document: Json
 
 
 class Mend(RequestBody):
@@ -40,12 +41,12 @@ class Mend(RequestBody):
 class Take(RequestBody):
     """A gait document, and strokes of its robot's motors whose pose its table is to end with."""
 
-    document: dict[str, Any]
+    document: Json
     strokes_mm: list[Annotated[float, Field(allow_inf_nan=False)]] = Field(max_length=MOST_MOTORS)
 
 
 @router.post("/api/tables/made")
-def made_table(make: Make) -> dict[str, Any]:
+def made_table(make: Make) -> Json:
     """The segment table that would imply a gait's timeline, or the sentence why there is none."""
     gait = gait_from_content(make.document, "document")
     if gait.segment_table is not None:
@@ -58,7 +59,7 @@ def made_table(make: Make) -> dict[str, Any]:
 
 
 @router.post("/api/tables/repairs")
-def mended_tables(mend: Mend) -> dict[str, Any]:
+def mended_tables(mend: Mend) -> Json:
     """Ways to mend a table in which a segment does not start where the one before ends."""
     draft = _draft(mend.table)
     found = repairs(draft, {(foot, segment) for foot, segment in mend.kept})
@@ -66,7 +67,7 @@ def mended_tables(mend: Mend) -> dict[str, Any]:
 
 
 @router.post("/api/tables/pose")
-def table_with_pose(take: Take) -> dict[str, Any]:
+def table_with_pose(take: Take) -> Json:
     """The segment table with one more segment, in which every foot goes to where the strokes put it."""
     gait = gait_from_content(take.document, "document")
     model = load_robot(gait.robot)
@@ -93,7 +94,7 @@ def _draft(model: SegmentTableModel) -> DraftTable:
     return DraftTable(rows, model.samples_per_segment, model.repeat_from, model.repeat_to, link, vocabulary)
 
 
-def _repair_content(repair: Repair, before: SegmentTableModel) -> dict[str, Any]:
+def _repair_content(repair: Repair, before: SegmentTableModel) -> Json:
     table = repair.table
     return {
         "foot": repair.foot,

@@ -1,10 +1,11 @@
 """Sequences: gaits chained into one, and brought up to date with the gaits that they were made of."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter, Query
 from pydantic import Field
 
+from app.common.json_values import Json
 from app.gaits.open_gait import OpenGait
 from app.gaits.sequence_documents import AskedPart, made_sequence, refreshed
 from app.web.dependencies import RequestBody, TheAuthor, TheStudio, changed, on_command_thread
@@ -29,7 +30,7 @@ class NewSequence(RequestBody):
 
 
 @router.post("/sequences", status_code=201)
-async def create_sequence(asked: NewSequence, studio: TheStudio) -> dict[str, Any]:
+async def create_sequence(asked: NewSequence, studio: TheStudio) -> Json:
     """Saves a new gait that chains others, and gives its view."""
 
     def create() -> OpenGait:
@@ -43,7 +44,7 @@ async def create_sequence(asked: NewSequence, studio: TheStudio) -> dict[str, An
 @router.post("/gaits/{gait_id}/sequence/refresh")
 async def refresh_sequence(
     gait_id: str, studio: TheStudio, author: TheAuthor, part: Annotated[int | None, Query(ge=0)] = None
-) -> dict[str, Any]:
+) -> Json:
     """Takes over the gaits that changed since they became parts: all, or that of one part (from 0)."""
 
     def refresh() -> OpenGait:
@@ -55,7 +56,7 @@ async def refresh_sequence(
 
 
 @router.post("/gaits/{gait_id}/sequence/optimise", status_code=202)
-async def optimise_parts(gait_id: str, studio: TheStudio) -> dict[str, Any]:
+async def optimise_parts(gait_id: str, studio: TheStudio) -> Json:
     """Starts the exact tier for each part that has no exact motion yet."""
     views = await on_command_thread(studio, lambda: studio.job_commands.submit_parts(gait_id))
     return {"jobs": [view["id"] for view in views]}

@@ -1,11 +1,11 @@
 """Versions of a gait: list, naming, differences in words, going back."""
 
 from datetime import UTC, datetime
-from typing import Any
 
 from fastapi import APIRouter
 from pydantic import Field
 
+from app.common.json_values import Json
 from app.documents.gait_json import gait_content, motion_hash, parse_gait
 from app.gaits.open_gait import OpenGait
 from app.gaits.versions import MOST_NAME, VersionKind, is_said_already
@@ -24,10 +24,10 @@ class Naming(RequestBody):
 
 
 @router.get("")
-async def list_versions(gait_id: str, studio: TheStudio) -> dict[str, Any]:
+async def list_versions(gait_id: str, studio: TheStudio) -> Json:
     """A gait's versions, the newest first."""
 
-    def versions() -> dict[str, Any]:
+    def versions() -> Json:
         open_gait = studio.gaits.open_gait(gait_id)
         motion = motion_hash(open_gait.gait)
         return {"versions": [_line(row, open_gait, motion) for row in studio.gaits.versions.all(gait_id)]}
@@ -36,10 +36,10 @@ async def list_versions(gait_id: str, studio: TheStudio) -> dict[str, Any]:
 
 
 @router.post("", status_code=201)
-async def name_version(gait_id: str, naming: Naming, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+async def name_version(gait_id: str, naming: Naming, studio: TheStudio, author: TheAuthor) -> Json:
     """Keeps the present state under a name."""
 
-    def keep() -> dict[str, Any]:
+    def keep() -> Json:
         open_gait = studio.gaits.open_gait(gait_id)
         row = studio.gaits.versions.keep(open_gait, VersionKind.NAMED, author, naming.name)
         studio.publisher.publish_gait(open_gait)
@@ -49,10 +49,10 @@ async def name_version(gait_id: str, naming: Naming, studio: TheStudio, author: 
 
 
 @router.get("/{number}")
-async def read_version(gait_id: str, number: int, studio: TheStudio) -> dict[str, Any]:
+async def read_version(gait_id: str, number: int, studio: TheStudio) -> Json:
     """A version with its document."""
 
-    def version() -> dict[str, Any]:
+    def version() -> Json:
         row = studio.gaits.versions.get(gait_id, number)
         open_gait = studio.gaits.open_gait(gait_id)
         line = _line(row, open_gait, motion_hash(open_gait.gait))
@@ -62,10 +62,10 @@ async def read_version(gait_id: str, number: int, studio: TheStudio) -> dict[str
 
 
 @router.get("/{number}/difference")
-async def difference(gait_id: str, number: int, studio: TheStudio, to: int | None = None) -> dict[str, Any]:
+async def difference(gait_id: str, number: int, studio: TheStudio, to: int | None = None) -> Json:
     """What another version, or the present document, says that this version does not; in sentences."""
 
-    def groups() -> dict[str, Any]:
+    def groups() -> Json:
         versions, open_gait = studio.gaits.versions, studio.gaits.open_gait(gait_id)
         before = _gait(versions.get(gait_id, number))
         after = open_gait.gait if to is None else _gait(versions.get(gait_id, to))
@@ -80,7 +80,7 @@ async def difference(gait_id: str, number: int, studio: TheStudio, to: int | Non
 
 
 @router.post("/{number}/restore")
-async def restore_version(gait_id: str, number: int, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+async def restore_version(gait_id: str, number: int, studio: TheStudio, author: TheAuthor) -> Json:
     """Makes a version's document the present one again, as an edit that can be undone."""
     return await changed(studio, lambda: studio.gaits.restore_version(gait_id, number, author))
 
@@ -89,7 +89,7 @@ def _gait(row: VersionRow) -> Gait:
     return parse_gait(row.document, f"version {row.number}")
 
 
-def _line(row: VersionRow, open_gait: OpenGait, motion: str) -> dict[str, Any]:
+def _line(row: VersionRow, open_gait: OpenGait, motion: str) -> Json:
     """A line of the list; `motion` is the present document's hash."""
     same_motion = row.motion == motion
     return {

@@ -2,7 +2,7 @@
 
 import base64
 import binascii
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 from fastapi import APIRouter, Query, Request
@@ -11,6 +11,7 @@ from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.cameras.setup_schema import LensDocument, Number, SetupDocument, Side
+from app.common.json_values import Json
 from app.studio.studio import Studio
 from app.vision.services import ask
 from app.vision.worker import BoardIn, LensOf, Source, Straighten, data_url
@@ -64,7 +65,7 @@ class Straightening(RequestBody):
 
 
 @router.get("/setups")
-async def list_setups(studio: TheStudio, deleted: bool = False) -> dict[str, Any]:
+async def list_setups(studio: TheStudio, deleted: bool = False) -> Json:
     """All setups, the last changed first, and what stands in a new one."""
     views = await run_in_threadpool(lambda: studio.lab.setups.views(is_deleted=deleted))
     defaults = SetupDocument(name="new").model_dump(mode="json", exclude={"name"})
@@ -72,13 +73,13 @@ async def list_setups(studio: TheStudio, deleted: bool = False) -> dict[str, Any
 
 
 @router.post("/setups", status_code=201)
-async def add_setup(setup: SetupDocument, studio: TheStudio) -> dict[str, Any]:
+async def add_setup(setup: SetupDocument, studio: TheStudio) -> Json:
     """Keeps a new setup."""
     return await run_in_threadpool(lambda: studio.lab.setups.add(setup))
 
 
 @router.post("/setups/check")
-async def check_setup(setup: SetupDocument, studio: TheStudio) -> dict[str, Any]:
+async def check_setup(setup: SetupDocument, studio: TheStudio) -> Json:
     """What a setup would amount to; nothing is kept."""
     return await run_in_threadpool(lambda: studio.lab.setups.check(setup))
 
@@ -86,26 +87,26 @@ async def check_setup(setup: SetupDocument, studio: TheStudio) -> dict[str, Any]
 @router.get("/setups/{setup}")
 async def read_setup(
     setup: str, studio: TheStudio, revision: Annotated[int | None, Query(ge=1)] = None
-) -> dict[str, Any]:
+) -> Json:
     """A setup, or an older revision of it."""
     return await run_in_threadpool(lambda: studio.lab.setups.view(setup, revision))
 
 
 @router.put("/setups/{setup}")
-async def change_setup(setup: str, change: SetupChange, studio: TheStudio) -> dict[str, Any]:
+async def change_setup(setup: str, change: SetupChange, studio: TheStudio) -> Json:
     """Keeps a new revision; refused where somebody else changed it meanwhile."""
     return await run_in_threadpool(lambda: studio.lab.setups.change(setup, change.revision, change.setup))
 
 
 @router.delete("/setups/{setup}")
-async def delete_setup(setup: str, studio: TheStudio) -> dict[str, Any]:
+async def delete_setup(setup: str, studio: TheStudio) -> Json:
     """Takes a setup out of the list; it can be restored."""
     await run_in_threadpool(lambda: studio.lab.setups.delete(setup))
     return {"id": setup, "deleted": True}
 
 
 @router.post("/setups/{setup}/restore")
-async def restore_setup(setup: str, studio: TheStudio) -> dict[str, Any]:
+async def restore_setup(setup: str, studio: TheStudio) -> Json:
     """Brings a deleted setup back."""
     return await run_in_threadpool(lambda: studio.lab.setups.restore(setup))
 
@@ -126,7 +127,7 @@ async def find_board(
     columns: CornersAsked,
     rows: CornersAsked,
     name: Annotated[str, Query(max_length=200)] = "picture",
-) -> dict[str, Any]:
+) -> Json:
     """Where a checkerboard's inner corners are in the picture that is the request's body."""
     source = Source(file=await picture_in(request), name=name)
     return await board_of(studio, BoardIn(source, (columns, rows)))
@@ -148,16 +149,14 @@ async def picture_in(request: Request) -> bytes:
     return bytes(content)
 
 
-async def board_of(studio: Studio, task: BoardIn) -> dict[str, Any]:
+async def board_of(studio: Studio, task: BoardIn) -> Json:
     """Looks for a checkerboard."""
-    found: dict[str, Any] = await run_in_threadpool(
-        lambda: ask(studio.lab.vision.boards, task, BOARD_SECONDS)
-    )
+    found: Json = await run_in_threadpool(lambda: ask(studio.lab.vision.boards, task, BOARD_SECONDS))
     return found
 
 
 @router.post("/lens")
-async def make_lens(lens: LensRequest, studio: TheStudio) -> dict[str, Any]:
+async def make_lens(lens: LensRequest, studio: TheStudio) -> Json:
     """A camera's lens out of boards that were found; says how well it explains each of them."""
     shown = [board for board in lens.boards if board.found]
     sizes = {board.size for board in shown}
@@ -176,9 +175,7 @@ async def make_lens(lens: LensRequest, studio: TheStudio) -> dict[str, Any]:
         if (points < 0.0).any() or (points > size).any():
             raise InputError(f"{board.name} has corners outside its picture. Look for it again.", "boards")
     task = LensOf(boards, size, (lens.columns, lens.rows))
-    found: dict[str, Any] = await run_in_threadpool(
-        lambda: ask(studio.lab.vision.boards, task, BOARD_SECONDS)
-    )
+    found: Json = await run_in_threadpool(lambda: ask(studio.lab.vision.boards, task, BOARD_SECONDS))
     each = iter(found.pop("each"))
     return {
         "lens": {**found, "boards": len(shown)},
@@ -192,7 +189,7 @@ async def make_lens(lens: LensRequest, studio: TheStudio) -> dict[str, Any]:
 
 
 @router.post("/lens/look")
-async def straighten(asked: Straightening, studio: TheStudio) -> dict[str, Any]:
+async def straighten(asked: Straightening, studio: TheStudio) -> Json:
     """A picture as a lens without distortion would have it."""
 
     def straight() -> bytes:

@@ -3,13 +3,14 @@
 import asyncio
 import time
 from collections.abc import AsyncIterator
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from fastapi import APIRouter, Query
 from fastapi.responses import Response, StreamingResponse
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
+from app.common.json_values import Json
 from app.routes.lab.camera_setups import CornersAsked, board_of
 from app.routes.lab.picture_streams import BOUNDARY, LookRequest, Width, look_at, part
 from app.vision.worker import BoardIn, Source, data_url
@@ -28,13 +29,13 @@ class CameraChanges(RequestBody):
 
 
 @router.get("")
-async def list_cameras(studio: TheStudio) -> dict[str, Any]:
+async def list_cameras(studio: TheStudio) -> Json:
     """Cameras that are plugged in, and those that are missed."""
     return {"cameras": await run_in_threadpool(studio.lab.cameras.views)}
 
 
 @router.put("/{camera}")
-async def change_camera(camera: str, changes: CameraChanges, studio: TheStudio) -> dict[str, Any]:
+async def change_camera(camera: str, changes: CameraChanges, studio: TheStudio) -> Json:
     """Says what a camera is for, and whether it records with the run."""
     given = {key: value for key, value in changes.model_dump().items() if value is not None}
     return await run_in_threadpool(studio.lab.cameras.change, camera, given)
@@ -72,7 +73,7 @@ async def stream_camera(
 
 
 @router.post("/{camera}/look")
-async def look_at_camera(camera: str, look: LookRequest, studio: TheStudio) -> dict[str, Any]:
+async def look_at_camera(camera: str, look: LookRequest, studio: TheStudio) -> Json:
     """What the camera sees now, with what tracking would find in it."""
     content = await run_in_threadpool(studio.lab.cameras.picture, camera)
     return await look_at(studio, Source(file=content, name=camera), look)
@@ -81,7 +82,7 @@ async def look_at_camera(camera: str, look: LookRequest, studio: TheStudio) -> d
 @router.post("/{camera}/board")
 async def board_before_camera(
     camera: str, columns: CornersAsked, rows: CornersAsked, studio: TheStudio
-) -> dict[str, Any]:
+) -> Json:
     """Where a checkerboard is in what the camera sees now; the picture comes with it."""
     content = await run_in_threadpool(studio.lab.cameras.picture, camera)
     found = await board_of(studio, BoardIn(Source(file=content, name=camera), (columns, rows)))

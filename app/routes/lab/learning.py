@@ -1,11 +1,12 @@
 """Learning parameters of the physics from trials: start, look at, cancel, keep as a named set."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
+from app.common.json_values import Json
 from app.learning.published_trials import ITERATIONS, walks_of_table
 from app.learning.service import MOST_SET_NAME
 from app.learning.walks import SentTrial, walks_of
@@ -53,10 +54,10 @@ class SetVersion(SetName):
 
 
 @router.post("", status_code=202)
-async def start(wanted: NewLearning, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+async def start(wanted: NewLearning, studio: TheStudio, author: TheAuthor) -> Json:
     """Begins to learn, in the background; one course at a time."""
 
-    def begin() -> dict[str, Any]:
+    def begin() -> Json:
         walks, source = _walks(wanted, studio)
         physics = default_physics(walks[0].problem.model) if walks else default_physics(load_robot(ROBOT))
         return studio.learning.start(walks, physics, author.name, source)
@@ -77,46 +78,46 @@ def _walks(wanted: NewLearning, studio: Studio) -> tuple[tuple[Walk, ...], str]:
 
 
 @router.get("")
-async def list_courses(studio: TheStudio) -> dict[str, Any]:
+async def list_courses(studio: TheStudio) -> Json:
     """The newest courses of learning without their results, the newest first."""
     return {"courses": await run_in_threadpool(studio.learning.found)}
 
 
 @router.get("/sets")
-async def list_sets(studio: TheStudio) -> dict[str, Any]:
+async def list_sets(studio: TheStudio) -> Json:
     """The sets of parameters that were learned, the newest first; parameters are SI."""
     found = await run_in_threadpool(studio.learning.sets.found)
     return {"sets": [one.line for one in found]}
 
 
 @router.post("/sets/delete")
-async def delete_set(which: SetVersion, studio: TheStudio) -> dict[str, Any]:
+async def delete_set(which: SetVersion, studio: TheStudio) -> Json:
     """Takes a set out of the list; it can be restored. Simulations with it count as stale meanwhile."""
     await run_in_threadpool(studio.learning.sets.delete, which.name, which.version)
     return {"name": which.name, "version": which.version, "deleted": True}
 
 
 @router.post("/sets/restore")
-async def restore_set(which: SetVersion, studio: TheStudio) -> dict[str, Any]:
+async def restore_set(which: SetVersion, studio: TheStudio) -> Json:
     """Brings a deleted set back."""
     restored = await run_in_threadpool(studio.learning.sets.restore, which.name, which.version)
     return restored.line
 
 
 @router.get("/{learning}")
-async def read_course(learning: str, studio: TheStudio) -> dict[str, Any]:
+async def read_course(learning: str, studio: TheStudio) -> Json:
     """A course of learning: how far it is, and its result in cm and degrees."""
     return await run_in_threadpool(studio.learning.content, learning)
 
 
 @router.delete("/{learning}")
-async def cancel(learning: str, studio: TheStudio) -> dict[str, Any]:
+async def cancel(learning: str, studio: TheStudio) -> Json:
     """Cancels a course; one that has ended stays as it is."""
     return await run_in_threadpool(studio.learning.cancel, learning)
 
 
 @router.post("/{learning}/set", status_code=201)
-async def keep(learning: str, wanted: SetName, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+async def keep(learning: str, wanted: SetName, studio: TheStudio, author: TheAuthor) -> Json:
     """Keeps what was learned as a named set of physics parameters, in its next version."""
     kept = await run_in_threadpool(studio.learning.save, learning, wanted.name, author.name)
     return kept.line

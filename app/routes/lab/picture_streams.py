@@ -1,12 +1,13 @@
 """What routes of videos and cameras share: a picture with what tracking finds in it, and streams."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from fastapi import Query
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.cameras.setup_schema import Colours, LimitsDocument, SetupDocument
+from app.common.json_values import Json
 from app.studio.studio import Studio
 from app.videos.service import LOOK_SECONDS
 from app.vision.services import ask
@@ -37,7 +38,7 @@ class LookRequest(RequestBody):
         return None if setup is None or setup.missing else setup.tracking()
 
 
-async def look_at(studio: Studio, source: Source, look: LookRequest) -> dict[str, Any]:
+async def look_at(studio: Studio, source: Source, look: LookRequest) -> Json:
     """A picture with what tracking would find in it."""
     task = LookAt(
         source,
@@ -48,7 +49,7 @@ async def look_at(studio: Studio, source: Source, look: LookRequest) -> dict[str
         look.shows == "mask",
         look.most,
     )
-    found: dict[str, Any] = await run_in_threadpool(lambda: ask(studio.lab.vision.near, task, LOOK_SECONDS))
+    found: Json = await run_in_threadpool(lambda: ask(studio.lab.vision.near, task, LOOK_SECONDS))
     return found
 
 

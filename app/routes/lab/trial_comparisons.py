@@ -1,36 +1,35 @@
 """What stands beside trials: plan and physics, tracks in the plan's frame for 3D, bands over several."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter, Query
 from starlette.concurrency import run_in_threadpool
 
+from app.common.json_values import Json
 from app.web.dependencies import TheStudio
 
 router = APIRouter(prefix="/api/trials", tags=["trials"])
 
 
 @router.get("/band")
-async def read_band(trial: Annotated[list[str], Query()], studio: TheStudio) -> dict[str, Any]:
+async def read_band(trial: Annotated[list[str], Query()], studio: TheStudio) -> Json:
     """Trials over each other in the plan's frame, by iteration: mean, spread, each trial and the plan; cm."""
     return await run_in_threadpool(studio.comparison.band, trial)
 
 
 @router.get("/{trial}/beside")
-async def read_beside(trial: str, studio: TheStudio) -> dict[str, Any]:
+async def read_beside(trial: str, studio: TheStudio) -> Json:
     """Figures of planned, simulated and tracked feet; how the simulation stands; its ways for a plot, cm."""
     return await run_in_threadpool(studio.comparison.figures, trial)
 
 
 @router.post("/{trial}/simulation", status_code=202)
-async def simulate_trial(trial: str, studio: TheStudio) -> dict[str, Any]:
+async def simulate_trial(trial: str, studio: TheStudio) -> Json:
     """Begins to simulate what the robot was sent, unless that is done or on; tells how it stands."""
     return await run_in_threadpool(studio.comparison.simulate, trial)
 
 
 @router.get("/{trial}/scene")
-async def read_scene(
-    trial: str, studio: TheStudio, lap: Annotated[int, Query(ge=1, le=1000)] = 1
-) -> dict[str, Any]:
+async def read_scene(trial: str, studio: TheStudio, lap: Annotated[int, Query(ge=1, le=1000)] = 1) -> Json:
     """The track over a lap of the plan by shares of the whole walk, its gaps, and how the robot stood; m."""
     return await run_in_threadpool(lambda: studio.comparison.scene(trial, lap))

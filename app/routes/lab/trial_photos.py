@@ -1,11 +1,12 @@
 """Photos of trials: adding, captions, deleting, the pictures themselves."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter, Query, Request, Response
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
+from app.common.json_values import Json
 from app.trials.photos import check_bytes
 from app.web.dependencies import RequestBody, TheAuthor, TheStudio
 
@@ -28,7 +29,7 @@ class Caption(RequestBody):
 
 
 @router.get("")
-async def list_photos(trial: str, studio: TheStudio) -> dict[str, Any]:
+async def list_photos(trial: str, studio: TheStudio) -> Json:
     """A trial's photos, in the order in which they came."""
     return {"photos": await run_in_threadpool(studio.photos.photos, trial)}
 
@@ -40,7 +41,7 @@ async def add_photo(
     studio: TheStudio,
     author: TheAuthor,
     name: Annotated[str, Query(min_length=1, max_length=200)] = "The photo",
-) -> dict[str, Any]:
+) -> Json:
     """Keeps the PNG or JPEG picture that is the request's body, without place, time and camera."""
     gathered = bytearray()
     async for chunk in request.stream():
@@ -50,20 +51,20 @@ async def add_photo(
 
 
 @router.put("/{photo}")
-async def caption_photo(trial: str, photo: str, words: Caption, studio: TheStudio) -> dict[str, Any]:
+async def caption_photo(trial: str, photo: str, words: Caption, studio: TheStudio) -> Json:
     """Keeps a caption."""
     return await run_in_threadpool(lambda: studio.photos.caption(trial, photo, words.caption.strip()))
 
 
 @router.delete("/{photo}")
-async def delete_photo(trial: str, photo: str, studio: TheStudio) -> dict[str, Any]:
+async def delete_photo(trial: str, photo: str, studio: TheStudio) -> Json:
     """Takes a photo away; it can be restored."""
     await run_in_threadpool(studio.photos.delete, trial, photo)
     return {"id": photo, "deleted": True}
 
 
 @router.post("/{photo}/restore")
-async def restore_photo(trial: str, photo: str, studio: TheStudio) -> dict[str, Any]:
+async def restore_photo(trial: str, photo: str, studio: TheStudio) -> Json:
     """Brings a deleted photo back."""
     return await run_in_threadpool(studio.photos.restore, trial, photo)
 

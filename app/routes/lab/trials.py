@@ -6,6 +6,7 @@ from fastapi import APIRouter, Query, Response
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
+from app.common.json_values import Json
 from app.studio.studio import Studio
 from app.trials.planned import PlannedFeet, planned_of_gait, planned_of_run
 from app.trials.service import TrialDescription, compared
@@ -55,7 +56,7 @@ class TrialChanges(FiniteBody):
 
 
 @router.post("", status_code=201)
-async def add_trial(trial: NewTrial, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+async def add_trial(trial: NewTrial, studio: TheStudio, author: TheAuthor) -> Json:
     """Keeps a track as a trial and tells its figures."""
     scale = None if trial.pixels is None else PixelScale(0.01 / trial.pixels.per_cm, trial.pixels.origin)
 
@@ -89,7 +90,7 @@ async def planned_for(
 
 
 @router.get("")
-async def list_trials(studio: TheStudio) -> dict[str, Any]:
+async def list_trials(studio: TheStudio) -> Json:
     """All trials, the newest first, and gaits by steps compared."""
     lines = await run_in_threadpool(studio.trials.lines)
     return {"trials": lines, "compared": compared(lines)}
@@ -106,19 +107,19 @@ async def table(studio: TheStudio, form: Annotated[Literal["csv", "latex"], Quer
 
 
 @router.get("/{trial}")
-async def read_trial(trial: str, studio: TheStudio) -> dict[str, Any]:
+async def read_trial(trial: str, studio: TheStudio) -> Json:
     """A trial's figures, each foot's and each iteration's, beside its plan's."""
     return await run_in_threadpool(studio.trials.summary, trial)
 
 
 @router.get("/{trial}/paths")
-async def read_paths(trial: str, studio: TheStudio) -> dict[str, Any]:
+async def read_paths(trial: str, studio: TheStudio) -> Json:
     """The feet's ways, tracked and planned, for a plot; cm in the track's frame."""
     return await run_in_threadpool(studio.trials.paths, trial)
 
 
 @router.put("/{trial}")
-async def change_trial(trial: str, changes: TrialChanges, studio: TheStudio) -> dict[str, Any]:
+async def change_trial(trial: str, changes: TrialChanges, studio: TheStudio) -> Json:
     """Changes name, note, wanted distance, iterations or their ends; 409 where it was changed meanwhile."""
     given = changes.model_dump(exclude_unset=True, exclude={"revision"})
     kept = {key: value for key, value in given.items() if value is not None or key == "ends"}
@@ -126,14 +127,14 @@ async def change_trial(trial: str, changes: TrialChanges, studio: TheStudio) -> 
 
 
 @router.delete("/{trial}")
-async def delete_trial(trial: str, studio: TheStudio) -> dict[str, Any]:
+async def delete_trial(trial: str, studio: TheStudio) -> Json:
     """Takes a trial out of the list; it can be restored."""
     await run_in_threadpool(studio.trials.delete, trial)
     return {"id": trial, "deleted": True}
 
 
 @router.post("/{trial}/restore")
-async def restore_trial(trial: str, studio: TheStudio) -> dict[str, Any]:
+async def restore_trial(trial: str, studio: TheStudio) -> Json:
     """Brings a deleted trial back."""
     return await run_in_threadpool(studio.trials.restore, trial)
 

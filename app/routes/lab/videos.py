@@ -3,7 +3,7 @@
 import asyncio
 import time
 from collections.abc import AsyncIterator
-from typing import Annotated, Any
+from typing import Annotated
 from urllib.parse import quote
 
 from fastapi import APIRouter, Query, Request
@@ -12,6 +12,7 @@ from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import ClientDisconnect
 
+from app.common.json_values import Json
 from app.routes.lab.camera_setups import Corners, board_of
 from app.routes.lab.picture_streams import BOUNDARY, LookRequest, Width, look_at, part
 from app.routes.lab.trials import Iterations, Length, Name, planned_for
@@ -56,7 +57,7 @@ class BoardsRequest(FiniteBody):
 @router.get("")
 async def list_videos(
     studio: TheStudio, run: Annotated[str, Query(max_length=200)] = "", deleted: bool = False
-) -> dict[str, Any]:
+) -> Json:
     """Videos, the newest first, of one run or all."""
     views = await run_in_threadpool(studio.lab.videos.views, run, is_deleted=deleted)
     return {"videos": views, "most_bytes": MOST_BYTES}
@@ -68,7 +69,7 @@ async def upload(
     response: Response,
     studio: TheStudio,
     name: Annotated[str, Query(min_length=1, max_length=200)],
-) -> dict[str, Any]:
+) -> Json:
     """Keeps the video that is the request's body; what is no video or breaks off leaves nothing.
 
     A file that is kept already is not kept twice: the answer is 200 with `again` and the video that is there.
@@ -99,20 +100,20 @@ async def _take(request: Request, taken: Upload) -> None:
 
 
 @router.get("/{video}")
-async def read_video(video: str, studio: TheStudio) -> dict[str, Any]:
+async def read_video(video: str, studio: TheStudio) -> Json:
     """A video."""
     return await run_in_threadpool(studio.lab.videos.view, video)
 
 
 @router.delete("/{video}")
-async def delete_video(video: str, studio: TheStudio) -> dict[str, Any]:
+async def delete_video(video: str, studio: TheStudio) -> Json:
     """Takes a video out of the list; it can be restored."""
     await run_in_threadpool(studio.lab.videos.delete, video)
     return {"id": video, "deleted": True}
 
 
 @router.post("/{video}/restore")
-async def restore_video(video: str, studio: TheStudio) -> dict[str, Any]:
+async def restore_video(video: str, studio: TheStudio) -> Json:
     """Brings a deleted video back."""
     return await run_in_threadpool(studio.lab.videos.restore, video)
 
@@ -171,16 +172,14 @@ async def play_video(
 
 
 @router.post("/{video}/look")
-async def look_at_video(
-    video: str, look: LookRequest, studio: TheStudio, frame: Frame = None
-) -> dict[str, Any]:
+async def look_at_video(video: str, look: LookRequest, studio: TheStudio, frame: Frame = None) -> Json:
     """A picture with what tracking would find in it."""
     source = await run_in_threadpool(studio.lab.videos.source, video, frame)
     return await look_at(studio, source, look)
 
 
 @router.post("/{video}/boards")
-async def find_boards(video: str, asked: BoardsRequest, studio: TheStudio) -> dict[str, Any]:
+async def find_boards(video: str, asked: BoardsRequest, studio: TheStudio) -> Json:
     """Where a checkerboard is in some of a video's pictures."""
     view = await run_in_threadpool(studio.lab.videos.view, video)
     frames = asked.frames
@@ -195,7 +194,7 @@ async def find_boards(video: str, asked: BoardsRequest, studio: TheStudio) -> di
 
 
 @router.post("/{video}/track", status_code=202)
-async def track(video: str, asked: TrackRequest, studio: TheStudio, author: TheAuthor) -> dict[str, Any]:
+async def track(video: str, asked: TrackRequest, studio: TheStudio, author: TheAuthor) -> Json:
     """Starts following the feet; the job's result names the trial."""
     gait, gait_name, planned = await planned_for(studio, asked.run, asked.gait, asked.iterations)
     words = TrialDescription(

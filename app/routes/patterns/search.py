@@ -2,12 +2,13 @@
 
 import asyncio
 from dataclasses import replace
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter, Body
 from fastapi.responses import JSONResponse
 from starlette.concurrency import run_in_threadpool
 
+from app.common.json_values import Json
 from app.common.names import free_name
 from app.documents.gait_json import gait_content
 from app.gaits.open_gait import OpenGait
@@ -36,7 +37,7 @@ async def _answered(studio: Studio, search: Search) -> bool:
     return not studio.patterns.detach(search)
 
 
-@router.post("", response_model=dict[str, Any], responses={202: {"description": "The search goes on."}})
+@router.post("", response_model=Json, responses={202: {"description": "The search goes on."}})
 async def search(question: Annotated[Question, Body()], studio: TheStudio, author: TheAuthor) -> JSONResponse:
     """Searches for the best patterns, in the place of the page's last search.
 
@@ -56,19 +57,19 @@ def _page(author: Author) -> str:
 
 
 @router.get("/{number}")
-async def read_search(number: int, studio: TheStudio) -> dict[str, Any]:
+async def read_search(number: int, studio: TheStudio) -> Json:
     """A search: how far it is, or its answer."""
     return studio.patterns.search(number).content()
 
 
 @router.delete("/{number}")
-async def cancel_search(number: int, studio: TheStudio) -> dict[str, Any]:
+async def cancel_search(number: int, studio: TheStudio) -> Json:
     """Ends a search; one that is answered stays as it is."""
     return await run_in_threadpool(studio.patterns.cancel, number)
 
 
 @router.post("/{number}/use")
-async def use_now(number: int, studio: TheStudio) -> dict[str, Any]:
+async def use_now(number: int, studio: TheStudio) -> Json:
     """Ends a search with the best pattern that it has found so far."""
     return await run_in_threadpool(studio.patterns.use_now, number)
 
@@ -79,7 +80,7 @@ async def _gait(studio: Studio, use: PatternUse) -> Gait:
 
 
 @router.post("/gait", status_code=201)
-async def create_gait(use: PatternUse, studio: TheStudio) -> dict[str, Any]:
+async def create_gait(use: PatternUse, studio: TheStudio) -> Json:
     """Saves a new gait that a pattern makes, and gives its view; a name that is taken gets a number."""
     gait = await _gait(studio, use)
 
@@ -91,12 +92,12 @@ async def create_gait(use: PatternUse, studio: TheStudio) -> dict[str, Any]:
 
 
 @router.post("/document")
-async def read_document(use: PatternUse, studio: TheStudio) -> dict[str, Any]:
+async def read_document(use: PatternUse, studio: TheStudio) -> Json:
     """The document of the gait that a pattern makes; nothing is saved."""
     return {"document": gait_content(await _gait(studio, use))}
 
 
-@router.post("/plan", response_model=dict[str, Any])
+@router.post("/plan", response_model=Json)
 async def read_plan(use: PatternUse, studio: TheStudio) -> JSONResponse:
     """The plan of the gait that a pattern makes, by the live tier, to be looked at; nothing is saved."""
     gait = await _gait(studio, use)

@@ -4,13 +4,14 @@ import asyncio
 from collections.abc import Callable
 from dataclasses import replace
 from enum import StrEnum
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter, Body
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.bridge.run_range import RunRange
+from app.common.json_values import Json
 from app.studio.studio import Studio
 from app.undo.history import Author
 from app.web.dependencies import MOST_NAME, RequestBody, TheAuthor, TheStudio, on_planned
@@ -52,7 +53,7 @@ async def _moved(
     action: Callable[[str], object],
     *,
     ends: bool = False,
-) -> dict[str, Any]:
+) -> Json:
     """Does what needs the lease, in the name of who does it; where it `ends`, nobody holds the robot then."""
     actor = named(author, actor_body)
 
@@ -71,19 +72,19 @@ def named(author: Author, actor_body: ActorBody | None) -> Author:
 
 
 @router.get("")
-async def read_robot(studio: TheStudio) -> dict[str, Any]:
+async def read_robot(studio: TheStudio) -> Json:
     """Link, robot, run, measured strokes, and who holds the robot."""
     return studio.robot.view()
 
 
 @router.get("/ports")
-async def read_ports(studio: TheStudio) -> dict[str, Any]:
+async def read_ports(studio: TheStudio) -> Json:
     """Serial devices with description and serial number, the last one, and where a lost one is now."""
     return await run_in_threadpool(studio.robot.ports_view)
 
 
 @router.get("/transitions")
-async def read_transitions(studio: TheStudio) -> dict[str, Any]:
+async def read_transitions(studio: TheStudio) -> Json:
     """The last changes of link and robot with their causes, oldest first."""
     return {"transitions": studio.robot.transitions()}
 
@@ -91,7 +92,7 @@ async def read_transitions(studio: TheStudio) -> dict[str, Any]:
 @router.post("/connect")
 async def connect(
     studio: TheStudio, author: TheAuthor, actor_body: Annotated[Connect | None, Body()] = None
-) -> dict[str, Any]:
+) -> Json:
     """Opens the line. The board may reset, and its motors may move for about 8 s."""
     return await _moved(
         studio, author, actor_body, lambda _: studio.robot.connect(actor_body.device if actor_body else None)
@@ -99,7 +100,7 @@ async def connect(
 
 
 @router.post("/disconnect")
-async def disconnect(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> dict[str, Any]:
+async def disconnect(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> Json:
     """Stops a run and closes the line; nobody holds the robot then."""
     return await _moved(studio, author, actor_body, lambda _: studio.robot.disconnect(), ends=True)
 
@@ -120,7 +121,7 @@ async def send_stop(studio: Studio, by: str) -> None:
 
 
 @router.post("/stop")
-async def stop(studio: TheStudio, by: str = SOMEBODY) -> dict[str, Any]:
+async def stop(studio: TheStudio, by: str = SOMEBODY) -> Json:
     """Stops the robot: at once on the wire, in effect after the move that is running.
 
     A body is not read, and the lease is not asked for. Of a long name 80 characters are kept.
@@ -130,7 +131,7 @@ async def stop(studio: TheStudio, by: str = SOMEBODY) -> dict[str, Any]:
 
 
 @router.post("/send")
-async def send(studio: TheStudio, author: TheAuthor, wish: Send) -> dict[str, Any]:
+async def send(studio: TheStudio, author: TheAuthor, wish: Send) -> Json:
     """Sends a gait's approved waypoints, after the slow way to the start pose."""
     actor, run_range = named(author, wish), RunRange(wish.first, wish.iterations)
 
@@ -144,31 +145,31 @@ async def send(studio: TheStudio, author: TheAuthor, wish: Send) -> dict[str, An
 
 
 @router.post("/arm")
-async def arm(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> dict[str, Any]:
+async def arm(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> Json:
     """Lets the robot be moved."""
     return await _moved(studio, author, actor_body, studio.robot.bridge.arm)
 
 
 @router.post("/pause")
-async def pause(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> dict[str, Any]:
+async def pause(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> Json:
     """Waits at the next pose with all feet down."""
     return await _moved(studio, author, actor_body, studio.robot.bridge.pause)
 
 
 @router.post("/resume")
-async def resume(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> dict[str, Any]:
+async def resume(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> Json:
     """Goes on with a paused run."""
     return await _moved(studio, author, actor_body, studio.robot.bridge.resume)
 
 
 @router.post("/clear")
-async def clear(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> dict[str, Any]:
+async def clear(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> Json:
     """Lets a stopped robot go after replacing its target by where it stands."""
     return await _moved(studio, author, actor_body, studio.robot.bridge.clear)
 
 
 @router.post("/reset")
-async def reset(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> dict[str, Any]:
+async def reset(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> Json:
     """Sends every motor to 0.5 mm."""
     return await _moved(studio, author, actor_body, studio.robot.bridge.reset)
 
@@ -189,9 +190,7 @@ class HandOver(StrEnum):
 
 
 @router.post("/lease/{act}")
-async def hand_over(
-    studio: TheStudio, author: TheAuthor, act: HandOver, actor_body: TheActor = None
-) -> dict[str, Any]:
+async def hand_over(studio: TheStudio, author: TheAuthor, act: HandOver, actor_body: TheActor = None) -> Json:
     """Asks for the robot, gives it, keeps it, takes it over or lets it go."""
     lease, actor = studio.robot.lease, named(author, actor_body)
     verbs: dict[HandOver, Callable[[Author], None]] = {

@@ -1,13 +1,14 @@
 """Runs that were kept: list, figures, strokes, note, deleting, files."""
 
 from datetime import date, datetime, timedelta
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter, Query
 from fastapi.responses import Response
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
+from app.common.json_values import Json
 from app.runs.export import run_csv, run_mcap
 from app.runs.motion import measured_trajectory
 from app.scene.ghost import ghost_blob
@@ -37,7 +38,7 @@ async def list_runs(
     until: date | None = None,
     offset: Annotated[int, Query(ge=0)] = 0,
     most: Annotated[int, Query(ge=1, le=200)] = 50,
-) -> dict[str, Any]:
+) -> Json:
     """Runs, the newest first: of a gait, a state, an operator, and of days, the last one included."""
     wanted = RunFilter(
         gait,
@@ -50,7 +51,7 @@ async def list_runs(
 
 
 @router.get("/{run}")
-async def read_run(run: str, studio: TheStudio) -> dict[str, Any]:
+async def read_run(run: str, studio: TheStudio) -> Json:
     """A run with its states and errors."""
     return await run_in_threadpool(studio.runs.summary, run)
 
@@ -58,25 +59,25 @@ async def read_run(run: str, studio: TheStudio) -> dict[str, Any]:
 @router.get("/{run}/strokes")
 async def read_strokes(
     run: str, studio: TheStudio, most: Annotated[int, Query(ge=10, le=100_000)] = 2000
-) -> dict[str, Any]:
+) -> Json:
     """Measured and commanded strokes over time, thinned for plots; mm."""
     return await run_in_threadpool(studio.runs.strokes, run, most)
 
 
 @router.put("/{run}/note")
-async def write_note(run: str, note: Note, studio: TheStudio) -> dict[str, Any]:
+async def write_note(run: str, note: Note, studio: TheStudio) -> Json:
     """Keeps a note with a run."""
     return await run_in_threadpool(lambda: studio.runs.note(run, note.note.strip()))
 
 
 @router.delete("/{run}")
-async def delete_run(run: str, studio: TheStudio) -> dict[str, Any]:
+async def delete_run(run: str, studio: TheStudio) -> Json:
     """Takes a run out of the list; it can be restored."""
     return await run_in_threadpool(studio.runs.delete, run)
 
 
 @router.post("/{run}/restore")
-async def restore_run(run: str, studio: TheStudio) -> dict[str, Any]:
+async def restore_run(run: str, studio: TheStudio) -> Json:
     """Brings a deleted run back."""
     return await run_in_threadpool(studio.runs.restore, run)
 

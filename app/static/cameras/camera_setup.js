@@ -1,14 +1,15 @@
 /** A camera's setup, with its picture: lens, place of the platform, colours of the feet. Each change is kept. */
 
+import { CONFLICT } from "../api/gaits.js";
+import { setupApi } from "../api/videos.js";
+import { h, setText } from "../lib/dom.js";
+import { attempt, report, toast } from "../lib/toasts.js";
+import { openStage } from "../pictures/picture_stage.js";
+import { watchable } from "../state/store.js";
 import { feetPart } from "./camera_feet.js";
+import { setupText } from "./camera_labels.js";
 import { lensPart } from "./camera_lens.js";
 import { placePart } from "./camera_place.js";
-import { setupDraft } from "./camera_draft.js";
-import { setupText } from "./camera_labels.js";
-import { h, setText } from "../lib/dom.js";
-import { attempt, toast } from "../lib/toasts.js";
-import { setupApi } from "../api/videos.js";
-import { openStage } from "../pictures/picture_stage.js";
 
 const PARTS = [["lens", "Lens", lensPart], ["place", "Place", placePart], ["feet", "Feet", feetPart]];
 
@@ -115,4 +116,77 @@ export function openSetup(page, { answer, source, frame = 0, back }) {
       h("button", { type: "button", class: "link", text: "Delete", "aria-label": "Delete this setup", on: { click: remove } }), h("button", { type: "button", class: "primary", text: "Done", on: { click: leave } })));
   page.show(element, () => stage.close());
   tabs.open(firstPart(answer));
+}
+
+/** Whether two setups are equal. */
+const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
+
+/** Shows a setup as somebody else has changed it meanwhile; other refusals are said as they are. */
+async function conflict(store, error) {
+  if (error.status !== CONFLICT) throw error;
+  const now = await setupApi.read(store.state.id);
+  store.set({ setup: now.setup, answer: now, revision: now.revision, kept: true });
+  toast(`The setup “${now.setup.name}” was changed elsewhere meanwhile; it is shown as it is now. Make your last change again.`, { tone: "bad", of: "studio" });
+}
+
+/**
+ * Begins with a setup as the server sent it.
+ * @param {object} first with `id`, `revision` and `setup`
+ * @returns {object} `state` and `watch` as of a store: `setup` as it is on the page, `answer` what the server says of it, `kept`
+ *   whether that is of this very setup, `trouble` why it could not be kept; `change(patch, last)`, where `last` is false while a finger drags and nothing is kept; `check()` asks what the server says
+ *   meanwhile; `settled()` resolves when all is kept
+ */
+function setupDraft(first) {
+  const store = watchable({ id: first.id, revision: first.revision, setup: first.setup, answer: first, kept: true, trouble: null });
+  let [working, checking, settled] = [false, false, []];
+
+  function take(answer, requested) {
+    store.set({ answer, revision: answer.revision || store.state.revision, kept: Boolean(answer.id) && same(requested, store.state.setup) });
+  }
+
+  async function keep() {
+    if (working) return;
+    working = true;
+    let refused = null;
+    while (!store.state.kept && !same(refused, store.state.setup)) {
+      const { id, revision, setup } = store.state;
+      try {
+        take(await setupApi.change(id, revision, setup), setup);
+      } catch (error) {
+        refused = setup;
+        await conflict(store, error).catch((other) => { store.set({ trouble: other.message }); report(other); });
+      }
+    }
+    working = false;
+    settled.splice(0).forEach((act) => act());
+  }
+
+  /** Checks a setup that is not kept yet on the server; only the newest. */
+  async function check() {
+    if (checking) return;
+    checking = true;
+    let requested = null;
+    while (!working && !store.state.kept && requested !== store.state.setup) {
+      requested = store.state.setup;
+      try {
+        take(await setupApi.check(requested), requested);
+      } catch {
+        break;
+      }
+    }
+    checking = false;
+  }
+
+  return {
+    get state() { return store.state; },
+    watch: store.watch,
+    change(patch, last = true) {
+      const setup = { ...store.state.setup, ...patch };
+      if (same(setup, store.state.setup) && (store.state.kept || !last)) return;
+      store.set({ setup, kept: false, trouble: null });
+      if (last) keep();
+    },
+    check,
+    settled: () => (working ? new Promise((resolve) => { settled.push(resolve); }) : Promise.resolve()),
+  };
 }

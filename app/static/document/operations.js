@@ -9,10 +9,9 @@
 import { capital, counted } from "../lib/format.js";
 import { drawnRows, isDrawn, repeatedRows } from "./drawn_timeline.js";
 import { heldMirrored, heldReversed, heldTurned } from "./held_feet.js";
-import { inserted, removed, repeated, stretched } from "./lengths.js";
-import { blockOf, heldBack, mirrored, mirroredFeet, reversed, shifted, stretchedInPlace, toStance, turnedRows, withBlock, withLocks } from "./timeline_operators.js";
 import { allFeet, isWhole, lengthOf, regionText, wholeOf } from "./region.js";
 import { FOLLOWS, isSequence } from "./sequence_edits.js";
+import { blockOf, heldBack, mirrored, mirroredFeet, resampled, reversed, shifted, stretchedInPlace, toStance, turnedRows, withBlock, withLocks } from "./timeline_operators.js";
 
 const MOST_ITERATIONS = 20;
 export const MOST_SAMPLES = 2000;
@@ -178,3 +177,30 @@ export function outcomeOf(id, { document, region, mirror: map }, amount) {
   const reason = after && refusalOf(document, after);
   return reason ? { reason } : { drawing: true, ...found, document: after, label: capital(found.label) };
 }
+
+/** Replaces the region's samples of all feet by what `change` makes of each row of them; locks there are gone. */
+function spliced(document, { samples: [first, last] }, change) {
+  const cut = (row, make) => row.slice(0, first) + make(row.slice(first, last + 1)) + row.slice(last + 1);
+  const { feet, locked } = document.timeline;
+  const rows = feet.map((row) => cut(row, change));
+  const unlocked = (text) => "0".repeat(change(text).length);
+  return { ...document, timeline: { ...document.timeline, feet: rows, locked: locked && locked.map((row) => cut(row, unlocked)) } };
+}
+
+/** Inserts samples before the region; in them every foot does what it did in the sample before. */
+function inserted(document, region, count) {
+  const [first] = region.samples;
+  const { feet, locked } = document.timeline;
+  const grown = (row, value) => row.slice(0, first) + value.repeat(count) + row.slice(first);
+  const rows = feet.map((row) => grown(row, row[Math.max(0, first - 1)]));
+  return { ...document, timeline: { ...document.timeline, feet: rows, locked: locked && locked.map((row) => grown(row, "0")) } };
+}
+
+const removed = (document, region) => spliced(document, region, () => "");
+
+/** The region's samples a number of times one after the other. */
+const repeated = (document, region, times) => spliced(document, region, (text) => text.repeat(times));
+
+/** The region's samples over another number of samples; what is behind moves along. */
+const stretched = (document, region, length) =>
+  spliced(document, region, (text) => (length === lengthOf(region) ? text : resampled(text, length)));

@@ -1,19 +1,19 @@
 /** The Optimise section: the live tier's answer for the shown gait, the options, and the exact tier's button. */
 
-import { jobAnswer, liveAnswer, statusLine } from "./live_answer.js";
 import { api } from "../api/gaits.js";
-import { mountConvergence } from "./convergence.js";
-import { mountIterates } from "./iterates.js";
-import { byId, h, onPress, setAllowed } from "../lib/dom.js";
-import { makeGait } from "../shell/gait_menu.js";
+import { byId, h, onPress, setAllowed, setAttribute, setText } from "../lib/dom.js";
+import { clockTime, fixed, shortHash } from "../lib/format.js";
+import { attempt, toast } from "../lib/toasts.js";
 import { selectGait } from "../shell/gait_list.js";
+import { makeGait } from "../shell/gait_menu.js";
 import { jobIsOn } from "../shell/job_list.js";
 import { presetFor } from "../shell/new_gait.js";
-import { originLine } from "./origin.js";
-import { optimiserOptions } from "./optimiser_options.js";
 import { shownDocument, shownPlan } from "../state/store.js";
+import { mountConvergence } from "./convergence.js";
+import { mountIterates } from "./iterates.js";
+import { jobAnswer, liveAnswer, statusLine } from "./live_answer.js";
+import { optimiserOptions } from "./optimiser_options.js";
 import { timingAnswer, timingButton, timingNote } from "./timing.js";
-import { attempt, toast } from "../lib/toasts.js";
 
 const TIERS = "Every edit is answered live. Optimise runs the exact tier, which also chooses footholds and heights.";
 
@@ -83,4 +83,43 @@ function moreInShort({ iterations, direction, options, held }) {
     options.turning === "return" && "turns at the end", held && "feet held up",
   ].filter(Boolean);
   return parts.length ? `: ${parts.join(", ")}` : "";
+}
+
+const QUIET = { text: "", title: null, tone: null };
+
+function ofFile({ file, form, assumed }) {
+  const text = form === "waypoints" ? `Waypoints of ${file}; Optimise replaces them.` : `Recorded in ${file}; Optimise replaces it.`;
+  return { text, title: assumed.join("\n") || null, tone: null };
+}
+
+function details({ solver, method, program, motion, trajectory }) {
+  return `${solver}, method ${method}, Footfall Studio ${program}\nasked ${shortHash(motion)}, result ${shortHash(trajectory)}`;
+}
+
+function ofResult(provenance, source, isEdited) {
+  const { made, seconds, matches, at_hand: isHere } = provenance;
+  const [when, title] = [clockTime(made), details(provenance)];
+  if (!matches || isEdited) return { text: `Optimised ${when} for another version: stale.`, title, tone: "caution" };
+  if (isHere) return { text: `Optimised ${when} in ${fixed(seconds * 1000, 0)} ms.`, title, tone: null };
+  if (source === "optimised") return { text: `Optimised elsewhere ${when}; shown is a result from here.`, title, tone: null };
+  return { text: `Optimised elsewhere ${when}; the result is not here. Optimise again.`, title, tone: "caution" };
+}
+
+function words({ view, pending, gesture }) {
+  if (!view) return QUIET;
+  const isEdited = pending.length > 0 || Boolean(gesture);
+  if (view.document.recorded) return isEdited ? QUIET : ofFile(view.document.recorded);
+  return view.provenance ? ofResult(view.provenance, view.plan?.source, isEdited) : QUIET;
+}
+
+/** Builds the line and keeps it current. */
+function originLine(store) {
+  const element = h("p", { class: "why", role: "note", "aria-label": "Origin of the motion" });
+  store.watch(({ view, pending, gesture }) => [view, pending.length, gesture], (state) => {
+    const { text, title, tone } = words(state);
+    setText(element, text);
+    setAttribute(element, "title", title);
+    setAttribute(element, "data-tone-text", tone);
+  });
+  return element;
 }

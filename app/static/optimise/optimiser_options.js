@@ -1,11 +1,11 @@
 /** The optimiser's options: every number and choice, with its unit, range and help. */
 
 import { isDrawn } from "../document/drawn_timeline.js";
-import { choiceField, numberField, textField } from "../state/fields.js";
-import { heldFields } from "./held_fields.js";
-import { notesField } from "./notes_field.js";
-import { robotField } from "../shell/robots.js";
+import { heldOf, withHeld } from "../document/held_feet.js";
 import { stepLength, stepTurn, withStepLength, withTurn, withWorldStep, worldStep } from "../document/step.js";
+import { robotField } from "../shell/robots.js";
+import { choiceField, numberField, textField } from "../state/fields.js";
+import { notesField } from "./notes_field.js";
 
 const option = (name, factor = 1) => ({
   read: ({ options }) => (options[name] === null ? null : options[name] * factor),
@@ -134,3 +134,29 @@ export function optimiserOptions(store, edits, makeNew) {
     more: [...SHARES.map(number), ...CHOICES.map(choice), ...MORE_NUMBERS.map(number), ...MORE_CHOICES.map(choice), ...heldFields(store, edits), notesField(store, edits)],
   };
 }
+
+function refusal(feet, text, legs) {
+  const odd = feet.find((foot, at) => foot < 1 || foot > legs || feet.indexOf(foot) !== at);
+  if (odd !== undefined) return `“${text}” must name feet 1 to ${legs}, each once; leave it empty for none.`;
+  return feet.length >= legs ? "The robot would fall with every foot up: keep at least three down." : null;
+}
+
+function heldField(store, edits, end, words) {
+  return textField(store, {
+    label: words, name: `Held ${words.toLowerCase()}`,
+    help: `Feet that rest in the air at the ${end === "start" ? "first" : "last"} sample, where their rows must swing; empty for none`,
+    read: (document) => heldOf(document)[end].join(" "),
+    commit(text) {
+      const shown = edits.shown();
+      const feet = text.split(/[^0-9]+/).filter(Boolean).map(Number);
+      const sentence = refusal(feet, text, shown.timeline.feet.length);
+      if (!sentence && feet.join() !== heldOf(shown)[end].join()) {
+        edits.edit((document) => withHeld(document, { ...heldOf(document), [end]: feet }), feet.length ? `Hold up ${feet.join(", ")} at the ${end}` : `Hold none up at the ${end}`);
+      }
+      return sentence;
+    },
+  });
+}
+
+/** The fields of both ends. */
+const heldFields = (store, edits) => [heldField(store, edits, "start", "Up at start"), heldField(store, edits, "end", "Up at end")];

@@ -4,20 +4,19 @@ import { api } from "../api/gaits.js";
 import { confirmAction } from "../lib/dialogs.js";
 import { byId, h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { capital, counted, fixed, seconds, shortHash } from "../lib/format.js";
-import { jogPart } from "./jog.js";
 import { ticket } from "../lib/latest_only.js";
-import { leasePart, whyNotHeld } from "../state/lease.js";
-import { needOperator } from "../state/operator.js";
-import { portChooser } from "./ports.js";
-import { robotFaults } from "./robot_faults.js";
-import { robotLog } from "./robot_log.js";
-import { runRangeOf, runRangePart, isOfRunRange } from "./run_range.js";
-import { commandedStrokes } from "../state/plan_samples.js";
-import { sendControl } from "./send.js";
-import { acceptRobot, planIsOn, runIsOn, stopLimit } from "../state/store.js";
-import { strokeBars } from "./strokes.js";
 import { attempt, report, toast } from "../lib/toasts.js";
 import { robotTone } from "../shell/topbar.js";
+import { leasePart, whyNotHeld } from "../state/lease.js";
+import { needOperator } from "../state/operator.js";
+import { commandedStrokes } from "../state/plan_samples.js";
+import { acceptRobot, planIsOn, runIsOn, stopLimit } from "../state/store.js";
+import { jogPart } from "./jog.js";
+import { portChooser } from "./ports.js";
+import { robotFaults } from "./robot_faults.js";
+import { isOfRunRange, runRangeOf, runRangePart } from "./run_range.js";
+import { sendControl } from "./send.js";
+import { strokeBars } from "./strokes.js";
 
 const CONNECT_WARNING = "Connecting resets the board: its motors may move for about 8 s. Keep hands away.";
 
@@ -206,4 +205,29 @@ export function mountRobot(store, edits, playback) {
   });
   followSummary(store);
   return send.cancel;
+}
+
+const MOST = 50;
+
+function timeOf(at) {
+  return new Date(at * 1000).toLocaleTimeString([], { hour: "2-digit", minute: "2-digit", second: "2-digit", hour12: false });
+}
+
+function row({ at, link, robot, cause }) {
+  return h("li", {}, h("time", { class: "number quiet", text: timeOf(at) }), h("span", {}, h("b", { text: `${link}, ${robot}` }), ` ${cause}`));
+}
+
+/** Builds the list; it is read when it is open and something changed. */
+function robotLog(store) {
+  const list = h("ul", { class: "robot-log", "aria-label": "What happened", tabindex: "0" });
+  const element = h("details", { class: "more" }, h("summary", { text: "What happened" }), list);
+  const read = attempt(async () => {
+    if (!element.open) return;
+    const { transitions } = await api.transitions();
+    list.replaceChildren(...transitions.slice(-MOST).reverse().map(row));
+    if (!transitions.length) list.replaceChildren(h("li", { class: "quiet", text: "Nothing yet: every change of link and robot stands here, with its cause." }));
+  });
+  element.addEventListener("toggle", read);
+  store.watch(({ robot }) => [robot?.link, robot?.robot, robot?.sentence], read);
+  return element;
 }

@@ -3,13 +3,12 @@
  * selected segments.
  */
 
+import { rowsOf, samplesOf } from "../document/segment_sheet.js";
 import { clamp } from "../lib/clamp.js";
+import { announce, toast } from "../lib/toasts.js";
+import { commit, shownSegmentSheet } from "../state/segment_draft.js";
 import { openSegmentChooser } from "./segment_sheet_chooser.js";
 import { addLinkRow, fillDown, insertRow, paste, removeRows, setName, setWaits } from "./segment_sheet_edits.js";
-import { commit, shownSegmentSheet } from "../state/segment_draft.js";
-import { rowsOf, samplesOf } from "../document/segment_sheet.js";
-import { namesFrom, textOf } from "./segment_sheet_text.js";
-import { announce, toast } from "../lib/toasts.js";
 
 const ordered = (a, b) => [Math.min(a, b), Math.max(a, b)];
 const nearest = ({ rows, legs }, [row, foot]) => [clamp(row, 0, rows.length - 1), clamp(foot, 0, legs - 1)];
@@ -212,4 +211,23 @@ function mountClipboard(grid, sheet, range, run, select) {
     run(outcome);
     if (outcome.range) select(outcome.range);
   });
+}
+
+/** Rows of names as lines with tabs. */
+const textOf = (rows) => rows.map((row) => row.join("\t")).join("\n");
+
+/** The fields of one line of CSV, also those in which nothing stands; a quoted field may hold the separator, and doubled quotes. */
+function fieldsOf(line, separator) {
+  const fields = [];
+  const pattern = new RegExp(`${separator}[^\\S${separator}]*(?:"((?:[^"]|"")*)"|([^${separator}]*))`, "g");
+  for (const [, quoted, plain] of `${separator}${line}`.matchAll(pattern)) fields.push((quoted === undefined ? plain : quoted.replaceAll('""', '"')).trim());
+  return fields;
+}
+
+/** Rows of names from text with tabs, semicolons or commas between the columns; blank lines at the end are passed over. */
+function namesFrom(text) {
+  const lines = text.replace(/[\r\n]+$/, "").split(/\r\n|\r|\n/);
+  if (lines.join("").trim() === "") return { reason: "The clipboard is empty: copy segments first." };
+  const separator = ["\t", ";", ","].find((one) => text.includes(one)) ?? "\t";
+  return { names: lines.map((line) => fieldsOf(line, separator)) };
 }

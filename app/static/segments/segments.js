@@ -1,19 +1,18 @@
 /** The Segments section: the segment table of a gait as a spreadsheet, its numbers and its vocabulary. */
 
+import { errorsOf } from "../document/segment_sheet.js";
 import { byId, h, setAttribute, setText } from "../lib/dom.js";
-import { numberField } from "../state/fields.js";
 import { fixed } from "../lib/format.js";
+import { toast } from "../lib/toasts.js";
+import { numberField } from "../state/fields.js";
+import { commit, protectedCells, segmentDraftOf, segmentSheetsOf, shownSegmentSheet } from "../state/segment_draft.js";
+import { shownDocument } from "../state/store.js";
+import { createDefinitions, isTyped } from "./segment_definitions.js";
+import { mountSegmentSheetCreation } from "./segment_sheet_creation.js";
 import { setNumber } from "./segment_sheet_edits.js";
-import { commit, segmentDraftOf, shownSegmentSheet } from "../state/segment_draft.js";
-import { mountSegmentDrafts } from "./segment_sheet_drafts.js";
 import { createSegmentSheetGrid } from "./segment_sheet_grid.js";
 import { mountSegmentSheetInput } from "./segment_sheet_input.js";
-import { mountSegmentSheetCreation } from "./segment_sheet_creation.js";
 import { mountSegmentSheetRepairs } from "./segment_sheet_repairs.js";
-import { createDefinitions, isTyped } from "./segment_definitions.js";
-import { errorsOf } from "../document/segment_sheet.js";
-import { shownDocument } from "../state/store.js";
-import { toast } from "../lib/toasts.js";
 
 /** The table's three numbers, each an edit of its own. */
 function numberFields(store, edits, run) {
@@ -108,4 +107,71 @@ export function mountSegments(store, edits) {
   store.watch((state) => [state.view, state.segmentDrafts, ...parts(shownDocument(state))], show);
   store.watch((state) => [segmentDraftOf(state).steps.length > 0], (state) => grid.toggleAttribute("data-draft", segmentDraftOf(state).steps.length > 0));
   return { escape: input.escape };
+}
+
+const keyOf = (id) => `footfall.table-draft.${id}`;
+
+/** What the changes were made on; they do not apply to another table. */
+const baseOf = ({ document }) => JSON.stringify([document.segment_table, document.direction]);
+
+function read(id) {
+  try {
+    return JSON.parse(sessionStorage.getItem(keyOf(id)) ?? "null");
+  } catch {
+    return null;
+  }
+}
+
+function write(id, content) {
+  try {
+    if (content) sessionStorage.setItem(keyOf(id), JSON.stringify(content));
+    else sessionStorage.removeItem(keyOf(id));
+  } catch {
+    // Without the browser's memory a draft lives as long as the page.
+  }
+}
+
+/** A restored change: the whole sheet after it, with the cells that repairs leave alone. */
+const stepOf = ({ label, kept, sheet }) => ({ label, kept, moved: () => null, change: ({ iterations }) => ({ ...sheet, iterations }), restored: true });
+
+/** Keeps the drafts of `store.segmentDrafts`, and restores them when their gait is shown again. */
+function mountSegmentDrafts(store) {
+  const bases = new Map();
+
+  function put(id, draft) {
+    const { [id]: _, ...others } = store.state.segmentDrafts;
+    store.set({ segmentDrafts: draft ? { ...others, [id]: draft } : others });
+  }
+
+  function drop(view) {
+    put(view.id, null);
+    write(view.id, null);
+    toast(`The changes of the segment table of “${view.document.name}” that did not fit yet are dropped: its table was changed meanwhile.`);
+  }
+
+  function recall(view, base) {
+    const content = read(view.id);
+    if (!content) return;
+    if (content.base !== base) drop(view);
+    else put(view.id, { steps: content.steps.map(stepOf) });
+  }
+
+  store.watch(({ view, segmentDrafts }) => [view, segmentDrafts], (state) => {
+    const { view } = state;
+    if (!view) return;
+    const [base, before] = [baseOf(view), bases.get(view.id)];
+    bases.set(view.id, base);
+    if (before === undefined) {
+      recall(view, base);
+      return;
+    }
+    const { steps } = segmentDraftOf(state);
+    // Restored changes are whole sheets, which stand on the table that they were made on; all of them need one.
+    if (view.document.segment_table ? base !== before && steps.some(({ restored }) => restored) : steps.length) {
+      drop(view);
+      return;
+    }
+    const sheets = steps.length ? segmentSheetsOf(view.document, steps) : [];
+    write(view.id, steps.length ? { base, steps: steps.map(({ label }, index) => ({ label, kept: protectedCells(steps.slice(0, index + 1)), sheet: sheets[index] })) } : null);
+  });
 }

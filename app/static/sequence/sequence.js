@@ -1,17 +1,17 @@
 /** The Sequence section: gaits that follow each other, in the place of the segment table where the gait is a sequence. */
 
 import { api } from "../api/gaits.js";
+import { freeName } from "../document/gait_names.js";
+import { added, isSequence } from "../document/sequence_edits.js";
 import { byId, h, onPress, setAllowed } from "../lib/dom.js";
 import { counted, fixed, mm } from "../lib/format.js";
-import { freeName } from "../document/gait_names.js";
-import { selectGait } from "../shell/gait_list.js";
-import { jobIsOn } from "../shell/job_list.js";
-import { betweenParts } from "./sequence_transitions.js";
-import { added, isSequence } from "../document/sequence_edits.js";
-import { partRows } from "./sequence_rows.js";
-import { acceptView, runIsOn, shownDocument, shownPlan } from "../state/store.js";
 import { openTab } from "../lib/tabs.js";
 import { attempt, toast } from "../lib/toasts.js";
+import { selectGait } from "../shell/gait_list.js";
+import { jobIsOn } from "../shell/job_list.js";
+import { numberField } from "../state/fields.js";
+import { acceptView, runIsOn, shownDocument, shownPlan } from "../state/store.js";
+import { partRows } from "./sequence_rows.js";
 
 const TEACH = "Each part begins where the one before has ended: feet stay, body and heading go on. One check and one approval are for all of it.";
 const OPTIMISE = "A sequence is made of its parts' motions, which follow every edit live. The exact tier solves each part for itself, with all its repetitions.";
@@ -125,4 +125,27 @@ export function mountSequence(store, edits, playback, gaitTools) {
   // A sequence is edited by its parts, so that they come first where a person turns to one.
   store.watch(({ view }) => [view?.id], ({ view, robot }) => { if (isSequence(view?.document) && !runIsOn(robot)) openTab("segments"); });
   return { cancel: () => rows.cancel() || between.cancel() };
+}
+
+const option = (name, factor = 1) => ({
+  read: ({ options }) => options[name] * factor,
+  write: (document, value) => ({ ...document, options: { ...document.options, [name]: factor === 1 ? Math.round(value) : value / factor } }),
+});
+
+const FIELDS = [
+  { label: "Body", name: "Body speed between parts", unit: "mm/s", min: 1, max: 60, step: 1, decimals: 1,
+    help: "Largest speed of the body where it moves over standing feet, or with them", ...option("body_speed", 1000) },
+  { label: "Clearance", name: "Clearance between parts", unit: "mm", min: 0, max: 15, step: 0.5, decimals: 2,
+    help: "How high a foot rises at least where it steps to another place", ...option("clearance", 1000) },
+  { label: "Margin", name: "Stability margin between parts", unit: "mm", min: 0, max: 30, step: 0.5, decimals: 2,
+    help: "Least distance of the centre of pressure from the support polygon's edge while feet step", ...option("margin", 1000) },
+  { label: "Phases", name: "Phase knots between parts", unit: "knots", min: 2, max: 50, step: 1, decimals: 0,
+    help: "Length of each stance and of each swing of those steps", ...option("phase_knots") },
+];
+
+/** Builds the fields; `show` gives them the document. */
+function betweenParts(store, edits) {
+  const fields = FIELDS.map((field) => numberField(store, edits, field));
+  const element = h("details", { class: "more" }, h("summary", { text: "Between parts" }), h("div", { class: "fields" }, ...fields.map((field) => field.element)));
+  return { element, show: (document) => fields.forEach((field) => field.show(document)), cancel: () => fields.some((field) => field.cancel?.()) };
 }

@@ -2,9 +2,8 @@
 
 import { api } from "../api/gaits.js";
 import { byId, h, setAttribute, setText } from "../lib/dom.js";
-import { found, gaitSearch } from "./gait_search.js";
-import { acceptView } from "../state/store.js";
 import { clearOfGait, report } from "../lib/toasts.js";
+import { acceptView } from "../state/store.js";
 
 const KEY = "footfall.gait";
 
@@ -158,4 +157,41 @@ export function mountGaits(store) {
       listed = selected;
     } else if (greeted && selected && selected === listed && gaits.length) selectGait(store, gaits[0].id);
   });
+}
+
+const ENOUGH = 20;
+
+/** Whether a gait's line has every word of the search. */
+function found(gait, search) {
+  const words = search.toLowerCase().split(/\s+/).filter(Boolean);
+  const text = [gait.name, gait.orientation, gait.source, gait.robot].filter(Boolean).join(" ").toLowerCase();
+  return words.every((word) => text.includes(word) || word === gait.order.join(""));
+}
+
+/**
+ * Builds the field; it is hidden while few gaits are listed. `show` gets the number of matches and the number of gaits.
+ * @param {(search: string) => void} changed called with what is searched for
+ * @returns {{element: HTMLElement, show: (listed: number, count: number) => void, search: () => string}}
+ */
+function gaitSearch(changed) {
+  const field = h("input", { type: "search", "aria-label": "Find a gait", placeholder: "Find a gait", autocomplete: "off", spellcheck: "false", title: "Words of its name, robot, orientation or making; or its foot order" });
+  const nothing = h("p", { class: "teach", role: "status", hidden: true });
+  const element = h("div", { class: "gait-search", hidden: true }, field, nothing);
+  field.addEventListener("input", () => changed(field.value));
+  field.addEventListener("keydown", (event) => {
+    if (event.key !== "Escape" || !field.value) return;
+    event.preventDefault();
+    event.stopPropagation();
+    field.value = "";
+    changed("");
+  });
+  return {
+    element,
+    search: () => field.value,
+    show(listed, count) {
+      element.hidden = listed <= ENOUGH && !field.value;
+      nothing.hidden = listed > 0 || !field.value;
+      if (!listed) nothing.textContent = `No gait has “${field.value.trim()}”. Esc shows all ${count}.`;
+    },
+  };
 }

@@ -1,13 +1,13 @@
 /** The menus of the gait list and of the shown gait: new, import; copy, export, delete with undo. */
 
-import { actionMenu } from "../lib/action_menu.js";
 import { api } from "../api/gaits.js";
-import { bringBack, noneDeleted } from "./deleted_gaits.js";
-import { byId, h } from "../lib/dom.js";
 import { freeName } from "../document/gait_names.js";
-import { importFiles } from "./import_files.js";
-import { askNewGait } from "./new_gait.js";
+import { actionMenu } from "../lib/action_menu.js";
+import { dialogFrame, openDialog } from "../lib/dialogs.js";
+import { byId, h } from "../lib/dom.js";
+import { clockTime } from "../lib/format.js";
 import { attempt, toast } from "../lib/toasts.js";
+import { askNewGait } from "./new_gait.js";
 
 const FORMS = [
   ["json", "Gait (JSON)"], ["csv", "Trajectory (CSV)"], ["companion", "Its companion (JSON)"], ["waypoints", "Waypoints (CSV)"],
@@ -97,4 +97,68 @@ export function mountGaitTools(store, edits, show) {
   byId("gait-tools").append(link("Duplicate", "A copy of this gait under another name", duplicate), exports.element, deletion);
   store.watch((state) => [lineOf(state)?.kind], (state) => { deletion.hidden = lineOf(state)?.kind !== "saved"; });
   return { addNew: (entry) => news.add(entry, 1) };
+}
+
+const NONE = "No gait is deleted: there is nothing to bring back.";
+
+/** Why the list cannot be shown: null where there is something in it. */
+const noneDeleted = async () => ((await api.deleted()).length ? null : NONE);
+
+function row({ id, name, when }, close) {
+  return h("li", {}, h("span", { class: "deleted-name" }, h("b", { text: name }), h("small", { class: "quiet", text: `deleted ${clockTime(when)}` })),
+    h("button", { type: "button", "aria-label": `Bring back ${name}`, text: "Bring back", on: { click: () => close(id) } }));
+}
+
+/**
+ * Lists what was deleted and brings back what is chosen.
+ * @param {(id: string) => Promise<void>} show shows a gait
+ */
+async function bringBack(show) {
+  const gaits = await api.deleted();
+  if (!gaits.length) {
+    toast(NONE);
+    return;
+  }
+  const id = await openDialog((close) => dialogFrame("Deleted gaits", close, () => close(null),
+    h("p", { class: "quiet", text: "A gait comes back with its unsaved edits, its versions and its undo history." }),
+    h("ul", { class: "deleted-gaits", "aria-label": "Deleted gaits" }, ...gaits.map((gait) => row(gait, close))),
+    h("div", { class: "buttons" }, h("button", { type: "submit", text: "Close" }))));
+  if (!id) return;
+  await api.restore(id);
+  await show(id);
+}
+
+const COMPANION = ".footfall.json";
+const KINDS = ".json,.csv,application/json,text/csv";
+
+/** What is sent of the chosen files: each gait's file as it is, a trajectory and its companion as one. */
+async function bodies(files) {
+  const companions = new Map(files.filter(({ name }) => name.endsWith(COMPANION)).map((file) => [file.name.slice(0, -COMPANION.length), file]));
+  const gaits = files.filter(({ name }) => !name.endsWith(COMPANION));
+  if (!gaits.length) throw new Error(`${files[0].name} is a trajectory's companion. Choose its trajectory (CSV) with it.`);
+  return Promise.all(gaits.map(async (file) => {
+    const companion = companions.get(file.name.replace(/\.csv$/i, ""));
+    if (!companion) return { name: file.name, body: file };
+    return { name: file.name, body: JSON.stringify({ csv: await file.text(), companion: await companion.text() }) };
+  }));
+}
+
+/**
+ * Lets a person choose files and makes a gait of each.
+ * @param {(id: string) => Promise<void>} show shows a gait
+ */
+function importFiles(show) {
+  const input = h("input", { type: "file", accept: KINDS, multiple: true });
+  input.addEventListener("change", attempt(async () => {
+    const chosen = await bodies([...input.files]);
+    const remarks = [];
+    for (const { name, body } of chosen) {
+      const view = await api.importFile(body, name);
+      await show(view.id);
+      if (view.remarks.length) remarks.push([...(chosen.length > 1 ? [`${name}:`] : []), ...view.remarks].join(" "));
+      // Showing the next one takes away what belongs to this one: the sentences of all stand beside the last.
+      if (remarks.length) toast(remarks.join(" "));
+    }
+  }));
+  input.click();
 }

@@ -1,17 +1,15 @@
 /** One trial: the displacement of each foot compared with its plan, by iteration, with a note and files. */
 
-import { figureTable, footName } from "../lib/tables.js";
-import { h, onPress } from "../lib/dom.js";
-import { clockTime, fixed } from "../lib/format.js";
-import { attempt } from "../lib/toasts.js";
 import { trialApi } from "../api/trials.js";
+import { h, onPress, setText } from "../lib/dom.js";
+import { clockTime, fixed } from "../lib/format.js";
+import { figureTable, footName } from "../lib/tables.js";
+import { attempt } from "../lib/toasts.js";
 import { comparisonPart } from "./trial_comparison.js";
-import { followTrial } from "./trial_sync.js";
-import { notePart } from "./trial_note.js";
+import { displacementPlot } from "./trial_displacement.js";
 import { photosPart } from "./trial_photos.js";
 import { pathPlot } from "./trial_plot.js";
-import { sourcePart } from "./trial_source.js";
-import { displacementPlot } from "./trial_displacement.js";
+import { followTrial } from "./trial_sync.js";
 
 const published = ({ distance, angle_deg: angle, error_percent: error }) => [fixed(distance, 2), fixed(angle, 1), fixed(error, 0)];
 const net = ({ net_distance: distance, net_angle_deg: angle, net_error_percent: error }) => [fixed(distance, 2), fixed(angle, 1), fixed(error, 0)];
@@ -122,4 +120,64 @@ export async function trialDetail(store, id, { all, remove, tracks, video }) {
   const sync = followTrial(store, trial, draw);
   const element = h("div", { class: "run-detail" }, head, note.element, photosPart(id), scene.element, plots, tail);
   return { element, leave() { sync.leave(); comparison.leave(); scene.leave(); } };
+}
+
+const stretches = (count, what) => (count ? `${count} ${count === 1 ? "time" : "times"} ${what}` : null);
+
+/** How often a foot was out of sight, and how often something else was taken for it. */
+function sights({ unseen, false: wrong }) {
+  const words = [stretches(unseen.length, "a foot was not seen"), stretches(wrong.length, "something else was taken for a foot")].filter(Boolean);
+  return words.length ? `${words.join(", ")}; these places are filled by straight lines and marked.` : null;
+}
+
+/**
+ * Builds the lines; nothing for tracks out of files.
+ * @param {object} trial
+ * @param {(video: string) => void} open a video
+ */
+function sourcePart(trial, open) {
+  const { source, remarks, plan } = trial;
+  const doubts = [...remarks, source ? sights(trial) : null, plan && !plan.fits ? plan.fit_sentence : null, plan?.astray_sentence].filter(Boolean);
+  if (!source && !doubts.length) return null;
+  const video = source?.video && h("button", { class: "link", text: source.camera ? `Recording of ${source.camera}` : "Its video", title: "The frames that the feet were found in", on: { click: () => open(source.video) } });
+  return h("div", { class: "trial-source" },
+    source && h("p", { class: "quiet" }, video, video && " · ", `tracked with “${source.setup_name}”, version ${source.setup_revision}`),
+    ...doubts.map((text) => h("p", { class: "why", data: { toneText: "caution" }, text })));
+}
+
+/**
+ * Builds the note's field, which stays while the rest of a trial is drawn again.
+ * @param {(note: string) => Promise<*>} keep
+ * @returns {{element: HTMLElement, show: (note: string) => void, offer: () => void}} `show` tells what is kept now; what was typed
+ *   stays, and `offer` lets it be kept once more
+ */
+function notePart(keep) {
+  const area = h("textarea", { "aria-label": "Note", rows: "2", maxlength: "4000", placeholder: "Note: floor, cable, what was seen" });
+  const words = h("span");
+  const mine = h("button", { class: "link", text: "Keep what I typed" });
+  const theirs = h("button", { class: "link", text: "Take that" });
+  const choice = h("p", { class: "why", role: "group", "aria-label": "Two notes", hidden: true }, words, " ", mine, " · ", theirs);
+  let known = "";
+
+  const typed = () => area.value.trim();
+
+  function offer() {
+    choice.hidden = typed() === known;
+    setText(words, known ? `The note that is kept says “${known}”.` : "No note is kept.");
+  }
+
+  area.addEventListener("change", () => { if (choice.hidden && typed() !== known) keep(typed()); });
+  mine.addEventListener("click", () => { choice.hidden = true; keep(typed()); });
+  theirs.addEventListener("click", () => { area.value = known; choice.hidden = true; });
+  return {
+    element: h("div", { class: "trial-note" }, area, choice),
+    offer,
+    show(note) {
+      const isTyped = typed() !== known;
+      const isOther = note !== known;
+      known = note;
+      if (!isTyped) area.value = note;
+      else if (isOther || !choice.hidden) offer();
+    },
+  };
 }

@@ -1,14 +1,16 @@
 /** One video in the panel, with its picture: choose or make a camera setup, then track the feet into a trial. */
 
-import { newSetup, openSetup } from "../cameras/camera_setup.js";
-import { setupText } from "../cameras/camera_labels.js";
-import { h, onPress, setAllowed, setText } from "../lib/dom.js";
-import { attempt, toast } from "../lib/toasts.js";
-import { walkFields } from "../trials/trial_form.js";
+import { api } from "../api/gaits.js";
 import { setupApi, videoApi, videoSource } from "../api/videos.js";
-import { videoFacts } from "./video_rows.js";
+import { setupText } from "../cameras/camera_labels.js";
+import { newSetup, openSetup } from "../cameras/camera_setup.js";
+import { h, onPress, setAllowed, setText } from "../lib/dom.js";
+import { fixed } from "../lib/format.js";
+import { attempt, toast } from "../lib/toasts.js";
 import { openStage } from "../pictures/picture_stage.js";
-import { trackingPart } from "./video_tracking.js";
+import { jobIsOn } from "../shell/job_list.js";
+import { walkFields } from "../trials/trial_form.js";
+import { videoFacts } from "./video_rows.js";
 
 /** The choice of a setup, with what is missing from it. */
 function setupChoice({ setups, chosen, changed, edit, make }) {
@@ -86,4 +88,43 @@ export async function openVideo(page, video, { back, chosen = "", frame = 0, kep
   onPress(track, () => { if (form.reportValidity()) begin(); }, (why) => toast(why, { of: "studio" }));
   page.show(form, () => stage.close());
   choice.show();
+}
+
+/** The newest tracking of a video. */
+const jobOf = ({ jobs }, video) => jobs.find((job) => job.kind === "track" && job.video === video) ?? null;
+
+/**
+ * Builds the progress of a video's tracking; hidden while there was none.
+ * @param {object} store
+ * @param {string} video
+ * @param {{done: (trial: string) => void, changed: (isOn: boolean) => void}} acts `done` is called once, for a tracking that was
+ *   begun or was under way here
+ * @returns {HTMLElement}
+ */
+function trackingPart(store, video, { done, changed }) {
+  const bar = h("i");
+  const words = h("p", { class: "number", role: "status", "aria-label": "Tracking" });
+  const cancel = h("button", { type: "button", text: "Cancel", "aria-label": "Cancel tracking" });
+  const progress = h("div", { class: "progress" }, bar);
+  const element = h("div", { class: "video-going", hidden: true }, progress, words, cancel);
+  let followed = null;
+
+  cancel.addEventListener("click", attempt(() => api.cancelJob(followed)));
+  store.watch(({ jobs }) => [jobOf({ jobs }, video)], (state) => {
+    const job = jobOf(state, video);
+    if (!job) return;
+    const on = jobIsOn(job);
+    const ended = followed === job.id && !on;
+    if (on) followed = job.id;
+    element.dataset.tracks = on ? video : "";
+    element.hidden = !on && !ended && job.state !== "failed";
+    [progress.hidden, cancel.hidden] = [!on, !on];
+    bar.style.transform = `scaleX(${job.share ?? 0})`;
+    setText(words, job.state === "running" ? `Tracking, ${fixed((job.share ?? 0) * 100, 0)} %` : job.sentence || job.state);
+    changed(on);
+    if (!ended) return;
+    followed = null;
+    if (job.state === "done" && job.result?.trial && element.isConnected) done(job.result.trial);
+  });
+  return element;
 }

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
+from app.common.json_values import Json
 from app.trials.report.page import moment, number, plot, table, text
 from app.trials.report.plots import band_from_above
 from app.trials.service import compared
@@ -15,8 +16,8 @@ _KEY = "Each trial thin, their mean solid, the plan dotted; in the robot's frame
 
 
 def compared_parts(
-    lines: Sequence[dict[str, Any]],
-    band_of: Callable[[Sequence[str]], dict[str, Any]],
+    lines: Sequence[Json],
+    band_of: Callable[[Sequence[str]], Json],
     colours: Sequence[str],
 ) -> Iterator[str]:
     """The parts.
@@ -37,7 +38,7 @@ def compared_parts(
 
 def _band(
     trials: Sequence[str],
-    band_of: Callable[[Sequence[str]], dict[str, Any]],
+    band_of: Callable[[Sequence[str]], Json],
     colours: Sequence[str],
     name: str,
 ) -> str:

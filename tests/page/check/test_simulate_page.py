@@ -76,7 +76,7 @@ def test_a_simulation_is_cancelled_and_a_reload_brings_the_last_one_back(page: P
 
 
 MAP = """async () => {
-  const { robustness } = await import("/static/check/robustness.js");
+  const { robustness } = await import("/static/check/simulate.js");
   const map = robustness();
   const figures = { walks: false, fell: false, max_tilt: 0.1, distance: 0.01, feet_error: 0.001 };
   const run = (name, more) => ({ ...figures, name, ended_early: "", ...more });

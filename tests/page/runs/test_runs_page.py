@@ -123,7 +123,7 @@ def test_a_deleted_run_comes_back(page: Page) -> None:
 
 
 TRACE = """async () => {
-  const { mountTrace } = await import("/static/runs/run_trace.js");
+  const { mountTrace } = await import("/static/runs/runs.js");
   const { createStore } = await import("/static/state/store.js");
   const store = createStore();
   mountTrace(store);

@@ -11,7 +11,7 @@ from playwright.sync_api import Browser, expect, sync_playwright
 
 from app.emulator.emulated_robot import EmulatedRobot, start_emulator
 from tests.support.chromium import LONG_MS, WORDS, chromium_path
-from tests.support.studio_process import said_by_studios
+from tests.support.studio_process import StudioProcess, running_studio, said_by_studios
 
 # A slow machine is no failure, and one commit gives one answer; `python -m tests --all` looks further.
 SLOW = [HealthCheck.too_slow]
@@ -71,3 +71,26 @@ def browser() -> Iterator[Browser]:
         opened = playwright.chromium.launch(executable_path=program, args=WORDS)
         yield opened
         opened.close()
+
+
+@pytest.fixture(scope="session")
+def shared_studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess]:
+    """A running studio without a robot, for many files."""
+    with running_studio(tmp_path_factory.mktemp("shared")) as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def lent_studio(shared_studio: StudioProcess, request: pytest.FixtureRequest) -> Iterator[StudioProcess]:
+    """The shared studio for one file: its gaits are as they came before and after."""
+    yield shared_studio
+    put_back(shared_studio, request.module.__name__)
+
+
+def put_back(studio: StudioProcess, module: str) -> None:
+    """Deletes the gaits that a file has made; those of the program have to be as they came."""
+    for line in studio.ask("GET", "/api/gaits").content["gaits"]:
+        if line["kind"] == "saved":
+            assert studio.ask("DELETE", f"/api/gaits/{line['id']}").status == 200
+        else:
+            assert not line["edited"], f"{module} left {line['id']} of the shared studio edited"

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
 
-from tests.support.studio_process import StudioProcess, running_studio
+from tests.support.studio_process import StudioProcess
 
 
 @pytest.fixture(scope="module")
-def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess]:
-    with running_studio(tmp_path_factory.mktemp("data")) as running:
-        yield running
+def studio(lent_studio: StudioProcess) -> StudioProcess:
+    return lent_studio
 
 
 @pytest.mark.parametrize(

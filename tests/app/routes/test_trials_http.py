@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
 
 from core.vision.track_csv import format_track_csv
 from tests.core.vision.test_image_header import picture
-from tests.support.studio_process import StudioProcess, running_studio
+from tests.support.studio_process import StudioProcess
 from tests.support.trials.tracks import stepping_track
 
 CSV = format_track_csv(stepping_track((0.0085, 0.0085), 1))
@@ -18,9 +17,8 @@ PLANNED = {**TRIAL, "gait": "walk"}
 
 
 @pytest.fixture(scope="module")
-def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess]:
-    with running_studio(tmp_path_factory.mktemp("data")) as running:
-        yield running
+def studio(lent_studio: StudioProcess) -> StudioProcess:
+    return lent_studio
 
 
 def test_a_trial_is_kept_beside_its_gaits_plan_and_can_be_changed(studio: StudioProcess) -> None:

@@ -7,21 +7,19 @@ import os
 import re
 import urllib.error
 import urllib.request
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from app.web.page import ModulePage
-from tests.support.studio_process import PROJECT, StudioProcess, running_studio
+from tests.support.studio_process import PROJECT, StudioProcess
 
 STATIC = PROJECT / "app" / "static"
 
 
 @pytest.fixture(scope="module")
-def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess]:
-    with running_studio(tmp_path_factory.mktemp("assets")) as running:
-        yield running
+def studio(lent_studio: StudioProcess) -> StudioProcess:
+    return lent_studio
 
 
 def get(studio: StudioProcess, path: str, **headers: str) -> tuple[int, dict[str, str], bytes]:

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import re
 
+import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.support.page.opened import look, opened_page
 from tests.support.studio_process import StudioProcess
+
+pytestmark = pytest.mark.heavy
 
 
 def check(page: Page) -> None:

@@ -139,6 +139,7 @@ def edit_while_the_robot_moves(page: Page) -> None:
     look(page, "edited while it runs")
 
 
+@pytest.mark.heavy
 def test_stop_on_the_page_latches_until_it_is_cleared(
     page: Page, studio: StudioProcess, robot: EmulatedRobot
 ) -> None:

@@ -15,6 +15,8 @@ from tests.support.held_gaits import lifting, wave
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess, wait_for
 
+pytestmark = pytest.mark.heavy
+
 LIFTED = replace(lifting("hexapod", (1, 4)), name="Lifted", held=HeldFeet())
 FOUR = replace(wave("hexapod", (1, 4), phase_knots=3, closing_knots=3), name="On four feet")
 

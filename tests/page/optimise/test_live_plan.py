@@ -46,6 +46,7 @@ def use_seconds(page: Page) -> str:
     return f"/ {found.group(1)} s"
 
 
+@pytest.mark.heavy
 def test_the_fastest_timing_stands_beside_the_drawn_one_and_can_be_used(page: Page) -> None:
     choose(page, "C-Gait 10 mm")
     page.get_by_role("button", name="Fastest timing").click()
@@ -144,6 +145,7 @@ def ask_too_much(page: Page) -> Locator:
     return page.get_by_role("region", name="Why it is infeasible").get_by_role("group", name="Ways out")
 
 
+@pytest.mark.heavy
 def test_a_way_out_keeps_what_was_edited_since_although_the_plan_is_the_same(
     page: Page, studio: StudioProcess
 ) -> None:
@@ -161,6 +163,7 @@ def test_a_way_out_keeps_what_was_edited_since_although_the_plan_is_the_same(
     assert hypot(*studio.document("c-gait")["step"][:2]) < 0.0275
 
 
+@pytest.mark.heavy
 def test_a_search_for_ways_out_that_was_cut_short_says_so_and_goes_on(page: Page) -> None:
     choose(page, "S-Gait 10 mm")
     searches: list[Request] = []
@@ -239,6 +242,7 @@ def test_dragging_the_goal_in_3d_changes_the_step_as_one_edit(page: Page, studio
     expect(goal).to_have_attribute("aria-valuetext", re.compile("step 10.0 mm"))
 
 
+@pytest.mark.heavy
 @pytest.mark.scene
 def test_arrow_keys_move_the_goal_by_half_a_millimetre_and_turn_it(page: Page, studio: StudioProcess) -> None:
     choose(page, "Walk 10 mm")

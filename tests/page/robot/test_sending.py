@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import pytest
 from playwright.sync_api import Browser, expect
 
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess
+
+pytestmark = pytest.mark.heavy
 
 
 def test_the_stop_bound_says_what_it_costs_and_a_change_takes_the_approval(

@@ -1,4 +1,4 @@
-"""One message on its way: believed by what the robot says about it, not by counting lines (PROTOCOL 5.2)."""
+"""One message on its way: delivered when its echo agrees, not by counting lines (docs/firmware.md)."""
 
 from enum import Enum, auto
 
@@ -36,7 +36,7 @@ needed 1.8 s more than twice its ramp."""
 
 START_PATIENCE = 15.0
 """On the way to the start pose; a controller that is wound up by the board's own first move from 20 mm
-needs up to 11 s for its first small step (hazard 11)."""
+needs up to 11 s for its first small step (firmware.md, hazard 11)."""
 
 
 IDLE_PASSES = 3

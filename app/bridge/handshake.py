@@ -1,4 +1,4 @@
-"""The handshake from an open line to a ready robot: one flush, then its effect (PROTOCOL 5.6)."""
+"""The handshake from an open line to a ready robot: one flush, then its effect (docs/firmware.md)."""
 
 from app.bridge.telemetry import TelemetryMonitor
 from core.wire.lines import Line, NewData

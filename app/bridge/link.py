@@ -24,7 +24,7 @@ from core.errors import RobotError
 from core.wire.lines import Line, LineReader, SetupFinished, SetupMoving
 
 SILENCE_LIMIT = 4.0
-"""An answering robot is never silent longer than 2.5 s (PROTOCOL 5.4), s."""
+"""An answering robot is never silent longer than 2.5 s (docs/firmware.md, Times), s."""
 
 
 class RobotLink(StateLog, ABC):

@@ -52,7 +52,7 @@ Pace = Callable[[float, threading.Event], None]
 
 
 class Outbox:
-    """Bytes on their way to the host; what it does not fetch in time is lost, as on the robot (hazard 23).
+    """Bytes on their way to the host; what it does not fetch in time is lost (firmware.md, hazard 23).
 
     Args:
         port: the line.

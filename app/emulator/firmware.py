@@ -1,4 +1,4 @@
-"""The emulated robot's program, in virtual time: one turn of its loop after the other (PROTOCOL 6).
+"""The emulated robot's program, in virtual time: one turn of its loop after the other (docs/firmware.md).
 
 It is a generator that advances the board's clock: whoever drives it decides what a microsecond is, hands
 over what the host has sent before each step, and takes what the board has sent after it.
@@ -16,7 +16,7 @@ from app.emulator.ramp import Controller, longest_ramp, motor_speeds, ramp_durat
 from core.wire.messages import MOTORS, RESET_MM, THRESHOLD_MM
 
 BUFFER_BYTES = 20000
-"""Longest payload that the robot's memory holds; it does not check (hazard 17)."""
+"""Longest payload that the robot's memory holds; it does not check (firmware.md, hazard 17)."""
 
 LONGEST_PARTIAL = 65536
 """Bytes of an open message that the emulator keeps; a board would have died long before."""
@@ -69,7 +69,7 @@ class Firmware:
         messages: every message that was taken, in order.
         completions: every completed trajectory, in order.
         fault: why the program died, or None; a dead program is silent and holds its motors' commands.
-        spoilt: what has overwritten its memory, or None; it may live on and go astray (hazard 7).
+        spoilt: what has overwritten its memory, or None (firmware.md, hazard 7).
     """
 
     def __init__(
@@ -94,7 +94,7 @@ class Firmware:
         self.fault = reason
 
     def reset(self) -> None:
-        """Restarts the controller while the motor drivers keep their power (hazard 20)."""
+        """Restarts the controller while the motor drivers keep their power (firmware.md, hazard 20)."""
         self._reset_asked = True
 
     def power_cycle(self, off: float = 0.0) -> None:

@@ -1,4 +1,4 @@
-"""The emulated robot's memory where waypoints lie: room for one, and other variables behind it (hazard 7)."""
+"""The emulated robot's memory for waypoints: room for one, then other variables (firmware.md, hazard 7)."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

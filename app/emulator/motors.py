@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from core.wire.messages import MOTORS, QUANTUM_MM
 
 FULL_SPEED_MM = 15.0
-"""Speed in mm/s at a command of 255 (PROTOCOL, How far to trust it: no load, all equal)."""
+"""Speed in mm/s at a command of 255 (docs/firmware.md: no load, all equal)."""
 
 FULL_COMMAND = 255
 TRAVEL_MM = 20.0

@@ -1,6 +1,6 @@
 """Where an emulated robot is plugged in: a pseudo-terminal or a TCP port.
 
-Neither ever blocks: what the host does not fetch is lost, as it is on the robot's USB (hazard 23).
+Neither ever blocks: what the host does not fetch is lost, as on the robot (firmware.md, hazard 23).
 """
 
 import os

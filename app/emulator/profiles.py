@@ -1,4 +1,4 @@
-"""How long the emulated board spends on its input and output (PROTOCOL, How far to trust it)."""
+"""How long the emulated board spends on its input and output (docs/firmware.md, Times)."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -55,4 +55,4 @@ PROFILES: dict[ProfileName, Profile] = {
     ProfileName.NOMINAL: Profile(adc_us=1000, pwm_us=155, serial_us=40, text_us=100),
     ProfileName.SLOW: Profile(adc_us=2400, pwm_us=560, serial_us=60, text_us=150),
 }
-"""Nominal and slow as the recordings were made; published lies between (PROTOCOL 3)."""
+"""Nominal and slow as the recordings were made; published lies between (docs/firmware.md, Times)."""

@@ -18,14 +18,14 @@ SPEED_MM = 15.0
 
 PROPORTIONAL, INTEGRAL, DERIVATIVE = 3.0, 0.5, 0.02
 COMMAND_PER_SPEED = 17.0
-"""Motor command for 1 mm/s (PROTOCOL 6)."""
+"""Motor command for 1 mm/s (docs/firmware.md)."""
 
 FEEDBACK_ONLY_MM = 5.0
 """Nearer than this to its target, a motor gets no feed-forward speed."""
 
 
 class Controller:
-    """PID controllers of all motors; the integrals live until the board restarts (hazard 11)."""
+    """PID controllers of all motors; the integrals live until the board restarts (firmware.md, hazard 11)."""
 
     def __init__(self) -> None:
         self._integral = [0.0] * MOTORS

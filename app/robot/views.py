@@ -16,7 +16,7 @@ EMULATOR = "emulator"
 """Name of the studio's own emulated robot among devices."""
 
 RESET_DISTANCE = (TRAVEL_MM - RESET_MM) / 1000.0
-"""A reset's longest move: from the motors' far stop (PROTOCOL 3), m."""
+"""A reset's longest move: from the motors' far stop (docs/firmware.md, Times), m."""
 
 RUNNING = frozenset({RobotState.MOVING, RobotState.PAUSING, RobotState.PAUSED, RobotState.STOPPING})
 """States in which a run has not ended."""

@@ -30,10 +30,10 @@ class _Judged:
 
 
 def check_balance(plan: CheckedPlan) -> Outcome:
-    """Ground point inside the support polygon.
+    """The ground point stays inside the support polygon.
 
-    Of a motion whose velocities fit its positions it is the centre of pressure (DOMAIN.md 12); of every
-    other the centre of mass (static stability margin).
+    It is the centre of pressure (docs/sources.md) where the velocities of a motion fit its positions, and
+    otherwise the centre of mass (static stability margin).
     """
     t = plan.trajectory
     margins, what = balance_margins(plan.model, t)

@@ -24,7 +24,7 @@ ROBOT = "deltawalker"
 """The robot of every built-in gait but the footfall patterns."""
 
 SAMPLE_TIME = 0.4
-"""Time between knots of the published gaits, s (DOMAIN.md, Gaits)."""
+"""Time between knots of the published gaits, s (docs/sources.md, Published gaits)."""
 
 DEFAULT_SEGMENT_SAMPLES = 5
 """Samples of a segment in the published simulation data."""

@@ -14,7 +14,7 @@ from core.motion.contact_timeline import MAX_SAMPLES, timeline_from_order
 from core.robot.model import RobotModel
 
 SAMPLE_TIME = 0.4
-"""Between the knots of a drawn gait, s (DOMAIN.md, Gaits)."""
+"""Between the knots of a drawn gait, s (docs/sources.md, Published gaits)."""
 
 DEFAULT_STEP = 0.010
 """The body's travel an iteration, m; every robot and every order below can do it."""

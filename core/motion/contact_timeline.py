@@ -144,7 +144,7 @@ def timeline_from_order(
     iterations: int = 1,
     sample_time: float = 0.4,
 ) -> ContactTimeline:
-    """The published timing (DOMAIN.md, Gaits): for each foot, all feet down, then that foot in the air.
+    """The published timing (docs/sources.md): for each foot, all feet down, then that foot in the air.
 
     The last sample is the goal, and stance for every foot, so that without a closing stance the last swing
     is one sample shorter.

@@ -20,7 +20,7 @@ class HeadingProfile(StrEnum):
     STEADY = "steady"
     """From the first knot to the last, gently at both ends."""
     RETURN = "return"
-    """After each iteration, while every foot stands (rotation in place, DOMAIN.md, Gaits) or is held up
+    """After each iteration, while every foot stands (rotation in place, docs/sources.md) or is held up
     throughout."""
 
 

@@ -129,7 +129,7 @@ def centre_of_pressure(
     body_mass: float,
     foot_mass: float,
 ) -> Floats:
-    """Where the ground pushes (DOMAIN.md 12): p_xy − z_b · Σ m_i a_i,xy / Σ m_i (g + a_i,z).
+    """Centre of pressure (docs/sources.md): p_xy − z_b · Σ m_i a_i,xy / Σ m_i (g + a_i,z).
 
     Args:
         body_world: (n, 3) the body's point, z above the standing feet's platforms, m.

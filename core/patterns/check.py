@@ -1,6 +1,6 @@
 """Whether a pattern keeps the rules of its problem, by counting; shares nothing with the solver.
 
-Source: F 3.2, with DOMAIN.md, point 10.
+Source: F 3.2, with docs/sources.md.
 """
 
 from collections.abc import Callable

@@ -1,6 +1,6 @@
 """The search for a footfall pattern as a value: what is fixed, which rules hold, what counts as better.
 
-Source: the footfall-pattern thesis ("F"), 3.1 and 3.2, with the corrections of DOMAIN.md, point 10.
+Source: the footfall-pattern thesis ("F"), 3.1 and 3.2, with the corrections of docs/sources.md.
 """
 
 from __future__ import annotations

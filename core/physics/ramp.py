@@ -1,4 +1,4 @@
-"""The firmware's ramps: every motor's stroke over the robot's own time, of waypoints (PROTOCOL.md 3)."""
+"""The firmware's ramps: every motor's stroke over the robot's own time (docs/firmware.md, Times)."""
 
 import math
 from dataclasses import dataclass

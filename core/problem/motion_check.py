@@ -2,7 +2,7 @@
 
 It shares only the leg's geometry with the solvers. Each family has one function that returns its largest
 violation, 0 where the family holds: m, m/s, N, or N·m. Sources: thesis (3.5) to (3.18) with the corrections
-of DOMAIN.md.
+of docs/sources.md.
 """
 
 from collections.abc import Callable

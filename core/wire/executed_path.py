@@ -40,10 +40,10 @@ class ExecutedPath:
 def executed_path(model: RobotModel, plan: WaypointPlan) -> ExecutedPath:
     """Follows the moves of a plan by forward kinematics.
 
-    The motors share one ramp, so each move is straight in motor space (PROTOCOL.md 3). Feet, and the centre
-    of mass over the robot's middle, are taken in the robot's frame; the robot is level but for what its
-    standing feet say. It may stand still anywhere, so balance is that of the centre of mass; the ramps'
-    15 mm/s² move the centre of pressure by 0.1 mm.
+    The motors share one ramp, so each move is straight in motor space (docs/firmware.md, Times). Feet,
+    and the centre of mass over the robot's middle, are taken in the robot's frame; the robot is level but
+    for what its standing feet say. It may stand still anywhere, so balance is that of the centre of
+    mass; the ramps' 15 mm/s² move the centre of pressure by 0.1 mm.
 
     Args:
         model: a robot whose motors are free of each other.

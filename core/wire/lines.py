@@ -1,4 +1,4 @@
-"""What comes from the robot: every kind of line of the wire, parsed (PROTOCOL 2).
+"""What comes from the robot: every kind of line of the wire, parsed (docs/firmware.md, Lines).
 
 Parsing never raises: what fits no kind is an `UnknownLine`. The echo of a message has no mark of its own;
 it is the line that follows `new data tf 1`, so only `LineReader`, which keeps the order, yields `Echo`.
@@ -11,7 +11,7 @@ from core.wire.messages import MOTORS, QUANTUM_MM
 
 HIGHEST_READING_MM = 20.5
 READING_NOISE_MM = 1.0
-"""A stroke outside 0 to 20.5 mm, give or take 1 mm, is no telemetry (PROTOCOL 5.8)."""
+"""A stroke outside 0 to 20.5 mm, give or take 1 mm, is no telemetry (docs/firmware.md)."""
 
 LONGEST_LINE = 32768
 """Bytes after which a line without an end is given up as unknown; the echo has at most 20 000."""

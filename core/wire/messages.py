@@ -1,7 +1,7 @@
 """What goes to the robot: every message of the wire, checked and encoded.
 
 Grammar: `<` payload `>`, fields separated by commas, strokes in mm with 4 decimals, one
-waypoint a message, because the firmware's memory holds one (PROTOCOL 1, hazards 7 and 8).
+waypoint a message, because the firmware's memory holds one (firmware.md, hazards 7 and 8).
 """
 
 import math
@@ -14,23 +14,23 @@ from core.errors import InputError
 from core.wire.waypoints import MM_DECIMALS
 
 MOTORS = 12
-"""Motors on the wire: four legs, three a leg (PROTOCOL 1)."""
+"""Motors on the wire: four legs, three a leg (docs/firmware.md, Messages)."""
 
 LOWEST_MM = 0.5
 HIGHEST_MM = 19.5
-"""Strokes in mm that may be asked for; the firmware itself checks nothing (PROTOCOL 1)."""
+"""Strokes in mm that may be asked for; the firmware itself checks nothing (docs/firmware.md, Messages)."""
 
 QUANTUM_MM = 0.012
-"""Stroke of one count of the robot's converter in mm (PROTOCOL, How far to trust it)."""
+"""Stroke of one count of the robot's converter in mm (docs/firmware.md, Times)."""
 
 THRESHOLD_MM = 1.0
-"""Distance in mm within which the firmware calls a motor arrived (PROTOCOL 3)."""
+"""Distance in mm within which the firmware calls a motor arrived (docs/firmware.md, Times)."""
 
 RESET_MM = 0.5
-"""Stroke in mm to which `<r>` and the start of the board send every motor (PROTOCOL 1)."""
+"""Stroke in mm to which `<r>` and the start of the board send every motor (docs/firmware.md, Messages)."""
 
 LONGEST_MESSAGE = 110
-"""Bytes of the longest message that is ever sent (PROTOCOL 5.1)."""
+"""Bytes of the longest message that is ever sent (docs/firmware.md)."""
 
 
 def encode_waypoint(strokes: ArrayLike, duration: float) -> bytes:
@@ -65,7 +65,7 @@ def encode_stop() -> bytes:
 
 
 def encode_release() -> bytes:
-    """Encodes the end of a stop; whatever the robot had last been told goes on at once (hazard 2)."""
+    """Encodes the end of a stop; the robot's last target goes on at once (firmware.md, hazard 2)."""
     return b"<s,0>"
 
 
@@ -73,7 +73,7 @@ def encode_flush() -> bytes:
     """Encodes what closes a message that was cut off on its way: fourteen fields `1` and the end marker.
 
     A robot that holds nothing back ignores it and echoes nothing. A waypoint that was cut off becomes one
-    within the range, with 1 mm where strokes are missing, and is executed (PROTOCOL 5.6, hazard 9).
+    within the range, with 1 mm where strokes are missing, and is executed (firmware.md, hazard 9).
     """
     return b",1" * (MOTORS + 2) + b">"
 

@@ -1,7 +1,7 @@
 """How long the robot takes: the ramp law, and what follows from it for deadlines and for stopping.
 
 The firmware moves every motor by one ramp of a common duration and hears nothing while it lasts
-(PROTOCOL 3); so the largest ramp of a plan is also the longest time until a stop is heard.
+(docs/firmware.md, Times); so the largest ramp of a plan is also the longest time until a stop is heard.
 """
 
 import numpy as np
@@ -19,11 +19,11 @@ RAMP_ACCELERATION = 0.015
 SETUP_ACCELERATION = 0.0125
 
 LONGEST_SCAN = 0.37
-"""Longest error scan that was seen in s, with slow input and output (PROTOCOL 3)."""
+"""Longest error scan that was seen in s, with slow input and output (docs/firmware.md, Times)."""
 
 OVERRUN = 0.18
 """What a ramp lasts beyond its law, with the pass of the loop around it, at most, s: 2.42 s of silence for
-the 2.27 s of a 19 mm move and a pass of 0.03 s, with slow input and output (PROTOCOL 3)."""
+the 2.27 s of a 19 mm move and a pass of 0.03 s, with slow input and output (docs/firmware.md, Times)."""
 
 START_MOVE = 0.003
 """Largest distance of a motor in one message on the way to the start pose, m."""

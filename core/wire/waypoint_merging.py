@@ -1,7 +1,7 @@
 """What is sent of a plan: its waypoints merged and cut before anybody judges or approves them.
 
 The firmware moves all motors along a straight line in motor space to each waypoint and stops there, so that
-every waypoint costs time and the path between two of them is known (PROTOCOL.md 3 and 7).
+every waypoint costs time and the path between two of them is known (docs/firmware.md, Times).
 """
 
 import math

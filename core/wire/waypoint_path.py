@@ -21,7 +21,7 @@ TYPICAL_SCAN = 0.27
 MESSAGE_SECONDS = 0.03
 """Parsing, printing and telemetry around a scan."""
 SHORT_MOVE = 0.006
-"""Shorter moves take two ramps (PROTOCOL.md 3, “Fresh boot”), m."""
+"""Shorter moves take two ramps (docs/firmware.md, Times), m."""
 
 
 def waypoints_from_trajectory(model: RobotModel, trajectory: Trajectory) -> Waypoints:

@@ -9,7 +9,7 @@ from core.arrays import Floats, frozen_floats
 from core.errors import InputError
 
 MM_DECIMALS = 4
-"""Decimals of a millimetre in files and on the wire (PROTOCOL.md 5.1)."""
+"""Decimals of a millimetre in files and on the wire (docs/firmware.md)."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -203,7 +203,7 @@ def _speed(
 
 
 def balance(linearisation: Linearisation) -> Rows:
-    """Centre of pressure inside every edge of the support polygon by the margin (DOMAIN.md 12)."""
+    """Centre of pressure inside every edge of the support polygon by the margin (docs/sources.md)."""
     model, margin = linearisation.problem.model, linearisation.problem.limits.margin * MM
     knot, start, end, alone = _edges(linearisation)
     corners = linearisation.known[0, knot, 1:]

@@ -1,6 +1,6 @@
 """A pattern's search as a CP-SAT model: a truth value a limb and sample, and the rules that are asked for.
 
-Source: F 3.2, with DOMAIN.md, point 10.
+Source: F 3.2, with docs/sources.md.
 """
 
 from collections.abc import Callable

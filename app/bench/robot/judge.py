@@ -35,7 +35,7 @@ READING_MM = 6 * NOISE_MM
 """How far a noisy reading may be from the truth when the robot believes it, mm."""
 
 LONGEST_HEALTHY_SILENCE = 2.8
-"""A sound robot is deaf and mute no longer than this (PROTOCOL 5.4), s."""
+"""A sound robot is deaf and mute no longer than this (docs/firmware.md, Times), s."""
 
 NAMED_WITHIN = 2.0
 """Longest time from a fault's being visible on the wire to its named state, s."""

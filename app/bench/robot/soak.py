@@ -40,8 +40,9 @@ SETTLED = 8.0
 """From power-on to an idle robot, s."""
 
 NEEDS_POWER_CYCLE = frozenset({Fault.STALL, Fault.RESET, Fault.STUCK_MOTOR, Fault.WEAK_MOTOR, Fault.DEAD_POT})
-"""A dead program needs it, and controllers that are wound up (hazard 11); and a robot that is shown as NOT
-STOPPED, for a lost decimal point has it move for hours (hazard 12)."""
+"""Faults that only a power cycle ends: a dead program and wound-up controllers (docs/firmware.md, hazard 11).
+
+A robot that is shown as NOT STOPPED needs it too: a lost decimal point lets it move for hours (hazard 12)."""
 
 BY = "soak"
 

@@ -22,7 +22,7 @@ SPEED = 10.0
 """Seconds of the robot in a second; what the machine does not manage the robot makes up by taking longer."""
 
 LINES_A_SECOND = 69.3
-"""Of an idle robot in the nominal profile (PROTOCOL 3)."""
+"""Of an idle robot in the nominal profile (docs/firmware.md, Times)."""
 
 GAIT = "walk"
 WARM_UP = 0.1

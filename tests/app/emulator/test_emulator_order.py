@@ -1,4 +1,4 @@
-"""What the emulated robot says, line by line, where no recordings are at hand (PROTOCOL 2 and 3)."""
+"""What the emulated robot says, line by line, where no recordings are at hand (docs/firmware.md)."""
 
 import re
 from itertools import pairwise

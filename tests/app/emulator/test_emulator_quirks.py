@@ -1,4 +1,4 @@
-"""What the emulated robot does with odd messages (PROTOCOL 1 and 4)."""
+"""What the emulated robot does with odd messages (docs/firmware.md, Messages and Hazards)."""
 
 import threading
 

@@ -1,6 +1,6 @@
 """The published optimised trajectories before the checker: none keeps the limits that it was made for.
 
-DOMAIN.md, errors 3 and 5: start and goal lie 0.3 mm below the body's height bound, and the published
+docs/sources.md: start and goal lie 0.3 mm below the body's height bound, and the published
 workspace contradicted it, so that feet rise out of the paper's cylinder; error 4: the torque was not held.
 """
 

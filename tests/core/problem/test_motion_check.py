@@ -249,7 +249,7 @@ def test_the_published_walk_starts_below_the_body_height_bound() -> None:
         replace(problem, limits=MotionLimits(workspace=Workspace.CYLINDER)),
         replace(read, contact_forces=forces),
     )
-    # Published start and goal lie below the body height bound (DOMAIN.md, errors 5).
+    # Published start and goal lie below the body height bound (docs/sources.md).
     assert check.violations["body_height"] == pytest.approx(0.0003, abs=1e-5)
     assert not check.confirmed
 

@@ -5,19 +5,24 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.arrays import Floats
 from core.motion.trajectory import Trajectory, turn_trajectory
 from core.problem.initial_guess import initial_guess
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import MotionProblem
+from solver_jobs.live.assembly import (
+    goal_cost,
+    inner_rows,
+    natural_linearisation,
+    outer_rows,
+    quadratic_program,
+)
 from solver_jobs.live.elastic import FARTHEST, PROOF_MM, Nearest, nearest
 from solver_jobs.live.explain import lacks_of, low_lacks, sentences
 from solver_jobs.live.linearisation import MM, Linearisation, linearise
 from solver_jobs.live.motion import motion_cost, trajectory_of
 from solver_jobs.live.motors import motor_rows
-from solver_jobs.live.qp import Answer, QuadraticProgram, Solver, stacked
-from solver_jobs.live.reach import height_reach, reach_of, standing_reach, swinging_reach
-from solver_jobs.live.rows import DiscPolygon, Rows, balance, body_speed, foot_speed, friction, integration
+from solver_jobs.live.qp import Answer, QuadraticProgram, Solver
+from solver_jobs.live.rows import Rows
 from solver_jobs.nlp.assembly import box_of
 from solver_jobs.nlp.constraint import situation_of
 from solver_jobs.nlp.presolve import presolve
@@ -34,9 +39,6 @@ LEVELS = (0.0550, 0.0575, 0.0530, 0.0605)
 
 ROUNDS = 5
 """How often motor limits are made linear anew."""
-
-SETTLED_MM = 1e-9
-"""What is known may miss its bounds by this much."""
 
 AT_THE_EDGE = (
     "This lies at the edge of what the model allows: no motion was found, though less than 0.005 mm is "
@@ -118,56 +120,6 @@ def _solve(search: _Search) -> MotionResult:
     return _unsolved(search, natural)
 
 
-def natural_linearisation(problem: MotionProblem) -> Linearisation:
-    """The body straight from start to goal, or higher between them where feet need room to rise.
-
-    A leg fully drawn in holds its foot at most `link_length + lower stroke` under the plane, and the cylinder
-    ends there too; a foot that rises by the clearance, or is held up, needs that much more.
-    """
-    model = problem.model
-    held = max(float(pose.feet_world[:, 2].max()) for pose in (problem.start, problem.goal))
-    room = model.leg.link_length + model.stroke.lower + max(problem.limits.clearance, held)
-    ends = [pose.body_world[2] - model.com_height for pose in (problem.start, problem.goal)]
-    level = room if min(ends) < room - SETTLED_MM / MM and problem.timeline.swings() else None
-    return linearise(problem, None if level is None else min(level, problem.limits.plane_height[1]))
-
-
-def inner_rows(linearisation: Linearisation, sides: int) -> list[Rows]:
-    """Every demand with polygons inside the discs: what keeps them is a motion."""
-    return _rows(linearisation, DiscPolygon(sides, inner=True))
-
-
-def outer_rows(linearisation: Linearisation, sides: int) -> list[Rows]:
-    """Every demand with polygons around the discs: where these cannot be kept, no motion exists."""
-    return _rows(linearisation, DiscPolygon(sides, inner=False))
-
-
-def _rows(linearisation: Linearisation, disc: DiscPolygon) -> list[Rows]:
-    reach = reach_of(linearisation, disc)
-    return [
-        integration(linearisation),
-        balance(linearisation),
-        body_speed(linearisation, disc),
-        foot_speed(linearisation, disc),
-        standing_reach(linearisation, reach),
-        swinging_reach(linearisation, reach),
-        *height_reach(linearisation, reach),
-        *friction(linearisation, disc),
-    ]
-
-
-def goal_cost(linearisation: Linearisation) -> tuple[Floats, Floats]:
-    """Curvature and gradient of (3.4), ½ Σ ‖x − x_g‖², in the unknowns."""
-    problem = linearisation.problem
-    goal = np.concatenate([problem.goal.body_world[None], problem.goal.feet_world])[:, :2] * MM
-    curvature, gradient = np.zeros(linearisation.size), np.zeros(linearisation.size)
-    for index, wanted in zip(linearisation.index, (goal, np.zeros_like(goal)), strict=True):
-        free = index >= 0
-        np.add.at(curvature, index[free], 1.0)
-        np.add.at(gradient, index[free], -np.broadcast_to(wanted, index.shape)[free])
-    return curvature, gradient
-
-
 def _attempt(search: _Search, linearisation: Linearisation, sides: int) -> Trajectory | None:
     """A motion within the polygons; None where the solver finds none."""
     rows = inner_rows(linearisation, sides)
@@ -183,14 +135,9 @@ def _attempt(search: _Search, linearisation: Linearisation, sides: int) -> Traje
 
 
 def _motion(search: _Search, linearisation: Linearisation, rows: list[Rows]) -> Trajectory | None:
-    split = [one.split() for one in rows]
-    if max(miss for _, miss in split) > SETTLED_MM:
-        return None
-    curvature, gradient = goal_cost(linearisation)
-    row, column, value, lower, upper = stacked([kept for kept, _ in split])
-    least = np.full(linearisation.size, -np.inf)
-    answer = search.solve(QuadraticProgram(curvature, gradient, row, column, value, lower, upper, least))
-    return trajectory_of(linearisation, answer.x) if answer.solved else None
+    qp = quadratic_program(linearisation, rows)
+    answer = None if qp is None else search.solve(qp)
+    return trajectory_of(linearisation, answer.x) if answer is not None and answer.solved else None
 
 
 def _nearest(search: _Search, linearisation: Linearisation, rows: list[Rows]) -> Nearest | None:

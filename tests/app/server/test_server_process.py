@@ -215,6 +215,7 @@ def test_results_edits_and_the_job_list_survive_a_restart(tmp_path: Path) -> Non
         assert "not kept any more" in gone.content["error"]
 
 
+@pytest.mark.heavy
 def test_an_approved_live_plan_is_still_approved_after_a_restart(tmp_path: Path) -> None:
     with running_studio(tmp_path) as studio:
         plan = studio.ask("GET", "/api/gaits/walk/view").content["plan"]

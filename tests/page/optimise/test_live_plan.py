@@ -189,6 +189,7 @@ def test_a_search_for_ways_out_that_was_cut_short_says_so_and_goes_on(page: Page
     expect(why).to_be_hidden()
 
 
+@pytest.mark.heavy
 @pytest.mark.scene
 def test_what_cannot_be_reached_is_marked_in_3d_at_its_time(page: Page) -> None:
     choose(page, "S-Gait 10 mm")
@@ -220,6 +221,7 @@ def trouble_extent(page: Page) -> float:
     return extent
 
 
+@pytest.mark.heavy
 @pytest.mark.scene
 def test_dragging_the_goal_in_3d_changes_the_step_as_one_edit(page: Page, studio: StudioProcess) -> None:
     choose(page, "Walk 10 mm")

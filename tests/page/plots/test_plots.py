@@ -162,6 +162,7 @@ def test_what_passes_a_limit_is_drawn_in_the_bad_colour_where_it_is(
     wait_for(lambda: "bad" not in painted(page, "strokes"), "every stroke keeps its limits")
 
 
+@pytest.mark.heavy
 def test_twelve_feet_of_240_samples_are_drawn_at_once(page: Page) -> None:
     show(page, "Foot speeds", "Motor speeds")
     times = page.evaluate(DRAW, [12, 240])

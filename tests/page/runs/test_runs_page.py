@@ -16,6 +16,8 @@ from tests.support.page.opened import opened_page
 from tests.support.ran_robot import keep_run
 from tests.support.studio_process import StudioProcess, running_studio, wait_for
 
+pytestmark = pytest.mark.heavy
+
 GAIT = "walk-manual-0"
 
 

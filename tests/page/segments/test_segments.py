@@ -270,6 +270,7 @@ def test_columns_are_the_robots_own_feet_in_every_direction(page: Page, studio: 
     wait_for(lambda: table(studio, gait)["feet"][2][4:6] == ["Wait D", "Zero A"], "the row of direction 1")
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_list_note_and_vocabulary_have_no_serious_finding(
     page: Page, studio: StudioProcess, scheme: Literal["light", "dark"]

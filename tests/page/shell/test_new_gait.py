@@ -113,6 +113,7 @@ def test_patterns_fill_in_the_order_and_an_order_finds_its_pattern(page: Page) -
     expect(dialog).to_be_hidden()
 
 
+@pytest.mark.heavy
 def test_a_robot_with_as_many_legs_is_an_edit_and_check_says_what_its_feet_do(page: Page) -> None:
     page.get_by_role("button", name="By hand").click()
     page.get_by_role("list", name="Gaits").get_by_role("button", name=re.compile("^Manual walk, v0")).click()
@@ -134,6 +135,7 @@ def test_a_robot_with_as_many_legs_is_an_edit_and_check_says_what_its_feet_do(pa
     expect(robot(page)).to_have_value("deltawalker")
 
 
+@pytest.mark.heavy
 def test_a_robot_with_other_legs_gets_a_gait_of_its_own(page: Page, studio: StudioProcess) -> None:
     page.get_by_role("list", name="Gaits").get_by_role("button", name=re.compile("^S-Gait 10 mm")).click()
     expect(page.get_by_label("Gait name")).to_have_value("S-Gait 10 mm")
@@ -152,6 +154,7 @@ def test_a_robot_with_other_legs_gets_a_gait_of_its_own(page: Page, studio: Stud
     expect(page.get_by_role("gridcell", name=re.compile("^foot 12, sample 1: "))).to_be_visible()
 
 
+@pytest.mark.heavy
 def test_the_tools_fit_into_one_row_and_their_menus_into_the_column(page: Page) -> None:
     dialog = open_dialog(page)
     dialog.get_by_label("Name of the new gait").fill("To be deleted")
@@ -198,6 +201,7 @@ def test_a_deleted_gait_is_brought_back_after_a_reload(page: Page, studio: Studi
     assert studio.ask("GET", "/api/gaits/deleted").content == {"gaits": []}
 
 
+@pytest.mark.heavy
 def test_notices_of_a_gait_go_with_it_and_three_stand_at_once(page: Page) -> None:
     show = """async () => {
       const { toast } = await import("/static/lib/toasts.js");

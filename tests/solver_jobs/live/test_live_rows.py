@@ -13,13 +13,13 @@ from core.motion.support_polygon import centre_of_pressure, stability_margins, t
 from core.problem.motion_problem import CYLINDER, MotionProblem, Workspace
 from core.robot.kinematics import BodyPose, feet_in_modules
 from core.robot.leg import strokes_from_foot
+from solver_jobs.live.assembly import goal_cost, inner_rows, natural_linearisation, outer_rows
 from solver_jobs.live.elastic import nearest
 from solver_jobs.live.linearisation import MM, Linearisation, linearise
 from solver_jobs.live.motion import trajectory_of, vertical_shares
 from solver_jobs.live.qp import Solver
 from solver_jobs.live.reach import reach_of
 from solver_jobs.live.rows import DiscPolygon, Rows, balance, integration
-from solver_jobs.live.solve import goal_cost, inner_rows, natural_linearisation, outer_rows
 from tests.support.solvers.cases import gait_problem
 
 PROBLEM = gait_problem("walk", 0.012, Workspace.STROKE)

@@ -15,10 +15,9 @@ from app.routes import events, jobs, robots, scene
 from app.routes.gaits import approvals, exports, gaits, sequences, simulations, versions
 from app.routes.gaits import segment_tables as tables
 from app.routes.lab import camera_setups as setups
-from app.routes.lab import cameras, learning, trial_photos, trial_reports, trials, videos
-from app.routes.lab import trial_comparisons as trial_beside
+from app.routes.lab import cameras, learning, trial_comparisons, trial_photos, trials, videos
 from app.routes.patterns import search as patterns
-from app.routes.robot import jog, robot, robot_faults, runs
+from app.routes.robot import jog, robot, runs
 from app.routes.viser_proxy import make_viser_router
 from app.scene.registry import Scenes
 from app.studio.studio import Studio
@@ -41,14 +40,12 @@ _ROUTERS = (
     jobs.router,
     patterns.router,
     robot.router,
-    robot_faults.router,
     jog.router,
     runs.router,
     simulations.router,
     tables.router,
-    trial_beside.router,
+    trial_comparisons.router,
     trial_photos.router,
-    trial_reports.router,
     trials.router,
     learning.router,
     setups.router,

@@ -1,8 +1,8 @@
-"""What stands beside trials: plan and physics, tracks in the plan's frame for 3D, bands over several."""
+"""Comparisons of trials: with plan and physics, tracks in 3D, bands over several, and HTML reports."""
 
 from typing import Annotated
 
-from fastapi import APIRouter, Query
+from fastapi import APIRouter, Query, Response
 from starlette.concurrency import run_in_threadpool
 
 from app.common.json_values import Json
@@ -33,3 +33,20 @@ async def simulate_trial(trial: str, studio: TheStudio) -> Json:
 async def read_scene(trial: str, studio: TheStudio, lap: Annotated[int, Query(ge=1, le=1000)] = 1) -> Json:
     """The track over a lap of the plan by shares of the whole walk, its gaps, and how the robot stood; m."""
     return await run_in_threadpool(lambda: studio.comparison.scene(trial, lap))
+
+
+@router.get("/report", response_class=Response)
+async def report_of_all(studio: TheStudio) -> Response:
+    """Gaits by steps compared, each with its trials over each other and over the plan."""
+    return _file(await run_in_threadpool(studio.reports.compared), "trials.html")
+
+
+@router.get("/{trial}/report", response_class=Response)
+async def report_of_trial(trial: str, studio: TheStudio) -> Response:
+    """A trial with its figures beside plan and physics, its plots, note, photos and origin."""
+    return _file(await run_in_threadpool(lambda: studio.reports.trial(trial)), f"trial-{trial}.html")
+
+
+def _file(text: str, name: str) -> Response:
+    headers = {"content-disposition": f'attachment; filename="{name}"', "cache-control": "no-cache"}
+    return Response(text.encode(errors="replace"), media_type="text/html", headers=headers)

@@ -1,10 +1,10 @@
-"""The robot: its state, and the verbs that move it or stop it."""
+"""The robot: its state, the actions that move it or stop it, and faults of the emulated one."""
 
 import asyncio
 from collections.abc import Callable
 from dataclasses import replace
 from enum import StrEnum
-from typing import Annotated
+from typing import Annotated, Literal
 
 from fastapi import APIRouter, Body
 from pydantic import Field
@@ -12,6 +12,7 @@ from starlette.concurrency import run_in_threadpool
 
 from app.bridge.run_range import RunRange
 from app.common.json_values import Json
+from app.emulator.faults import Fault
 from app.studio.studio import Studio
 from app.undo.history import Author
 from app.web.dependencies import MOST_NAME, RequestBody, TheAuthor, TheStudio, on_planned
@@ -44,6 +45,12 @@ class Send(ActorBody):
     first: int = Field(default=0, alias="from")
     """Waypoint to begin with, 0-based; all feet must be down there."""
     iterations: int = 1
+
+
+class FaultWish(RequestBody):
+    """Which fault strikes; `none` ends those that last."""
+
+    name: Fault | Literal["none"]
 
 
 async def _moved(
@@ -201,4 +208,12 @@ async def hand_over(studio: TheStudio, author: TheAuthor, act: HandOver, actor_b
         HandOver.RELEASE: lease.release,
     }
     await run_in_threadpool(verbs[act], actor)
+    return studio.robot.view()
+
+
+@router.post("/fault")
+async def strike(studio: TheStudio, wish: FaultWish) -> Json:
+    """Has something go wrong with the emulated robot at once; a real one is never touched."""
+    fault = None if wish.name == "none" else wish.name
+    await run_in_threadpool(studio.robot.strike, fault)
     return studio.robot.view()

@@ -243,7 +243,7 @@ def test_a_file_that_is_no_video_is_refused_with_a_sentence(page: Page, tmp_path
 
 TAKEN = """async () => {
   const folder = document.querySelector('script[src$="boot.js"]').src.replace("boot.js", "");
-  const { rangeOf } = await import(folder + "cameras/camera_colour_picker.js");
+  const { rangeOf } = await import(folder + "cameras/camera_feet.js");
   const { guessPlace } = await import(folder + "cameras/camera_place.js");
   const pixels = [[0, 0], [100, 10], [90, 120], [-10, 100]];
   const places = [[0, 0], [10, 0], [10, 10], [0, 10]];

@@ -1,4 +1,4 @@
-"""The robot bridge: the session on a real line, with its threads.
+"""The robot bridge: runs the robot state machine on a real line, with its threads.
 
 Two threads live here while a line is open: the transport's reader, which only queues what arrives, and
 the worker, which feeds the session, keeps its deadlines and tells the subscribers. Stop needs neither.

@@ -49,7 +49,7 @@ HELD_STOP = "it still holds an old stop"
 
 
 class Stage(Enum):
-    """What is to be seen next."""
+    """The event that a delivery waits for next."""
 
     ECHO = auto()
     POINT = auto()

@@ -20,7 +20,7 @@ class SerialDevice:
 
 
 def found_again(lost: SerialDevice, present: Sequence[SerialDevice]) -> SerialDevice | None:
-    """Where a device that hung up is now, told by its serial number; None where that cannot be said.
+    """Finds a lost device by its serial number; None if it has none or more than one matches.
 
     Args:
         lost: as it was when it was connected.

@@ -1,4 +1,4 @@
-"""Steps by hand on their way to the robot: one message a move, each believed like a waypoint."""
+"""Sends a jog to the robot: one message for each move, each confirmed like a waypoint."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ itself takes for arrived."""
 
 @dataclass(frozen=True)
 class JogPlan:
-    """What a person saw and let go.
+    """A jog that a person previewed and released.
 
     Args:
         text: what is moved, for a person.
@@ -40,7 +40,7 @@ class JogMove:
 
 
 class Jog:
-    """How far the moves of a jog have got; every message is encoded before the first is sent.
+    """The moves of a jog and its progress; every message is encoded before the first is sent.
 
     Args:
         plan: what a person let go.

@@ -1,4 +1,4 @@
-"""Who holds the robot: one person at a time moves it, everybody looks on and can stop it.
+"""The operator lease: one person at a time may move the robot; everybody may watch and stop it.
 
 Values and rules only; whoever drives them serialises the calls and gives the clock.
 """
@@ -57,7 +57,7 @@ class Holding:
         return self.holder is not None and self.away > GONE_SECONDS
 
     def is_free(self, *, is_idle: bool, is_away: bool) -> bool:
-        """Whether whoever does something with the robot becomes its holder (see `Lease.admit`)."""
+        """Whether the next person who acts on the robot becomes its holder (see `Lease.admit`)."""
         if self.holder is None:
             return True
         return (self.holder.is_script and is_idle) or (self.is_gone and is_away)
@@ -69,7 +69,7 @@ class Holding:
 
 
 class Lease:
-    """The holder, hand-over, and whether the holder is still there.
+    """Decides who may move the robot: holder, hand-over, and whether the holder is still there.
 
     Args:
         clock: seconds that only grow.
@@ -93,7 +93,7 @@ class Lease:
         return Holding(self._holder, 0.0 if self._holder.is_script else time - self._seen, asker)
 
     def admit(self, who: Person, *, is_idle: bool, is_away: bool = False) -> bool:
-        """Lets the holder do something; whoever comes when nobody holds the robot becomes its holder.
+        """Admits the holder and refuses anybody else; if nobody holds the robot, `who` becomes the holder.
 
         Args:
             who: asks to do it.
@@ -202,7 +202,7 @@ class Lease:
         return was_gone
 
     def note_gone(self) -> bool:
-        """Whether the holder is gone and nobody has noticed before; true once for each time."""
+        """Returns true once each time the holder turns out to be gone."""
         if self._noted_gone or not self.now.is_gone:
             return False
         self._noted_gone = True

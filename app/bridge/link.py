@@ -56,7 +56,7 @@ class RobotLink(StateLog, ABC):
 
     @property
     def awaits_stop(self) -> bool:
-        """Whether a stop stands that a robot in reach has not confirmed yet."""
+        """Whether a stop is active that the connected robot has not confirmed yet."""
         return self._stop.pending and self.link in (LinkState.CONNECTING, LinkState.READY)
 
     def opened(self, device: str, now: float) -> None:

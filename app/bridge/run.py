@@ -82,7 +82,7 @@ def _start_moves(measured_mm: tuple[float, ...], first: Move, longest_mm: float)
 
 
 class Run:
-    """How far the messages of a plan have got.
+    """The messages of a run and its progress.
 
     Args:
         plan: approved waypoints.

@@ -63,7 +63,7 @@ WHOLE = RunRange()
 
 
 def why_not_repeated(waypoints: Waypoints) -> str | None:
-    """Why a gait cannot be sent again and again; None where its motors end where they began.
+    """Why a gait cannot be repeated, or None if its motors end where they began.
 
     Strokes are those of the robot's own frame, so the way that the body went does not count.
 

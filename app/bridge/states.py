@@ -1,4 +1,4 @@
-"""What the bridge tells about link, robot and run: words, values and the plan it is given."""
+"""Values of the bridge: states of link, robot and run, snapshots, and the plan of a run."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -10,7 +10,7 @@ from core.wire.waypoints import Waypoints
 
 
 class LinkState(StrEnum):
-    """Whether bytes come and go."""
+    """State of the connection to the robot."""
 
     DISCONNECTED = "disconnected"
     CONNECTING = "connecting"
@@ -53,7 +53,7 @@ class Direction(StrEnum):
 
 @dataclass(frozen=True)
 class RunPlan:
-    """What a person approved for the robot.
+    """Approved waypoints for one run.
 
     Args:
         waypoints: strokes to reach one after the other.

@@ -10,7 +10,7 @@ from core.wire.lines import Line
 
 
 class StopProcedure:
-    """The stop that stands, a person's or a fault's.
+    """Carries out a stop, requested by a person or caused by a fault, until the robot has confirmed it.
 
     Args:
         state_log: where its states and sentences go.

@@ -74,7 +74,7 @@ class Transport:
 
     def _write_some(self, data: bytes, deadline: float) -> int:
         try:
-            # Not asked first: a terminal asked whether it takes bytes has the asker wait for what comes in.
+            # Don't poll for writability first: a pty blocks until input arrives.
             return os.write(self._port.fileno(), data)
         except BlockingIOError:
             left = max(0.0, deadline - time.monotonic())

@@ -20,7 +20,7 @@ Clock = Callable[[], float]
 
 
 class Kind(Enum):
-    """What a message is for, and how it begins; beside these only stops and flushes go out."""
+    """The kinds of messages with their first bytes. Only these, stops and flushes go out."""
 
     WAYPOINT = ("an approved waypoint, or on the slow way to one", (b"<p,1,",))
     JOG = ("a step by hand", (b"<p,1,",))
@@ -39,7 +39,7 @@ class Kind(Enum):
 
 
 class Outlet(Protocol):
-    """What takes bytes: a transport, or a test's robot."""
+    """Takes the bytes: a transport, or a robot in a test."""
 
     def write(self, data: bytes) -> None:
         """Sends a whole message.

@@ -28,7 +28,7 @@ class CameraSource(Protocol):
 
 
 class PlayedFile:
-    """A video file that plays in real time, over and over, while it is looked at; gone while it is not there.
+    """Loops a video file as a camera; reports "unplugged" while the file is missing.
 
     A picture whose time has passed is left out, as a camera would not wait either.
 

@@ -53,7 +53,7 @@ class ApprovalRequest:
 def approved(
     open_gait: OpenGait, plan: Plan, verdict_of: VerdictOf, request: ApprovalRequest
 ) -> tuple[Approval, Verdict]:
-    """A person's approval of the verdict that they saw, if it is the verdict of today.
+    """Approves the verdict that the person saw, if checking the gait again still gives that verdict.
 
     Args:
         open_gait: the gait with the verdict that it was given.
@@ -82,7 +82,7 @@ def approved(
 
 
 def is_confirmed(open_gait: OpenGait, plan: Plan, verdict_of: VerdictOf) -> bool:
-    """Whether the gait has no approval, or one of the verdict of this moment."""
+    """Whether the gait has no approval, or its approval matches the current verdict."""
     if open_gait.approval is None:
         return True
     try:

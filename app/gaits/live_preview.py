@@ -1,4 +1,4 @@
-"""Plans that follow an edit while it is still under way: documents in, checked answers of the live tier out.
+"""Makes plans during an edit: solves a document with the live tier, verifies the result and caches it.
 
 It knows documents, not the open gaits, and may be called from any thread; nothing here changes an open gait.
 """
@@ -36,7 +36,7 @@ Value = TypeVar("Value")
 
 
 class LiveTier(Protocol):
-    """What is asked of the live tier; `solver_jobs.LiveSolver` in the studio."""
+    """Interface to the live tier; the studio passes `solver_jobs.LiveSolver`."""
 
     @property
     def process_id(self) -> int | None:
@@ -56,7 +56,7 @@ class _Failure:
 
 
 class LivePreview:
-    """Asks the live tier, and remembers its last answers.
+    """Solves gaits with the live tier and caches the last results and plans. Thread-safe.
 
     Args:
         tier: what solves.
@@ -74,7 +74,7 @@ class LivePreview:
         self._plans: OrderedDict[str, Plan] = OrderedDict()
 
     def solve_for(self, gait: Gait) -> Solve:
-        """What asks the live tier for a gait; an answer that is remembered is not asked for again."""
+        """Returns a function that solves the gait's problems with the live tier, or takes cached results."""
         return partial(self._solve, motion_hash(gait))
 
     def _solve(self, gait: str, problem: MotionProblem) -> MotionResult:
@@ -101,7 +101,7 @@ class LivePreview:
         return self._results.get(motion)
 
     def _ask(self, problem: MotionProblem) -> MotionResult:
-        """Waits long only for a process that has never answered: the first one, or one started anew."""
+        """Solves with a long timeout if the process is new and still loads the solver, else a short one."""
         asked = self._tier.process_id
         is_warm = asked is not None and asked == self._answered_by
         result = self._tier.solve(problem, NEXT_SECONDS if is_warm else FIRST_SECONDS)
@@ -127,11 +127,11 @@ class LivePreview:
             return self._plans[plan_hash]
 
     def plan(self, gait: Gait) -> Plan:
-        """What a gait amounts to by the live tier; it is kept for a while (see `keep`)."""
+        """Makes a gait's plan with the live tier and keeps it for a while (see `keep`)."""
         return self.keep(plan_of(gait, lambda motion: None, self.solve_for))
 
     def answer(self, before: Gait, document: Any | None, wants_remedies: bool) -> Json:
-        """What a gait would amount to, as JSON content.
+        """The plan that a changed document would have, as JSON content.
 
         Args:
             before: the gait as it is now.
@@ -151,7 +151,7 @@ class LivePreview:
         return {**_summary(view), "plan": view, **_remedies_content(found)}
 
     def _remedies(self, gait: Gait, plan: Plan) -> RemedySearch:
-        """None are missing where the gait is feasible, or not the live tier's business."""
+        """Searches for remedies if the live tier found the gait infeasible; otherwise there are none."""
         if plan.live is None or plan.live.status is not SolveStatus.INFEASIBLE:
             return RemedySearch(remedies=(), complete=True)
         return self._tier.remedies(gait)
@@ -165,7 +165,7 @@ def _ends(problem: MotionProblem) -> str:
 
 
 def _summary(view: Json) -> Json:
-    """The answer in short; a gait made by hand is not the live tier's business."""
+    """The result in short; a gait made by hand has no live result."""
     if view["live"] is not None:
         return {"method": "live", **view["live"]}
     nothing: Json = {

@@ -85,7 +85,7 @@ def normalise_drawing(before: Gait, after: Gait) -> Gait:
 
 
 def normalise_imported(gait: Gait) -> tuple[Gait, str | None]:
-    """A gait from elsewhere whose timeline follows its segment table, which is what moves the robot.
+    """Makes an imported gait's timeline agree with its segment table, which is what moves the robot.
 
     Returns:
         The gait, and a sentence where its timeline said something else.
@@ -169,7 +169,7 @@ def _with_locks(before: Gait, after: Gait, implied: ContactTimeline) -> ContactT
 
 
 def normalise_held_feet(gait: Gait, notice: str | None, *, is_said: bool) -> tuple[Gait, str | None]:
-    """Takes back that feet are held up which an edit of the timeline has put down there.
+    """Removes feet from the held feet if an edit of the timeline lets them stand there.
 
     Args:
         gait: the changed document, normalised in all other respects.
@@ -241,7 +241,7 @@ def _same_size(before: Gait, after: Gait) -> bool:
 
 
 def _with_provenance(before: Gait, after: Gait) -> Gait:
-    """Results are the server's: a page that does not know one yet cannot undo it by its next edit."""
+    """Keeps the server's provenance: a page that has not seen a result yet must not erase it."""
     own = after.provenance
     if own == before.provenance or (own is not None and own.motion == asked_hash(after)):
         return after

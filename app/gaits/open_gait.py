@@ -63,7 +63,7 @@ class OpenGait:
         return self.gait != self.saved
 
     def undo_label(self, others: frozenset[str] = frozenset()) -> str | None:
-        """What undo would take back, for a page beside which others are connected."""
+        """Label of the edit that undo would revert for one page while `others` are connected."""
         return self.history.label_of(self.history.undoable(others))
 
     def redo_label(self, others: frozenset[str] = frozenset()) -> str | None:
@@ -86,7 +86,7 @@ class OpenGait:
         return replace(self, verdict=None, approval=None, kept_approval=None, revoked=revoked)
 
     def with_plan(self, plan: Plan, verdict_of: VerdictOf) -> OpenGait:
-        """The gait once its plan is known: an approval comes back that is of exactly this verdict.
+        """Restores a kept approval once the plan is known, if it is for exactly this plan's verdict.
 
         Args:
             plan: what it amounts to.

@@ -1,4 +1,4 @@
-"""Plans of open gaits, each made once a revision."""
+"""Caches the plans of open gaits; each revision is planned once."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from core.gait.gait import Gait
 
 @dataclass(frozen=True, eq=False)
 class AskedPlan:
-    """A plan that is still to be made: of which gait, and how often its plan had been dropped until then."""
+    """A request to make a gait's plan, with a count that detects plans dropped meanwhile."""
 
     open_gait: OpenGait
     dropped: int
@@ -35,7 +35,7 @@ class PlanCache:
         self._dropped: dict[str, int] = {}
 
     def made(self, gait: Gait) -> Plan:
-        """What a document amounts to, computed now; any thread may ask."""
+        """Computes a document's plan now. Thread-safe."""
         return plan_of(gait, self._database.result, self._solve_for)
 
     def known(self, open_gait: OpenGait) -> Plan | None:
@@ -61,7 +61,7 @@ class PlanCache:
         self._dropped[gait_id] = self._dropped.get(gait_id, 0) + 1
 
     def unplanned(self, open_gait: OpenGait, *, retry: bool = False) -> AskedPlan | None:
-        """What is to be made before the gait's plan is known; None where it is.
+        """The plan that has to be made first, or None if the gait's plan is known.
 
         Args:
             open_gait: the gait.

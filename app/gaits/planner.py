@@ -46,7 +46,7 @@ class Planner:
     def after(
         self, gait_id: str, action: Callable[[], Result], future: Future[Result] | None = None
     ) -> Future[Result]:
-        """Does something on the command queue's thread once the plan of a gait's present revision is known.
+        """Runs an action on the command queue's thread once the gait's present revision has a plan.
 
         Args:
             gait_id: which gait.

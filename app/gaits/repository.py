@@ -1,4 +1,4 @@
-"""All gaits that nobody has open: the library, the saved files, and the edits that were kept.
+"""Loads and stores gaits: the library, the saved files, and the edit history in the database.
 
 Only the command queue's thread calls this.
 """
@@ -19,7 +19,7 @@ from core.library.library import library
 
 
 class GaitRepository:
-    """The gaits that are kept.
+    """Stored gaits, by id.
 
     Args:
         files: the saved ones.

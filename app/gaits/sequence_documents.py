@@ -54,7 +54,7 @@ def made_sequence(name: str, asked: Iterable[AskedPart], gait_of: GaitOf, notes:
 
 
 def normalise_sequence(before: Gait, after: Gait) -> Gait:
-    """What an edit makes of a sequence: its parts as they were given, all else as it follows from them.
+    """Normalises an edited sequence: keeps its parts and derives everything else from them.
 
     Raises:
         InputError: no part is left, a field that follows from the parts was changed, or parts do not fit.

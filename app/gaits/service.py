@@ -106,7 +106,7 @@ class GaitService:
         return tuple(s for s in opened if any(part.source == gait_id for part in s.gait.sequence))
 
     def plan(self, gait_id: str) -> Plan:
-        """What the gait amounts to now; computed once a revision, here and now where it is not known yet."""
+        """The gait's current plan. Computes it in this thread if the revision has none yet."""
         return self._plan_of(self.open_gait(gait_id))
 
     def _plan_of(self, open_gait: OpenGait) -> Plan:
@@ -121,7 +121,7 @@ class GaitService:
             self._put(now)
 
     def planned(self, gait: Gait) -> Plan:
-        """What a document amounts to, whether or not it is the present one of a gait; any thread may ask."""
+        """Computes the plan of any document, also one that no gait has now. Thread-safe."""
         return self._plans.made(gait)
 
     def unplanned(self, gait_id: str, *, retry: bool = False) -> AskedPlan | None:
@@ -144,7 +144,7 @@ class GaitService:
             self._seen(now, self._plans.taken(asked, plan, now))
 
     def ask_again(self, gait_id: str) -> None:
-        """Asks the live tier once more where it broke off; what was found of the old plan is gone."""
+        """Plans again if the live tier broke off; the verdict on the old plan is dropped."""
         self.plan(gait_id)
         asked = self.unplanned(gait_id, retry=True)
         if asked is not None:
@@ -325,7 +325,7 @@ class GaitService:
         return self._put(replace(open_gait, approval=approval, revoked=None), version, record)
 
     def on_simulated(self, waypoints_hash: str) -> tuple[OpenGait, ...]:
-        """Takes verdict and approval from the open gaits whose waypoints were simulated since; gives them."""
+        """Revokes verdict and approval of open gaits whose waypoints were simulated since; returns them."""
         checked = tuple(self._open.values())
         touched = [g for g in checked if g.verdict and g.verdict.waypoints_hash == waypoints_hash]
         return tuple(self._put(gait.unapproved("It was simulated since")) for gait in touched)

@@ -1,4 +1,4 @@
-"""What an undo or redo comes to as a gait, beside what others changed since."""
+"""Applies an undo or redo to a gait and keeps what others changed since."""
 
 from dataclasses import replace
 
@@ -13,7 +13,7 @@ from core.robot.model import load_robot
 
 
 def merged_gait(present: Gait, step: Step) -> Gait:
-    """The document that an undo or redo comes to; beside edits of others it must hold together.
+    """The document after an undo or redo; merged with edits of others, it must stay consistent.
 
     Raises:
         StateError: it does not.

@@ -41,7 +41,7 @@ class VersionKind(StrEnum):
 
 
 def is_said_already(gait: Gait, other: Gait) -> bool:
-    """Whether two documents agree in all that is edited; results' provenance stands beside that."""
+    """Whether two documents are equal apart from the provenance of results."""
     return replace(gait, provenance=None) == replace(other, provenance=None)
 
 

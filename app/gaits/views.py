@@ -1,4 +1,4 @@
-"""What pages and scripts are shown: JSON content of gaits, plans and verdicts."""
+"""Views of gaits, plans and verdicts: JSON content for pages and scripts."""
 
 import time
 from dataclasses import asdict
@@ -150,7 +150,7 @@ def plan_view(plan: Plan) -> Json:
 
 
 def _way_view(way: WaypointPlan) -> Json:
-    """What is sent of a plan."""
+    """The waypoints of a plan as sent, with their times."""
     return {
         "strokes_mm": way.knots.strokes_mm.tolist(),
         "waypoints_hash": way.waypoints.content_hash,
@@ -170,7 +170,7 @@ def _motor_speeds_mm_s(model: RobotModel, trajectory: Trajectory) -> Floats:
 
 
 def live_view(answer: VerifiedResult) -> Json:
-    """The live tier's answer as the checker sees it; indices count from 0."""
+    """The live tier's verified result; indices count from 0."""
     result, check = answer.result, answer.check
     figures = {
         "status": answer.status.value,

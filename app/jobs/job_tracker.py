@@ -51,7 +51,7 @@ class JobTracker:
         return [self._job_repository.content(job_id) for job_id in self._on]
 
     def teller(self, job_id: str) -> Callable[[float], None]:
-        """What any thread tells the share that is done; it passes on what is not too soon after the last."""
+        """Returns a thread-safe, throttled progress callback."""
         told_at = 0.0
 
         def tell(share: float) -> None:

@@ -1,4 +1,4 @@
-"""Optimisation jobs: asked for by gait, run in worker processes, believed only through the checker.
+"""Optimisation jobs: submitted for a gait, run in worker processes, verified by the checker.
 
 Only the command queue's thread calls this.
 """
@@ -96,7 +96,7 @@ class OptimisationService:
         return content
 
     def changed(self, job: Job) -> Json | None:
-        """Takes news from the runner and gives back the job as it is now."""
+        """Takes a change from the job queue and returns the job as it is now."""
         origin = self._origins.get(job.id)
         if origin is None:
             return None

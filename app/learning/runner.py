@@ -21,7 +21,7 @@ class BatchHandle(Protocol):
 
 
 class BatchTier(Protocol):
-    """What simulates gaits, one after the other; `solver_jobs.BatchSimulator` in the studio."""
+    """Interface to the batch simulator; the studio passes `solver_jobs.BatchSimulator`."""
 
     def submit(self, walk: Walk, sets: Sequence[PhysicsSet]) -> BatchHandle:
         """Begins some simulations of a gait."""

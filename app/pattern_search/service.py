@@ -1,4 +1,4 @@
-"""Searches for footfall patterns: each page has one at a time, and its newest question wins.
+"""Searches for footfall patterns: one at a time for each page; a new search ends the old one.
 
 Any thread may ask; nothing here knows the open gaits, and the command queue's thread never waits for it.
 """
@@ -53,7 +53,7 @@ class PatternHandle(Protocol):
 
 
 class PatternTier(Protocol):
-    """What searches, one question after the other; `solver_jobs.PatternSolver` in the studio."""
+    """Interface to the pattern solver; the studio passes `solver_jobs.PatternSolver`."""
 
     def submit(
         self,

@@ -1,4 +1,4 @@
-"""From a gait to what can be seen, checked and sent."""
+"""Makes the plan of a gait: the motion that is shown, checked and sent."""
 
 import hashlib
 from collections.abc import Callable
@@ -62,7 +62,7 @@ class PlanSource(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """What a gait amounts to now.
+    """What a gait becomes: its trajectory, its waypoints, and how they were found.
 
     Args:
         source: how it came about.
@@ -143,7 +143,7 @@ class Plan:
 
 
 def make_plan(gait: Gait, result: Json | None, solve: Solve) -> Plan:
-    """The plan of a gait: recorded, by hand table, by a stored result of the exact tier, or by the live tier.
+    """Makes a gait's plan from a recording, a segment table, a stored exact result, or the live tier.
 
     Args:
         gait: the document.
@@ -175,7 +175,7 @@ def make_plan(gait: Gait, result: Json | None, solve: Solve) -> Plan:
 
 
 def iterate_plan(model: RobotModel, trajectory: Trajectory, number: int, last: int) -> Plan:
-    """A motion on the solver's way, to be looked at.
+    """A plan of one of the solver's iterates; it is shown and never sent.
 
     Args:
         model: the robot.

@@ -1,4 +1,4 @@
-"""Provenance of computed results: made when the checker has confirmed one, shown with what it is worth."""
+"""Provenance of computed results: made once the checker has confirmed one, and shown with its validity."""
 
 from dataclasses import asdict, replace
 from datetime import UTC, datetime

@@ -111,7 +111,7 @@ def sequence_plan(gait: Gait, plan_single: Callable[[Gait], Plan], solve: Solve)
 
 
 def _drawn_plan(gait: Gait, plans: Sequence[Plan], refusal: FootfallError) -> Plan:
-    """What stands for the plan where there is no motion: the parts in a row, those without one only drawn."""
+    """A substitute for a plan without a motion: the parts in a row, with drawings for missing motions."""
     model, whole = load_robot(gait.robot), None
     if len(plans) == len(gait.sequence):
         with suppress(FootfallError):

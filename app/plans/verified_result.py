@@ -11,7 +11,7 @@ from solver_jobs import MotionResult, SolveStatus
 
 @dataclass(frozen=True, eq=False)
 class VerifiedResult:
-    """A solver's result as the checker sees it.
+    """A solver's result together with the findings of the independent checker.
 
     Args:
         status: the solver's, but failed where the checker does not confirm what is said to be solved.
@@ -52,7 +52,7 @@ class VerifiedResult:
 
 
 def verify(problem: MotionProblem, result: MotionResult) -> VerifiedResult:
-    """Holds a result to the independent checker.
+    """Checks a solver's result with the independent checker; an unconfirmed solution counts as failed.
 
     Args:
         problem: what was asked.

@@ -1,4 +1,4 @@
-"""Steps by hand as the studio sees them: where they would lead, and letting the robot make them."""
+"""The jog service: previews where jog steps lead, and sends them to the robot."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -58,7 +58,7 @@ class OperatorLease:
 
     @contextmanager
     def held_by(self, author: Author, *, ends: bool = False) -> Iterator[None]:
-        """What is done inside needs the lease; who gets it by this loses it again where the deed is refused.
+        """Runs an action under the lease; a lease that was taken for it is released if the action fails.
 
         Args:
             author: who does it.
@@ -164,7 +164,7 @@ class OperatorLease:
         self._changed()
 
     def _let_go(self, who: Person, action: object, *, to_asker: bool = True) -> None:
-        """Takes the robot from who did a deed, unless somebody did more with it since."""
+        """Releases the lease after an action, unless somebody acted on the robot since."""
         with self._lock:
             holder = self._lease.now.holder
             if holder is not None and holder.page == who.page and action is self._last_action:

@@ -54,7 +54,7 @@ class RecordedBridge:
 
     @property
     def trouble(self) -> str | None:
-        """Why the record is not whole, or not yet; None where it is."""
+        """Why the record is incomplete or late, or None if it is complete."""
         return self._recorder.trouble
 
     def close(self) -> None:

@@ -68,7 +68,7 @@ def sent_waypoints(waypoints: Waypoints, run_range: RunRange) -> Waypoints:
 
 
 def unwired(plan: Plan) -> str | None:
-    """Why a gait cannot be sent whose robot no cable leads to; None where one does."""
+    """Why this gait's robot cannot be driven, or None if it can."""
     if plan.model.wired:
         return None
     return (

@@ -26,7 +26,7 @@ MOST_SHOWN = 200
 
 
 class RobotService:
-    """Verbs on the robot, and what is shown of it.
+    """Actions on the robot, and its view for the pages.
 
     Args:
         database: where runs are kept.
@@ -99,7 +99,7 @@ class RobotService:
             self._close_emulator()
 
     def strike(self, fault: Fault | None) -> None:
-        """Has something go wrong with the emulated robot, or ends all that lasts.
+        """Injects a fault into the emulated robot, or ends all lasting faults.
 
         Raises:
             StateError: another robot is connected, or none.

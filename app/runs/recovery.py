@@ -11,7 +11,7 @@ ABANDONED = "The program that sent this run ended while it was on; nothing resum
 
 
 def end_abandoned(database: Database) -> None:
-    """Calls runs interrupted whose program is gone; those of another program that lives go on."""
+    """Marks the runs of dead processes as interrupted; runs of living processes are left alone."""
     log = RunStore(database)
     for content in log.running():
         run = content["id"]

@@ -1,4 +1,4 @@
-"""From a plan to what the physics is asked, what that depends on, and its report as content."""
+"""Makes simulation problems of plans, their keys, and the JSON content of parameters and reports."""
 
 import hashlib
 import json

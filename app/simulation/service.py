@@ -68,7 +68,7 @@ class SimulationHandle(Protocol):
 
 
 class SimulationTier(Protocol):
-    """What simulates, one problem after the other; `solver_jobs.Simulator` in the studio."""
+    """Interface to the simulator; the studio passes `solver_jobs.Simulator`."""
 
     def submit(
         self,

@@ -1,4 +1,4 @@
-"""One SQLite file (WAL) for results, jobs and runs; gait_log has the tables of gaits and approvals.
+"""The studio's SQLite file (WAL): results, jobs and runs; other tables have stores of their own.
 
 Every write is committed before its method returns, so that what was acknowledged survives a kill.
 """

@@ -1,4 +1,4 @@
-"""What the pages are shown: gaits with their plans, the list of gaits, jobs, trials and the robot."""
+"""Publishes changes to the pages: gaits with their plans, the list of gaits, jobs, trials, the robot."""
 
 from collections.abc import Iterable
 from concurrent.futures import Future
@@ -56,7 +56,7 @@ class Publisher:
         self._told_sources: dict[str, tuple[int, list[str]]] = {}
 
     def hello(self, robot: Content) -> Content:
-        """The first event of every page: everything that it renders from.
+        """The first event for a page: the whole state that it renders.
 
         Args:
             robot: the robot's view.
@@ -95,7 +95,7 @@ class Publisher:
         return [state.value for state in source_states(open_gait.gait, self._glanced)]
 
     def _glanced(self, gait_id: str) -> Gait:
-        """A gait that is not opened for it, which reads its whole history."""
+        """A gait's document without opening the gait, which would read its whole history."""
         return self._gaits.glance(gait_id)[0]
 
     def job_views(self) -> list[Content]:
@@ -157,7 +157,7 @@ class Publisher:
             self._hub.publish({"type": "sources", **told})
 
     def publish_steps(self, page: str) -> None:
-        """Shows what can be undone of the gaits that a page edited, which follows from who is there."""
+        """Shows what can be undone in the gaits that a page edited; it depends on the connected pages."""
         for open_gait in self._gaits.touched_by(page):
             steps = {"id": open_gait.id, "revision": open_gait.revision}
             self._hub.publish({"type": "steps", **steps, **steps_view(open_gait, self._hub.pages())})
@@ -174,7 +174,7 @@ class Publisher:
                 self.publish_job(content)
 
     def publish_simulation(self, content: Content) -> None:
-        """Shows a simulation's job, and once it is done its gait, which has another simulation now."""
+        """Shows a simulation's job; once it is done, also the gait with its new simulation."""
         if content["state"] == "done":
             self.publish_soon(content["gait"])
         self.publish_job(content)

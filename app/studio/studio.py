@@ -1,4 +1,4 @@
-"""The studio: every service, put together, and the ways to use them from other threads."""
+"""The composition root: creates, connects and closes every service; other threads enter through `Studio`."""
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -54,7 +54,7 @@ Part = TypeVar("Part", bound=_Closable)
 
 
 class Studio:
-    """Everything with state, to be asked through `call` and watched through `hub`.
+    """Owns every service. Other threads run actions through `call`; pages get events from `hub`.
 
     Each part that holds a thread, a process, a file or the robot is closed in the reverse order of opening.
     The robot is opened last, so that it stops first.
@@ -156,11 +156,11 @@ class Studio:
             self.stop_lane.submit(self.robot.bridge.stop, by)
 
     def call(self, action: Callable[[], Result]) -> Future[Result]:
-        """Does something on the command queue's thread."""
+        """Runs an action on the command queue's thread."""
         return self.commands.submit(action)
 
     def call_planned(self, gait_id: str, action: Callable[[], Result]) -> Future[Result]:
-        """Does something on the command queue's thread that finds the plan of a gait made; see `Planner`."""
+        """Runs an action on the command queue's thread once the gait's plan is made; see `Planner`."""
         return self._plans.after(gait_id, action)
 
     def change(self, action: Callable[[], OpenGait]) -> Future[Json]:
@@ -180,11 +180,11 @@ class Studio:
             shown.set_exception(error)
 
     def hello(self) -> Json:
-        """The first event of every page: everything that it renders from."""
+        """The first event for a page: the whole state that it renders."""
         return self.publisher.hello(self.robot.view())
 
     def page_came_or_went(self, page: str) -> None:
-        """Shows the others what they can undo now: the edits of a page that is gone are everybody's."""
+        """Updates what the other pages can undo: anybody may undo the edits of a page that is gone."""
         if page not in self.hub.pages():
             self.patterns.forget(page)
         self.publisher.publish_steps(page)
@@ -201,5 +201,5 @@ class Studio:
         self.publisher.publish_all_soon(self.gaits.on_result(motion, content))
 
     def _simulated(self, waypoints: str) -> None:
-        """Takes back what was found of waypoints before they were simulated; any thread may call."""
+        """Drops verdicts and approvals that are older than the simulation of their waypoints. Thread-safe."""
         self.commands.tell(lambda: self.publisher.publish_all_soon(self.gaits.on_simulated(waypoints)))

@@ -25,7 +25,7 @@ MOST_TOGETHER = 20
 
 
 class TrialComparison:
-    """What stands beside trials; every method may be called from any thread.
+    """Compares trials with plan and simulation. Thread-safe.
 
     Args:
         service: the trials.

@@ -1,4 +1,4 @@
-"""Foot tracks out of pictures: each foot found, laid on the platform, its gaps and false sights marked."""
+"""Tracks feet in pictures: finds each foot, maps it to the platform, marks gaps and outliers."""
 
 import math
 from collections.abc import Callable

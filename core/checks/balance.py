@@ -1,4 +1,4 @@
-"""Whether the robot tips: the point that balance is judged by, and the feet that stand."""
+"""Rules on balance: the ground point of the motion stays inside the support polygon."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""What the rules look at: a plan, what would be sent of it, and what the document asks of it."""
+"""The input of the rules: a plan, its waypoints, and the limits that its document sets."""
 
 from dataclasses import dataclass, field
 
@@ -36,7 +36,7 @@ class Asked:
 
 @dataclass(frozen=True, eq=False)
 class CheckedPlan:
-    """What the rules look at.
+    """A plan with everything that the rules check.
 
     Args:
         model: the robot.

@@ -1,4 +1,4 @@
-"""Whether the plan is what its document says: where it goes, how it begins, and what it was made from."""
+"""Rules that compare a plan with its document: displacement, turn, heights, start pose, provenance."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""What feet do on the ground and over it: standing, sliding, lifting."""
+"""Rules on feet: standing feet stay on the ground and do not slide; swinging feet rise."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""What motors and firmware can do: range, speed, acceleration, the size of a move, and deafness for Stop."""
+"""Rules on motors and firmware: range, speed, acceleration, size of a move, deafness for Stop."""
 
 from typing import Any
 
@@ -151,7 +151,7 @@ def check_motor_acceleration(plan: CheckedPlan) -> list[Outcome]:
 
 
 def acceleration_note(plan: CheckedPlan) -> str:
-    """By how much the plan is quicker off the mark than the robot, in a sentence; nothing where it is not."""
+    """A sentence on how far the plan's motor acceleration exceeds the robot's; empty if it does not."""
     needed = float(np.nan_to_num(motor_accelerations(plan.model, plan.trajectory)).max(initial=0.0))
     limit = plan.model.stroke.acceleration
     if needed <= limit + TOLERANCE:

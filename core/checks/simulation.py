@@ -26,7 +26,7 @@ class Simulated:
 
 
 def check_simulation(simulated: Simulated | None) -> list[Outcome]:
-    """What the physics says of these waypoints; nothing where it was not asked (see `simulation_note`)."""
+    """Findings of the simulation; none if there was no simulation (see `simulation_note`)."""
     return [] if simulated is None else list(physics_outcomes(simulated.report, simulated.problem))
 
 

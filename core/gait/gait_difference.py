@@ -1,4 +1,4 @@
-"""What sets two gaits apart, in sentences, so that a person can choose a version to go back to."""
+"""Describes the difference between two gaits in sentences, to help choose a version."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -51,7 +51,7 @@ class DifferenceGroup:
 
 
 def gait_difference(before: Gait, after: Gait) -> tuple[DifferenceGroup, ...]:
-    """What is different in `after`, in groups; none where both say the same.
+    """Lists what differs in `after`, in groups; empty if both gaits are equal.
 
     Of a sequence its parts are compared, and not what follows from them. The provenance of results is
     nobody's edit and is left out.

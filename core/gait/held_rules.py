@@ -1,4 +1,4 @@
-"""What must hold of feet that are held up, beside the timeline: each rule says what to do."""
+"""Rules for held feet, checked against robot and timeline; each refusal names what to do."""
 
 import numpy as np
 

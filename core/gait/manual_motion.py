@@ -14,7 +14,7 @@ from core.robot.model import RobotModel
 
 @dataclass(frozen=True, eq=False)
 class ManualMotion:
-    """A manual gait's trajectory and what its feet slip.
+    """The trajectory of a manual gait, and how far its feet slip.
 
     Args:
         trajectory: in the world frame.

@@ -1,4 +1,4 @@
-"""What the optimiser is asked for a gait, and how its answer is sent."""
+"""Options of a gait: limits and cost for the optimiser, and how the result is sent."""
 
 from dataclasses import dataclass
 

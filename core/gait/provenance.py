@@ -1,4 +1,4 @@
-"""Where a computed result of a gait came from, by hash, so that it is told apart from any other."""
+"""The provenance of a computed result: hashes of problem and result, the solver and the time."""
 
 import re
 from dataclasses import dataclass

@@ -7,7 +7,7 @@ import numpy as np
 from core.arrays import Floats
 
 LEAST_RANGE = 1e-9
-"""Foretold distances that differ by no more have no line through them, m."""
+"""No line is fitted through predicted distances that differ by no more than this, m."""
 
 
 def linear_baseline(said: Floats, measured: Floats) -> tuple[float, float]:

@@ -64,7 +64,7 @@ class Named(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Prediction:
-    """Travels of every gait by one way of foretelling.
+    """Displacements of every gait as one method predicts them.
 
     Args:
         name: of the way.

@@ -1,4 +1,4 @@
-"""The same robot, a little different each time: what a gait must bear that is to be robust."""
+"""Variations of the physics parameters that a robust gait must tolerate."""
 
 from dataclasses import dataclass, replace
 

@@ -14,7 +14,7 @@ from core.problem.motion_problem import MotionProblem
 
 
 def way_shares(problem: MotionProblem, swings: Sequence[Swing]) -> tuple[Floats, ...]:
-    """How much of its way each foot has behind it before, between and after its swings, from 0 to 1.
+    """Share of its path that each foot has covered before, between and after its swings, 0 to 1.
 
     Where every foot that steps swings equally often, its way is shared evenly among its swings. Else, as in a
     transition between gaits, a foot that swings seldom would fall behind the others: each foot then rests

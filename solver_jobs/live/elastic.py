@@ -1,4 +1,4 @@
-"""What is missing where no motion exists: the least total miss, and a proof that it cannot be 0."""
+"""Solves an infeasible problem with slack: the least total violation, and a proof that it is not 0."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

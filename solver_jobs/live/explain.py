@@ -1,4 +1,4 @@
-"""What the nearest motion misses, in words: which phase, which foot, by how many millimetres."""
+"""Explains infeasibility in sentences: which phase and foot violate a limit, and by how much."""
 
 from collections.abc import Sequence
 from dataclasses import replace

@@ -60,7 +60,7 @@ class Linearisation:
 
 
 def linearise(problem: MotionProblem, level: float | None = None) -> Linearisation:
-    """Draws what is known.
+    """Computes the known part of a motion.
 
     Args:
         problem: what is asked.

@@ -54,7 +54,7 @@ class QuadraticProgram:
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """What the solver says.
+    """The solver's result.
 
     Args:
         solved: whether it claims an optimum.

@@ -1,4 +1,4 @@
-"""Where a foot may be beside its module: polygons of its reach at a known height."""
+"""The reach of each foot: polygons around its module, at a known height."""
 
 from dataclasses import dataclass
 

@@ -98,7 +98,7 @@ class Attempts:
         return Point(np.clip(packed, self.lower, self.upper))
 
     def broken_constants(self, compiled: CompiledProblem) -> tuple[Shortfall, ...]:
-        """What the fixed unknowns alone decide, and break."""
+        """Violations that the fixed unknowns cause by themselves, whatever the free ones are."""
         values = self._rows(compiled, self.drawing.vector)
         constant = compiled.constant_rows(self.upper > self.lower)
         lower, upper = compiled.row_bounds(self._situation)

@@ -23,7 +23,7 @@ CROSSING_TOLERANCE = 1e-9
 
 
 class Family(StrEnum):
-    """Which demand a constraint stands for."""
+    """The family of a constraint."""
 
     BOUNDARY = "boundary"
     DYNAMICS = "dynamics"

@@ -1,4 +1,4 @@
-"""What an unsolved problem's last iterate says: which demand is missed most, where and by how much."""
+"""Diagnoses an unsolved problem by its last iterate: which constraints it violates, where, how much."""
 
 from dataclasses import dataclass
 

@@ -27,7 +27,7 @@ class BatchSimulation(Task[BatchTask, float, tuple[Displacement | None, ...]]):
 
 
 class BatchSimulator(TaskService[BatchSimulation]):
-    """Travels of gaits under sets of parameters, one question after the other."""
+    """Simulates gaits under several sets of parameters, one task after the other."""
 
     def __init__(self) -> None:
         super().__init__("simulator of gaits", run_batch_simulation_worker, niceness=BACKGROUND_NICENESS)

@@ -20,7 +20,7 @@ from solver_jobs.workers.spawning import BACKGROUND_NICENESS
 from solver_jobs.workers.worker_process import WorkerProcess
 
 OnChange = Callable[[Job], None]
-"""Told of every change with a snapshot, in order, from one thread of the runner's."""
+"""Receives a snapshot of every change, in order, on one thread of the queue."""
 
 QUEUE_LIMIT = 32
 HISTORY_LIMIT = 100

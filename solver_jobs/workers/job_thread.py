@@ -23,7 +23,7 @@ _log = logging.getLogger(__name__)
 
 
 class JobSource(Protocol):
-    """Where the service finds work and writes what became of it."""
+    """The job queue as a thread sees it: takes the next job and publishes its changes."""
 
     @property
     def closing(self) -> bool:
@@ -44,7 +44,7 @@ class JobSource(Protocol):
 
 @dataclass(eq=False)
 class _RunningJob:
-    """What the service knows of the job it is at."""
+    """State of the job that the thread runs."""
 
     job: str
     deadline: float
@@ -75,7 +75,7 @@ class JobThread:
         self._thread.start()
 
     def join(self) -> None:
-        """Waits for the thread, which ends the process when the board closes."""
+        """Waits for the thread, which kills the process when the queue closes."""
         self._thread.join()
 
     def _run(self) -> None:

@@ -1,4 +1,4 @@
-"""The parent's hold on the live tier's process."""
+"""The parent's side of the live tier: sends problems to its process, and restarts it when it dies."""
 
 import itertools
 import logging
@@ -31,7 +31,7 @@ class LiveSolverError(Exception):
 
 
 class LiveSolver:
-    """Answers of the live tier from a process of its own, which is started anew where it ends.
+    """Runs the live tier in a process of its own, which is restarted when it dies.
 
     A broken solver cannot take the robot's program with it. Any thread may ask.
 
@@ -104,7 +104,7 @@ class LiveSolver:
             self._end()
 
     def _ask(self, message: Callable[[int], SolveLive | FindRemedies], timeout: float) -> Any:
-        """Asks once more where the process had ended while it stood by, or ends in the middle."""
+        """Sends a request, and sends it again if the process was dead or dies meanwhile."""
         try:
             return self._ask_once(message, timeout)
         except FutureTimeout:

@@ -1,4 +1,4 @@
-"""The worker process: one solve after the other, and no longer than its parent lives.
+"""The exact tier's worker process: one solve after the other, for as long as the parent lives.
 
 The solver is imported here and nowhere in the parent. Everything goes over one pipe; when the parent ends in
 whatever way, its end of the pipe closes and the worker leaves at its next look.

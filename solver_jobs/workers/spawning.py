@@ -12,7 +12,7 @@ NICENESS = 5
 """How far a solver stands back where cores are scarce, so that a stop of the robot never waits for one."""
 
 BACKGROUND_NICENESS = 10
-"""How far one stands back whose work has a progress bar, so that page and live answers go on beside it."""
+"""Niceness of background workers, which yield to the page and to live results."""
 
 
 def start_process(

@@ -1,6 +1,6 @@
 """The parent's side of the task service: one task at a time, in a process that is restarted when it dies.
 
-Whoever has questions of a kind derives a `Task`, which says what comes of one that was ended, and a
+For each kind of task, derive a `Task`, which defines the result of a cancelled one, and a
 `TaskService` over a process whose body calls `run_tasks`.
 """
 
@@ -71,14 +71,14 @@ class Task(ABC, Generic[Payload, Known, Result]):
 
     @abstractmethod
     def unanswered(self, seconds: float) -> Result:
-        """What comes of it where the process gave no answer, after so many seconds.
+        """The result of a task that the process did not finish within `seconds`.
 
         Raises:
             FootfallError: nothing does.
         """
 
     def latest(self, begun: float, heard: float) -> float:
-        """When the process is ended that has not answered yet.
+        """The time at which a process that has not answered is killed.
 
         Args:
             begun: when the question's turn came, s.

@@ -1,4 +1,4 @@
-"""Judges a session by what the emulated motors did and by what was on the wire, not by what it says."""
+"""Verifies the state machine against the emulated motors and the wire, not against its own reports."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-/** Feet that are held up at the ends of a gait, counted from 1, and who they are in one that is turned, mirrored or reversed. */
+/** Held feet at the ends of a gait, counted from 1, also after turning, mirroring or reversing the gait. */
 
 export const heldOf = ({ held }) => ({ start: held?.start ?? [], end: held?.end ?? [] });
 

@@ -1,4 +1,4 @@
-/** What a run measured, and what physics makes of the plan, over what was planned, on the plan's time axis. */
+/** Measured and simulated curves over the planned ones, on the plan's time axis. */
 
 import { acrossOf, pathOf } from "./curves.js";
 import { simulationOver, traceOf } from "./simulation.js";

@@ -1,4 +1,4 @@
-/** The ghosts of the 3D preview: the gait before the last edit, as it was saved, as a run measured it and as physics has it, as quiet second robots. */
+/** Ghosts in the 3D preview: the gait before the last edit, as saved, as measured in a run, and as simulated. */
 
 import { api } from "../api/gaits.js";
 import { checkMenu } from "../lib/check_menu.js";

@@ -1,4 +1,4 @@
-/** The target of a jog as a quiet second robot in 3D, with its body where the shown plan has it at the playhead. */
+/** The jog target as a ghost robot in 3D, placed where the shown plan has its body at the playhead. */
 
 import { api } from "../api/gaits.js";
 import { latestOnly } from "../lib/latest_only.js";

@@ -1,5 +1,5 @@
 /**
- * Without a GPU: the screen's own pixels while anything moves or is about to, finer ones once it stands still.
+ * Without a GPU: draws at screen resolution while anything moves, and finer once the view is still.
  *
  * Software drawing has no antialiasing here; drawing a still view finer than the screen does the same. Making the
  * drawing smaller holds up the page for about 100 ms (making it larger does not), so that this is done ahead of an

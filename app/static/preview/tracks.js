@@ -1,5 +1,5 @@
 /**
- * Where a trial's feet were on the ground, as lines over the gait that is shown, with a mark a foot that follows the playhead.
+ * Foot tracks of trials on the ground, drawn over the shown gait; one mark a foot follows the playhead.
  *
  * Tracks come in the plan's frame (`GET /api/trials/{id}/scene`). What was filled, as a foot was not seen, is drawn grey and
  * broken, and so is the mark's ring. The playhead goes over the plan once: over the lap that the track was asked for.

@@ -1,4 +1,4 @@
-/** Figures of a plan as a whole, and where on it the robot is. */
+/** Extreme figures of a plan, and the robot's time and commanded strokes on it. */
 
 import { clamp } from "../lib/clamp.js";
 

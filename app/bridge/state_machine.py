@@ -24,7 +24,7 @@ from app.bridge.messages import NOT_SENT, SENTENCES, clearing_sentence
 from app.bridge.run import Move, Run
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPhase, RunPlan
 from app.bridge.telemetry import STALE_TIME
-from app.bridge.write_gate import Kind, WriteGate
+from app.bridge.write_gate import MessageKind, WriteGate
 from core.errors import RobotError, StateError
 from core.wire.lines import Line
 from core.wire.messages import (
@@ -113,7 +113,7 @@ class RobotStateMachine(RobotLink):
         self._run = None
         sentence = f"Every motor goes to {RESET_MM} mm."
         self.become(now, f"Reset by {by}.", sentence, robot=RobotState.MOVING)
-        self._deliver(encode_reset(), (RESET_MM,) * MOTORS, RESTART, now, kind=Kind.RESET)
+        self._deliver(encode_reset(), (RESET_MM,) * MOTORS, RESTART, now, kind=MessageKind.RESET)
 
     def jog(self, plan: JogPlan, by: str, now: float) -> None:
         """Moves motors by steps that a person chose, from where an armed robot stands still."""
@@ -167,7 +167,7 @@ class RobotStateMachine(RobotLink):
         self.require_link("cleared")
         states = (RobotState.STOPPED, RobotState.FAULT, RobotState.STOPPING)
         self.require_robot(*states, remedy="There is nothing to clear.")
-        self._stop.require_settled(now)
+        self._stop.require_confirmed(now)
         if not self.monitor.stands_still(now):
             raise StateError("The robot does not stand still yet. Wait until it does, then clear.")
         measured = self._measured()
@@ -177,7 +177,7 @@ class RobotStateMachine(RobotLink):
         sentence = clearing_sentence(measured, target, confirmed=not self._stop.pending)
         self.become(now, f"Clear by {by}.", sentence)
         message = encode_waypoint([s / 1000.0 for s in target], 1.0)
-        self._deliver(message, target, STORE, now, kind=Kind.CLEAR)
+        self._deliver(message, target, STORE, now, kind=MessageKind.CLEAR)
 
     # Messages on their way
 
@@ -198,7 +198,7 @@ class RobotStateMachine(RobotLink):
         if self._jog is None:
             return
         move = self._jog.next_move()
-        self._deliver(move.message, move.target_mm, MOVE, now, patience=START_PATIENCE, kind=Kind.JOG)
+        self._deliver(move.message, move.target_mm, MOVE, now, patience=START_PATIENCE, kind=MessageKind.JOG)
 
     def _deliver(
         self,
@@ -209,7 +209,7 @@ class RobotStateMachine(RobotLink):
         *,
         patience: float = PATIENCE,
         early_end: bool = False,
-        kind: Kind = Kind.WAYPOINT,
+        kind: MessageKind = MessageKind.WAYPOINT,
     ) -> None:
         distance = max(abs(t - m) for t, m in zip(target_mm, self._measured(), strict=True))
         deadline = arrival_deadline(distance, patience)
@@ -268,7 +268,9 @@ class RobotStateMachine(RobotLink):
 
     def _go_on_clearing(self, delivery: Delivery, now: float) -> None:
         if delivery.payload.startswith("p"):
-            self._deliver(encode_release(), delivery.target_mm, RESTART, now, early_end=True, kind=Kind.CLEAR)
+            self._deliver(
+                encode_release(), delivery.target_mm, RESTART, now, early_end=True, kind=MessageKind.CLEAR
+            )
             return
         self._clearing = False
         self._stop.lift()

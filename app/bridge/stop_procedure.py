@@ -97,7 +97,7 @@ class StopProcedure:
         shown = RobotState.STOPPING if self.pending else robot
         return f"{self.cause} {SENTENCES[shown]}".strip()
 
-    def require_settled(self, now: float) -> None:
+    def require_confirmed(self, now: float) -> None:
         """Refuses as long as a stop may still be confirmed in time.
 
         Raises:

@@ -19,7 +19,7 @@ Clock = Callable[[], float]
 """Seconds that only grow."""
 
 
-class Kind(Enum):
+class MessageKind(Enum):
     """The kinds of messages with their first bytes. Only these, stops and flushes go out."""
 
     WAYPOINT = ("an approved waypoint, or on the slow way to one", (b"<p,1,",))
@@ -92,7 +92,7 @@ class WriteGate:
         """Returns a permit that lasts until the next stop."""
         return self._stops
 
-    def write(self, message: bytes, permit: int, kind: Kind = Kind.WAYPOINT) -> bool:
+    def write(self, message: bytes, permit: int, kind: MessageKind = MessageKind.WAYPOINT) -> bool:
         """Sends a message unless a stop came after its permit, or the line is unsure.
 
         Returns:

@@ -10,7 +10,7 @@ from typing import Any
 
 from app.cameras.address import CameraAddress
 from app.cameras.worker import Finish, Finished, Record, Show, Shown, Standing, run_camera
-from app.vision.recorder import Recorded, RecordOrder
+from app.vision.recorder import Recorded, RecordingJob
 from core.errors import RobotError, StateError
 from solver_jobs import WorkerEndedError, WorkerProcess
 
@@ -51,7 +51,7 @@ class CameraProcess:
         self._waiting: dict[int, Future[Any]] = {}
         self._looked = time.monotonic()
         self._closing = threading.Event()
-        self._order: RecordOrder | None = None
+        self._order: RecordingJob | None = None
         self._worker.ensure_started()
         self._thread = threading.Thread(target=self._run, name=f"camera {address.id}", daemon=True)
         self._thread.start()
@@ -88,7 +88,7 @@ class CameraProcess:
             raise CameraError(shown.refusal, "camera")
         return shown.picture
 
-    def record(self, order: RecordOrder) -> None:
+    def record(self, order: RecordingJob) -> None:
         """Records from now on."""
         self._order = order
         self._send(Record(order))

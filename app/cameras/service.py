@@ -3,11 +3,11 @@
 import threading
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
 
 from app.cameras.address import DEVICE, CameraAddress
 from app.cameras.process import CameraProcess
 from app.cameras.setup_service import CameraSetupService
+from app.common.json_values import Json
 from app.store.camera_setup_store import CameraSetupStore
 from app.store.database import Database
 from core.errors import InputError, NotFoundError
@@ -20,8 +20,6 @@ PICTURE_SECONDS = 15.0
 
 UNDER, SIDE = "under", "side"
 """What a camera is for: tracking from under the platform, or looking only."""
-
-Content = dict[str, Any]
 
 
 class CameraService:
@@ -44,7 +42,7 @@ class CameraService:
         files: Sequence[CameraAddress] = (),
         changed: Callable[[], None] = lambda: None,
     ) -> None:
-        self._log = CameraSetupStore(database)
+        self._store = CameraSetupStore(database)
         self._setups = setups
         self._files = {one.id: one for one in files}
         self.tell = changed
@@ -54,13 +52,13 @@ class CameraService:
 
     def stand_by(self) -> None:
         """Starts the cameras that record with the run, so that they see its first move."""
-        for camera, kept in self._log.cameras().items():
+        for camera, kept in self._store.cameras().items():
             if kept["records"] and camera in self._addresses():
                 self._live(camera)
 
-    def views(self) -> list[Content]:
+    def views(self) -> list[Json]:
         """All cameras, and those of the computer that record with the run though they are unplugged."""
-        kept, addresses = self._log.cameras(), self._addresses()
+        kept, addresses = self._store.cameras(), self._addresses()
         gone = {
             camera: CameraAddress(camera, one["name"], f"/dev/{camera}", False)
             for camera, one in kept.items()
@@ -69,14 +67,14 @@ class CameraService:
         everything = {**addresses, **gone}
         return [self._view(everything[camera], kept.get(camera), camera in gone) for camera in everything]
 
-    def view(self, camera: str) -> Content:
+    def view(self, camera: str) -> Json:
         """One camera."""
         found = next((view for view in self.views() if view["id"] == camera), None)
         if found is None:
             raise self._unknown(camera)
         return found
 
-    def change(self, camera: str, changes: Content) -> Content:
+    def change(self, camera: str, changes: Json) -> Json:
         """Changes what a camera is for.
 
         Raises:
@@ -95,7 +93,7 @@ class CameraService:
                     "setup",
                 )
             self._setups.complete(settings["setup"])
-        self._log.put_camera(camera, settings)
+        self._store.put_camera(camera, settings)
         link = self._links.get(camera)
         if settings["records"] and camera in self._addresses():
             self._live(camera)
@@ -113,7 +111,7 @@ class CameraService:
         """
         return self._live(camera).picture(most, PICTURE_SECONDS)
 
-    def recording(self) -> list[Content]:
+    def recording(self) -> list[Json]:
         """The cameras that are to record with the run, also unplugged ones."""
         return [view for view in self.views() if view["records"]]
 
@@ -138,7 +136,7 @@ class CameraService:
         address = self._addresses().get(camera)
         if address is None:
             raise self._unknown(camera)
-        records = bool(self._log.cameras().get(camera, {}).get("records"))
+        records = bool(self._store.cameras().get(camera, {}).get("records"))
         with self._lock:
             link = self._links.get(camera)
             if link is None or not link.is_open:
@@ -151,7 +149,7 @@ class CameraService:
     def _addresses(self) -> dict[str, CameraAddress]:
         return {**self._files, **{one.id: one for one in devices()}}
 
-    def _view(self, address: CameraAddress, kept: Content | None, is_gone: bool = False) -> Content:
+    def _view(self, address: CameraAddress, kept: Json | None, is_gone: bool = False) -> Json:
         link = self._links.get(address.id)
         state, sentence, size, rate = _state(link)
         if is_gone:

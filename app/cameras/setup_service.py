@@ -24,12 +24,12 @@ class CameraSetupService:
     """
 
     def __init__(self, database: Database, changed: Callable[[], None] = lambda: None) -> None:
-        self._log = CameraSetupStore(database)
+        self._store = CameraSetupStore(database)
         self._changed = changed
 
     def views(self, *, is_deleted: bool = False) -> list[Json]:
         """All setups, the last changed first."""
-        return [_view(row) for row in self._log.found(is_deleted=is_deleted)]
+        return [_view(row) for row in self._store.found(is_deleted=is_deleted)]
 
     def view(self, setup: str, revision: int | None = None) -> Json:
         """A setup with what it amounts to."""
@@ -61,7 +61,7 @@ class CameraSetupService:
         row = CameraSetupRow(setup, revision, time.time(), document.model_dump(mode="json"), False)
         view = _view(row)
         try:
-            self._log.add(setup, revision, row.made, row.content)
+            self._store.add(setup, revision, row.made, row.content)
         except sqlite3.IntegrityError:
             raise self._moved_on(setup, revision - 1) from None
         self._changed()
@@ -78,13 +78,13 @@ class CameraSetupService:
     def delete(self, setup: str) -> None:
         """Takes a setup out of the list; `restore` brings it back."""
         self._known(setup)
-        self._log.put_deleted(setup, time.time())
+        self._store.put_deleted(setup, time.time())
         self._changed()
 
     def restore(self, setup: str) -> Json:
         """Brings a deleted setup back."""
         self._known(setup)
-        self._log.put_deleted(setup, None)
+        self._store.put_deleted(setup, None)
         self._changed()
         return self.view(setup)
 
@@ -100,7 +100,7 @@ class CameraSetupService:
         return made, row.revision
 
     def _known(self, setup: str, revision: int | None = None) -> CameraSetupRow:
-        row = self._log.get(setup, revision)
+        row = self._store.get(setup, revision)
         if row is None:
             which = "" if revision is None else f" of revision {revision}"
             raise NotFoundError(f"There is no setup {setup}{which}.", "setup")

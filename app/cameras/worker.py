@@ -10,7 +10,7 @@ from multiprocessing.connection import Connection
 
 from app.cameras.address import CameraAddress
 from app.cameras.source import CameraSource, open_source
-from app.vision.recorder import Recorded, Recorder, RecordOrder
+from app.vision.recorder import Recorded, Recorder, RecordingJob
 from app.vision.video_io import Picture, jpeg, scaled, use_one_thread
 from core.errors import InputError
 
@@ -30,7 +30,7 @@ class Show:
 class Record:
     """To the camera: record from now on."""
 
-    order: RecordOrder
+    order: RecordingJob
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""The words of each command."""
+"""The arguments of each command."""
 
 import argparse
 import math
@@ -77,40 +77,40 @@ def make_parser() -> argparse.ArgumentParser:
         added.add_argument("--json", action="store_true", help="print one JSON object")
         return added
 
-    _serve_words(command("serve", commands_robot.run_serve, "Serve the studio and print its address."))
-    _gaits_words(command("gaits", commands_gait.run_gaits, "List built-in and saved gaits."))
-    _manual_words(command("manual", commands_gait.run_manual, "Trajectory of a gait made by hand."))
-    _optimise_words(command("optimise", commands_gait.run_optimise, "Optimised trajectory of a gait."))
+    _serve_options(command("serve", commands_robot.run_serve, "Serve the studio and print its address."))
+    _gaits_options(command("gaits", commands_gait.run_gaits, "List built-in and saved gaits."))
+    _manual_options(command("manual", commands_gait.run_manual, "Trajectory of a gait made by hand."))
+    _optimise_options(command("optimise", commands_gait.run_optimise, "Optimised trajectory of a gait."))
     text = "Largest step of a gait, and what limits it; --step and --goal say only which way."
-    _frontier_words(command("frontier", commands_frontier.run_frontier, text))
+    _frontier_options(command("frontier", commands_frontier.run_frontier, text))
     text = "The best footfall pattern: a transition between two states, or a periodic gait."
-    _pattern_words(command("pattern", commands_pattern.run_pattern, text))
-    _waypoint_words(command("waypoints", commands_plan.run_waypoints, "Motor waypoints of a trajectory."))
+    _pattern_options(command("pattern", commands_pattern.run_pattern, text))
+    _waypoint_options(command("waypoints", commands_plan.run_waypoints, "Motor waypoints of a trajectory."))
     check = command("check", commands_plan.run_check, "Check a trajectory or a gait by every rule.")
     check.add_argument("file", type=Path, help="TRAJ.csv or GAIT.json")
     add_robot(check, "default the gait's own, else deltawalker")
     text = "Run the waypoints of a trajectory or a gait in a physics model."
-    _simulate_words(command("simulate", commands_simulate.run_simulate, text))
+    _simulate_options(command("simulate", commands_simulate.run_simulate, text))
     text = "Write a gait or a recorded motion in another form."
-    _export_words(command("export", commands_files.run_export, text))
-    _import_words(command("import", commands_files.run_import, "Make a gait of another program's file."))
-    _send_words(command("send", commands_robot.run_send, "Check, approve and stream a waypoint file."))
-    _emulate_words(command("emulate", commands_robot.run_emulate, "Run an emulated robot on a line."))
+    _export_options(command("export", commands_files.run_export, text))
+    _import_options(command("import", commands_files.run_import, "Make a gait of another program's file."))
+    _send_options(command("send", commands_robot.run_send, "Check, approve and stream a waypoint file."))
+    _emulate_options(command("emulate", commands_robot.run_emulate, "Run an emulated robot on a line."))
     text = "How far recorded foot tracks went, in cm and degrees, beside what was wanted."
-    _trial_words(command("trial", commands_trial.run_trial, text))
+    _trial_options(command("trial", commands_trial.run_trial, text))
     bench = command("bench", commands_bench.run_bench, "Measure what users feel.")
-    help_words = "none: all but page, gaits, scene and learning"
-    bench.add_argument("names", nargs="*", metavar="NAME", help=help_words)
+    text = "none: all but page, gaits, scene and learning"
+    bench.add_argument("names", nargs="*", metavar="NAME", help=text)
     bench.add_argument("--count", type=whole(1, 100_000), default=EDITS, help="edits to try (edits)")
     bench.add_argument("--seed", type=whole(0, 2**31), default=SEED, help="of the edits (edits)")
-    help_words = "folder of published data (physics, learning)"
-    bench.add_argument("--reference", type=Path, default=None, help=help_words)
+    text = "folder of published data (physics, learning)"
+    bench.add_argument("--reference", type=Path, default=None, help=text)
     bench.add_argument("--report", type=Path, default=None, help="HTML page with plots to write (physics)")
     bench.add_argument("--markdown", action="store_true", help="print tables as Markdown")
     return parser
 
 
-def _serve_words(parser: argparse.ArgumentParser) -> None:
+def _serve_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--host", default="127.0.0.1", help="address to listen on (default 127.0.0.1)")
     add("--port", type=whole(0, 65535), default=8400, help="port (default 8400; 0 any free)")
@@ -122,13 +122,13 @@ def _serve_words(parser: argparse.ArgumentParser) -> None:
     add("--no-browser", action="store_true", help="do not open a browser")
 
 
-def _gaits_words(parser: argparse.ArgumentParser) -> None:
+def _gaits_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--data", type=Path, default=None, help="data folder")
     add("--schema", action="store_true", help="print the JSON Schema of the gait document instead")
 
 
-def _manual_words(parser: argparse.ArgumentParser) -> None:
+def _manual_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("gait", help="walk, amble or s-gait")
     add("--version", type=whole(0, 9), default=0, help="0, 1 or 2 (default 0)")
@@ -140,16 +140,16 @@ def _manual_words(parser: argparse.ArgumentParser) -> None:
     add("-o", "--output", type=Path, default=None, help="trajectory CSV to write")
 
 
-def _optimise_words(parser: argparse.ArgumentParser) -> None:
-    _gait_words(parser)
+def _optimise_options(parser: argparse.ArgumentParser) -> None:
+    _gait_options(parser)
 
 
-def _frontier_words(parser: argparse.ArgumentParser) -> None:
-    _gait_words(parser)
+def _frontier_options(parser: argparse.ArgumentParser) -> None:
+    _gait_options(parser)
     parser.add_argument("--free-phases", action="store_true", help="phases may also be longer")
 
 
-def _gait_words(parser: argparse.ArgumentParser) -> None:
+def _gait_options(parser: argparse.ArgumentParser) -> None:
     """A gait and everything that can be asked of it; what is left out stays as the gait has it."""
     add = parser.add_argument
     add("gait", help="walk, amble, s-gait, c-gait, rotate, or a gait file")
@@ -166,7 +166,7 @@ def _gait_words(parser: argparse.ArgumentParser) -> None:
     add("--phase-knots", type=whole(2, 50), default=None, help="knots of each stance phase and of each swing")
     add("--closing-knots", type=whole(0, 100), default=None, help="knots of stance after the last swing")
     add("--knot-time", type=number(0.01, 10.0, "s"), default=None, help="s between knots (default 0.4)")
-    _limit_words(parser)
+    _limit_options(parser)
     add("--boundary", type=one_of(Boundary), metavar=words_of(Boundary), default=None)
     add("--cost", type=one_of(Cost), metavar=words_of(Cost), default=None)
     add(
@@ -179,7 +179,7 @@ def _gait_words(parser: argparse.ArgumentParser) -> None:
     add("-o", "--output", type=Path, default=None, help="trajectory CSV to write")
 
 
-def _limit_words(parser: argparse.ArgumentParser) -> None:
+def _limit_options(parser: argparse.ArgumentParser) -> None:
     """What a motion keeps."""
     add = parser.add_argument
     add("--clearance", type=number(0.0, 0.02, "m"), default=None, help="m that a swing rises (default 0.003)")
@@ -209,7 +209,7 @@ def _limit_words(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _pattern_words(parser: argparse.ArgumentParser) -> None:
+def _pattern_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--legs", type=whole(2, MOST_LEGS), required=True, metavar="N")
     samples = whole(LEAST_SAMPLES, MOST_SAMPLES)
@@ -232,15 +232,15 @@ def _pattern_words(parser: argparse.ArgumentParser) -> None:
         add(option, dest=rule, type=rule_number, default=default, metavar="N|off", help=words)
 
 
-def _waypoint_words(parser: argparse.ArgumentParser) -> None:
+def _waypoint_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("file", type=Path, help="trajectory CSV")
     add_robot(parser, "default deltawalker")
-    _way_words(parser)
+    _way_options(parser)
     add("-o", "--output", type=Path, default=None, help="waypoint CSV to write")
 
 
-def _way_words(parser: argparse.ArgumentParser) -> None:
+def _way_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     merge = "leave out waypoints this near the motors' straight way; 0.001 is the firmware's own tolerance"
     add("--merge", type=number(0.0, 0.02, "m"), default=None, metavar="M", help=merge)
@@ -248,11 +248,11 @@ def _way_words(parser: argparse.ArgumentParser) -> None:
     add("--stop-bound", type=number(0.1, 60.0, "s"), default=None, metavar="S", help=bound)
 
 
-def _simulate_words(parser: argparse.ArgumentParser) -> None:
+def _simulate_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("file", type=Path, help="TRAJ.csv or GAIT.json")
     add_robot(parser, "default the gait's own, else deltawalker")
-    _way_words(parser)
+    _way_options(parser)
     text = f"parameters: {', '.join(physics_sets())}, or a learned set (default the robot's usual one)"
     add("--physics", default=None, metavar="SET", help=text)
     add("--data", type=Path, default=None, help="data folder, where learned sets are kept")
@@ -262,7 +262,7 @@ def _simulate_words(parser: argparse.ArgumentParser) -> None:
     add("--seed", type=whole(0, 2**31), default=0, help="of the variations (default 0)")
 
 
-def _export_words(parser: argparse.ArgumentParser) -> None:
+def _export_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("source", help="a gait's id, GAIT.json, TRAJ.csv or MOTION.npz")
     add("--format", type=one_of(ExportFormat), metavar=words_of(ExportFormat), required=True)
@@ -277,7 +277,7 @@ def _export_words(parser: argparse.ArgumentParser) -> None:
     add("-o", "--output", type=Path, default=None, help="file to write")
 
 
-def _import_words(parser: argparse.ArgumentParser) -> None:
+def _import_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("file", type=Path, help="TRAJ.csv, WAY.csv, MOTION.npz, PHASES.json or GAIT.json")
     add("--name", default=None, help="of the gait; the file's where left out")
@@ -286,7 +286,7 @@ def _import_words(parser: argparse.ArgumentParser) -> None:
     add("-o", "--output", type=Path, default=None, help="gait file to write")
 
 
-def _send_words(parser: argparse.ArgumentParser) -> None:
+def _send_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("file", type=Path, help="waypoint CSV")
     add("--robot", required=True, help="emulator, a serial device, or socket://HOST:PORT")
@@ -294,7 +294,7 @@ def _send_words(parser: argparse.ArgumentParser) -> None:
     add("--data", type=Path, default=None, help="data folder, where the run is kept")
 
 
-def _trial_words(parser: argparse.ArgumentParser) -> None:
+def _trial_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("files", type=Path, nargs="+", metavar="TRACK.csv|VIDEO", help="X_D1, Y_D1, …, a row a frame")
     text = "the files are videos: how their camera sees the platform, as the studio exports it"
@@ -311,7 +311,7 @@ def _trial_words(parser: argparse.ArgumentParser) -> None:
     add("--origin", type=pixel, default=None, metavar="X,Y", help=text)
 
 
-def _emulate_words(parser: argparse.ArgumentParser) -> None:
+def _emulate_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--tcp", type=whole(0, 65535), default=None, metavar="PORT", help="a port, 0 any free")
     add("--profile", type=one_of(ProfileName), metavar=words_of(ProfileName), default="published")

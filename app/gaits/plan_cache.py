@@ -11,7 +11,7 @@ from core.gait.gait import Gait
 
 
 @dataclass(frozen=True, eq=False)
-class AskedPlan:
+class PlanRequest:
     """A request to make a gait's plan, with a count that detects plans dropped meanwhile."""
 
     open_gait: OpenGait
@@ -60,7 +60,7 @@ class PlanCache:
         self._plans.pop(gait_id, None)
         self._dropped[gait_id] = self._dropped.get(gait_id, 0) + 1
 
-    def unplanned(self, open_gait: OpenGait, *, retry: bool = False) -> AskedPlan | None:
+    def unplanned(self, open_gait: OpenGait, *, retry: bool = False) -> PlanRequest | None:
         """The plan that has to be made first, or None if the gait's plan is known.
 
         Args:
@@ -70,9 +70,9 @@ class PlanCache:
         known = self.known(open_gait)
         if known is not None and not (retry and known.broke_off):
             return None
-        return AskedPlan(open_gait, self._dropped.get(open_gait.id, 0))
+        return PlanRequest(open_gait, self._dropped.get(open_gait.id, 0))
 
-    def taken(self, asked: AskedPlan, plan: Plan, now: OpenGait) -> OpenGait:
+    def taken(self, asked: PlanRequest, plan: Plan, now: OpenGait) -> OpenGait:
         """The gait with a plan that was made elsewhere; as it is where gait or results changed meanwhile.
 
         Where it is another one than before, what was found of the old one is gone.

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Generic, TypeVar
 
-from app.gaits.plan_cache import AskedPlan
+from app.gaits.plan_cache import PlanRequest
 from app.gaits.service import GaitService
 from app.plans.plan import Plan
 from app.session.command_queue import CommandQueue
@@ -71,7 +71,7 @@ class Planner:
         except BaseException as error:  # it belongs to whoever waits for the result
             waiting.future.set_exception(error)
 
-    def _make(self, asked: AskedPlan, waiting: _Waiting[Result]) -> None:
+    def _make(self, asked: PlanRequest, waiting: _Waiting[Result]) -> None:
         """On a thread of its own: the plan, which the command queue then takes over."""
         try:
             plan = self._service.planned(asked.open_gait.gait)
@@ -80,6 +80,6 @@ class Planner:
             return
         self._commands.tell(partial(self._take, asked, plan, waiting))
 
-    def _take(self, asked: AskedPlan, plan: Plan, waiting: _Waiting[Result]) -> None:
+    def _take(self, asked: PlanRequest, plan: Plan, waiting: _Waiting[Result]) -> None:
         self._service.on_plan(asked, plan)
         self._go_on(waiting, retry=False)

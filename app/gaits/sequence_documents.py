@@ -24,14 +24,14 @@ class SourceState(StrEnum):
 
 
 @dataclass(frozen=True)
-class AskedPart:
+class PartReference:
     """A gait by its id, and how often it runs."""
 
     gait: str
     times: int
 
 
-def made_sequence(name: str, asked: Iterable[AskedPart], gait_of: GaitOf, notes: str = "") -> Gait:
+def made_sequence(name: str, asked: Iterable[PartReference], gait_of: GaitOf, notes: str = "") -> Gait:
     """A sequence of saved or open gaits; a sequence among them contributes its parts.
 
     Args:

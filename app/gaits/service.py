@@ -12,7 +12,7 @@ from app.documents.gait_json import parse_gait
 from app.gaits.approvals import ApprovalRequest, Approvals, approval_record, approved, is_confirmed
 from app.gaits.normalise import normalise, normalise_imported
 from app.gaits.open_gait import OpenGait, gait_text
-from app.gaits.plan_cache import AskedPlan, PlanCache
+from app.gaits.plan_cache import PlanCache, PlanRequest
 from app.gaits.repository import GaitRepository
 from app.gaits.trash import DeletedGait
 from app.gaits.undo import merged_gait
@@ -23,7 +23,7 @@ from app.plans.sequence_plan import run_motions
 from app.store.database import Database
 from app.store.edit_history_store import EditHistoryStore, VersionRow
 from app.store.gait_files import GaitFiles
-from app.undo.history import Author, Step
+from app.undo.history import Author, UndoResult
 from core.checks.simulation import Simulated
 from core.errors import StateError
 from core.findings import Verdict
@@ -124,7 +124,7 @@ class GaitService:
         """Computes the plan of any document, also one that no gait has now. Thread-safe."""
         return self._plans.made(gait)
 
-    def unplanned(self, gait_id: str, *, retry: bool = False) -> AskedPlan | None:
+    def unplanned(self, gait_id: str, *, retry: bool = False) -> PlanRequest | None:
         """What is to be planned before the gait's plan is known; None where it is.
 
         Args:
@@ -137,7 +137,7 @@ class GaitService:
             self._plan_of(open_gait)
         return asked
 
-    def on_plan(self, asked: AskedPlan, plan: Plan) -> None:
+    def on_plan(self, asked: PlanRequest, plan: Plan) -> None:
         """Takes over a plan that was made elsewhere, unless the gait or its results changed meanwhile."""
         now = self._open.get(asked.open_gait.id)
         if now is not None:
@@ -215,7 +215,7 @@ class GaitService:
         open_gait = self.open_gait(gait_id)
         return self._stepped(open_gait, open_gait.history.redo(author, self._others(author)), author)
 
-    def _stepped(self, open_gait: OpenGait, step: Step, author: Author) -> OpenGait:
+    def _stepped(self, open_gait: OpenGait, step: UndoResult, author: Author) -> OpenGait:
         gait = merged_gait(open_gait.gait, step)
         history = open_gait.history.stepped(step, gait_text(gait), author)
         return self._put(open_gait.changed(history.pruned(), gait))

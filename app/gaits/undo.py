@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from app.documents.gait_json import gait_from_content
 from app.gaits.normalise import asks_anew, normalise, require_locks
-from app.undo.history import Step
+from app.undo.history import UndoResult
 from core.errors import FootfallError, StateError
 from core.gait.gait import Gait
 from core.library.sequence import derived
@@ -12,7 +12,7 @@ from core.recorded.recorded_motion import gait_trajectory
 from core.robot.model import load_robot
 
 
-def merged_gait(present: Gait, step: Step) -> Gait:
+def merged_gait(present: Gait, step: UndoResult) -> Gait:
     """The document after an undo or redo; merged with edits of others, it must stay consistent.
 
     Raises:
@@ -41,7 +41,7 @@ def merged_gait(present: Gait, step: Step) -> Gait:
     return gait
 
 
-def _require_recorded(present: Gait, gait: Gait, step: Step) -> None:
+def _require_recorded(present: Gait, gait: Gait, step: UndoResult) -> None:
     """A recorded motion is still of the gait that the document asks for.
 
     Raises:

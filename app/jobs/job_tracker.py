@@ -2,11 +2,10 @@
 
 import time
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Protocol
 
+from app.common.json_values import Json
 from app.jobs.repository import ENDED, JobRepository
-
-Content = dict[str, Any]
 
 TELL_SECONDS = 0.2
 """Between two reports of a job's progress."""
@@ -33,7 +32,7 @@ class JobTracker:
         self,
         job_repository: JobRepository,
         later: Callable[[Callable[[], None]], object],
-        shown: Callable[[Content], object],
+        shown: Callable[[Json], object],
         sentence: str,
     ) -> None:
         self._job_repository = job_repository
@@ -46,7 +45,7 @@ class JobTracker:
         """Takes a job of the list as one that is on."""
         self._on[job_id] = handle
 
-    def contents(self) -> list[Content]:
+    def contents(self) -> list[Json]:
         """The jobs that are on, as JSON content."""
         return [self._job_repository.content(job_id) for job_id in self._on]
 
@@ -63,7 +62,7 @@ class JobTracker:
 
         return tell
 
-    def cancel(self, job_id: str) -> Content:
+    def cancel(self, job_id: str) -> Json:
         """Asks a job to end; one that ended already stays as it is."""
         job, handle = self._job_repository.content(job_id), self._on.get(job_id)
         if handle is not None and job["state"] not in ENDED:
@@ -71,7 +70,7 @@ class JobTracker:
             handle.cancel()
         return job
 
-    def end(self, job_id: str, end: Content) -> None:
+    def end(self, job_id: str, end: Json) -> None:
         """Ends a job; any thread may say so.
 
         Args:
@@ -89,7 +88,7 @@ class JobTracker:
             job |= {"state": "running", "started": started, "share": share, "sentence": self._sentence}
             self._shown(job)
 
-    def _ended(self, job_id: str, end: Content) -> None:
+    def _ended(self, job_id: str, end: Json) -> None:
         del self._on[job_id]
         job = self._job_repository.content(job_id)
         if job["state"] == "cancelling" and end["state"] != "done":

@@ -61,7 +61,7 @@ class OptimisationService:
     ) -> None:
         self._job_repository = job_repository
         self._job_queue = job_queue
-        self._take_result = on_result
+        self._on_result = on_result
         self._origins: dict[str, JobOrigin] = {}
         self._iterate_motions: OrderedDict[str, tuple[Trajectory, ...]] = OrderedDict()
 
@@ -115,7 +115,7 @@ class OptimisationService:
                 content["result"]["usable"]["document"]["provenance"] = asdict(provenance)
         elif job.result is not None:
             self._keep_iterates(content, job.result.iterate_motions)
-            self._judge(content, origin, job.result)
+            self._verify(content, origin, job.result)
         self._job_repository.keep(content)
         return content
 
@@ -167,10 +167,10 @@ class OptimisationService:
         """Hands a checked result on with its provenance."""
         result = {**verified.content, "trajectory": trajectory_content(verified.trajectory)}
         provenance = result_provenance(motion, result)
-        self._take_result(motion, {**result, "provenance": asdict(provenance)})
+        self._on_result(motion, {**result, "provenance": asdict(provenance)})
         return provenance
 
-    def _judge(self, content: Json, origin: JobOrigin, result: MotionResult) -> None:
+    def _verify(self, content: Json, origin: JobOrigin, result: MotionResult) -> None:
         """Believes a solved result only if the independent checker confirms it."""
         verified = verify(origin.problem, result)
         content["result"] = verified.content

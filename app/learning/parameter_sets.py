@@ -53,11 +53,11 @@ class ParameterSets:
     """
 
     def __init__(self, database: Database) -> None:
-        self._log = LearningStore(database)
+        self._store = LearningStore(database)
 
     def found(self, *, deleted: bool = False) -> tuple[ParameterSet, ...]:
         """All sets, or the deleted ones, the newest first."""
-        return tuple(_set(content) for content in self._log.sets(deleted=deleted))
+        return tuple(_set(content) for content in self._store.sets(deleted=deleted))
 
     def physics(self) -> tuple[PhysicsSet, ...]:
         """Every set of parameters there is: those of the program, then the learned ones."""
@@ -112,7 +112,7 @@ class ParameterSets:
             "by": by,
             "note": note,
         }
-        version = self._log.add_set(name, content)
+        version = self._store.add_set(name, content)
         return _set({**content, "version": version})
 
     def delete(self, name: str, version: int) -> None:
@@ -133,7 +133,7 @@ class ParameterSets:
         return next(one for one in self.found() if (one.name, one.version) == (name, version))
 
     def _put(self, name: str, version: int, deleted: float | None) -> None:
-        if not self._log.put_set_deleted(name, version, deleted):
+        if not self._store.put_set_deleted(name, version, deleted):
             raise NotFoundError(f"There is no set “{name}”, version {version}.", "name")
 
 

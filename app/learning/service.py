@@ -6,8 +6,8 @@ import time
 import uuid
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
+from app.common.json_values import Json
 from app.learning.parameter_sets import ParameterSet, ParameterSets
 from app.learning.runner import BatchTier, WalkRunner
 from app.learning.views import learned_content, learned_sentence
@@ -20,8 +20,6 @@ from core.physics.parameters import PhysicsSet
 
 _log = logging.getLogger(__name__)
 
-Content = dict[str, Any]
-
 INTERRUPTED = {"state": "interrupted", "sentence": "The studio ended while this was on. Learn again."}
 MOST_SHOWN = 20
 """Courses in the page's list."""
@@ -33,7 +31,7 @@ MOST_SET_NAME = 80
 class _Work:
     """The course that is on."""
 
-    content: Content
+    content: Json
     walks: Sequence[Walk]
     physics: PhysicsSet
     runner: WalkRunner
@@ -50,17 +48,17 @@ class LearningService:
 
     def __init__(self, database: Database, tiers: Sequence[BatchTier], points: int = POINTS) -> None:
         self.sets = ParameterSets(database)
-        self._log = LearningStore(database)
+        self._store = LearningStore(database)
         self._tiers = tiers
         self._points = points
         self._lock = threading.Lock()
         self._on: _Work | None = None
         self._thread: threading.Thread | None = None
-        for content in self._log.found(MOST_SHOWN):
+        for content in self._store.found(MOST_SHOWN):
             if content["state"] == "running":
-                self._log.put({**content, **INTERRUPTED, "ended": time.time()})
+                self._store.put({**content, **INTERRUPTED, "ended": time.time()})
 
-    def start(self, walks: Sequence[Walk], physics: PhysicsSet, by: str, source: str) -> Content:
+    def start(self, walks: Sequence[Walk], physics: PhysicsSet, by: str, source: str) -> Json:
         """Begins a course.
 
         Args:
@@ -75,7 +73,7 @@ class LearningService:
         """
         require_gaits(walks)
         kinds = len({walk.measured.kind for walk in walks})
-        content: Content = {
+        content: Json = {
             "id": uuid.uuid4().hex[:12],
             "made": time.time(),
             "ended": None,
@@ -95,7 +93,7 @@ class LearningService:
                 raise StateError("Learning is on. Wait for it, or cancel it.", "learning")
             runner = WalkRunner(self._tiers, walks, lambda done: content.update(done=done))
             work = _Work(content, walks, physics, runner)
-            self._log.put(content)
+            self._store.put(content)
             self._on = work
             self._thread = threading.Thread(target=self._learn, args=(work,), name="learning", daemon=True)
             self._thread.start()
@@ -111,15 +109,16 @@ class LearningService:
         if thread is not None:
             thread.join()
 
-    def found(self) -> list[Content]:
+    def found(self) -> list[Json]:
         """The newest courses, the newest first; without their results."""
         now = self._now()
         kept = [
-            now if now is not None and one["id"] == now["id"] else one for one in self._log.found(MOST_SHOWN)
+            now if now is not None and one["id"] == now["id"] else one
+            for one in self._store.found(MOST_SHOWN)
         ]
         return [{key: value for key, value in one.items() if key != "result"} for one in kept]
 
-    def content(self, learning: str) -> Content:
+    def content(self, learning: str) -> Json:
         """One course with its result.
 
         Raises:
@@ -128,12 +127,12 @@ class LearningService:
         now = self._now()
         if now is not None and now["id"] == learning:
             return now
-        content = self._log.get(learning)
+        content = self._store.get(learning)
         if content is None:
             raise NotFoundError(f"There is no course of learning {learning}.", "learning")
         return content
 
-    def cancel(self, learning: str) -> Content:
+    def cancel(self, learning: str) -> Json:
         """Asks a course to end; one that has ended stays as it is."""
         with self._lock:
             work = self._on
@@ -162,7 +161,7 @@ class LearningService:
         note = f"learned from {content['gaits']} gaits"
         return self.sets.save(name, by, content["robot"], physics, learning, note)
 
-    def _now(self) -> Content | None:
+    def _now(self) -> Json | None:
         with self._lock:
             if self._on is None:
                 return None
@@ -170,7 +169,7 @@ class LearningService:
         return {**content, "left_seconds": _left(content, time.time())}
 
     def _learn(self, work: _Work) -> None:
-        end: Content
+        end: Json
         try:
             learned = learn(work.walks, work.physics, work.runner, self._points)
             result = learned_content(learned, [walk.cut for walk in work.walks])
@@ -188,10 +187,10 @@ class LearningService:
                 )
             work.content.update(end, ended=time.time())
             self._on = None
-            self._log.put(work.content)
+            self._store.put(work.content)
 
 
-def _left(content: Content, now: float) -> float | None:
+def _left(content: Json, now: float) -> float | None:
     """Seconds that a course still takes, as fast as until now; None before its first simulation."""
     done, total = content["done"], content["total"]
     return None if not done else (now - content["made"]) / done * max(total - done, 0)

@@ -11,8 +11,9 @@ from collections import OrderedDict
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass, replace
-from typing import Any, Protocol
+from typing import Protocol
 
+from app.common.json_values import Json
 from app.pattern_search.views import progress_content, result_content
 from core.errors import FootfallError, NotFoundError
 from core.patterns.problem import (
@@ -27,8 +28,7 @@ from core.patterns.sentences import explanation, failing_samples, length_words
 
 _log = logging.getLogger(__name__)
 
-Content = dict[str, Any]
-Tell = Callable[[str, Content], None]
+Tell = Callable[[str, Json], None]
 """Shows an event to a page."""
 
 MOST_KEPT = 32
@@ -97,15 +97,15 @@ class Search:
     def __init__(self, number: int, page: str) -> None:
         self.id = number
         self.page = page
-        self.future: Future[Content] = Future()
-        self.progress: Content | None = None
+        self.future: Future[Json] = Future()
+        self.progress: Json | None = None
         self.handle: PatternHandle | None = None
         self.is_superseded = False
         self.is_ended = False
         self.is_detached = False
         self.told_at = 0.0
 
-    def content(self) -> Content:
+    def content(self) -> Json:
         """The search as JSON content."""
         if self.future.done():
             return self.future.result()
@@ -165,13 +165,13 @@ class PatternSearchService:
                 )
             return self._searches[number]
 
-    def cancel(self, number: int) -> Content:
+    def cancel(self, number: int) -> Json:
         """Ends a search; one that is answered stays as it is."""
         search = self.search(number)
         _end(search)
         return search.content()
 
-    def use_now(self, number: int) -> Content:
+    def use_now(self, number: int) -> Json:
         """Ends a search with the best pattern yet."""
         search = self.search(number)
         search.is_ended = True
@@ -257,7 +257,7 @@ class PatternSearchService:
             search.told_at = now
             self._tell(search.page, {"type": "pattern", **search.content()})
 
-    def _finish(self, search: Search, content: Content) -> None:
+    def _finish(self, search: Search, content: Json) -> None:
         with self._lock:
             search.future.set_result(content)
             is_told = search.is_detached and not search.is_superseded

@@ -15,7 +15,7 @@ from app.robot.views import allowed, jog_stop_seconds
 from core.arrays import Floats
 from core.errors import CheckError, InfeasibleError, StateError
 from core.findings import Finding
-from core.jog.check import RANGE_RULE, JogAnswer, check_jog, feet_in_robot
+from core.jog.check import RANGE_RULE, JogCheck, check_jog, feet_in_robot
 from core.jog.steps import Axis, JogPart, JogStep, jog_range, jog_strokes
 from core.motion.trajectory import Trajectory
 from core.robot.coupled_strokes import real_strokes
@@ -198,7 +198,7 @@ def _why_not_now(wish: JogRequest, begin: JogFrom, snapshot: RobotSnapshot) -> s
     return None
 
 
-def _hindrance(wish: JogRequest, begin: JogFrom, answer: JogAnswer, snapshot: RobotSnapshot) -> str | None:
+def _hindrance(wish: JogRequest, begin: JogFrom, answer: JogCheck, snapshot: RobotSnapshot) -> str | None:
     """Why these steps cannot be made now; None where they can."""
     if (reason := _why_not_now(wish, begin, snapshot)) is not None:
         return reason
@@ -207,7 +207,7 @@ def _hindrance(wish: JogRequest, begin: JogFrom, answer: JogAnswer, snapshot: Ro
     return answer.errors[0].sentence if answer.errors else None
 
 
-def _require_seen(answer: JogAnswer, seen_mm: Sequence[float] | None) -> None:
+def _require_seen(answer: JogCheck, seen_mm: Sequence[float] | None) -> None:
     if seen_mm is None or answer.target is None:
         return
     target_mm = answer.target.reshape(-1) * 1000
@@ -217,13 +217,13 @@ def _require_seen(answer: JogAnswer, seen_mm: Sequence[float] | None) -> None:
         )
 
 
-def _moves(answer: JogAnswer) -> list[float]:
+def _moves(answer: JogCheck) -> list[float]:
     """Largest distance of a motor in each move, m."""
     places = [answer.start, *answer.way]
     return [float(np.abs(b - a).max()) for a, b in pairwise(places)]
 
 
-def _handles(wish: JogRequest, look: JogLook, answer: JogAnswer) -> list[Json]:
+def _handles(wish: JogRequest, look: JogLook, answer: JogCheck) -> list[Json]:
     """Present place, target and range of what can be stepped, mm, in the order x, y, z or of the motors.
 
     A foot's x and y are from its module's centre and its z from the deepest foot as they stand; the body's
@@ -234,14 +234,14 @@ def _handles(wish: JogRequest, look: JogLook, answer: JogAnswer) -> list[Json]:
     return [_place_handle(wish, look, answer, axis) for axis in Axis]
 
 
-def _motor_handle(model: RobotModel, answer: JogAnswer, foot: int, motor: int) -> Json:
+def _motor_handle(model: RobotModel, answer: JogCheck, foot: int, motor: int) -> Json:
     start = float(answer.start[foot, motor])
     target = start if answer.target is None else float(answer.target[foot, motor])
     least, most = model.stroke.lower, model.stroke.upper
     return {"motor": motor + 1, "axis": None} | _row_mm(start, target, least, most)
 
 
-def _place_handle(wish: JogRequest, look: JogLook, answer: JogAnswer, axis: Axis) -> Json:
+def _place_handle(wish: JogRequest, look: JogLook, answer: JogCheck, axis: Axis) -> Json:
     model, along = wish.model, list(Axis).index(axis)
     foot = None if look.part is JogPart.BODY else look.foot
     step = JogStep(look.part, 0.0, foot, None, axis)

@@ -19,7 +19,7 @@ MOST_VARIATIONS = 256
 """Of a simulation."""
 
 
-class JobRequest(RequestBody):
+class JobBody(RequestBody):
     """What to compute, for which gait."""
 
     kind: Literal["optimise", "timing", "simulate"] = "optimise"
@@ -28,14 +28,14 @@ class JobRequest(RequestBody):
     variations: int = Field(default=0, ge=0, le=MOST_VARIATIONS, description="of simulate: how many")
 
     @model_validator(mode="after")
-    def _fits(self) -> JobRequest:
+    def _fits(self) -> JobBody:
         if self.kind != "simulate" and (self.physics is not None or self.variations):
             raise ValueError(f"physics and variations belong to simulate; leave them out of {self.kind}")
         return self
 
 
 @router.post("", status_code=202)
-async def submit(job: JobRequest, studio: TheStudio, author: TheAuthor) -> Json:
+async def submit(job: JobBody, studio: TheStudio, author: TheAuthor) -> Json:
     """Starts the optimisation of a gait as it is now, the search for its fastest timing, or a simulation."""
     commands = studio.job_commands
     if job.kind == "simulate":

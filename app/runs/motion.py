@@ -6,7 +6,7 @@ from app.runs.record import RunRecord
 from core.errors import StateError
 from core.motion.trajectory import Trajectory
 from core.runs.pose import measured_motion, standing_feet
-from core.runs.reading import Command
+from core.runs.reading import SentWaypoint
 
 
 def measured_trajectory(record: RunRecord) -> Trajectory:
@@ -36,10 +36,10 @@ def measured_trajectory(record: RunRecord) -> Trajectory:
     )
 
 
-def _growing(record: RunRecord) -> list[Command]:
+def _growing(record: RunRecord) -> list[SentWaypoint]:
     """Commands of one iteration that were reached, each later in the plan than the one before."""
     reached = [command for command in record.series.streamed if command.is_reached]
-    kept: list[Command] = []
+    kept: list[SentWaypoint] = []
     for command in reached:
         is_later = not kept or record.plan.times[command.index] > record.plan.times[kept[-1].index] + 1e-9
         if command.lap == reached[0].lap and is_later:

@@ -28,23 +28,23 @@ class RunService:
 
     def __init__(self, database: Database) -> None:
         self._database = database
-        self._log = RunStore(database)
+        self._store = RunStore(database)
 
     def found(self, wanted: RunFilter, offset: int, most: int) -> Json:
         """Some of the runs that a filter leaves, the newest first, and what can be filtered by."""
         end_abandoned(self._database)
-        rows = self._log.found(wanted, offset, most)
+        rows = self._store.found(wanted, offset, most)
         return {
             "runs": [self._line(row) for row in rows],
-            "total": self._log.count(wanted),
+            "total": self._store.count(wanted),
             "offset": offset,
-            **self._log.choices(),
+            **self._store.choices(),
         }
 
     def summary(self, run: str) -> Json:
         """A run with its plan's words, its states and its errors."""
-        row = known_row(self._log, run)
-        plan, began = self._log.plan(run) or {}, row.content["started_monotonic"]
+        row = known_row(self._store, run)
+        plan, began = self._store.plan(run) or {}, row.content["started_monotonic"]
         return {
             **self._line(row),
             "approval": plan.get("approval"),
@@ -52,7 +52,7 @@ class RunService:
             "stop_bound": plan.get("stop_bound"),
             "states": [
                 {"time": at - began, "link": link, "robot": robot, "cause": cause}
-                for at, link, robot, cause in self._log.states_of(run)
+                for at, link, robot, cause in self._store.states_of(run)
             ],
         }
 
@@ -78,24 +78,24 @@ class RunService:
 
     def record(self, run: str) -> RunRecord:
         """A run as it was kept, for its files."""
-        return read_record(self._log, run)
+        return read_record(self._store, run)
 
     def note(self, run: str, text: str) -> Json:
         """Keeps a person's note."""
-        known_row(self._log, run)
-        self._log.put_note(run, text)
+        known_row(self._store, run)
+        self._store.put_note(run, text)
         return self.summary(run)
 
     def delete(self, run: str) -> Json:
         """Takes a run out of every list; `restore` brings it back."""
-        known_row(self._log, run)
-        self._log.put_deleted(run, time.time())
+        known_row(self._store, run)
+        self._store.put_deleted(run, time.time())
         return {"id": run, "deleted": True}
 
     def restore(self, run: str) -> Json:
         """Brings a deleted run back."""
-        known_row(self._log, run)
-        self._log.put_deleted(run, None)
+        known_row(self._store, run)
+        self._store.put_deleted(run, None)
         return self.summary(run)
 
     def _line(self, row: RunRow) -> Json:
@@ -117,7 +117,7 @@ class RunService:
     def _errors(self, row: RunRow) -> Json | None:
         """Figures of a run; kept once it has ended. None where it was kept without its plan."""
         run, is_on = row.content["id"], row.content["ended"] is None and row.content["state"] == "running"
-        kept = None if is_on else self._log.figures(run)
+        kept = None if is_on else self._store.figures(run)
         if kept is not None and kept["version"] == FIGURES_VERSION:
             return kept
         try:
@@ -125,7 +125,7 @@ class RunService:
         except FootfallError:
             return None
         if not is_on:
-            self._log.put_figures(run, figures)
+            self._store.put_figures(run, figures)
         return figures
 
 

@@ -9,9 +9,9 @@ import time
 import uuid
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
-from app.common.json_values import finite
+from app.common.json_values import Json, finite
 from app.common.version import VERSION
 from app.gaits.open_gait import OpenGait
 from app.jobs.job_tracker import JobTracker
@@ -39,13 +39,11 @@ from core.physics.variations import VariedRun
 
 _log = logging.getLogger(__name__)
 
-Content = dict[str, Any]
-
 KIND = "simulate"
 """What pages and scripts call these jobs."""
 
 
-class SimulationAnswer(Protocol):
+class SimulationResult(Protocol):
     """What came of a simulation."""
 
     @property
@@ -60,7 +58,7 @@ class SimulationAnswer(Protocol):
 class SimulationHandle(Protocol):
     """A simulation under way; `solver_jobs.Simulation` in the studio."""
 
-    def result(self) -> SimulationAnswer:
+    def result(self) -> SimulationResult:
         """Waits for its answer."""
 
     def cancel(self) -> None:
@@ -84,7 +82,7 @@ class SimulationTier(Protocol):
 class _Work:
     """A simulation that is on: its job, where it is kept, what it is of, and the hold on it."""
 
-    job: Content
+    job: Json
     row: SimulationRow
     plan: str
     physics: PhysicsSet
@@ -109,7 +107,7 @@ class SimulationService:
         job_repository: JobRepository,
         kept: SimulationRepository,
         later: Callable[[Callable[[], None]], object],
-        shown: Callable[[Content], None],
+        shown: Callable[[Json], None],
     ) -> None:
         self._tier = tier
         self._job_repository = job_repository
@@ -117,7 +115,7 @@ class SimulationService:
         self._running = JobTracker(job_repository, later, shown, "The physics is at it.")
         self._waiting: list[threading.Thread] = []
 
-    def submit(self, open_gait: OpenGait, plan: Plan, physics: PhysicsSet, variations: int = 0) -> Content:
+    def submit(self, open_gait: OpenGait, plan: Plan, physics: PhysicsSet, variations: int = 0) -> Json:
         """Starts a simulation of exactly the waypoints that would be sent.
 
         Args:
@@ -152,13 +150,13 @@ class SimulationService:
         for thread in self._waiting:
             thread.join()
 
-    def cancel(self, job_id: str) -> Content:
+    def cancel(self, job_id: str) -> Json:
         """Asks a simulation to end; one that ended already stays as it is."""
         return self._running.cancel(job_id)
 
     def _await(self, work: _Work) -> None:
         """Waits for the answer, in a thread of its own, and hands it to the command queue."""
-        end: Content
+        end: Json
         try:
             content = _content(work, work.handle.result())
             self._kept.put(work.row, content)
@@ -172,11 +170,11 @@ class SimulationService:
         self._running.end(work.job["id"], end)
 
 
-def _content(work: _Work, answer: SimulationAnswer) -> Content:
+def _content(work: _Work, answer: SimulationResult) -> Json:
     """Everything that is kept of a simulation."""
     figures = report(work.problem, answer.motion)
     outcomes = physics_outcomes(figures, work.problem)
-    content: Content = {
+    content: Json = {
         "key": work.row.key,
         "gait": work.row.gait,
         "plan": work.plan,

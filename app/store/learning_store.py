@@ -1,11 +1,9 @@
 """Learning runs and the named sets of physics parameters, in the database."""
 
 import json
-from typing import Any
 
+from app.common.json_values import Json
 from app.store.database import Database
-
-Content = dict[str, Any]
 
 
 class LearningStore:
@@ -18,7 +16,7 @@ class LearningStore:
     def __init__(self, database: Database) -> None:
         self._database = database
 
-    def put(self, content: Content) -> None:
+    def put(self, content: Json) -> None:
         """Stores a course of learning as it is now."""
         with self._database.writing() as connection:
             text = json.dumps(content, allow_nan=False)
@@ -26,17 +24,17 @@ class LearningStore:
                 "INSERT OR REPLACE INTO learning VALUES(?,?,?)", (content["id"], content["made"], text)
             )
 
-    def found(self, most: int) -> list[Content]:
+    def found(self, most: int) -> list[Json]:
         """The newest courses of learning, the newest first."""
         rows = self._database.rows("SELECT content FROM learning ORDER BY made DESC, id LIMIT ?", most)
         return [json.loads(row[0]) for row in rows]
 
-    def get(self, learning: str) -> Content | None:
+    def get(self, learning: str) -> Json | None:
         """One of them; None where there is none."""
         rows = self._database.rows("SELECT content FROM learning WHERE id=?", learning)
         return json.loads(rows[0][0]) if rows else None
 
-    def add_set(self, name: str, content: Content) -> int:
+    def add_set(self, name: str, content: Json) -> int:
         """Stores a set of parameters as the next version of a name, which it is told."""
         with self._database.writing() as connection:
             newest = connection.execute("SELECT MAX(version) FROM physics_set WHERE name=?", (name,))
@@ -48,7 +46,7 @@ class LearningStore:
             )
         return version
 
-    def sets(self, *, deleted: bool = False) -> list[Content]:
+    def sets(self, *, deleted: bool = False) -> list[Json]:
         """All sets, or the deleted ones, the newest first."""
         which = "NOT NULL" if deleted else "NULL"
         rows = self._database.rows(

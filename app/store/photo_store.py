@@ -1,11 +1,9 @@
 """Photos of trials in the database: what is known of each; the pictures are files."""
 
 import json
-from typing import Any
 
+from app.common.json_values import Json
 from app.store.database import Database
-
-Content = dict[str, Any]
 
 
 class PhotoStore:
@@ -18,7 +16,7 @@ class PhotoStore:
     def __init__(self, database: Database) -> None:
         self._database = database
 
-    def add(self, content: Content) -> None:
+    def add(self, content: Json) -> None:
         """Stores a new photo of `content["trial"]`."""
         with self._database.writing() as connection:
             connection.execute(
@@ -26,19 +24,19 @@ class PhotoStore:
                 (content["id"], content["trial"], content["made"], json.dumps(content, allow_nan=False)),
             )
 
-    def of_trial(self, trial: str) -> list[Content]:
+    def of_trial(self, trial: str) -> list[Json]:
         """A trial's photos that are not deleted, in the order in which they came."""
         rows = self._database.rows(
             "SELECT content FROM trial_photo WHERE trial=? AND deleted IS NULL ORDER BY made, id", trial
         )
         return [json.loads(row[0]) for row in rows]
 
-    def get(self, trial: str, photo: str) -> Content | None:
+    def get(self, trial: str, photo: str) -> Json | None:
         """One photo, also a deleted one; None where the trial has none of that id."""
         rows = self._database.rows("SELECT content FROM trial_photo WHERE id=? AND trial=?", photo, trial)
         return json.loads(rows[0][0]) if rows else None
 
-    def change(self, content: Content) -> None:
+    def change(self, content: Json) -> None:
         """Stores what is known of a photo now."""
         with self._database.writing() as connection:
             text = json.dumps(content, allow_nan=False)

@@ -1,8 +1,8 @@
 """The commands on jobs: start an optimisation, a simulation or a tracking, and cancel one."""
 
 from dataclasses import dataclass, replace
-from typing import Any
 
+from app.common.json_values import Json
 from app.gaits.service import GaitService
 from app.jobs.optimisation_service import OptimisationService
 from app.jobs.repository import JobRepository
@@ -14,11 +14,9 @@ from app.store.database import Database
 from app.studio.publisher import Publisher
 from app.undo.history import Author
 from app.videos.tracking_service import KIND as TRACK
-from app.videos.tracking_service import TrackingService, TrackOrder
+from app.videos.tracking_service import TrackingJob, TrackingService
 from core.errors import StateError
 from solver_jobs import JobKind
-
-Content = dict[str, Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +43,7 @@ class JobCommands:
     tracks: TrackingService
     publisher: Publisher
 
-    def submit_job(self, gait_id: str, kind: JobKind, author: Author) -> Content:
+    def submit_job(self, gait_id: str, kind: JobKind, author: Author) -> Json:
         """Starts an optimisation, or the search for the fastest timing.
 
         What is optimised is computed from then on: a recorded motion is set aside, by an edit of the author.
@@ -58,7 +56,7 @@ class JobCommands:
             self.publisher.publish_soon(gait_id)
         return self.publisher.publish_job(content)
 
-    def submit_parts(self, gait_id: str) -> list[Content]:
+    def submit_parts(self, gait_id: str) -> list[Json]:
         """Starts an optimisation of each part of a sequence that can have an exact motion and has none yet.
 
         Raises:
@@ -74,7 +72,7 @@ class JobCommands:
         contents = [self.jobs.submit(replace(open_gait, gait=run)) for run in runs]
         return [self.publisher.publish_job(content) for content in contents]
 
-    def submit_simulation(self, gait_id: str, physics: str | None, variations: int) -> Content:
+    def submit_simulation(self, gait_id: str, physics: str | None, variations: int) -> Json:
         """Starts a simulation of what would be sent of a gait; its plan is made.
 
         Args:
@@ -86,11 +84,11 @@ class JobCommands:
         parameters = self.sets.chosen(plan.model, physics)
         return self.publisher.publish_job(self.simulating.submit(open_gait, plan, parameters, variations))
 
-    def submit_tracking(self, order: TrackOrder) -> Content:
+    def submit_tracking(self, order: TrackingJob) -> Json:
         """Starts following the feet in a video."""
         return self.publisher.publish_job(self.tracks.submit(order))
 
-    def cancel_job(self, job_id: str) -> Content:
+    def cancel_job(self, job_id: str) -> Json:
         """Asks a job to end; one that ended already stays as it is."""
         cancels = {SIMULATE: self.simulating.cancel, TRACK: self.tracks.cancel}
         cancel = cancels.get(self.job_repository.content(job_id)["kind"], self.jobs.cancel)

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterable
 from concurrent.futures import Future
-from typing import Any
 
+from app.common.json_values import Json
 from app.common.version import VERSION
 from app.documents.gait_json import asked_hash
 from app.gaits.open_gait import OpenGait
@@ -21,8 +21,6 @@ from app.simulation.service import KIND as SIMULATE
 from app.videos.tracking_service import KIND as TRACK
 from core.errors import FootfallError
 from core.gait.gait import Gait
-
-Content = dict[str, Any]
 
 
 class Publisher:
@@ -55,7 +53,7 @@ class Publisher:
         self._simulated_as: dict[str, frozenset[str]] = {}
         self._told_sources: dict[str, tuple[int, list[str]]] = {}
 
-    def hello(self, robot: Content) -> Content:
+    def hello(self, robot: Json) -> Json:
         """The first event for a page: the whole state that it renders.
 
         Args:
@@ -69,11 +67,11 @@ class Publisher:
             "robot": robot,
         }
 
-    def summaries(self) -> list[Content]:
+    def summaries(self) -> list[Json]:
         """The list of gaits."""
         return self._list.lines()
 
-    def view(self, gait_id: str) -> Content:
+    def view(self, gait_id: str) -> Json:
         """A gait with its plan."""
         is_first = gait_id not in self._simulated_as
         view = self._gait_view(self._gaits.open_gait(gait_id))
@@ -81,7 +79,7 @@ class Publisher:
             self._publish_jobs(gait_id)
         return view
 
-    def _gait_view(self, open_gait: OpenGait) -> Content:
+    def _gait_view(self, open_gait: OpenGait) -> Json:
         plan = self._gaits.plan(open_gait.id)
         self._simulated_as[open_gait.id] = self._simulations.keys_of(plan)
         view = gait_view(open_gait, plan, self._hub.pages())
@@ -98,11 +96,11 @@ class Publisher:
         """A gait's document without opening the gait, which would read its whole history."""
         return self._gaits.glance(gait_id)[0]
 
-    def job_views(self) -> list[Content]:
+    def job_views(self) -> list[Json]:
         """The newest jobs, newest first."""
         return [self.job_view(content) for content in self._job_repository.contents()]
 
-    def job_view(self, content: Content) -> Content:
+    def job_view(self, content: Json) -> Json:
         """A job, and whether it is of the gait as it is now; None where its plan is not made yet."""
         if content["kind"] == TRACK:
             return {**content, "fresh": None}
@@ -116,7 +114,7 @@ class Publisher:
             fresh = False
         return {**content, "fresh": fresh}
 
-    def publish_soon(self, gait_id: str, shown: Future[Content] | None = None) -> None:
+    def publish_soon(self, gait_id: str, shown: Future[Json] | None = None) -> None:
         """Shows a gait to every page once its plan is known.
 
         Args:
@@ -133,7 +131,7 @@ class Publisher:
         for open_gait in gaits:
             self.publish_soon(open_gait.id)
 
-    def publish_gait(self, open_gait: OpenGait) -> Content:
+    def publish_gait(self, open_gait: OpenGait) -> Json:
         """Shows a changed gait to every page, with the jobs that it touches; pages keep their lists."""
         view = self._gait_view(open_gait)
         self._hub.publish({"type": "gait", "view": view})
@@ -162,7 +160,7 @@ class Publisher:
             steps = {"id": open_gait.id, "revision": open_gait.revision}
             self._hub.publish({"type": "steps", **steps, **steps_view(open_gait, self._hub.pages())})
 
-    def publish_job(self, content: Content) -> Content:
+    def publish_job(self, content: Json) -> Json:
         """Shows a job to every page, and returns its view."""
         view = self.job_view(content)
         self._hub.publish({"type": "job", "job": view})
@@ -173,20 +171,20 @@ class Publisher:
             if content["gait"] == gait_id:
                 self.publish_job(content)
 
-    def publish_simulation(self, content: Content) -> None:
+    def publish_simulation(self, content: Json) -> None:
         """Shows a simulation's job; once it is done, also the gait with its new simulation."""
         if content["state"] == "done":
             self.publish_soon(content["gait"])
         self.publish_job(content)
 
-    def publish_trial(self, change: Content) -> None:
+    def publish_trial(self, change: Json) -> None:
         """Shows every page that a trial changed."""
         self._hub.publish({"type": "trial", "trial": change})
 
-    def publish_robot(self, view: Content) -> None:
+    def publish_robot(self, view: Json) -> None:
         """Shows the robot to every page."""
         self._hub.publish({"type": "robot", "robot": view})
 
-    def tell_page(self, page: str, event: Content) -> None:
+    def tell_page(self, page: str, event: Json) -> None:
         """Sends an event to one page."""
         self._hub.publish(event, page)

@@ -9,7 +9,7 @@ from typing import Protocol, TypeVar
 
 from app.cameras.address import CameraAddress
 from app.common.json_values import Json
-from app.gaits.live_preview import LivePreview
+from app.gaits.live_plans import LivePlans
 from app.gaits.open_gait import OpenGait
 from app.gaits.planner import Planner
 from app.gaits.service import GaitService
@@ -73,7 +73,7 @@ class Studio:
         with ExitStack() as self._parts:
             files = GaitFiles(data)
             self._database = self._register(Database(data / "studio.sqlite3"))
-            self.stop_lane = self._parts.enter_context(ThreadPoolExecutor(2, "stop"))
+            self.stop_executor = self._parts.enter_context(ThreadPoolExecutor(2, "stop"))
             self.hub = self._register(EventHub())
             self.commands = self._register(CommandQueue())
             self._open_gaits(files)
@@ -92,7 +92,7 @@ class Studio:
         database, hub = self._database, self.hub
         solver = self._register(LiveSolver(likely_problem()))
         solver.start()
-        self.live = LivePreview(solver)
+        self.live = LivePlans(solver)
         simulators = tuple(self._register(BatchSimulator()) for _ in range(LEARNING_PROCESSES))
         self.learning = self._register(LearningService(database, simulators))
         sets = self.learning.sets
@@ -111,7 +111,7 @@ class Studio:
     def _open_jobs(self) -> None:
         """Optimisations and simulations."""
         runner = self._register(JobQueue(self._job_changed, warm_up=likely_problem()))
-        self.jobs = OptimisationService(self.job_repository, runner, self._take_result)
+        self.jobs = OptimisationService(self.job_repository, runner, self._on_result)
         simulator, shown = Simulator(), self.publisher.publish_simulation
         simulations = SimulationService(
             simulator, self.job_repository, self.simulations, self.commands.tell, shown
@@ -153,7 +153,7 @@ class Studio:
     def stop_run(self, by: str) -> None:
         """Stops the robot where a run is on; returns at once."""
         if self.robot.bridge.snapshot.robot in RUNNING:
-            self.stop_lane.submit(self.robot.bridge.stop, by)
+            self.stop_executor.submit(self.robot.bridge.stop, by)
 
     def call(self, action: Callable[[], Result]) -> Future[Result]:
         """Runs an action on the command queue's thread."""
@@ -197,7 +197,7 @@ class Studio:
         if content is not None:
             self.publisher.publish_job(content)
 
-    def _take_result(self, motion: str, content: Json) -> None:
+    def _on_result(self, motion: str, content: Json) -> None:
         self.publisher.publish_all_soon(self.gaits.on_result(motion, content))
 
     def _simulated(self, waypoints: str) -> None:

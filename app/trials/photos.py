@@ -6,12 +6,13 @@ import uuid
 from pathlib import Path
 from typing import Any
 
+from app.common.json_values import Json
 from app.store.database import Database
 from app.store.gait_files import require_folder, write_atomically
-from app.store.photo_store import Content, PhotoStore
+from app.store.photo_store import PhotoStore
 from app.trials.service import TrialService
 from app.vision.services import VisionServices, ask
-from app.vision.worker import PhotoFiles, PhotoOf, Source
+from app.vision.worker import MakePhoto, PhotoFiles, Source
 from core.errors import InputError, NotFoundError
 
 MOST_BYTES = 20_000_000
@@ -36,17 +37,17 @@ class TrialPhotos:
 
     def __init__(self, service: TrialService, database: Database, data: Path, vision: VisionServices) -> None:
         self._service = service
-        self._log = PhotoStore(database)
+        self._store = PhotoStore(database)
         self._folder = data / "trial-photos"
         self._vision = vision
         self._lock = threading.Lock()
 
-    def photos(self, trial: str) -> list[Content]:
+    def photos(self, trial: str) -> list[Json]:
         """A trial's photos, in the order in which they came."""
         self._service.record(trial)
-        return self._log.of_trial(trial)
+        return self._store.of_trial(trial)
 
-    def add(self, trial: str, content: bytes, name: str, by: str) -> Content:
+    def add(self, trial: str, content: bytes, name: str, by: str) -> Json:
         """Keeps a photo, no wider than `KEPT_WIDTH` and with nothing in it but the picture.
 
         Args:
@@ -61,9 +62,9 @@ class TrialPhotos:
         """
         self._service.require_listed(trial)
         check_bytes(len(content), name)
-        task = PhotoOf(Source(file=content, name=name), KEPT_WIDTH, SMALL_WIDTH)
-        made: PhotoFiles = ask(self._vision.near, task, LOOK_SECONDS)
-        photo: Content = {
+        task = MakePhoto(Source(file=content, name=name), KEPT_WIDTH, SMALL_WIDTH)
+        made: PhotoFiles = ask(self._vision.interactive, task, LOOK_SECONDS)
+        photo: Json = {
             "id": uuid.uuid4().hex[:12],
             "trial": trial,
             "made": time.time(),
@@ -74,34 +75,34 @@ class TrialPhotos:
             "height": made.size[1],
         }
         with self._lock:
-            if len(self._log.of_trial(trial)) >= MOST_PHOTOS:
+            if len(self._store.of_trial(trial)) >= MOST_PHOTOS:
                 raise InputError(
                     f"This trial has {MOST_PHOTOS} photos, and no more are kept. Delete one.", name
                 )
             require_folder(self._folder)
             write_atomically(self._path(photo["id"]), made.file)
             write_atomically(self._path(photo["id"], is_small=True), made.small)
-            self._log.add(photo)
+            self._store.add(photo)
         return photo
 
-    def caption(self, trial: str, photo: str, caption: str) -> Content:
+    def caption(self, trial: str, photo: str, caption: str) -> Json:
         """Keeps what a person says of a photo."""
         self._service.require_listed(trial)
         content = {**self._known(trial, photo), "caption": caption}
-        self._log.change(content)
+        self._store.change(content)
         return content
 
     def delete(self, trial: str, photo: str) -> None:
         """Takes a photo away; `restore` brings it back."""
         self._service.require_listed(trial)
         self._known(trial, photo)
-        self._log.put_deleted(photo, time.time())
+        self._store.put_deleted(photo, time.time())
 
-    def restore(self, trial: str, photo: str) -> Content:
+    def restore(self, trial: str, photo: str) -> Json:
         """Brings a deleted photo back."""
         self._service.require_listed(trial)
         content = self._known(trial, photo)
-        self._log.put_deleted(photo, None)
+        self._store.put_deleted(photo, None)
         return content
 
     def picture(self, trial: str, photo: str, *, is_small: bool = False) -> bytes:
@@ -117,7 +118,7 @@ class TrialPhotos:
             raise NotFoundError(f"The file of photo {photo} is gone: {error.strerror}.", "photo") from error
 
     def _known(self, trial: str, photo: str) -> dict[str, Any]:
-        content = self._log.get(trial, photo)
+        content = self._store.get(trial, photo)
         if content is None:
             raise NotFoundError(f"The trial {trial} has no photo {photo}.", "photo")
         return content

@@ -63,7 +63,7 @@ class TrialService:
 
     def __init__(self, database: Database, changed: Callable[[Json], None] = lambda change: None) -> None:
         self._changed = changed
-        self._log = TrialStore(database)
+        self._store = TrialStore(database)
         self._beside = TrialReferenceStore(database)
         self._lines: dict[str, tuple[Json, Json]] = {}
 
@@ -95,14 +95,14 @@ class TrialService:
             "plan": None if planned is None else _kept_plan(planned),
             "sight": None if track_record is None else track_record.content(),
         }
-        self._log.add(content, format_track_csv(track))
+        self._store.add(content, format_track_csv(track))
         if planned is not None and planned.sent is not None:
             self._beside.put_sent(content["id"], dict(planned.sent))
         return self._told(content["id"])
 
     def lines(self) -> list[Json]:
         """All trials, the newest first, each with its mean figures."""
-        return [self._line(row) for row in self._log.found()]
+        return [self._line(row) for row in self._store.found()]
 
     def _line(self, row: TrialRow) -> Json:
         """A trial's line, computed once for what is known of it."""
@@ -148,7 +148,7 @@ class TrialService:
             content["ends"] = None
         changed = TrialRow(content, row.track, row.is_deleted)
         shown = _summary(changed)
-        if not self._log.change(content, revision):
+        if not self._store.change(content, revision):
             raise _moved_on(self.require_listed(trial), revision)
         self._tell(changed)
         return shown
@@ -156,13 +156,13 @@ class TrialService:
     def delete(self, trial: str) -> None:
         """Takes a trial out of the list; `restore` brings it back."""
         self._known(trial)
-        self._log.put_deleted(trial, time.time())
+        self._store.put_deleted(trial, time.time())
         self._tell(self._known(trial))
 
     def restore(self, trial: str) -> Json:
         """Brings a deleted trial back."""
         self._known(trial)
-        self._log.put_deleted(trial, None)
+        self._store.put_deleted(trial, None)
         return self._told(trial)
 
     def record(self, trial: str) -> TrialRecord:
@@ -198,7 +198,7 @@ class TrialService:
         self._changed({"id": row.content["id"], "revision": revision, "deleted": row.is_deleted})
 
     def _known(self, trial: str) -> TrialRow:
-        row = self._log.get(trial)
+        row = self._store.get(trial)
         if row is None:
             raise NotFoundError(f"There is no trial {trial}.", "trial")
         return row

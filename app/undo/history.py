@@ -67,7 +67,7 @@ class Action:
 
 
 @dataclass(frozen=True)
-class Step:
+class UndoResult:
     """An undo or redo as it comes out.
 
     Args:
@@ -152,7 +152,7 @@ class History:
         """What an edit is called."""
         return None if action is None else self.entries[action.position].label
 
-    def undo(self, author: Author, others: frozenset[str]) -> Step:
+    def undo(self, author: Author, others: frozenset[str]) -> UndoResult:
         """What taking the author's newest edit back comes to.
 
         Raises:
@@ -163,7 +163,7 @@ class History:
             raise StateError("There is nothing to undo.", "undo")
         return self._step(action, author, others, again=False)
 
-    def redo(self, author: Author, others: frozenset[str]) -> Step:
+    def redo(self, author: Author, others: frozenset[str]) -> UndoResult:
         """What doing the author's newest undone edit again comes to.
 
         Raises:
@@ -174,7 +174,7 @@ class History:
             raise StateError("There is nothing to redo.", "redo")
         return self._step(action, author, others, again=True)
 
-    def _step(self, action: Action, author: Author, others: frozenset[str], *, again: bool) -> Step:
+    def _step(self, action: Action, author: Author, others: frozenset[str], *, again: bool) -> UndoResult:
         before, after = action.position - 1, action.position
         base, want = (before, after) if again else (after, before)
         old, new, present = (self.entries[at].content for at in (base, want, self.last))
@@ -191,7 +191,7 @@ class History:
                 "history",
             )
         exact = say_the_same(present, old)
-        return Step(action.position, label, again, new if exact else merged.content, new, exact)
+        return UndoResult(action.position, label, again, new if exact else merged.content, new, exact)
 
     def _claims(self, action: Action, places: tuple[Path, ...], others: frozenset[str]) -> dict[Path, Author]:
         """Places that others changed after an edit, and who did; also where they changed them back."""
@@ -217,7 +217,7 @@ class History:
                 return entry.author
         return None
 
-    def stepped(self, step: Step, document: str, author: Author) -> History:
+    def stepped(self, step: UndoResult, document: str, author: Author) -> History:
         """The log with one edit taken back, or done again.
 
         Args:

@@ -3,11 +3,11 @@
 import threading
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
 
 from app.cameras.address import CameraAddress
 from app.cameras.service import CameraService
 from app.cameras.setup_service import CameraSetupService
+from app.common.json_values import Json
 from app.jobs.repository import JobRepository
 from app.runs.service import RunService
 from app.store.database import Database
@@ -16,8 +16,6 @@ from app.videos.run_recording import RunRecordings
 from app.videos.service import VideoService
 from app.videos.tracking_service import TrackingService
 from app.vision.services import open_vision_services
-
-Content = dict[str, Any]
 
 
 class Lab:
@@ -52,8 +50,8 @@ class Lab:
         runs: RunService,
         files: Sequence[CameraAddress],
         later: Callable[[Callable[[], object]], None],
-        show_job: Callable[[Content], object],
-        publish: Callable[[Content], None],
+        show_job: Callable[[Json], object],
+        publish: Callable[[Json], None],
     ) -> None:
         self._publish, self._show_job = publish, show_job
         self.vision = open_vision_services()
@@ -90,7 +88,7 @@ class Lab:
         with self._is_telling:  # the last to tell is the last that looked
             self._publish({"type": "cameras", "cameras": self.cameras.views()})
 
-    def _show_tracking(self, job: Content) -> None:
+    def _show_tracking(self, job: Json) -> None:
         if job["state"] == "done":
             self.tell_trial(job["result"]["trial"])
         self._show_job(job)

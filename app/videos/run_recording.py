@@ -25,7 +25,7 @@ from app.trials.run_trial import run_trial
 from app.trials.service import TrialService
 from app.trials.track_source import TrackRecord, TrackSource
 from app.videos.service import VideoService
-from app.vision.recorder import Recorded, RecordOrder
+from app.vision.recorder import Recorded, RecordingJob
 from app.vision.tracking import missing_remarks
 from core.errors import FootfallError, StateError
 from core.vision.setup import CameraSetup
@@ -96,7 +96,7 @@ class RunRecordings:
         trials: TrialService,
         told: Callable[[str], None],
     ) -> None:
-        self._log = RunStore(database)
+        self._store = RunStore(database)
         self._cameras, self._setups, self._videos = cameras, setups, videos
         self._runs, self._trials, self._told = runs, trials, told
         self._turns: queue.SimpleQueue[_Turn | None] = queue.SimpleQueue()
@@ -155,7 +155,7 @@ class RunRecordings:
                 self._cameras.tell()
 
     def _begin(self, run: str) -> None:
-        row = self._log.get(run)
+        row = self._store.get(run)
         if row is None:
             return
         for view in self._cameras.recording():
@@ -180,7 +180,7 @@ class RunRecordings:
             source = TrackSource("", view["id"], view["setup"], setup.name, revision)
         tracking = None if setup is None else setup.tracking()
         folder = self._videos.files.path(video)
-        link.record(RecordOrder(folder, run["started_monotonic"], tracking, view["name"]))
+        link.record(RecordingJob(folder, run["started_monotonic"], tracking, view["name"]))
         return _Recording(video, link, view["id"], setup, source)
 
     def _finish(self, run: str) -> None:
@@ -255,7 +255,7 @@ class RunRecordings:
             StateError: it does not become so.
         """
         deadline = time.monotonic() + KEPT_SECONDS
-        while (row := self._log.get(run)) is None or row.content["ended"] is None:
+        while (row := self._store.get(run)) is None or row.content["ended"] is None:
             if time.monotonic() > deadline:
                 raise StateError("The record of the run is not whole yet. Track the recording later.", "run")
             time.sleep(LOOK_SECONDS)

@@ -7,12 +7,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from app.common.json_values import Json
 from app.store.database import Database
 from app.store.video_store import VideoStore
 from app.videos.files import MOST_RECORDED, Upload, VideoFiles
 from app.vision.frame_source import PICTURES, Facts
 from app.vision.services import VisionServices, VisionTask, ask
-from app.vision.worker import FactsOf, PictureOf, Source
+from app.vision.worker import ReadFacts, ReadPicture, Source
 from core.errors import FootfallError, InputError, NotFoundError, StateError
 
 LOOK_SECONDS = 30.0
@@ -23,8 +24,6 @@ FACTS_SECONDS = 600.0
 
 MOST_DELETED = 30 * 86_400.0
 """A deleted video can be restored for so long, s."""
-
-Content = dict[str, Any]
 
 
 class VideoService:
@@ -42,23 +41,23 @@ class VideoService:
         data: Path,
         database: Database,
         vision: VisionServices,
-        changed: Callable[[Content], None] = lambda view: None,
+        changed: Callable[[Json], None] = lambda view: None,
     ) -> None:
         self.files = VideoFiles(data)
-        self._log = VideoStore(database)
+        self._store = VideoStore(database)
         self._vision = vision
         self._changed = changed
         self._lock = threading.Lock()
 
-    def views(self, run: str = "", *, is_deleted: bool = False) -> list[Content]:
+    def views(self, run: str = "", *, is_deleted: bool = False) -> list[Json]:
         """Videos, the newest first, of one run or all."""
-        trials = self._log.trials()
-        found = self._log.found(run, is_deleted=is_deleted)
+        trials = self._store.trials()
+        found = self._store.found(run, is_deleted=is_deleted)
         return [_view(content, trials.get(content["id"], [])) for content in found]
 
-    def view(self, video: str) -> Content:
+    def view(self, video: str) -> Json:
         """One video."""
-        return _view(self._known(video), self._log.trials(video).get(video, []))
+        return _view(self._known(video), self._store.trials(video).get(video, []))
 
     def begin(self, name: str, size: int | None) -> Upload:
         """Starts an upload; `keep` or `Upload.discard` ends it.
@@ -69,7 +68,7 @@ class VideoService:
         """
         return self.files.begin(uuid.uuid4().hex[:12], name, size)
 
-    def keep(self, upload: Upload) -> Content:
+    def keep(self, upload: Upload) -> Json:
         """Keeps an upload that has come whole; a file that is kept already is not kept twice.
 
         Returns:
@@ -99,7 +98,7 @@ class VideoService:
                 "hash": upload.content_hash,
             }
             try:
-                self._log.put(content)
+                self._store.put(content)
             except Exception:
                 self.files.remove(file)
                 raise
@@ -110,7 +109,7 @@ class VideoService:
         return next(
             (
                 str(content["id"])
-                for content in self._log.found()
+                for content in self._store.found()
                 if content.get("hash") == content_hash and self.files.path(content["file"]).exists()
             ),
             None,
@@ -118,12 +117,12 @@ class VideoService:
 
     def _facts(self, path: Path, name: str) -> Facts:
         try:
-            facts: Facts = ask(self._vision.boards, FactsOf(path), FACTS_SECONDS)
+            facts: Facts = ask(self._vision.checkerboards, ReadFacts(path), FACTS_SECONDS)
         except InputError as refusal:
             raise InputError(refusal.sentence.replace(path.name, name), "file") from None
         return facts
 
-    def begin_recording(self, name: str, run: str, camera: str) -> Content:
+    def begin_recording(self, name: str, run: str, camera: str) -> Json:
         """Keeps a recording that begins; its folder is made by whoever writes it."""
         video = uuid.uuid4().hex[:12]
         content = {
@@ -134,30 +133,30 @@ class VideoService:
         }
         return self.put(content)
 
-    def put(self, content: Content) -> Content:
+    def put(self, content: Json) -> Json:
         """Keeps what is known of a video now, and tells of it."""
-        self._log.put(content)
+        self._store.put(content)
         return self._tell(content["id"])
 
-    def _tell(self, video: str) -> Content:
+    def _tell(self, video: str) -> Json:
         view = self.view(video)
         self._changed(view)
         return view
 
-    def change(self, video: str, **changes: Any) -> Content:
+    def change(self, video: str, **changes: Any) -> Json:
         """Changes what is known of a video."""
         with self._lock:
             return self.put({**self._known(video), **changes})
 
     def tidy(self) -> None:
         """Says of recordings that a killed program left what became of them; old deleted videos go."""
-        for content in self._log.found():
+        for content in self._store.found():
             if content["state"] == "recording":
                 self.salvage(content["id"], "The studio ended while this was recorded.")
-        for content in self._log.found(is_deleted=True):
+        for content in self._store.found(is_deleted=True):
             if (
                 content["state"] == "kept"
-                and time.time() - self._log.deleted_at(content["id"]) > MOST_DELETED
+                and time.time() - self._store.deleted_at(content["id"]) > MOST_DELETED
             ):
                 self.files.remove(content["file"])
                 self.change(content["id"], state="removed", sentence="It was deleted more than 30 days ago.")
@@ -179,12 +178,12 @@ class VideoService:
         def failed(error: FootfallError) -> None:
             self.change(video, state="removed", sentence=f"{sentence} {error.sentence}")
 
-        self._vision.boards.ask(VisionTask(FactsOf(path), done=done, failed=failed))
+        self._vision.checkerboards.ask(VisionTask(ReadFacts(path), done=done, failed=failed))
 
     def make_room(self) -> None:
         """Takes the oldest recordings' pictures away where all together are too many; trials stay."""
         total = 0
-        for content in self._log.found() + self._log.found(is_deleted=True):
+        for content in self._store.found() + self._store.found(is_deleted=True):
             if content["kind"] != "recording" or content["state"] != "kept":
                 continue
             total += content["bytes"]
@@ -199,13 +198,13 @@ class VideoService:
         """Takes a video out of the list; `restore` brings it back."""
         if self._known(video)["state"] == "recording":
             raise _still_recorded()
-        self._log.put_deleted(video, time.time())
+        self._store.put_deleted(video, time.time())
         self._changed(self.view(video))
 
-    def restore(self, video: str) -> Content:
+    def restore(self, video: str) -> Json:
         """Brings a deleted video back."""
         self._known(video)
-        self._log.put_deleted(video, None)
+        self._store.put_deleted(video, None)
         return self._tell(video)
 
     def path(self, video: str) -> Path:
@@ -242,11 +241,11 @@ class VideoService:
 
     def picture(self, source: Source, most: int | None) -> bytes:
         """A picture as a JPEG file, no wider than so many pixels."""
-        file: bytes = ask(self._vision.near, PictureOf(source, most), LOOK_SECONDS)
+        file: bytes = ask(self._vision.interactive, ReadPicture(source, most), LOOK_SECONDS)
         return file
 
-    def _known(self, video: str) -> Content:
-        content = self._log.get(video)
+    def _known(self, video: str) -> Json:
+        content = self._store.get(video)
         if content is None:
             raise NotFoundError(f"There is no video {video}.", "video")
         return content
@@ -256,7 +255,7 @@ def _still_recorded() -> StateError:
     return StateError("This video is being recorded. Wait for the end of its run.", "video")
 
 
-def _new(video: str, name: str, kind: str, file: str) -> Content:
+def _new(video: str, name: str, kind: str, file: str) -> Json:
     return {
         "id": video,
         "name": name,
@@ -276,7 +275,7 @@ def _new(video: str, name: str, kind: str, file: str) -> Content:
     }
 
 
-def facts_content(facts: Facts) -> Content:
+def facts_content(facts: Facts) -> Json:
     """Facts as content."""
     return {
         "frames": facts.count,
@@ -286,6 +285,6 @@ def facts_content(facts: Facts) -> Content:
     }
 
 
-def _view(content: Content, trials: list[dict[str, str]]) -> Content:
+def _view(content: Json, trials: list[dict[str, str]]) -> Json:
     shown = {key: value for key, value in content.items() if key not in ("file", "hash")}
     return {**shown, "trials": trials}

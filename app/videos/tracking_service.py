@@ -6,9 +6,9 @@ Only the command queue's thread calls this.
 import uuid
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 from app.cameras.setup_service import CameraSetupService
+from app.common.json_values import Json
 from app.jobs.job_tracker import JobTracker
 from app.jobs.repository import JobRepository
 from app.runs.service import RunService
@@ -19,17 +19,15 @@ from app.trials.track_source import TrackRecord, TrackSource
 from app.videos.service import VideoService
 from app.vision.services import VisionServices, VisionTask
 from app.vision.tracking import VideoTrack, missing_remarks
-from app.vision.worker import TrackIn
+from app.vision.worker import TrackFeet
 from core.errors import FootfallError
-
-Content = dict[str, Any]
 
 KIND = "track"
 """What pages and scripts call these jobs."""
 
 
 @dataclass(frozen=True, eq=False)
-class TrackOrder:
+class TrackingJob:
     """What is to be tracked.
 
     Args:
@@ -68,13 +66,13 @@ class TrackingService:
         trials: TrialService,
         runs: RunService,
         later: Callable[[Callable[[], None]], object],
-        shown: Callable[[Content], object],
+        shown: Callable[[Json], object],
     ) -> None:
         self._vision, self._job_repository = vision, job_repository
         self._videos, self._setups, self._trials, self._runs = videos, setups, trials, runs
         self._running = JobTracker(job_repository, later, shown, "Follows the feet.")
 
-    def submit(self, order: TrackOrder) -> Content:
+    def submit(self, order: TrackingJob) -> Json:
         """Starts tracking.
 
         Raises:
@@ -94,7 +92,7 @@ class TrackingService:
             job_id, KIND, words.gait, words.gait_name or video["name"], "", **seen
         )
         look = VisionTask(
-            TrackIn(path, tracking),
+            TrackFeet(path, tracking),
             self._running.teller(job_id),
             lambda found: self._tracked(job_id, order, source, found),
             lambda error: self._running.end(job_id, {"state": "failed", "sentence": error.sentence}),
@@ -103,11 +101,13 @@ class TrackingService:
         self._vision.tracker.ask(look)
         return job
 
-    def cancel(self, job_id: str) -> Content:
+    def cancel(self, job_id: str) -> Json:
         """Asks a job to end; one that ended already stays as it is."""
         return self._running.cancel(job_id)
 
-    def _tracked(self, job_id: str, order: TrackOrder, source: TrackSource, found: VideoTrack | None) -> None:
+    def _tracked(
+        self, job_id: str, order: TrackingJob, source: TrackSource, found: VideoTrack | None
+    ) -> None:
         """Keeps a track as a trial; on the tracker's thread."""
         if found is None:
             self._running.end(job_id, {"state": "cancelled", "sentence": "Cancelled."})
@@ -122,7 +122,7 @@ class TrackingService:
             job_id, {"state": "done", "sentence": track_sentence(found), "share": 1.0, "result": result}
         )
 
-    def _kept(self, order: TrackOrder, source: TrackSource, found: VideoTrack) -> Content:
+    def _kept(self, order: TrackingJob, source: TrackSource, found: VideoTrack) -> Json:
         """The trial; that of a recorded run counts from the run's first waypoint, as the run's log tells."""
         words, video = order.words, self._videos.view(order.video)
         if video["kind"] != "recording" or words.run != video["run"]:
@@ -135,7 +135,7 @@ class TrackingService:
         return self._trials.add(made.found.track, words, made.planned, track_record)
 
 
-def track_figures(trial: str, found: VideoTrack) -> Content:
+def track_figures(trial: str, found: VideoTrack) -> Json:
     """What a track amounts to, for the list of jobs."""
     return {
         "trial": trial,

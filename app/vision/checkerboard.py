@@ -11,7 +11,7 @@ from app.vision.video_io import Picture
 from core.errors import InputError
 from core.vision.camera import Lens
 
-LEAST_BOARDS = 3
+LEAST_CHECKERBOARDS = 3
 """Pictures of the checkerboard that a lens needs."""
 
 MOST_UNEXPLAINED = 5.0
@@ -56,10 +56,10 @@ def lens_of_corners(
     Raises:
         InputError: fewer than three boards, or boards that tell no lens.
     """
-    if len(boards) < LEAST_BOARDS:
+    if len(boards) < LEAST_CHECKERBOARDS:
         raise InputError(
             f"The board with {corners[0]} × {corners[1]} inner corners is found in {len(boards)} pictures; "
-            f"at least {LEAST_BOARDS} are needed, flat, whole and sharp.",
+            f"at least {LEAST_CHECKERBOARDS} are needed, flat, whole and sharp.",
             "pictures",
         )
     flat = np.zeros((corners[0] * corners[1], 3), dtype=np.float32)

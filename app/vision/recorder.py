@@ -18,7 +18,7 @@ MOST_BYTES = 4_000_000_000
 
 
 @dataclass(frozen=True)
-class RecordOrder:
+class RecordingJob:
     """What is to be recorded.
 
     Args:
@@ -67,7 +67,7 @@ class Recorder:
         order: what is to be recorded.
     """
 
-    order: RecordOrder
+    order: RecordingJob
     times: list[float] = field(default_factory=list)
     pixels: list[Floats] = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)

@@ -53,18 +53,18 @@ class VisionTask(Task[VisionRequest, float, Any]):
 
 @dataclass(frozen=True)
 class VisionServices:
-    """The processes: a process each for looks that a person waits for, for checkerboards, and for tracking.
+    """One process each for requests that a person waits for, for checkerboards, and for tracking.
 
-    Each is started by its first question.
+    Each starts with its first task.
     """
 
-    near: TaskService[VisionTask]
-    boards: TaskService[VisionTask]
+    interactive: TaskService[VisionTask]
+    checkerboards: TaskService[VisionTask]
     tracker: TaskService[VisionTask]
 
     def close(self) -> None:
         """Ends the processes and whatever waits for them."""
-        for service in (self.near, self.boards, self.tracker):
+        for service in (self.interactive, self.checkerboards, self.tracker):
             service.close()
 
 

@@ -58,7 +58,7 @@ class VisionRequest(Protocol):
 
 
 @dataclass(frozen=True)
-class FactsOf:
+class ReadFacts:
     """What a video says of itself, once its first two pictures could be read."""
 
     path: Path
@@ -110,7 +110,7 @@ class Source:
 
 
 @dataclass(frozen=True)
-class PictureOf:
+class ReadPicture:
     """A picture as a JPEG file, no wider than so many pixels."""
 
     source: Source
@@ -138,7 +138,7 @@ class PhotoFiles:
 
 
 @dataclass(frozen=True)
-class PhotoOf:
+class MakePhoto:
     """A picture and its thumbnail, each no wider than so many pixels and nothing but the picture."""
 
     source: Source
@@ -154,7 +154,7 @@ class PhotoOf:
 
 
 @dataclass(frozen=True, eq=False)
-class LookAt:
+class DetectBlobs:
     """A picture with what tracking would find in it.
 
     Args:
@@ -232,7 +232,7 @@ def data_url(file: bytes) -> str:
 
 
 @dataclass(frozen=True)
-class BoardIn:
+class FindCheckerboard:
     """Where a checkerboard's inner corners are in a picture."""
 
     source: Source
@@ -254,7 +254,7 @@ class BoardIn:
 
 
 @dataclass(frozen=True, eq=False)
-class LensOf:
+class FitLens:
     """A lens out of boards that were found.
 
     Args:
@@ -294,7 +294,7 @@ class Straighten:
 
 
 @dataclass(frozen=True, eq=False)
-class TrackIn:
+class TrackFeet:
     """The feet's track in a video; None where it was ended."""
 
     path: Path

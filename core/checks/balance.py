@@ -22,7 +22,7 @@ KEEP_THREE = "Keep three feet down."
 
 
 @dataclass(frozen=True)
-class _Judged:
+class _GroundPoint:
     """The name of the point that balance is judged by, and how far outside the polygon it may be, m."""
 
     point: str
@@ -37,11 +37,11 @@ def check_balance(plan: CheckedPlan) -> Outcome:
     """
     t = plan.trajectory
     margins, what = balance_margins(plan.model, t)
-    return _balance_outcome(margins, t.times, t.contact, _Judged(what, TOLERANCE), plan.asked.margin)
+    return _balance_outcome(margins, t.times, t.contact, _GroundPoint(what, TOLERANCE), plan.asked.margin)
 
 
 def _balance_outcome(
-    margins: Floats, times: Floats, contact: Bools, judged: _Judged, asked: float = 0.0
+    margins: Floats, times: Floats, contact: Bools, judged: _GroundPoint, asked: float = 0.0
 ) -> Outcome:
     """Findings on every stretch with too small a margin, and the smallest one.
 
@@ -109,4 +109,4 @@ def check_standing_balance(model: RobotModel, waypoints: Waypoints) -> Outcome:
     standing = np.asarray(height <= STANDING_DEPTH)
     margins = stability_margins(np.zeros((waypoints.count, 2)), feet_robot, standing)
     times = np.cumsum(waypoints.durations) - waypoints.durations[0]
-    return _balance_outcome(margins, times, standing, _Judged("centre of mass", STROKE_BALANCE_SLACK))
+    return _balance_outcome(margins, times, standing, _GroundPoint("centre of mass", STROKE_BALANCE_SLACK))

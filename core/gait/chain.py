@@ -72,11 +72,11 @@ class Chain:
         return float(self.trajectory.heading[-1] - self.trajectory.heading[0])
 
 
-Cross = Callable[[Piece, Piece, MotionProblem], Trajectory]
+TransitionMotion = Callable[[Piece, Piece, MotionProblem], Trajectory]
 """Gives the motion of the steps between two pieces, from the place where the first one ends."""
 
 
-def chain(model: RobotModel, pieces: Sequence[Piece], options: GaitOptions, cross: Cross) -> Chain:
+def chain(model: RobotModel, pieces: Sequence[Piece], options: GaitOptions, cross: TransitionMotion) -> Chain:
     """Puts motions together: each is turned and shifted so that its feet begin where they stand.
 
     Where only the body has to be elsewhere, it moves slowly over its standing feet in between; where feet

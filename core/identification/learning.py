@@ -175,11 +175,14 @@ def learn(
         identification.at("default", physics),
         identification.at("fitted", identification.learned),
     ]
-    ways += [*identification.left_out("left out", gaits), identification.ratio("ratio, left out", gaits)]
+    ways += [
+        *identification.left_out("left out", gaits),
+        identification.linear_baseline("ratio, left out", gaits),
+    ]
     if is_by_kind(len(walks), len(kinds)):
         ways += [
             *identification.left_out("kind left out", kinds),
-            identification.ratio("ratio, kind left out", kinds),
+            identification.linear_baseline("ratio, kind left out", kinds),
         ]
     return Learned(
         physics=identification.learned,
@@ -287,7 +290,7 @@ class _Identification:
         )
         return plain, Prediction(f"{name}, line", moved, plain.falls)
 
-    def ratio(self, name: str, groups: Sequence[Sequence[int]]) -> Prediction:
+    def linear_baseline(self, name: str, groups: Sequence[Sequence[int]]) -> Prediction:
         """Every gait by a line through the others' distances; of angles it says nothing."""
         wanted = np.array([walk.measured.wanted for walk in self._walks])
         said = baseline_left_out(wanted, self._measured.values[: len(wanted)], groups)

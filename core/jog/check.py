@@ -33,7 +33,7 @@ RANGE_RULE, THRESHOLD_RULE, BALANCE_RULE = "stroke", "threshold", "balance"
 
 
 @dataclass(frozen=True, eq=False)
-class JogAnswer:
+class JogCheck:
     """Where steps by hand lead.
 
     Args:
@@ -67,7 +67,7 @@ class JogAnswer:
         return float(np.abs(np.diff(places, axis=0)).max(initial=0.0))
 
 
-def check_jog(model: RobotModel, measured: Floats, steps: Sequence[JogStep]) -> JogAnswer:
+def check_jog(model: RobotModel, measured: Floats, steps: Sequence[JogStep]) -> JogCheck:
     """Judges steps by hand from where the motors stand.
 
     Args:
@@ -87,18 +87,18 @@ def check_jog(model: RobotModel, measured: Floats, steps: Sequence[JogStep]) -> 
     findings = _beyond(model, measured)
     if not within_range(model, made):
         blocked = _out_of_range(model, start, made, steps)
-        return JogAnswer(start, wanted, None, (), feet_in_robot(model, start), None, (blocked, *findings))
+        return JogCheck(start, wanted, None, (), feet_in_robot(model, start), None, (blocked, *findings))
     if model.is_coupled:
         lost = _coupling(model, start, wanted, made, steps)
-        return JogAnswer(start, wanted, made, (made,), feet_in_robot(model, made), None, (*findings, *lost))
+        return JogCheck(start, wanted, made, (made,), feet_in_robot(model, made), None, (*findings, *lost))
     way = jog_way(model, start, steps) if steps else ()
     if (outside := next((place for place in way if not within_range(model, place)), None)) is not None:
         blocked = _out_of_range(model, start, outside, steps)
-        return JogAnswer(start, wanted, None, (), feet_in_robot(model, start), None, (blocked, *findings))
+        return JogCheck(start, wanted, None, (), feet_in_robot(model, start), None, (blocked, *findings))
     margins = _margins(model, np.array([start, *way]))
     all_found = [*_threshold(start, made, steps), *_balance(model, way, margins), *findings]
     ordered = tuple(sorted(all_found, key=lambda f: f.severity is not Severity.ERROR))
-    return JogAnswer(start, wanted, made, way, feet_in_robot(model, made), _known(margins[-1]), ordered)
+    return JogCheck(start, wanted, made, way, feet_in_robot(model, made), _known(margins[-1]), ordered)
 
 
 def feet_in_robot(model: RobotModel, strokes: Floats) -> Floats:

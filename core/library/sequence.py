@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.errors import FootfallError, InputError
-from core.gait.chain import Chain, Cross, Piece, chain
+from core.gait.chain import Chain, Piece, TransitionMotion, chain
 from core.gait.gait import MOST_TIMES, Gait, SequencePart, motion_problem, with_iterations
 from core.gait.held_feet import HeldFeet
 from core.gait.manual_motion import manual_motion
@@ -37,14 +37,14 @@ BETWEEN_MARGIN = 0.003
 
 
 @dataclass(frozen=True)
-class Run:
+class RepeatedGait:
     """What a part amounts to: a gait with all its iterations, and how often that is chained."""
 
     gait: Gait
     copies: int
 
 
-def run_of(part: SequencePart) -> Run:
+def run_of(part: SequencePart) -> RepeatedGait:
     """How a part is repeated: as iterations that follow each other without a pause, where its gait can.
 
     A gait that turns the body starts each time from its new heading, so it is repeated as a whole; so is a
@@ -55,7 +55,7 @@ def run_of(part: SequencePart) -> Run:
     """
     gait, iterations = part.gait, part.gait.iterations * part.times
     if part.times == 1 or gait.step[2] != 0.0 or gait.recorded is not None:
-        return Run(gait, part.times)
+        return RepeatedGait(gait, part.times)
     if iterations > MOST_TIMES:
         raise InputError(
             f"“{gait.name}” would run through {iterations} iterations; at most {MOST_TIMES} follow each "
@@ -63,14 +63,16 @@ def run_of(part: SequencePart) -> Run:
             "times",
         )
     if gait.segment_table is not None:
-        return Run(replace(gait, iterations=iterations), 1)
+        return RepeatedGait(replace(gait, iterations=iterations), 1)
     try:
-        return Run(with_iterations(gait, iterations), 1)
+        return RepeatedGait(with_iterations(gait, iterations), 1)
     except InputError:
-        return Run(gait, part.times)
+        return RepeatedGait(gait, part.times)
 
 
-def chain_runs(gait: Gait, model: RobotModel, motions: Sequence[Trajectory], cross: Cross) -> Chain:
+def chain_runs(
+    gait: Gait, model: RobotModel, motions: Sequence[Trajectory], cross: TransitionMotion
+) -> Chain:
     """Chains the motions of a sequence's runs with the moves and steps between them.
 
     Args:
@@ -113,7 +115,7 @@ def require_own(gait: Gait, whole: Chain) -> None:
         )
 
 
-def outline(gait: Gait, model: RobotModel) -> Trajectory:
+def ends_and_contact(gait: Gait, model: RobotModel) -> Trajectory:
     """When a gait's feet stand and where its motion begins and ends, without solving it.
 
     A gait made by hand or recorded is its own motion; of any other one only the ends and the contact mean
@@ -213,6 +215,6 @@ def _require_one_robot(gait: Gait) -> None:
 
 def _outline_of(index: int, part: SequencePart, model: RobotModel) -> Trajectory:
     try:
-        return outline(run_of(part).gait, model)
+        return ends_and_contact(run_of(part).gait, model)
     except FootfallError as refusal:
         raise InputError(f"{part_name(index, part)}: {refusal.sentence}", "sequence") from refusal

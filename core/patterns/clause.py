@@ -11,7 +11,7 @@ SAMPLE_RULES = (Rule.FEET_DOWN, Rule.FEET_DOWN_EACH_SIDE, Rule.BALANCE)
 
 @dataclass(frozen=True)
 class Clause:
-    """A rule for some limbs over some samples; a clash is a set of these that cannot hold together.
+    """A rule for some limbs over some samples; a conflict is a set of these that cannot hold together.
 
     Args:
         rule: which.

@@ -232,7 +232,7 @@ class Relaxation:
     """A change of the problem that makes it solvable, found by solving it.
 
     Args:
-        rule: which is loosened; FIXED where cells are freed or samples are added.
+        rule: which is relaxed; FIXED where cells are freed or samples are added.
         value: the rule's new number; None switches it off.
         cells: (limb, sample) that are freed, where the rule is FIXED; a locked limb walks then.
         words: for the button, such as "2 feet down instead of 3".
@@ -274,7 +274,7 @@ class PatternResult:
         patterns: the best first; distinct.
         bound: no pattern's weighted sum is below this; None where infeasible.
         solve_seconds: in the solver.
-        explanation: sentences where there is no pattern: a smallest set of rules that clash.
+        explanation: sentences where there is no pattern: a smallest set of rules that conflict.
         relaxations: what would make it solvable.
     """
 

@@ -1,4 +1,4 @@
-"""Loosening a pattern's problem in one place."""
+"""Relaxing a pattern's problem in one place."""
 
 from dataclasses import replace
 from typing import Any

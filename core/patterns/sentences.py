@@ -1,4 +1,4 @@
-"""Sentences about patterns: rules that clash, and what would loosen them."""
+"""Sentences about patterns: rules that conflict, and what would relax them."""
 
 from collections.abc import Mapping, Sequence
 
@@ -16,7 +16,7 @@ MOST_NAMED = 3
 
 
 def conflict_sentence(problem: PatternProblem, clauses: Sequence[Clause], reached: int | None) -> str:
-    """What clashes, such as "Limbs 1 and 4 are locked in swing: at samples 1–9 only two feet are down, …".
+    """What conflicts, such as "Limbs 1 and 4 are locked in swing: at samples 1–9 only two feet are down, …".
 
     Args:
         problem: what is sought.
@@ -36,11 +36,11 @@ def conflict_sentence(problem: PatternProblem, clauses: Sequence[Clause], reache
 
 
 def explanation(problem: PatternProblem, sentence: str, relaxations: Sequence[Relaxation]) -> tuple[str, ...]:
-    """The clash and what to do about it.
+    """The conflict and what to do about it.
 
     Args:
         problem: what is sought.
-        sentence: what clashes.
+        sentence: what conflicts.
         relaxations: what would make it solvable, the mildest first.
     """
     if relaxations:

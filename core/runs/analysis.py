@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from core.arrays import Floats
 from core.runs.pose import RanPlan, measured_motion, planned_feet
-from core.runs.reading import START, Command, RunSeries
+from core.runs.reading import START, RunSeries, SentWaypoint
 from core.wire.waypoint_path import estimate_seconds
 from core.wire.waypoints import Waypoints
 
@@ -122,7 +122,7 @@ def move_begins(plan: RanPlan, series: RunSeries) -> Floats:
     return result
 
 
-def _moves(series: RunSeries) -> Iterator[tuple[int, Command, NDArray[np.int64]]]:
+def _moves(series: RunSeries) -> Iterator[tuple[int, SentWaypoint, NDArray[np.int64]]]:
     """Each command that leads to a waypoint, with the telemetry that came while it was the last."""
     bounds = np.searchsorted(series.aims, np.arange(len(series.commands) + 1))
     for number, command in enumerate(series.commands):
@@ -130,7 +130,7 @@ def _moves(series: RunSeries) -> Iterator[tuple[int, Command, NDArray[np.int64]]
             yield number, command, np.arange(bounds[number], bounds[number + 1])
 
 
-def _before(commands: tuple[Command, ...], number: int) -> int:
+def _before(commands: tuple[SentWaypoint, ...], number: int) -> int:
     """The waypoint from which a command leads on; its own where it begins a lap."""
     here, before = commands[number], commands[max(number - 1, 0)]
     follows = before.leads_on and before.lap == here.lap
@@ -142,7 +142,7 @@ def _over(values: Floats, figure: Callable[..., Any]) -> Floats:
 
 
 def _arrival_distances(
-    plan: RanPlan, series: RunSeries, reached: list[tuple[int, Command]]
+    plan: RanPlan, series: RunSeries, reached: list[tuple[int, SentWaypoint]]
 ) -> tuple[Floats, Floats]:
     """(arrivals, legs) distance of each foot, and (arrivals,) of the body, from the command, m."""
     if not reached:

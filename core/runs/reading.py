@@ -41,7 +41,7 @@ class RunBytes:
 
 
 @dataclass(frozen=True)
-class Command:
+class SentWaypoint:
     """A waypoint that was sent.
 
     Args:
@@ -86,10 +86,10 @@ class RunSeries:
     times: Floats
     measured_mm: Floats
     aims: NDArray[np.int64]
-    commands: tuple[Command, ...]
+    commands: tuple[SentWaypoint, ...]
 
     @property
-    def streamed(self) -> tuple[Command, ...]:
+    def streamed(self) -> tuple[SentWaypoint, ...]:
         """Commands that lead to waypoints."""
         return tuple(command for command in self.commands if command.leads_on)
 
@@ -103,9 +103,9 @@ def read_run(pieces: Iterable[RunBytes], waypoints: Waypoints, first: int = 0) -
         first: waypoint with which the run began, 0-based.
     """
     telemetry: list[tuple[float, tuple[float, ...], int]] = []
-    commands: list[Command] = []
+    commands: list[SentWaypoint] = []
     for time, event in _events(pieces):
-        if isinstance(event, Command):
+        if isinstance(event, SentWaypoint):
             commands.append(event)
         elif isinstance(event, Telemetry):
             telemetry.append((time, event.strokes_mm, len(commands) - 1))
@@ -115,11 +115,11 @@ def read_run(pieces: Iterable[RunBytes], waypoints: Waypoints, first: int = 0) -
         np.array([time for time, _, _ in telemetry]),
         np.array([strokes for _, strokes, _ in telemetry]).reshape(-1, MOTORS),
         np.array([aim for _, _, aim in telemetry], dtype=np.int64),
-        tuple(_numbered([_settled(command) for command in commands], waypoints.strokes_mm, first)),
+        tuple(_numbered([_resolved(command) for command in commands], waypoints.strokes_mm, first)),
     )
 
 
-def _events(pieces: Iterable[RunBytes]) -> Iterator[tuple[float, Line | Command]]:
+def _events(pieces: Iterable[RunBytes]) -> Iterator[tuple[float, Line | SentWaypoint]]:
     """Lines and commands; what follows a stop, which is for clearing it, is no command of the run."""
     reader, outgoing, is_stopped = LineReader(drop_first=True), b"", False
     for piece in pieces:
@@ -139,14 +139,14 @@ def _events(pieces: Iterable[RunBytes]) -> Iterator[tuple[float, Line | Command]
 
 
 @dataclass(frozen=True)
-class _Awaited(Command):
+class _Awaited(SentWaypoint):
     """A command whose confirmation is still awaited: its point, then its end, then its strokes."""
 
     confirmed: bool = False
     ended: bool = False
 
 
-def _follow(command: Command, event: Line | Command, time: float) -> Command:
+def _follow(command: SentWaypoint, event: Line | SentWaypoint, time: float) -> SentWaypoint:
     if not isinstance(command, _Awaited) or command.measured_mm:
         return command
     if isinstance(event, TrajectoryPoint) and numbers_equal(command.target_mm, event.strokes_mm):
@@ -158,11 +158,13 @@ def _follow(command: Command, event: Line | Command, time: float) -> Command:
     return command
 
 
-def _settled(command: Command) -> Command:
-    return Command(command.sent, command.target_mm, arrived=command.arrived, measured_mm=command.measured_mm)
+def _resolved(command: SentWaypoint) -> SentWaypoint:
+    return SentWaypoint(
+        command.sent, command.target_mm, arrived=command.arrived, measured_mm=command.measured_mm
+    )
 
 
-def _numbered(commands: list[Command], rows_mm: Floats, first: int) -> Iterator[Command]:
+def _numbered(commands: list[SentWaypoint], rows_mm: Floats, first: int) -> Iterator[SentWaypoint]:
     """Says of each command which waypoint it is.
 
     A run goes through the waypoints in their order, round and round; what was sent before that is the way to

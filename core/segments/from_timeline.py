@@ -9,7 +9,7 @@ from core.arrays import Bools
 from core.errors import InputError
 from core.motion.contact_timeline import ContactTimeline
 from core.segments.from_timeline_edit import border_refusal, break_sentence
-from core.segments.segment_chains import Cell, RowWish, cheapest_chain, first_break
+from core.segments.segment_chains import Cell, RowTemplate, cheapest_chain, first_break
 from core.segments.segment_table import SegmentTable, SegmentVocabulary
 
 HOME = "Home-Base"
@@ -122,7 +122,7 @@ def _row(
 ) -> tuple[str, ...]:
     cells = tuple(Cell(None, bool(one)) for one in swing)
     first, last = frame.opening, frame.opening + frame.period
-    wish = RowWish(cells[:first], cells[first:last], cells[last:], (), HOME, HOME, chained=True)
+    wish = RowTemplate(cells[:first], cells[first:last], cells[last:], (), HOME, HOME, chained=True)
     chain = cheapest_chain(wish, vocabulary)
     if chain is not None:
         return chain.row

@@ -11,7 +11,7 @@ from core.segments.segment_chains import (
     Break,
     Cell,
     LinkedRow,
-    RowWish,
+    RowTemplate,
     airborne_positions,
     cheapest_chain,
     first_break,
@@ -39,7 +39,7 @@ class Carried:
 def carried(table: SegmentTable, timeline: ContactTimeline, iterations: int, quarter_turns: int) -> Carried:
     """Changes as little of a segment table as possible, so that it implies what was drawn.
 
-    Each foot is a dynamic programme of its own (see `core.segments.segment_chains`): a segment starts where
+    Each foot is a dynamic program of its own (see `core.segments.segment_chains`): a segment starts where
     the one before ends, its swing flag is the timeline's, the row starts where it starts now, and where
     iterations could follow one another they still can. Samples may have been inserted or removed in whole
     segments; then they are where fewest cells change between air and ground, and among those where fewest
@@ -203,7 +203,7 @@ def _filled(own: SegmentTable, layout: Layout, wanted: _Wanted) -> tuple[int, Se
     return sum(chain.cost for chain in chains), made
 
 
-def _wish(own: SegmentTable, foot: int, layout: Layout, wanted: _Wanted, chained: bool) -> RowWish:
+def _wish(own: SegmentTable, foot: int, layout: Layout, wanted: _Wanted, chained: bool) -> RowTemplate:
     segments = own.vocabulary.segments
     row, link = own.rows[foot], own.link[foot] if own.link else ()
 
@@ -216,7 +216,7 @@ def _wish(own: SegmentTable, foot: int, layout: Layout, wanted: _Wanted, chained
             found.append(Cell(None if column is None else names[column], swing))
         return tuple(found)
 
-    return RowWish(
+    return RowTemplate(
         cells(Part.OPENING),
         cells(Part.REPEATING),
         cells(Part.CLOSING),
@@ -227,7 +227,7 @@ def _wish(own: SegmentTable, foot: int, layout: Layout, wanted: _Wanted, chained
     )
 
 
-def _reason(foot: int, wish: RowWish, layout: Layout, wanted: _Wanted, own: SegmentTable) -> str:
+def _reason(foot: int, wish: RowTemplate, layout: Layout, wanted: _Wanted, own: SegmentTable) -> str:
     """Why no row does what is asked of a foot."""
     found = first_break(wish, own.vocabulary)
     if found is None:
@@ -239,7 +239,7 @@ def _reason(foot: int, wish: RowWish, layout: Layout, wanted: _Wanted, own: Segm
     return break_sentence(foot, found, wish, place, own.samples_per_segment)
 
 
-def break_sentence(foot: int, found: Break, wish: RowWish, place: int, samples: int) -> str:
+def break_sentence(foot: int, found: Break, wish: RowTemplate, place: int, samples: int) -> str:
     """Says at which samples nothing in the vocabulary can go on, and from where.
 
     Args:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from core.errors import InputError
-from core.segments.segment_chains import Cell, RowWish, cheapest_chain
+from core.segments.segment_chains import Cell, RowTemplate, cheapest_chain
 from core.segments.segment_table import SegmentTable, SegmentVocabulary
 
 Rows = tuple[tuple[str, ...], ...]
@@ -123,7 +123,7 @@ def _replaced(draft: DraftTable, foot: int, kept: Collection[tuple[int, int]]) -
         for index, name in enumerate(draft.link[foot] if draft.link else ())
     )
     for chained in (True, False):
-        wish = RowWish(cells[:first], cells[first:last], cells[last:], link, None, end, chained)
+        wish = RowTemplate(cells[:first], cells[first:last], cells[last:], link, None, end, chained)
         chain = cheapest_chain(wish, draft.vocabulary)
         if chain is not None:
             break

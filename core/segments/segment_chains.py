@@ -38,7 +38,7 @@ class Cell:
 
 
 @dataclass(frozen=True)
-class RowWish:
+class RowTemplate:
     """What is asked of one foot's row and of its link.
 
     Args:
@@ -88,8 +88,8 @@ def airborne_positions(vocabulary: SegmentVocabulary) -> frozenset[str]:
     return frozenset(s.end for s in swings) & frozenset(s.start for s in swings)
 
 
-def cheapest_chain(wish: RowWish, vocabulary: SegmentVocabulary) -> LinkedRow | None:
-    """The cheapest row that fits together, a dynamic programme over named positions.
+def cheapest_chain(wish: RowTemplate, vocabulary: SegmentVocabulary) -> LinkedRow | None:
+    """The cheapest row that fits together, a dynamic program over named positions.
 
     What counts, the weightier first: the row ends where it had better; no foot comes down at a position in
     mid-air; few names change; few cells change between air and ground; few new segments move the foot. Among
@@ -122,7 +122,7 @@ def cheapest_chain(wish: RowWish, vocabulary: SegmentVocabulary) -> LinkedRow | 
     return LinkedRow(row, linked, int(total[x, y, start]))
 
 
-def first_break(wish: RowWish, vocabulary: SegmentVocabulary) -> Break | None:
+def first_break(wish: RowTemplate, vocabulary: SegmentVocabulary) -> Break | None:
     """The first cell that nothing can stand in; None where only the row's end or link is in the way."""
     maker = _Maker(vocabulary)
     reached: Iterable[str] = maker.places if wish.start is None else (wish.start,)

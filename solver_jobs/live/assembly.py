@@ -1,4 +1,4 @@
-"""The live tier's quadratic programme: the linearisation, the rows of all its constraints, and its cost."""
+"""The live tier's quadratic program: the linearisation, the rows of all its constraints, and its cost."""
 
 import numpy as np
 

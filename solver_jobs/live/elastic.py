@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 
 from core.arrays import Floats
-from solver_jobs.live.qp import MOST_ELASTIC_ITERATIONS, Answer, QuadraticProgram, Solver, stacked
+from solver_jobs.live.qp import MOST_ELASTIC_ITERATIONS, QpResult, QuadraticProgram, Solver, stacked
 from solver_jobs.live.rows import Rows
 from solver_jobs.nlp.constraint import Family
 
@@ -38,7 +38,7 @@ class Nearest:
     misses: tuple[Floats, ...]
     total: float
     proven: float
-    answer: Answer
+    answer: QpResult
 
 
 def nearest(
@@ -74,7 +74,7 @@ def nearest(
 def _elastic(
     cost: tuple[Floats, Floats], rows: Sequence[Rows], interval: float
 ) -> tuple[QuadraticProgram, list[int]]:
-    """The programme with misses behind the unknowns, and where each family's misses begin and end."""
+    """The program with misses behind the unknowns, and where each family's misses begin and end."""
     size = len(cost[0])
     offsets = [size]
     halves, soft_column, weights = [], [], []
@@ -133,7 +133,7 @@ def _group_count(one: Rows) -> int:
     return int(one.group.max()) + 1 if one.count and one.family is not Family.DYNAMICS else 0
 
 
-def _bound(qp: QuadraticProgram, answer: Answer, size: int, farthest: float) -> float:
+def _bound(qp: QuadraticProgram, answer: QpResult, size: int, farthest: float) -> float:
     """A lower bound of the total miss by weak duality, whatever the solver's accuracy.
 
     With multipliers y ≥ 0 of the upper bounds, scaled so that no group's sum exceeds its weight, and z of the

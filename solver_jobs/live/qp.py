@@ -1,4 +1,4 @@
-"""The quadratic programme: rows stacked, solved by PIQP through CasADi, with multipliers."""
+"""The quadratic program: rows stacked, solved by PIQP through CasADi, with multipliers."""
 
 import time
 from collections import OrderedDict
@@ -15,7 +15,7 @@ from solver_jobs.live.rows import Rows
 
 SOLVER = "piqp"
 MOST_ITERATIONS = 30
-"""Programmes that have an answer took at most 20 in hundreds of random edits."""
+"""Programs that have an answer took at most 20 in hundreds of random edits."""
 
 MOST_ELASTIC_ITERATIONS = 150
 """The search for the nearest motion always has an answer and may take its time."""
@@ -53,7 +53,7 @@ class QuadraticProgram:
 
 
 @dataclass(frozen=True, eq=False)
-class Answer:
+class QpResult:
     """The solver's result.
 
     Args:
@@ -84,13 +84,13 @@ def stacked(rows: Sequence[Rows]) -> tuple[Indices, Indices, Floats, Floats, Flo
 
 
 class Solver:
-    """Solves programmes; solvers are kept by their pattern of entries. Not for several threads at once."""
+    """Solves programs; solvers are kept by their pattern of entries. Not for several threads at once."""
 
     def __init__(self) -> None:
         self._known: OrderedDict[tuple[int, bytes], tuple[Function, Sparsity]] = OrderedDict()
 
-    def solve(self, qp: QuadraticProgram, most_iterations: int = MOST_ITERATIONS) -> Answer:
-        """Solves one programme."""
+    def solve(self, qp: QuadraticProgram, most_iterations: int = MOST_ITERATIONS) -> QpResult:
+        """Solves one program."""
         size, count = len(qp.gradient), len(qp.lower)
         # CasADi holds matrices a column after the other.
         order = np.lexsort((qp.row, qp.column))
@@ -109,7 +109,7 @@ class Solver:
         )
         seconds = time.perf_counter() - begin
         stats = function.stats()
-        return Answer(
+        return QpResult(
             bool(stats["success"]),
             str(stats["return_status"]),
             np.array(found["x"]).reshape(-1),

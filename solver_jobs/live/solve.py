@@ -21,7 +21,7 @@ from solver_jobs.live.explain import lacks_of, low_lacks, sentences
 from solver_jobs.live.linearisation import MM, Linearisation, linearise
 from solver_jobs.live.motion import motion_cost, trajectory_of
 from solver_jobs.live.motors import motor_rows
-from solver_jobs.live.qp import Answer, QuadraticProgram, Solver
+from solver_jobs.live.qp import QpResult, QuadraticProgram, Solver
 from solver_jobs.live.rows import Rows
 from solver_jobs.nlp.assembly import box_of
 from solver_jobs.nlp.constraint import situation_of
@@ -56,7 +56,7 @@ class _Search:
     problem: MotionProblem
     seconds: float = 0.0
 
-    def solve(self, qp: QuadraticProgram) -> Answer:
+    def solve(self, qp: QuadraticProgram) -> QpResult:
         answer = _solver.solve(qp)
         self.seconds += answer.seconds
         return answer

@@ -103,5 +103,5 @@ def box_of(situation: Situation) -> Box:
     box = open_box(situation.problem.knot_count, situation.problem.model.leg_count)
     for constraint in BOUND_CONSTRAINTS:
         constraint.tighten(box, situation)
-        box.settle(constraint.family)
+        box.meet_crossed_bounds(constraint.family)
     return box

@@ -68,7 +68,7 @@ def situation_of(problem: MotionProblem) -> Situation:
 
 
 @dataclass(frozen=True)
-class Conflict:
+class BoundConflict:
     """Bounds that contradict each other.
 
     Args:
@@ -88,9 +88,9 @@ class Box:
 
     lower: MotionVector
     upper: MotionVector
-    conflicts: list[Conflict] = field(default_factory=list)
+    conflicts: list[BoundConflict] = field(default_factory=list)
 
-    def settle(self, family: Family) -> None:
+    def meet_crossed_bounds(self, family: Family) -> None:
         """Notes where bounds have crossed, and lets them meet there."""
         for part in ("position", "velocity", "force"):
             lower, upper = getattr(self.lower, part), getattr(self.upper, part)
@@ -100,7 +100,7 @@ class Box:
                 continue
             worst = np.unravel_index(int(gap.argmax()), gap.shape)
             if gap[worst] > CROSSING_TOLERANCE:
-                self.conflicts.append(Conflict(family, int(worst[0]), float(gap[worst])))
+                self.conflicts.append(BoundConflict(family, int(worst[0]), float(gap[worst])))
             upper[crossed] = lower[crossed]
 
 

@@ -1,4 +1,4 @@
-"""The exact tier: the whole motion as one nonlinear programme, solved by IPOPT."""
+"""The exact tier: the whole motion as one nonlinear program, solved by IPOPT."""
 
 from dataclasses import replace
 
@@ -24,7 +24,7 @@ NEARLY = 0.05
 """Where the nearest motion misses less than this (mm, mm/s, N), the price may have been too low for one that
 misses nothing, and IPOPT starts there once more."""
 
-_structures = CompiledProblemCache()
+_compiled = CompiledProblemCache()
 _warm_starts = WarmStarts()
 
 
@@ -93,13 +93,13 @@ class _Solve:
         self._given = given
         self._initial = initial_guess(problem)
         shift = (turns % 4) * problem.model.leg_count // 4
-        self._search = Attempts(situation, self._initial, box_of(situation), progress, shift)
+        self._attempts = Attempts(situation, self._initial, box_of(situation), progress, shift)
         self._build_seconds = 0.0
 
     def run(self, resume: bool, doubtful: bool) -> MotionResult:
         """Attempts from every start, then the search for the nearest motion."""
         compiled = self._compiled()
-        broken = self._search.broken_constants(compiled)
+        broken = self._attempts.broken_constants(compiled)
         if broken:
             sentences = tuple(broken_pose(one) for one in broken)
             return _ruled_out(sentences, self._initial, self._build_seconds, broken)
@@ -113,13 +113,13 @@ class _Solve:
         return self._ended(attempt)
 
     def _compiled(self, *, elastic: bool = False) -> CompiledProblem:
-        compiled, seconds = _structures.get(self._problem, elastic=elastic)
+        compiled, seconds = _compiled.get(self._problem, elastic=elastic)
         self._build_seconds += seconds
         return compiled
 
     def _attempt(self, compiled: CompiledProblem, resume: bool) -> Attempt:
         """From one start after the other, until one of them ends in a motion or is cancelled."""
-        search = self._search
+        search = self._attempts
         last = _warm_starts.near(compiled, self._problem) if resume else None
         if last is not None:
             attempt = search.attempt(compiled, last, compiled.warm_solver)
@@ -138,13 +138,13 @@ class _Solve:
             return missing
         if nearest.word != SUCCEEDED:
             return self._ended(attempt)
-        again = self._search.attempt(compiled, nearest.end)
+        again = self._attempts.attempt(compiled, nearest.end)
         if again.word in (SUCCEEDED, STOPPED) or not nearest.missed:
             return self._ended(again)
         return self._infeasible(nearest)
 
     def _elastic(self) -> Attempt:
-        return self._search.attempt(self._compiled(elastic=True), self._search.drawing)
+        return self._attempts.attempt(self._compiled(elastic=True), self._attempts.drawing)
 
     def _missing(self, nearest: Attempt) -> MotionResult | None:
         """What the nearest motion says by itself: cancelled, or a demand that is missed by far; else None."""
@@ -165,7 +165,7 @@ class _Solve:
 
     def _ended(self, attempt: Attempt) -> MotionResult:
         """A result in the words of one attempt."""
-        search = self._search
+        search = self._attempts
         status = {
             SUCCEEDED: SolveStatus.SOLVED,
             STOPPED: SolveStatus.CANCELLED,

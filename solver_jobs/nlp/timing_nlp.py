@@ -124,7 +124,7 @@ class StretchSearch:
         situation = situation_of(problem)
         search = Attempts(situation, start, box_of(situation), self._progress)
         phases = _phase_of_interval(self._spans, problem.knot_count)
-        solver, blocks = _structure(problem, phases)
+        solver, blocks = _compiled(problem, phases)
         row_lower, row_upper = bounds_of(blocks, situation)
         motion = search.drawing.vector
         solver.monitor.error = None
@@ -187,7 +187,7 @@ _KEPT = 4
 _known: OrderedDict[Hashable, tuple[Ipopt, tuple[RowBlock, ...]]] = OrderedDict()
 
 
-def _structure(problem: MotionProblem, phases: tuple[int, ...]) -> tuple[Ipopt, tuple[RowBlock, ...]]:
+def _compiled(problem: MotionProblem, phases: tuple[int, ...]) -> tuple[Ipopt, tuple[RowBlock, ...]]:
     """The solver of a problem's shape and phases, kept for the next time."""
     shape = shape_of(problem)
     key = (shape, phases, fingerprint(problem.model))

@@ -80,7 +80,7 @@ class SearchMonitor:
         Args:
             model: what to solve.
             callback: told of each better solution.
-            linear: how much linear programmes help, 0 to 2; where lengths are compared they do.
+            linear: how much linear programs help, 0 to 2; where lengths are compared they do.
             bounded: told of each better bound of this model.
         """
         solver = CpSolver()

@@ -33,7 +33,7 @@ class Conflict:
     """A smallest set of clauses that cannot hold together.
 
     Args:
-        clauses: what clashes; each one is needed.
+        clauses: what conflicts; each one is needed.
         reached: where feet down are counted: the largest number that the other clauses leave possible.
     """
 
@@ -42,14 +42,14 @@ class Conflict:
 
 
 def find_conflict(problem: PatternProblem, probe: Probe) -> Conflict:
-    """A smallest set of clauses that clash.
+    """A smallest set of clauses that conflict.
 
     Args:
         problem: one of which it is proven that it has no pattern.
         probe: answers whether clauses can hold together.
     """
     rules, fixed = _rule_clauses(problem), _fixed_clauses(problem)
-    rules = _rules_that_clash(problem, probe, rules, fixed)
+    rules = _conflicting_rules(problem, probe, rules, fixed)
     groups = [*_dropped(problem, probe, rules, fixed), *([r] for r in rules)]
     for place, group in enumerate(groups):
         others = [clause for other in (*groups[:place], *groups[place + 1 :]) for clause in other]
@@ -87,10 +87,10 @@ def _fixed_clauses(problem: PatternProblem) -> list[Clause]:
     return found
 
 
-def _rules_that_clash(
+def _conflicting_rules(
     problem: PatternProblem, probe: Probe, rules: list[Clause], fixed: list[Clause]
 ) -> list[Clause]:
-    """The plainest rule that clashes with what is fixed, or rules none of which can be left out."""
+    """The plainest rule that conflicts with what is fixed, or rules none of which can be left out."""
     for rule in rules:
         if probe.conflict(problem, [rule, *fixed]):
             return [rule]
@@ -117,7 +117,7 @@ def _dropped(
 def _narrowed(
     problem: PatternProblem, probe: Probe, group: list[Clause], others: list[Clause]
 ) -> list[Clause]:
-    """A group of one clause, asked of as few limbs and samples as still clash."""
+    """A group of one clause, asked of as few limbs and samples as still conflict."""
     (clause,) = group
     if len(clause.limbs) > 1:
         return _fewer_limbs(problem, probe, clause, others)
@@ -130,7 +130,7 @@ def _narrowed(
 def _fewer_limbs(problem: PatternProblem, probe: Probe, clause: Clause, others: list[Clause]) -> list[Clause]:
     """Up to `MOST_NAMED` single limbs that suffice; otherwise the clause as it is.
 
-    The limb that ends the shortest list with which the clash begins is needed; then the list before it is
+    The limb that ends the shortest list with which the conflict begins is needed; then the list before it is
     searched for the next one.
     """
     needed: list[Clause] = []

@@ -15,7 +15,7 @@ class Explanation:
     """Why there is no pattern.
 
     Args:
-        clauses: a smallest set of clauses that clash.
+        clauses: a smallest set of clauses that conflict.
         sentences: the same in words, and what would help.
         relaxations: single changes that make the problem solvable, the mildest first; each was solved.
     """

@@ -12,24 +12,24 @@ from core.patterns.relaxation import with_rule
 from solver_jobs.patterns.model import Active, build_model, every_rule
 
 TRIES = ((0, 0.02), (2, 0.05), (0, 0.1))
-"""Ways to answer one question: whether linear programmes help (0, 2), and for how much work, in the solver's
+"""Ways to answer one question: whether linear programs help (0, 2), and for how much work, in the solver's
 deterministic seconds. Without them windows are told apart fast; with them what is a matter of counting."""
 ALL_WORK = 0.6
 """Of all questions together."""
 
 
-class Answer(StrEnum):
+class Feasibility(StrEnum):
     """What is known of a question."""
 
     SOLVABLE = "solvable"
     """A pattern was found."""
-    CLASH = "clash"
+    CONFLICT = "conflict"
     """There is none: proven."""
     UNKNOWN = "unknown"
     """The work was used up."""
 
 
-_ANSWERS = {OPTIMAL: Answer.SOLVABLE, FEASIBLE: Answer.SOLVABLE, INFEASIBLE: Answer.CLASH}
+_ANSWERS = {OPTIMAL: Feasibility.SOLVABLE, FEASIBLE: Feasibility.SOLVABLE, INFEASIBLE: Feasibility.CONFLICT}
 
 
 @dataclass(eq=False)
@@ -49,16 +49,16 @@ class Probe:
         if problem.rules.balance is not None and all(clause.rule is not Rule.BALANCE for clause in clauses):
             # Places of the body cost more than all else, also where nothing is asked of them.
             problem = with_rule(problem, Rule.BALANCE, None)
-        return self.ask(problem, asked_by(clauses)) is Answer.CLASH
+        return self.ask(problem, asked_by(clauses)) is Feasibility.CONFLICT
 
     def solvable(self, problem: PatternProblem) -> bool:
         """Whether a pattern that keeps every rule was found."""
-        return self.ask(problem) is Answer.SOLVABLE
+        return self.ask(problem) is Feasibility.SOLVABLE
 
-    def ask(self, problem: PatternProblem, active: Active = every_rule) -> Answer:
+    def ask(self, problem: PatternProblem, active: Active = every_rule) -> Feasibility:
         """Whether a pattern keeps the rules that are active."""
         if self.work <= 0:
-            return Answer.UNKNOWN
+            return Feasibility.UNKNOWN
         self.asked += 1
         model = build_model(problem, active).model
         for linear, work in TRIES:
@@ -72,4 +72,4 @@ class Probe:
             self.work -= solver.response_proto.deterministic_time
             if status in _ANSWERS:
                 return _ANSWERS[status]
-        return Answer.UNKNOWN
+        return Feasibility.UNKNOWN

@@ -8,7 +8,7 @@ from core.patterns.problem import FREE, MOST_SAMPLES, PatternKind, PatternProble
 from core.patterns.relaxation import has_fixed_cells, relaxed, with_rule
 from core.patterns.sentences import failing_samples, relaxation_words
 from solver_jobs.patterns.conflict import find_conflict
-from solver_jobs.patterns.probe import Answer, Probe
+from solver_jobs.patterns.probe import Feasibility, Probe
 
 MOST_OFFERED = 6
 MOST_ADDED = 12
@@ -32,7 +32,7 @@ def find_relaxations(
 
     Args:
         problem: one without a pattern.
-        clauses: a set of its clauses that clash; only what stands there is changed.
+        clauses: a set of its clauses that conflict; only what stands there is changed.
         probe: answers whether a changed problem has a pattern.
 
     Returns:
@@ -57,7 +57,7 @@ def _single_changes(problem: PatternProblem, clauses: Sequence[Clause], probe: P
 
 
 def _double_changes(problem: PatternProblem, clauses: Sequence[Clause], probe: Probe) -> list[Step]:
-    """A rule of the clash loosened, with a change of what clashes then; the first rule that gets so far."""
+    """A rule of the conflict relaxed, with a change of the conflict left then; the first rule that helps."""
     for rule in _rules_of(clauses):
         without = with_rule(problem, rule, None if rule is Rule.BALANCE else _mildest(problem, rule))
         conflict = find_conflict(without, probe)
@@ -167,6 +167,6 @@ def _longer(problem: PatternProblem, probe: Probe) -> Step | None:
         if samples <= MOST_SAMPLES:
             change = Relaxation(Rule.FIXED, None, (), "", samples)
             answer = probe.ask(relaxed(problem, change))
-            if answer is not Answer.CLASH:
-                return (added, change) if answer is Answer.SOLVABLE else None
+            if answer is not Feasibility.CONFLICT:
+                return (added, change) if answer is Feasibility.SOLVABLE else None
     return None

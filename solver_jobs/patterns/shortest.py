@@ -3,7 +3,7 @@
 from core.errors import StateError
 from core.patterns.problem import LEAST_SAMPLES, PatternProblem
 from core.patterns.relaxation import with_samples
-from solver_jobs.patterns.probe import Answer, Probe
+from solver_jobs.patterns.probe import Feasibility, Probe
 
 WORK = 5.0
 """Of all lengths together, in the solver's deterministic seconds."""
@@ -25,9 +25,9 @@ def shortest_problem(problem: PatternProblem) -> PatternProblem:
     for samples in range(LEAST_SAMPLES, problem.sample_count + 1):
         shorter = with_samples(problem, samples)
         answer = probe.ask(shorter)
-        if answer is Answer.SOLVABLE:
+        if answer is Feasibility.SOLVABLE:
             return shorter
-        if answer is Answer.UNKNOWN:
+        if answer is Feasibility.UNKNOWN:
             raise StateError(
                 f"It could not be told whether {samples} samples suffice, so the shortest length is not "
                 "known. Choose a length.",

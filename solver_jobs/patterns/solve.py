@@ -25,7 +25,7 @@ PATIENCE = 3
 """After so many numbers of events without a pattern, it is asked whether there is any."""
 
 FEW_LIMBS = 8
-"""Up to so many walking limbs a search with a drawing is quicker without linear programmes."""
+"""Up to so many walking limbs a search with a drawing is quicker without linear programs."""
 
 
 def solve_pattern(
@@ -171,7 +171,7 @@ class _Search:
 
 
 def _linear(problem: PatternProblem) -> int:
-    """How much linear programmes help, as measured: the costs of a drawing make them weak."""
+    """How much linear programs help, as measured: the costs of a drawing make them weak."""
     if problem.drawing is None or not problem.weights.drawing:
         return 2
     return 0 if problem.walking.sum() <= FEW_LIMBS else 1

@@ -7,7 +7,7 @@ from solver_jobs.workers.pattern_worker import Find, run_pattern_worker
 from solver_jobs.workers.task_service import Task, TaskService
 
 EXPLAIN_SECONDS = 30.0
-"""How much longer than its limit a search may take, since a clash is explained after it is proven."""
+"""How much longer than its limit a search may take, since a conflict is explained after it is proven."""
 
 
 class PatternSearch(Task[Find, PatternProgress, PatternResult]):

@@ -17,7 +17,7 @@ from typing import Any, ClassVar, Generic, TypeVar
 
 from core.errors import FootfallError, StateError
 from solver_jobs.workers.spawning import NICENESS
-from solver_jobs.workers.task_worker import Answer, Cancel, Progress, Submit
+from solver_jobs.workers.task_worker import Cancel, Progress, Submit, TaskResult
 from solver_jobs.workers.worker_process import POLL_SECONDS, WorkerEndedError, WorkerProcess
 
 _log = logging.getLogger(__name__)
@@ -212,7 +212,7 @@ class TaskService(Generic[TaskT]):
         while not self._closed:
             message = self._worker.receive(POLL_SECONDS)
             now = time.monotonic()
-            if isinstance(message, Answer) and message.number == number:
+            if isinstance(message, TaskResult) and message.number == number:
                 return self._result(message)
             if isinstance(message, Progress) and message.number == number:
                 question.tell(message.known)
@@ -226,7 +226,7 @@ class TaskService(Generic[TaskT]):
                 return question.unanswered(now - begun)
         raise self._closing()
 
-    def _result(self, message: Answer) -> Any:
+    def _result(self, message: TaskResult) -> Any:
         if message.refusal is not None:
             raise message.refusal
         if message.error:

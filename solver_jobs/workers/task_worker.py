@@ -36,7 +36,7 @@ class Progress:
 
 
 @dataclass(frozen=True, eq=False)
-class Answer:
+class TaskResult:
     """From the worker: the result, or a refusal's sentence, or the text of a bug."""
 
     number: int
@@ -61,14 +61,14 @@ def run_tasks(pipe: Connection, work: Callable[[Any, Report], Any]) -> None:
         return
 
 
-def _answer(pipe: Connection, ask: Submit, work: Callable[[Any, Report], Any]) -> Answer:
+def _answer(pipe: Connection, ask: Submit, work: Callable[[Any, Report], Any]) -> TaskResult:
     try:
-        return Answer(ask.number, work(ask.task, _reporter(pipe, ask.number)))
+        return TaskResult(ask.number, work(ask.task, _reporter(pipe, ask.number)))
     except FootfallError as refusal:
-        return Answer(ask.number, None, refusal)
+        return TaskResult(ask.number, None, refusal)
     except Exception as error:
         # A bug in one answer must not end the process; the parent logs it and says so.
-        return Answer(ask.number, None, error=f"{error!r}\n{traceback.format_exc()}")
+        return TaskResult(ask.number, None, error=f"{error!r}\n{traceback.format_exc()}")
 
 
 def _reporter(pipe: Connection, number: int) -> Report:

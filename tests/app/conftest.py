@@ -1,4 +1,4 @@
-"""What tests of the desks share."""
+"""What tests of the services share."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from app.gaits.live_preview import LivePreview
+from app.gaits.live_plans import LivePlans
 from app.gaits.service import GaitService
 from app.gaits.versions import VersionKind
 from app.store.database import Database
@@ -26,10 +26,10 @@ GAITS = ("walk", "amble", "walk-manual-0")
 
 
 def opened(folder: Path) -> tuple[GaitService, Database]:
-    """A desk on a folder."""
+    """A service on a folder."""
     database = Database(folder / "studio.sqlite3")
     return GaitService(
-        GaitFiles(folder), database, LivePreview(FixedTier(SolveStatus.INFEASIBLE)).solve_for
+        GaitFiles(folder), database, LivePlans(FixedTier(SolveStatus.INFEASIBLE)).solve_for
     ), database
 
 

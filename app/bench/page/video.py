@@ -16,7 +16,7 @@ from app.vision.frame_source import PICTURES
 from app.vision.services import ask, open_vision_services
 from app.vision.tracking import track_video
 from app.vision.video_io import use_one_thread
-from app.vision.worker import LookAt, Source
+from app.vision.worker import DetectBlobs, Source
 from core.errors import StateError
 
 SIZES = ((640, 480), (1280, 720))
@@ -82,8 +82,8 @@ def _looking(film: Film) -> Row:
         for number in range(LOOKS + 1):
             begun = time.perf_counter()
             width = 1280
-            look = LookAt(Source(film.folder, 40), 0, setup.colours, setup.limits, setup, True, width)
-            found = ask(vision.near, look, 30.0)
+            look = DetectBlobs(Source(film.folder, 40), 0, setup.colours, setup.limits, setup, True, width)
+            found = ask(vision.interactive, look, 30.0)
             if found["chosen"] is None:
                 raise StateError("A foot was not found in the film.", "video")
             if number:  # the first starts the process

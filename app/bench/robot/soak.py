@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from app.bench.common.measure import Row
-from app.bench.robot.judge import Findings, Judge
+from app.bench.robot.auditor import Auditor, Findings
 from app.bridge.messages import NOT_STOPPED
 from app.bridge.states import IN_RUN, LinkState, RobotState, RunPlan
 from app.bridge.stop_confirmation import STOP_LIMIT
@@ -23,7 +23,7 @@ WAYPOINTS = 10_000
 SHORTEST_PLAN, LONGEST_PLAN = 4, 16
 LARGEST_MOVE_MM = 6.0
 DURATION = 1.23
-"""Unlike that of any move to the start pose, which the judge could not tell apart otherwise, s."""
+"""Unlike that of any move to the start pose, which the auditor could not tell apart otherwise, s."""
 
 LATEST_STRIKE = 1.5
 """A fault strikes up to this long after a random waypoint was called reached, s."""
@@ -65,7 +65,7 @@ def soak(waypoints: int, seed: int = 0, faults: Sequence[Fault] = tuple(Fault)) 
         faults: taken in turn.
 
     Returns:
-        What the judge found, by the fault's name.
+        What the auditor found, by the fault's name.
     """
     found = {fault.value: Findings() for fault in faults}
     number = 0
@@ -82,7 +82,7 @@ class SoakRound:
     Args:
         fault: what strikes.
         dice: decides all that is random.
-        findings: where the judge writes.
+        findings: where the auditor writes.
     """
 
     def __init__(self, fault: Fault, dice: random.Random, findings: Findings) -> None:
@@ -92,7 +92,7 @@ class SoakRound:
         profile = dice.choice(list(ProfileName))
         start_mm = [dice.uniform(LOWEST_MM, 3.0) for _ in range(MOTORS)]
         self._bridge = VirtualLink(profile, start_mm, dice.randrange(2**31))
-        self._judge = Judge(self._bridge, findings)
+        self._auditor = Auditor(self._bridge, findings)
 
     def run(self) -> None:
         """Runs it; what goes on for ever is counted as a hang."""
@@ -127,7 +127,7 @@ class SoakRound:
     def _stream(self, plan: RunPlan, *, strikes: bool) -> None:
         bridge = self._bridge
         bridge.machine.arm(BY, bridge.now)
-        self._judge.expect(plan)
+        self._auditor.expect(plan)
         bridge.machine.send(plan, BY, bridge.now)
         strike_at = self._dice.randrange(plan.waypoints.count) if strikes else -1
         strike_time = float("inf")
@@ -141,7 +141,7 @@ class SoakRound:
                 self._strike()
             self._step(end)
         if self._robot is RobotState.FAULT:
-            self._judge.fault_named()
+            self._auditor.fault_named()
         run = bridge.snapshot.run
         if self._robot is RobotState.DONE or not strikes:
             self._findings.skipped += run is None or run.reached < plan.waypoints.count
@@ -149,9 +149,9 @@ class SoakRound:
     def _strike(self) -> None:
         motor = self._dice.randrange(MOTORS)
         if self._fault is Fault.DEAD_POT:
-            self._judge.blind_motors.add(motor)
+            self._auditor.blind_motors.add(motor)
         if self._fault is Fault.UNPLUG:
-            self._judge.show(self._bridge.now)
+            self._auditor.show(self._bridge.now)
         self._bridge.troubles.strike(self._fault, motor)
 
     def _recover(self) -> None:
@@ -160,7 +160,7 @@ class SoakRound:
         if self._robot is RobotState.FAULT:
             self._wait(STOP_LIMIT)
         bridge.troubles.mend()
-        self._judge.blind_motors.clear()
+        self._auditor.blind_motors.clear()
         if self._robot is RobotState.FAULT and (
             self._fault in NEEDS_POWER_CYCLE or NOT_STOPPED in bridge.machine.sentence
         ):
@@ -178,10 +178,10 @@ class SoakRound:
         stood = bridge.strokes_mm
         self._wait(WATCHED)
         self._findings.resumed += _farthest(stood, bridge.strokes_mm) > RESUMED_MM
-        self._judge.clearing = True
+        self._auditor.clearing = True
         self._until(self._cleared)
         self._until(lambda: self._robot is RobotState.DISARMED)
-        self._judge.clearing = False
+        self._auditor.clearing = False
         self._findings.resumed += _farthest(stood, bridge.strokes_mm) > CLEARED_MM
 
     def _cleared(self) -> bool:
@@ -202,7 +202,7 @@ class SoakRound:
 
     def _step(self, end: float) -> None:
         self._bridge.step()
-        self._judge.look()
+        self._auditor.look()
         if self._bridge.now > end:
             raise TimeoutError(f"{self._fault}: nothing ended {self._bridge.snapshot}")
 

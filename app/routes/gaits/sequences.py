@@ -7,7 +7,7 @@ from pydantic import Field
 
 from app.common.json_values import Json
 from app.gaits.open_gait import OpenGait
-from app.gaits.sequence_documents import AskedPart, made_sequence, refreshed
+from app.gaits.sequence_documents import PartReference, made_sequence, refreshed
 from app.web.dependencies import RequestBody, TheAuthor, TheStudio, changed, on_command_thread
 from core.gait.gait import MOST_NAME, MOST_NOTES, MOST_PARTS, MOST_TIMES
 
@@ -34,7 +34,7 @@ async def create_sequence(asked: NewSequence, studio: TheStudio) -> Json:
     """Saves a new gait that chains others, and gives its view."""
 
     def create() -> OpenGait:
-        parts = [AskedPart(part.gait, part.times) for part in asked.parts]
+        parts = [PartReference(part.gait, part.times) for part in asked.parts]
         gait = made_sequence(asked.name, parts, studio.gaits.document, asked.notes)
         return studio.gaits.create(gait)
 

@@ -14,7 +14,7 @@ from app.cameras.setup_schema import LensDocument, Number, SetupDocument, Side
 from app.common.json_values import Json
 from app.studio.studio import Studio
 from app.vision.services import ask
-from app.vision.worker import BoardIn, LensOf, Source, Straighten, data_url
+from app.vision.worker import FindCheckerboard, FitLens, Source, Straighten, data_url
 from app.web.dependencies import RequestBody, TheStudio
 from core.errors import InputError
 
@@ -25,10 +25,10 @@ CornersAsked = Annotated[int, Query(ge=3, le=30)]
 MOST_PICTURE = 30_000_000
 """Bytes of a picture."""
 
-MOST_BOARDS = 100
+MOST_CHECKERBOARDS = 100
 """Pictures of the checkerboard for a lens."""
 
-BOARD_SECONDS = 60.0
+CHECKERBOARD_SECONDS = 60.0
 """Longest wait for a checkerboard or a lens."""
 
 
@@ -39,7 +39,7 @@ class SetupChange(RequestBody):
     setup: SetupDocument
 
 
-class Board(RequestBody):
+class CheckerboardBody(RequestBody):
     """Where a checkerboard's inner corners are in a picture."""
 
     name: str = Field(max_length=200)
@@ -49,12 +49,12 @@ class Board(RequestBody):
     points: list[tuple[Number, Number]] = Field(max_length=900)
 
 
-class LensRequest(RequestBody):
+class LensBody(RequestBody):
     """Boards of which a lens is made."""
 
     columns: Corners
     rows: Corners
-    boards: list[Board] = Field(max_length=MOST_BOARDS)
+    boards: list[CheckerboardBody] = Field(max_length=MOST_CHECKERBOARDS)
 
 
 class Straightening(RequestBody):
@@ -130,7 +130,7 @@ async def find_board(
 ) -> Json:
     """Where a checkerboard's inner corners are in the picture that is the request's body."""
     source = Source(file=await picture_in(request), name=name)
-    return await board_of(studio, BoardIn(source, (columns, rows)))
+    return await checkerboard_of(studio, FindCheckerboard(source, (columns, rows)))
 
 
 async def picture_in(request: Request) -> bytes:
@@ -149,14 +149,16 @@ async def picture_in(request: Request) -> bytes:
     return bytes(content)
 
 
-async def board_of(studio: Studio, task: BoardIn) -> Json:
+async def checkerboard_of(studio: Studio, task: FindCheckerboard) -> Json:
     """Looks for a checkerboard."""
-    found: Json = await run_in_threadpool(lambda: ask(studio.lab.vision.boards, task, BOARD_SECONDS))
+    found: Json = await run_in_threadpool(
+        lambda: ask(studio.lab.vision.checkerboards, task, CHECKERBOARD_SECONDS)
+    )
     return found
 
 
 @router.post("/lens")
-async def make_lens(lens: LensRequest, studio: TheStudio) -> Json:
+async def make_lens(lens: LensBody, studio: TheStudio) -> Json:
     """A camera's lens out of boards that were found; says how well it explains each of them."""
     shown = [board for board in lens.boards if board.found]
     sizes = {board.size for board in shown}
@@ -174,8 +176,10 @@ async def make_lens(lens: LensRequest, studio: TheStudio) -> Json:
     for board, points in zip(shown, boards, strict=True):
         if (points < 0.0).any() or (points > size).any():
             raise InputError(f"{board.name} has corners outside its picture. Look for it again.", "boards")
-    task = LensOf(boards, size, (lens.columns, lens.rows))
-    found: Json = await run_in_threadpool(lambda: ask(studio.lab.vision.boards, task, BOARD_SECONDS))
+    task = FitLens(boards, size, (lens.columns, lens.rows))
+    found: Json = await run_in_threadpool(
+        lambda: ask(studio.lab.vision.checkerboards, task, CHECKERBOARD_SECONDS)
+    )
     each = iter(found.pop("each"))
     return {
         "lens": {**found, "boards": len(shown)},
@@ -194,7 +198,7 @@ async def straighten(asked: Straightening, studio: TheStudio) -> Json:
 
     def straight() -> bytes:
         task = Straighten(Source(file=_content(asked.picture)), asked.lens.value())
-        file: bytes = ask(studio.lab.vision.near, task, BOARD_SECONDS)
+        file: bytes = ask(studio.lab.vision.interactive, task, CHECKERBOARD_SECONDS)
         return file
 
     return {"picture": await run_in_threadpool(lambda: data_url(straight()))}

@@ -11,9 +11,9 @@ from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.common.json_values import Json
-from app.routes.lab.camera_setups import CornersAsked, board_of
-from app.routes.lab.picture_streams import BOUNDARY, LookRequest, Width, look_at, part
-from app.vision.worker import BoardIn, Source, data_url
+from app.routes.lab.camera_setups import CornersAsked, checkerboard_of
+from app.routes.lab.picture_streams import BOUNDARY, LookBody, Width, look_at, part
+from app.vision.worker import FindCheckerboard, Source, data_url
 from app.web.dependencies import RequestBody, TheStudio
 from core.errors import FootfallError
 
@@ -73,7 +73,7 @@ async def stream_camera(
 
 
 @router.post("/{camera}/look")
-async def look_at_camera(camera: str, look: LookRequest, studio: TheStudio) -> Json:
+async def look_at_camera(camera: str, look: LookBody, studio: TheStudio) -> Json:
     """What the camera sees now, with what tracking would find in it."""
     content = await run_in_threadpool(studio.lab.cameras.picture, camera)
     return await look_at(studio, Source(file=content, name=camera), look)
@@ -85,5 +85,7 @@ async def board_before_camera(
 ) -> Json:
     """Where a checkerboard is in what the camera sees now; the picture comes with it."""
     content = await run_in_threadpool(studio.lab.cameras.picture, camera)
-    found = await board_of(studio, BoardIn(Source(file=content, name=camera), (columns, rows)))
+    found = await checkerboard_of(
+        studio, FindCheckerboard(Source(file=content, name=camera), (columns, rows))
+    )
     return {**found, "picture": data_url(content)}

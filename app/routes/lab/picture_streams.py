@@ -11,7 +11,7 @@ from app.common.json_values import Json
 from app.studio.studio import Studio
 from app.videos.service import LOOK_SECONDS
 from app.vision.services import ask
-from app.vision.worker import LookAt, Source
+from app.vision.worker import DetectBlobs, Source
 from app.web.dependencies import RequestBody
 from core.vision.setup import FEET, TrackingSetup
 
@@ -22,7 +22,7 @@ BOUNDARY = "picture"
 """Between two pictures of a stream."""
 
 
-class LookRequest(RequestBody):
+class LookBody(RequestBody):
     """How a picture is looked at: whose colour (`foot` from 1, null for none), limits, setup for places."""
 
     foot: int | None = Field(default=1, ge=1, le=FEET)
@@ -38,9 +38,9 @@ class LookRequest(RequestBody):
         return None if setup is None or setup.missing else setup.tracking()
 
 
-async def look_at(studio: Studio, source: Source, look: LookRequest) -> Json:
+async def look_at(studio: Studio, source: Source, look: LookBody) -> Json:
     """A picture with what tracking would find in it."""
-    task = LookAt(
+    task = DetectBlobs(
         source,
         None if look.foot is None else look.foot - 1,
         tuple(colour.range() for colour in look.colours),
@@ -49,7 +49,7 @@ async def look_at(studio: Studio, source: Source, look: LookRequest) -> Json:
         look.shows == "mask",
         look.most,
     )
-    found: Json = await run_in_threadpool(lambda: ask(studio.lab.vision.near, task, LOOK_SECONDS))
+    found: Json = await run_in_threadpool(lambda: ask(studio.lab.vision.interactive, task, LOOK_SECONDS))
     return found
 
 

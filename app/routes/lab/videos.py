@@ -13,14 +13,14 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import ClientDisconnect
 
 from app.common.json_values import Json
-from app.routes.lab.camera_setups import Corners, board_of
-from app.routes.lab.picture_streams import BOUNDARY, LookRequest, Width, look_at, part
+from app.routes.lab.camera_setups import Corners, checkerboard_of
+from app.routes.lab.picture_streams import BOUNDARY, LookBody, Width, look_at, part
 from app.routes.lab.trials import Iterations, Length, Name, planned_for
 from app.trials.service import TrialDescription
 from app.videos.files import MOST_BYTES, Upload
-from app.videos.tracking_service import TrackOrder
+from app.videos.tracking_service import TrackingJob
 from app.vision.frame_source import PICTURES
-from app.vision.worker import BoardIn, Source
+from app.vision.worker import FindCheckerboard, Source
 from app.web.dependencies import FiniteBody, TheAuthor, TheStudio, on_command_thread
 from core.errors import FootfallError
 
@@ -34,7 +34,7 @@ BOARD_FRAMES = 24
 """Pictures of a video that are looked through for a checkerboard where none are named."""
 
 
-class TrackRequest(FiniteBody):
+class TrackBody(FiniteBody):
     """What a video shows; `run` brings the plan that the robot was sent, `gait` the plan it has now."""
 
     setup: str = Field(max_length=200)
@@ -46,7 +46,7 @@ class TrackRequest(FiniteBody):
     note: str = Field(default="", max_length=4000)
 
 
-class BoardsRequest(FiniteBody):
+class CheckerboardsBody(FiniteBody):
     """In which pictures a checkerboard is looked for; null takes some from the whole video."""
 
     columns: Corners
@@ -172,14 +172,14 @@ async def play_video(
 
 
 @router.post("/{video}/look")
-async def look_at_video(video: str, look: LookRequest, studio: TheStudio, frame: Frame = None) -> Json:
+async def look_at_video(video: str, look: LookBody, studio: TheStudio, frame: Frame = None) -> Json:
     """A picture with what tracking would find in it."""
     source = await run_in_threadpool(studio.lab.videos.source, video, frame)
     return await look_at(studio, source, look)
 
 
 @router.post("/{video}/boards")
-async def find_boards(video: str, asked: BoardsRequest, studio: TheStudio) -> Json:
+async def find_checkerboards(video: str, asked: CheckerboardsBody, studio: TheStudio) -> Json:
     """Where a checkerboard is in some of a video's pictures."""
     view = await run_in_threadpool(studio.lab.videos.view, video)
     frames = asked.frames
@@ -189,12 +189,12 @@ async def find_boards(video: str, asked: BoardsRequest, studio: TheStudio) -> Js
     boards = []
     for frame in frames:
         source = await run_in_threadpool(studio.lab.videos.source, video, frame)
-        boards.append(await board_of(studio, BoardIn(source, (asked.columns, asked.rows))))
+        boards.append(await checkerboard_of(studio, FindCheckerboard(source, (asked.columns, asked.rows))))
     return {"boards": boards}
 
 
 @router.post("/{video}/track", status_code=202)
-async def track(video: str, asked: TrackRequest, studio: TheStudio, author: TheAuthor) -> Json:
+async def track(video: str, asked: TrackBody, studio: TheStudio, author: TheAuthor) -> Json:
     """Starts following the feet; the job's result names the trial."""
     gait, gait_name, planned = await planned_for(studio, asked.run, asked.gait, asked.iterations)
     words = TrialDescription(
@@ -207,6 +207,6 @@ async def track(video: str, asked: TrackRequest, studio: TheStudio, author: TheA
         gait_name,
         asked.run,
     )
-    order = TrackOrder(video, asked.setup, words, planned)
+    order = TrackingJob(video, asked.setup, words, planned)
     content = await on_command_thread(studio, lambda: studio.job_commands.submit_tracking(order))
     return {"id": content["id"]}

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.documents.gait_json import gait_from_content
-from app.routes.patterns.schema import DrawingQuestion, LimbsQuestion, TransitionQuestion
+from app.routes.patterns.schema import DrawingBody, LimbsBody, TransitionBody
 from core.arrays import Bools
 from core.errors import InputError
 from core.gait.gait import Gait
@@ -35,7 +35,7 @@ from core.patterns.sources import (
 from core.patterns.to_gait import CycleUse, completed_gait, periodic_gait, transition_gait
 from core.robot.model import load_robot
 
-AnyQuestion = TransitionQuestion | LimbsQuestion | DrawingQuestion
+AnyQuestion = TransitionBody | LimbsBody | DrawingBody
 
 LEAST_TRANSITION, MOST_TRANSITION = 3, 60
 """Samples between which the shortest transition is sought, boundary samples included."""
@@ -67,7 +67,7 @@ class Posed:
     def lengths(self) -> range | None:
         """Lengths to be tried one after the other; None where the question gives one that is long enough."""
         asked = self.question
-        if not isinstance(asked, TransitionQuestion) or (asked.samples is not None and self.too_few is None):
+        if not isinstance(asked, TransitionBody) or (asked.samples is not None and self.too_few is None):
             return None
         beyond_cells = max((sample + 2 for _, sample, _ in asked.cells), default=LEAST_TRANSITION)
         first = max(LEAST_TRANSITION, beyond_cells, self._finishing_length(asked))
@@ -77,11 +77,11 @@ class Posed:
     def too_few(self) -> int | None:
         """The length that is asked for, where what the cursors cut cannot be finished in it."""
         asked = self.question
-        if not isinstance(asked, TransitionQuestion) or asked.samples is None:
+        if not isinstance(asked, TransitionBody) or asked.samples is None:
             return None
         return asked.samples if LEAST_SAMPLES <= asked.samples < self._finishing_length(asked) else None
 
-    def _finishing_length(self, asked: TransitionQuestion) -> int:
+    def _finishing_length(self, asked: TransitionBody) -> int:
         """Samples below which what the cursors cut could not be finished."""
         if self.second is None or not asked.walkable:
             return LEAST_TRANSITION
@@ -109,15 +109,15 @@ class Posed:
         asked = self.question
         rules = PatternRules(**asked.rules.model_dump())
         weights = PatternWeights(**asked.weights.model_dump())
-        if isinstance(asked, TransitionQuestion):
+        if isinstance(asked, TransitionBody):
             return self._transition(asked, rules, weights, samples or asked.samples or LEAST_TRANSITION)
-        if isinstance(asked, LimbsQuestion):
+        if isinstance(asked, LimbsBody):
             return self._cycle(asked, rules, weights)
         problem = completion_problem(self.first, _painted(self.first, asked), rules=rules, weights=weights)
         return _with_cells(problem, asked)
 
     def _transition(
-        self, asked: TransitionQuestion, rules: PatternRules, weights: PatternWeights, samples: int
+        self, asked: TransitionBody, rules: PatternRules, weights: PatternWeights, samples: int
     ) -> PatternProblem:
         if self.second is None:
             raise InputError("A transition leads to a second gait; name it.", "to")
@@ -134,7 +134,7 @@ class Posed:
         )
         return _with_cells(_with_locked(problem, asked.locked), asked)
 
-    def _cycle(self, asked: LimbsQuestion, rules: PatternRules, weights: PatternWeights) -> PatternProblem:
+    def _cycle(self, asked: LimbsBody, rules: PatternRules, weights: PatternWeights) -> PatternProblem:
         gait = self.first
         model = load_robot(gait.robot)
         travel = float(np.hypot(*gait.step[:2]))
@@ -159,17 +159,17 @@ class Posed:
             InputError: the pattern does not fit the question.
         """
         asked, stance = self.question, _stance(feet, self.first)
-        if isinstance(asked, TransitionQuestion):
+        if isinstance(asked, TransitionBody):
             if self.second is None:
                 raise InputError("A transition leads to a second gait; name it.", "to")
             made = transition_gait(self.first, asked.sample, self.second, asked.to_sample, stance)
-        elif isinstance(asked, LimbsQuestion):
+        elif isinstance(asked, LimbsBody):
             made = periodic_gait(stance, load_robot(self.first.robot), self._use(asked))
         else:
             made = completed_gait(self.first, stance)
         return made if name is None else replace(made, name=name)
 
-    def _use(self, asked: LimbsQuestion) -> CycleUse:
+    def _use(self, asked: LimbsBody) -> CycleUse:
         gait = self.first
         walking = [str(limb + 1) for limb, state in enumerate(asked.limbs) if state == "walks"]
         return CycleUse(
@@ -195,9 +195,9 @@ def posed(question: AnyQuestion, document: Callable[[str], Gait]) -> Posed:
         InputError: there is no such gait, or the document that stands for one cannot be read.
     """
     first, second = document(question.gait), None
-    if isinstance(question, DrawingQuestion) and question.document is not None:
+    if isinstance(question, DrawingBody) and question.document is not None:
         first = gait_from_content(question.document, "document")
-    if isinstance(question, TransitionQuestion):
+    if isinstance(question, TransitionBody):
         second = document(question.to)
     return Posed(question, first, second)
 
@@ -216,7 +216,7 @@ def _drawing(asked: AnyQuestion, gait: Gait, samples: int) -> Bools | None:
     drawing = _stance(asked.drawing, gait)
     if drawing.shape[1] == samples:
         return drawing
-    if isinstance(asked, TransitionQuestion) and asked.samples is None:
+    if isinstance(asked, TransitionBody) and asked.samples is None:
         return None
     raise InputError(
         f"The drawing to keep has {drawing.shape[1]} samples; the pattern has {samples}. Leave it out.",
@@ -224,7 +224,7 @@ def _drawing(asked: AnyQuestion, gait: Gait, samples: int) -> Bools | None:
     )
 
 
-def _painted(gait: Gait, asked: DrawingQuestion) -> Bools | None:
+def _painted(gait: Gait, asked: DrawingBody) -> Bools | None:
     return ~gait.timeline.stance if asked.painted else None
 
 
@@ -258,7 +258,7 @@ def _with_cells(problem: PatternProblem, asked: AnyQuestion) -> PatternProblem:
     return replace(problem, fixed=with_locked_cells(problem.fixed, cells))
 
 
-def _limb_notes(asked: LimbsQuestion) -> str:
+def _limb_notes(asked: LimbsBody) -> str:
     """Which limbs do not walk, and why: "Limbs 1 and 2 are held up."."""
     words = {"held": "held up", "broken": "broken", "stands": "standing"}
     parts = []

@@ -18,7 +18,7 @@ Sample = Annotated[int, Field(ge=0, lt=MOST_SAMPLES)]
 Rows = Annotated[list[Annotated[str, Field(max_length=MOST_SAMPLES)]], Field(max_length=MOST_LEGS)]
 
 
-class AskedRules(FiniteBody):
+class RulesBody(FiniteBody):
     """The rules' numbers, the thesis's by default; null switches a rule off. `balance` is a margin in m."""
 
     shortest_swing: Number = F_RULES.shortest_swing
@@ -31,7 +31,7 @@ class AskedRules(FiniteBody):
     balance: float | None = F_RULES.balance
 
 
-class AskedWeights(FiniteBody):
+class WeightsBody(FiniteBody):
     """What a change costs; whole numbers."""
 
     sample_changes: int = F_WEIGHTS.sample_changes
@@ -39,10 +39,10 @@ class AskedWeights(FiniteBody):
     drawing: int = F_WEIGHTS.drawing
 
 
-class _Question(FiniteBody):
+class _ProblemBody(FiniteBody):
     gait: str = Field(max_length=80)
-    rules: AskedRules = AskedRules()
-    weights: AskedWeights = AskedWeights()
+    rules: RulesBody = RulesBody()
+    weights: WeightsBody = WeightsBody()
     cells: list[tuple[Limb, Sample, Literal[0, 1]]] = Field(default=[], max_length=MOST_LEGS * MOST_SAMPLES)
     """Cells that were drawn, with 1 for stance and 0 for swing: they are fixed."""
     freed: list[tuple[Limb, Sample]] = Field(default=[], max_length=MOST_LEGS * MOST_SAMPLES)
@@ -53,7 +53,7 @@ class _Question(FiniteBody):
     seconds: float = Field(default=30.0, gt=0, le=MOST_SECONDS)
 
 
-class TransitionQuestion(_Question):
+class TransitionBody(_ProblemBody):
     """From a sample of one gait to a sample of another; without a length the shortest that works."""
 
     kind: Literal["transition"]
@@ -67,7 +67,7 @@ class TransitionQuestion(_Question):
     """Whether swings are long enough for the gaits' steps, also those that a cursor cuts."""
 
 
-class LimbsQuestion(_Question):
+class LimbsBody(_ProblemBody):
     """A gait of some limbs of an open gait's robot, going its way."""
 
     kind: Literal["limbs"]
@@ -75,7 +75,7 @@ class LimbsQuestion(_Question):
     limbs: list[Literal["walks", "held", "broken", "stands"]] = Field(max_length=MOST_LEGS)
 
 
-class DrawingQuestion(_Question):
+class DrawingBody(_ProblemBody):
     """The rest of a gait's drawing; a document stands for the gait where an edit is under way."""
 
     kind: Literal["drawing"]
@@ -84,7 +84,7 @@ class DrawingQuestion(_Question):
     document: dict[str, Any] | None = None
 
 
-Question = Annotated[TransitionQuestion | LimbsQuestion | DrawingQuestion, Field(discriminator="kind")]
+Question = Annotated[TransitionBody | LimbsBody | DrawingBody, Field(discriminator="kind")]
 
 
 class PatternUse(FiniteBody):

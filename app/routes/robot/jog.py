@@ -19,7 +19,7 @@ router = APIRouter(prefix="/api/robot", tags=["robot"])
 Millimetres = Annotated[float, Field(allow_inf_nan=False)]
 
 
-class Step(RequestBody):
+class JogStepBody(RequestBody):
     """One step: of a `motor` of a `foot`, of a foot along an axis, or of the body along an axis."""
 
     part: JogPart
@@ -33,7 +33,7 @@ class Step(RequestBody):
     """Of the robot: x forwards, y to the left, z up."""
 
 
-class Look(RequestBody):
+class JogRangesBody(RequestBody):
     """Whose ranges are to be told."""
 
     part: JogPart
@@ -43,12 +43,12 @@ class Look(RequestBody):
 class Target(RequestBody):
     """Where steps begin and what they are."""
 
-    steps: list[Step] = Field(max_length=MOST_STEPS)
+    steps: list[JogStepBody] = Field(max_length=MOST_STEPS)
     robot: str = "deltawalker"
     from_mm: list[Millimetres] | None = Field(default=None, max_length=MOST_MOTORS)
     """Strokes to begin with, of previews only; the measured ones where none are given."""
 
-    def wish(self, look: Look | None = None) -> JogRequest:
+    def wish(self, look: JogRangesBody | None = None) -> JogRequest:
         """The steps as values.
 
         Raises:
@@ -59,12 +59,12 @@ class Target(RequestBody):
         return JogRequest(model, tuple(_step(one) for one in self.steps), given, _look(model, look))
 
 
-class Jog(Target, ActorBody):
+class JogBody(Target, ActorBody):
     """Steps to look at (`preview`) or to make."""
 
     preview: bool = False
     """Tells target and findings, and moves nothing."""
-    look: Look | None = None
+    look: JogRangesBody | None = None
     seen_mm: list[Millimetres] | None = Field(default=None, max_length=MOST_MOTORS)
     """Target that the person saw; refused where the robot would go elsewhere."""
 
@@ -78,7 +78,7 @@ class Ghost(Target):
 
 
 @router.post("/jog")
-async def jog(studio: TheStudio, author: TheAuthor, wish: Jog) -> dict[str, Any]:
+async def jog(studio: TheStudio, author: TheAuthor, wish: JogBody) -> dict[str, Any]:
     """Moves one motor, one foot or the body by small steps; with `preview` only tells where they would lead.
 
     Needs an armed robot that stands still with no run on, and the lease. Findings are judged anew from where
@@ -109,12 +109,12 @@ async def ghost(studio: TheStudio, target: Ghost) -> Response:
     return Response(await run_in_threadpool(blob), media_type="application/octet-stream")
 
 
-def _step(step: Step) -> JogStep:
+def _step(step: JogStepBody) -> JogStep:
     foot, motor = (None if number is None else number - 1 for number in (step.foot, step.motor))
     return JogStep(step.part, step.by_mm / 1000.0, foot, motor, step.axis)
 
 
-def _look(model: RobotModel, look: Look | None) -> JogLook | None:
+def _look(model: RobotModel, look: JogRangesBody | None) -> JogLook | None:
     if look is None:
         return None
     if not 1 <= look.foot <= model.leg_count:

@@ -47,7 +47,7 @@ class Send(ActorBody):
     iterations: int = 1
 
 
-class FaultWish(RequestBody):
+class FaultBody(RequestBody):
     """Which fault strikes; `none` ends those that last."""
 
     name: Fault | Literal["none"]
@@ -124,7 +124,7 @@ async def send_stop(studio: Studio, by: str) -> None:
     left = studio.robot.bridge.try_stop(name)
     if left is not None:
         # A lane of its own: it must not wait behind anything else that the server does.
-        await asyncio.get_running_loop().run_in_executor(studio.stop_lane, left)
+        await asyncio.get_running_loop().run_in_executor(studio.stop_executor, left)
 
 
 @router.post("/stop")
@@ -212,7 +212,7 @@ async def hand_over(studio: TheStudio, author: TheAuthor, act: HandOver, actor_b
 
 
 @router.post("/fault")
-async def strike(studio: TheStudio, wish: FaultWish) -> Json:
+async def strike(studio: TheStudio, wish: FaultBody) -> Json:
     """Has something go wrong with the emulated robot at once; a real one is never touched."""
     fault = None if wish.name == "none" else wish.name
     await run_in_threadpool(studio.robot.strike, fault)

@@ -111,9 +111,9 @@ export function bodyOf(state, { gait, limbs, document, drawing, isFree }) {
 }
 
 /** The change of state that a relaxation proposes, with those that go with it. */
-export const relaxed = (state, relaxation) => relaxation.also.reduce((change, further) => ({ ...change, ...loosened({ ...state, ...change }, further) }), loosened(state, relaxation));
+export const relaxed = (state, relaxation) => relaxation.also.reduce((change, further) => ({ ...change, ...applied({ ...state, ...change }, further) }), applied(state, relaxation));
 
-function loosened(state, { rule, value, cells, samples }) {
+function applied(state, { rule, value, cells, samples }) {
   if (samples) return state.mode === "limbs" ? { cycle: samples } : { samples, shortest: false };
   if (rule !== "fixed") {
     const { scale, usual, first = usual } = RULES.find((one) => one.rule === rule);

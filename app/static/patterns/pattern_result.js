@@ -49,7 +49,7 @@ function longerSwings(state, explanation) {
     ? [h("p", { class: "quiet", text: `The rules ask for ${required}; “Swings that the feet can do” makes it ${needed} for these gaits' steps.` })] : [];
 }
 
-function clashBox(problem) {
+function conflictBox(problem) {
   const element = h("div", { class: "box-note", role: "alert", data: { tone: "caution" }, hidden: true });
   let shown = null;
   const apply = (relaxation) => {
@@ -113,7 +113,7 @@ export function patternResult(problem, search, preview) {
   const [dot, word, sentence, time] = [h("span", { class: "dot" }), h("b"), h("span", { class: "quiet" }), h("span", { class: "number quiet" })];
   const line = h("div", { class: "pattern-line", role: "status", "aria-label": "Pattern found" }, dot, word, sentence, time);
   const error = h("p", { class: "box-note", role: "alert", data: { tone: "bad" }, hidden: true });
-  const [progress, clash, best] = [progressBox(search), clashBox(problem), alternatives(problem, preview)];
+  const [progress, conflict, best] = [progressBox(search), conflictBox(problem), alternatives(problem, preview)];
   problem.watch(({ result, running, error: refusal, chosen, waiting, keep, mode }) => [result, running, refusal, chosen, waiting, keep, mode], (state) => {
     const { result, running } = state;
     const [text, tone, meaning] = running ? ["Searching", "accent", ""] : result ? TEXTS[result.status] : [state.waiting ? "Searching" : "No pattern", "quiet", ""];
@@ -126,8 +126,8 @@ export function patternResult(problem, search, preview) {
     error.hidden = !state.error;
     setText(error, state.error?.sentence ?? "");
     progress.show(running);
-    clash.show(running ? null : result);
+    conflict.show(running ? null : result);
     best.show(state);
   });
-  return [line, error, progress.element, clash.element, best.element];
+  return [line, error, progress.element, conflict.element, best.element];
 }

@@ -52,7 +52,7 @@ function panel(store, edits, ui) {
     for (const item of ui.list.children) setAttribute(item, "aria-selected", String(item.id === `version-${number}`));
     ui.list.setAttribute("aria-activedescendant", `version-${number}`);
     byId(`version-${number}`)?.scrollIntoView({ block: "nearest" });
-    setAllowed(ui.restore, version.present ? "The gait is as in this version." : null, `Puts version ${number} on the desk again; Undo takes that back`);
+    setAllowed(ui.restore, version.present ? "The gait is as in this version." : null, `Restores version ${number}; Undo takes that back`);
     return showDifference();
   }
 
@@ -86,7 +86,7 @@ function panel(store, edits, ui) {
 
   const restore = attempt(async () => {
     await edits.restoreVersion(chosen);
-    toast(`Version ${chosen} is on the desk again. Undo takes that back.`);
+    toast(`Version ${chosen} is restored. Undo takes that back.`);
     announce(`Version ${chosen} restored.`);
   });
   const keep = attempt(async () => {

@@ -5,7 +5,7 @@ import random
 import pytest
 
 import app.bench.robot.soak as bridge_soak
-from app.bench.robot.judge import Findings, Judge
+from app.bench.robot.auditor import Auditor, Findings
 from app.bench.robot.soak import SoakRound, bench_soak, soak
 from app.bridge.delivery import Delivery
 from app.bridge.states import RobotState
@@ -68,15 +68,15 @@ def test_the_judge_sees_messages_after_a_fault(monkeypatch: pytest.MonkeyPatch) 
 def test_the_judge_sees_a_wrong_stroke() -> None:
     robot = VirtualRobot()
     findings = Findings()
-    judge = Judge(robot, findings)
+    auditor = Auditor(robot, findings)
     robot.boot()
     robot.connect()
-    judge.expect(random_plan(1, 3))
+    auditor.expect(random_plan(1, 3))
     robot.machine.arm("Ada", robot.now)
     robot.machine.send(random_plan(2, 3), "Ada", robot.now)
     while robot.snapshot.robot is RobotState.MOVING:
         robot.step()
-        judge.look()
+        auditor.look()
     assert findings.unapproved == 0
     assert findings.skipped == 3
     robot.gate.write(b"<p,1,1.00" + b",20.0" * 12 + b">", robot.gate.permit())

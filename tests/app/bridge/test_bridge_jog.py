@@ -7,7 +7,7 @@ import pytest
 
 from app.bridge.jog import JogPlan
 from app.bridge.states import LinkState, RobotState
-from app.bridge.write_gate import Kind, WriteGate
+from app.bridge.write_gate import MessageKind, WriteGate
 from app.emulator.profiles import ProfileName
 from app.robot.views import jog_stop_seconds
 from core.errors import InputError, StateError
@@ -184,16 +184,18 @@ def test_a_jog_is_not_paused() -> None:
 
 WAYPOINT = encode_waypoint(np.full((4, 3), 0.005), 1.0)
 BY_KIND = {
-    Kind.WAYPOINT: {WAYPOINT},
-    Kind.JOG: {WAYPOINT},
-    Kind.RESET: {encode_reset()},
-    Kind.CLEAR: {WAYPOINT, encode_release()},
+    MessageKind.WAYPOINT: {WAYPOINT},
+    MessageKind.JOG: {WAYPOINT},
+    MessageKind.RESET: {encode_reset()},
+    MessageKind.CLEAR: {WAYPOINT, encode_release()},
 }
 
 
-@pytest.mark.parametrize("kind", list(Kind))
+@pytest.mark.parametrize("kind", list(MessageKind))
 @pytest.mark.parametrize("message", [WAYPOINT, encode_reset(), encode_release(), encode_stop(), b"<p,2,1"])
-def test_the_gate_lets_a_message_out_as_what_it_is_and_as_nothing_else(kind: Kind, message: bytes) -> None:
+def test_the_gate_lets_a_message_out_as_what_it_is_and_as_nothing_else(
+    kind: MessageKind, message: bytes
+) -> None:
     gate = WriteGate(lambda way, data, when: None, lambda: 0.0)
     if message in BY_KIND[kind]:
         assert not gate.write(message, gate.permit(), kind)

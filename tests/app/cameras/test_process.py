@@ -13,7 +13,7 @@ from app.bench.page.film import Film, draw_film, stepping_feet
 from app.cameras.address import CameraAddress
 from app.cameras.process import CameraError, CameraProcess
 from app.vision.frame_source import PICTURES
-from app.vision.recorder import RecordOrder
+from app.vision.recorder import RecordingJob
 from app.vision.recording_file import Recording, read_table
 from core.errors import InputError
 from tests.support.studio_process import wait_for
@@ -29,8 +29,8 @@ def link_of(film: Film) -> CameraProcess:
     return CameraProcess(address, lambda: None)
 
 
-def order(film: Film, folder: Path) -> RecordOrder:
-    return RecordOrder(folder, time.monotonic(), film.setup.tracking(), "Under")
+def order(film: Film, folder: Path) -> RecordingJob:
+    return RecordingJob(folder, time.monotonic(), film.setup.tracking(), "Under")
 
 
 def count(folder: Path) -> int:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from app.cameras import service as camera_desk
+from app.cameras import service as camera_service
 from app.cameras.address import CameraAddress
 from app.cameras.service import CameraService
 from app.cameras.setup_service import CameraSetupService
@@ -20,8 +20,8 @@ RECORDS = {"name": "Lab camera", "use": "side", "setup": "", "records": True}
 
 @pytest.fixture
 def service(database: Database, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[CameraService]:
-    """A desk with one served film, on a computer without cameras."""
-    monkeypatch.setattr(camera_desk, "devices", lambda: [])
+    """A service with one served film, on a computer without cameras."""
+    monkeypatch.setattr(camera_service, "devices", lambda: [])
     film = CameraAddress("film", "Film", str(tmp_path / "film.avi"), True)
     opened = CameraService(database, CameraSetupService(database), [film])
     yield opened

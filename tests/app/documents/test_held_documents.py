@@ -1,4 +1,4 @@
-"""Feet held up in documents: on the desk, in files, over edits, undo, versions, export and import."""
+"""Feet held up in documents: on the service, in files, over edits, undo, versions, export and import."""
 
 from __future__ import annotations
 
@@ -116,7 +116,7 @@ def test_an_edit_that_says_that_a_standing_foot_is_held_is_refused() -> None:
         normalise_imported(replace(FOUR, held=HeldFeet((2,), ())))
 
 
-def test_the_desk_solves_checks_and_keeps_it(service: GaitService, tmp_path: Path) -> None:
+def test_the_service_solves_checks_and_keeps_it(service: GaitService, tmp_path: Path) -> None:
     made = service.create(FOUR)
     plan = service.plan(made.id)
     assert plan.source is PlanSource.LIVE

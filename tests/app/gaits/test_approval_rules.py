@@ -62,7 +62,7 @@ class Wire:
 
 
 class ApprovalMachine(RuleBasedStateMachine):
-    """A desk that can be opened anew at any time, beside the word that was given last."""
+    """A service that can be opened anew at any time, beside the word that was given last."""
 
     def __init__(self, robot: RobotService, wire: Wire) -> None:
         super().__init__()
@@ -71,9 +71,9 @@ class ApprovalMachine(RuleBasedStateMachine):
         self.folder = tempfile.TemporaryDirectory(dir=MEMORY)
         self.simulated: dict[str, Simulated] = {}
         self.given: Given | None = None
-        self.open_desk()
+        self.open_service()
 
-    def open_desk(self) -> None:
+    def open_service(self) -> None:
         self.database = Database(Path(self.folder.name) / "studio.sqlite3")
         files = GaitFiles(Path(self.folder.name))
         self.service = GaitService(
@@ -160,7 +160,7 @@ class ApprovalMachine(RuleBasedStateMachine):
     @rule()
     def restart(self) -> None:
         self.database.close()
-        self.open_desk()
+        self.open_service()
         self.service.plan(GAIT)
         self.look()
 

@@ -1,4 +1,4 @@
-"""Approvals on the desk: of the verdict of this moment, gone for good with a reason, recorded, compared."""
+"""Approvals in the service: of the current verdict, revoked with a reason, recorded, compared."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Opened = Callable[[], GaitService]
 
 @pytest.fixture
 def simulations() -> list[Simulated]:
-    """Those that the desk knows; the last one counts."""
+    """Those that the service knows; the last one counts."""
     return []
 
 
@@ -36,11 +36,11 @@ def opened(tmp_path: Path, database: Database, simulations: list[Simulated]) -> 
     def simulated(plan: Plan) -> Simulated | None:
         return simulations[-1] if simulations else None
 
-    def open_desk() -> GaitService:
+    def open_service() -> GaitService:
         files = GaitFiles(tmp_path)
         return GaitService(files, database, lambda gait: no_solver, simulated_for=simulated)
 
-    return open_desk
+    return open_service
 
 
 def approved(service: GaitService, word: ApprovalRequest = ADA) -> None:

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from app.gaits.approvals import ApprovalRequest
-from app.gaits.live_preview import LivePreview
+from app.gaits.live_plans import LivePlans
 from app.gaits.planner import Planner
 from app.gaits.service import GaitService
 from app.plans.plan import PlanSource
@@ -45,12 +45,12 @@ class WatchedTier(FixedTier):
 
 
 class Bench:
-    """A session with a desk, as the studio has them."""
+    """A session with a service, as the studio has them."""
 
     def __init__(self, folder: Path, database: Database) -> None:
         self.tier = WatchedTier()
         self.commands = CommandQueue()
-        self.service = GaitService(GaitFiles(folder), database, LivePreview(self.tier).solve_for)
+        self.service = GaitService(GaitFiles(folder), database, LivePlans(self.tier).solve_for)
         self.plans = Planner(self.commands, self.service)
 
     def planned(self, action: Any, gait_id: str = WALK) -> Any:

@@ -1,4 +1,4 @@
-"""Sequences on the desk: made, edited, refreshed, checked and approved."""
+"""Sequences on the service: made, edited, refreshed, checked and approved."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from app.documents.gait_json import gait_content, gait_from_content, motion_hash
 from app.documents.trajectory_json import trajectory_content
 from app.export.gait_diagram import facts
 from app.gaits.approvals import ApprovalRequest
-from app.gaits.live_preview import LivePreview
-from app.gaits.sequence_documents import AskedPart, SourceState, made_sequence, refreshed, source_states
+from app.gaits.live_plans import LivePlans
+from app.gaits.sequence_documents import PartReference, SourceState, made_sequence, refreshed, source_states
 from app.gaits.service import GaitService
 from app.plans.plan import PlanSource
 from app.plans.sequence_plan import runs_without_result
@@ -36,7 +36,7 @@ from solver_jobs import MotionResult, SolveStatus, solve_live
 from tests.support.live_tiers import FixedTier
 
 NAMES = ["walk", "rotate", "s-gait", "walk-manual-0", "s-gait-manual-2", "textbook-trot"]
-TOUR = [AskedPart("walk", 3), AskedPart("rotate", 3), AskedPart("s-gait", 2)]
+TOUR = [PartReference("walk", 3), PartReference("rotate", 3), PartReference("s-gait", 2)]
 
 
 def gait(name: str) -> Gait:
@@ -183,7 +183,7 @@ def test_the_last_part_stays(service: GaitService, tour: str) -> None:
 
 
 def test_a_sequence_in_a_sequence_stands_for_its_parts(service: GaitService, tour: str) -> None:
-    longer = made_sequence("Longer", [AskedPart(tour, 2), AskedPart("walk", 1)], service.document)
+    longer = made_sequence("Longer", [PartReference(tour, 2), PartReference("walk", 1)], service.document)
     assert [part.source for part in longer.sequence] == [*["walk", "rotate", "s-gait"] * 2, "walk"]
 
 
@@ -214,16 +214,16 @@ def test_a_changed_source_is_said_and_taken_over(service: GaitService, tour: str
 
 def test_a_source_that_is_gone_leaves_its_copy(service: GaitService) -> None:
     own = service.create(replace(gait("walk"), name="Mine")).id
-    made = made_sequence("x", [AskedPart(own, 1)], service.document)
+    made = made_sequence("x", [PartReference(own, 1)], service.document)
     service.delete(own)
     assert source_states(made, service.document) == (SourceState.GONE,)
     assert refreshed(made, service.document) == made
 
 
 def test_a_part_without_a_motion_is_named(tmp_path: Path, database: Database) -> None:
-    tier = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    tier = LivePlans(FixedTier(SolveStatus.INFEASIBLE))
     service = GaitService(GaitFiles(tmp_path), database, tier.solve_for)
-    asked = [AskedPart("walk-manual-0", 1), AskedPart("rotate", 1)]
+    asked = [PartReference("walk-manual-0", 1), PartReference("rotate", 1)]
     tour = service.create(made_sequence("Tour", asked, service.document)).id
     plan = service.plan(tour)
     assert plan.waypoints is None
@@ -248,7 +248,9 @@ def odd_amble() -> Gait:
 
 def test_feet_step_between_parts_where_they_have_to(service: GaitService) -> None:
     odd = service.create(odd_amble()).id
-    tour = service.create(made_sequence("x", [AskedPart(odd, 1), AskedPart("walk", 1)], service.document)).id
+    tour = service.create(
+        made_sequence("x", [PartReference(odd, 1), PartReference("walk", 1)], service.document)
+    ).id
     plan = service.plan(tour)
     assert plan.trajectory is not None
     assert np.array_equal(plan.trajectory.contact.T, service.document(tour).timeline.stance)
@@ -263,10 +265,10 @@ def test_feet_step_between_parts_where_they_have_to(service: GaitService) -> Non
 
 
 def test_steps_that_cannot_be_made_are_named(tmp_path: Path, database: Database) -> None:
-    live = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    live = LivePlans(FixedTier(SolveStatus.INFEASIBLE))
     service = GaitService(GaitFiles(tmp_path), database, live.solve_for)
     odd = service.create(odd_amble()).id
-    asked = [AskedPart(odd, 1), AskedPart("walk-manual-0", 1)]
+    asked = [PartReference(odd, 1), PartReference("walk-manual-0", 1)]
     tour = service.create(made_sequence("x", asked, service.document)).id
     note = service.plan(tour).note
     assert "Between Part 1, “Odd” and Part 2, “Manual walk, v0” feet have to step: foot 1 by 10.0 mm" in note
@@ -279,7 +281,7 @@ def test_a_solver_that_broke_off_is_asked_again(tmp_path: Path, database: Databa
     service = GaitService(
         GaitFiles(tmp_path), database, lambda gait: lambda problem: tier.solve(problem, 1.0)
     )
-    tour = service.create(made_sequence("Tour", [AskedPart("rotate", 1)], service.document)).id
+    tour = service.create(made_sequence("Tour", [PartReference("rotate", 1)], service.document)).id
     assert service.plan(tour).broke_off
     first = service.plan(tour)
     service.ask_again(tour)
@@ -305,7 +307,7 @@ def test_a_parts_exact_result_becomes_part_of_the_plan(
 
 
 def test_five_parts_answer_well_under_a_second() -> None:
-    tier = LivePreview(_Here())
+    tier = LivePlans(_Here())
     names = ["walk", "rotate", "walk-manual-0", "s-gait", "amble"]
     before = sequence_gait("x", [SequencePart(gait(name), 2, name) for name in names])
     tier.answer(before, None, False)

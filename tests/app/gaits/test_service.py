@@ -1,4 +1,4 @@
-"""The desk: edits, undo, saving, approvals that never outlive what they approved."""
+"""The service: edits, undo, saving, approvals that never outlive what they approved."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pytest
 from app.documents.gait_json import motion_hash
 from app.documents.trajectory_json import trajectory_content
 from app.gaits.approvals import ApprovalRequest
-from app.gaits.live_preview import FAILED_SECONDS, LivePreview
+from app.gaits.live_plans import FAILED_SECONDS, LivePlans
 from app.gaits.service import GaitService
 from app.gaits.summaries import GaitSummaries
 from app.plans.plan import PlanSource
@@ -33,13 +33,13 @@ def service(tmp_path: Path, database: Database) -> GaitService:
 
 
 def reopened(tmp_path: Path, database: Database) -> GaitService:
-    """A desk whose live tier finds everything infeasible."""
+    """A service whose live tier finds everything infeasible."""
     tier = FixedTier(SolveStatus.INFEASIBLE)
-    return GaitService(GaitFiles(tmp_path), database, LivePreview(tier).solve_for)
+    return GaitService(GaitFiles(tmp_path), database, LivePlans(tier).solve_for)
 
 
 def solving(tmp_path: Path, database: Database) -> GaitService:
-    """A desk with the live tier itself."""
+    """A service with the live tier itself."""
     return GaitService(GaitFiles(tmp_path), database, lambda gait: solve_live)
 
 
@@ -290,7 +290,7 @@ def test_a_live_tier_that_broke_off_is_asked_again_and_the_old_verdict_is_gone(
     tmp_path: Path, database: Database
 ) -> None:
     tier, now = FixedTier(SolveStatus.FAILED), [0.0]
-    service = GaitService(GaitFiles(tmp_path), database, LivePreview(tier, lambda: now[0]).solve_for)
+    service = GaitService(GaitFiles(tmp_path), database, LivePlans(tier, lambda: now[0]).solve_for)
     service.check(WALK)
     service.ask_again(WALK)
     assert service.open_gait(WALK).verdict is not None
@@ -310,7 +310,7 @@ def test_what_the_live_tier_says_is_solved_counts_only_if_the_checker_confirms_i
     tmp_path: Path, database: Database
 ) -> None:
     tier = FixedTier(SolveStatus.SOLVED)
-    service = GaitService(GaitFiles(tmp_path), database, LivePreview(tier).solve_for)
+    service = GaitService(GaitFiles(tmp_path), database, LivePlans(tier).solve_for)
     plan = service.plan(WALK)
     assert plan.source is PlanSource.DRAFT
     assert "the checker found" in plan.note

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from app.bench.page.gait_list import fill
-from app.gaits.live_preview import LivePreview
+from app.gaits.live_plans import LivePlans
 from app.gaits.service import GaitService
 from app.gaits.summaries import GaitSummaries
 from app.session.event_hub import Subscriber
@@ -48,13 +48,13 @@ def files(tmp_path: Path) -> CountedFiles:
     return CountedFiles(tmp_path)
 
 
-def open_desk(files: GaitFiles, database: Database) -> GaitService:
-    return GaitService(files, database, LivePreview(FixedTier(SolveStatus.INFEASIBLE)).solve_for)
+def open_service(files: GaitFiles, database: Database) -> GaitService:
+    return GaitService(files, database, LivePlans(FixedTier(SolveStatus.INFEASIBLE)).solve_for)
 
 
 @pytest.fixture
 def service(files: CountedFiles, database: Database) -> GaitService:
-    return open_desk(files, database)
+    return open_service(files, database)
 
 
 def line(gaits: GaitSummaries, gait_id: str) -> dict[str, Any]:
@@ -78,7 +78,7 @@ def test_a_line_follows_edits_saves_and_other_programs(
     gait = service.open_gait("trial-0001").gait
     service.edit("trial-0001", replace(gait, name="Better"), "Name", None)
     assert (line(gaits, "trial-0001")["name"], line(gaits, "trial-0001")["edited"]) == ("Better", True)
-    restarted = GaitSummaries(open_desk(files, database))
+    restarted = GaitSummaries(open_service(files, database))
     assert (line(restarted, "trial-0001")["name"], line(restarted, "trial-0001")["edited"]) == (
         "Better",
         True,

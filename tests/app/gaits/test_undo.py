@@ -1,4 +1,4 @@
-"""Undo on the desk: across restarts, of one's own edits, and what it refuses."""
+"""Undo on the service: across restarts, of one's own edits, and what it refuses."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.gaits.live_preview import LivePreview
+from app.gaits.live_plans import LivePlans
 from app.gaits.service import GaitService
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
@@ -72,7 +72,7 @@ def test_a_large_log_still_keeps_a_hundred_steps(monkeypatch: pytest.MonkeyPatch
 
 def test_the_edits_of_a_page_that_is_gone_are_everybodys(tmp_path: Path, database: Database) -> None:
     pages = {"ada", "bob"}
-    tier = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    tier = LivePlans(FixedTier(SolveStatus.INFEASIBLE))
     service = GaitService(GaitFiles(tmp_path), database, tier.solve_for, lambda: frozenset(pages))
     first = service.open_gait(WALK).gait
     service.edit(WALK, toggled(first, 1, 20), "Hers", None, Author("ada", "Ada"))
@@ -89,7 +89,7 @@ def test_the_edits_of_a_page_that_is_gone_are_everybodys(tmp_path: Path, databas
 
 def test_undo_says_who_changed_the_same_since(tmp_path: Path, database: Database) -> None:
     pages = frozenset({"ada", "bob"})
-    tier = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    tier = LivePlans(FixedTier(SolveStatus.INFEASIBLE))
     service = GaitService(GaitFiles(tmp_path), database, tier.solve_for, lambda: pages)
     first = service.open_gait(WALK).gait
     service.edit(WALK, first.with_options(margin=0.001), "Margin to 1 mm", None, Author("ada", "Ada"))
@@ -106,7 +106,7 @@ def test_undo_says_who_changed_the_same_since(tmp_path: Path, database: Database
 
 
 def test_a_swing_that_two_moved_is_undone_by_the_last_one_first(tmp_path: Path, database: Database) -> None:
-    tier = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    tier = LivePlans(FixedTier(SolveStatus.INFEASIBLE))
     service = GaitService(GaitFiles(tmp_path), database, tier.solve_for, lambda: frozenset({"ada", "bob"}))
 
     def row() -> str:
@@ -136,7 +136,7 @@ def test_a_swing_that_two_moved_is_undone_by_the_last_one_first(tmp_path: Path, 
 
 
 def test_undo_leaves_cells_alone_that_somebody_locked(tmp_path: Path, database: Database) -> None:
-    tier = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    tier = LivePlans(FixedTier(SolveStatus.INFEASIBLE))
     service = GaitService(GaitFiles(tmp_path), database, tier.solve_for, lambda: frozenset({"ada", "bob"}))
     painted = toggled(service.open_gait(WALK).gait, 1, 20)
     service.edit(WALK, painted, "Paint", None, Author("ada"))
@@ -180,7 +180,7 @@ def renamed_segment(gait: Gait, foot: int, at: int, name: str) -> Gait:
 
 
 def test_two_people_edit_one_segment_table_and_undo_their_own(tmp_path: Path, database: Database) -> None:
-    tier = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    tier = LivePlans(FixedTier(SolveStatus.INFEASIBLE))
     service = GaitService(GaitFiles(tmp_path), database, tier.solve_for, lambda: frozenset({"ada", "bob"}))
     first = service.open_gait(MANUAL).gait
     service.edit(MANUAL, renamed_segment(first, 0, 3, "Hers"), "Hers", None, Author("ada"))
@@ -195,7 +195,7 @@ def test_two_people_edit_one_segment_table_and_undo_their_own(tmp_path: Path, da
 def test_a_new_length_of_the_timeline_is_not_taken_back_under_somebodys_drawing(
     tmp_path: Path, database: Database
 ) -> None:
-    tier = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    tier = LivePlans(FixedTier(SolveStatus.INFEASIBLE))
     service = GaitService(GaitFiles(tmp_path), database, tier.solve_for, lambda: frozenset({"ada", "bob"}))
     first = service.open_gait(WALK).gait
     service.edit(WALK, replace(first, iterations=2), "Two iterations", None, Author("ada"))

@@ -13,7 +13,7 @@ from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
-from app.gaits.live_preview import LivePreview
+from app.gaits.live_plans import LivePlans
 from app.gaits.service import GaitService
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
@@ -40,20 +40,20 @@ def painted(gait: Gait, foot: int, first: int, last: int, stance: bool) -> Gait:
     return replace(gait, timeline=replace(gait.timeline, stance=cells))
 
 
-class DeskMachine(RuleBasedStateMachine):
-    """A desk on its own folder that can be opened anew at any time."""
+class ServiceMachine(RuleBasedStateMachine):
+    """A service on its own folder that can be opened anew at any time."""
 
     def __init__(self) -> None:
         super().__init__()
         self.folder = tempfile.TemporaryDirectory(dir=MEMORY)
         self.database = Database(Path(self.folder.name) / "studio.sqlite3")
         self.pages = frozenset(AUTHORS)
-        self.open_desk()
+        self.open_service()
 
-    def open_desk(self) -> None:
+    def open_service(self) -> None:
         tier = FixedTier(SolveStatus.INFEASIBLE)
         self.service = GaitService(
-            GaitFiles(Path(self.folder.name)), self.database, LivePreview(tier).solve_for, lambda: self.pages
+            GaitFiles(Path(self.folder.name)), self.database, LivePlans(tier).solve_for, lambda: self.pages
         )
 
     @property
@@ -64,14 +64,14 @@ class DeskMachine(RuleBasedStateMachine):
     def restart(self) -> None:
         self.database.close()
         self.database = Database(Path(self.folder.name) / "studio.sqlite3")
-        self.open_desk()
+        self.open_service()
 
     def teardown(self) -> None:
         self.database.close()
         self.folder.cleanup()
 
 
-class OneAuthor(DeskMachine):
+class OneAuthor(ServiceMachine):
     """One person, whose tab may be closed and opened anew, against a list and a cursor."""
 
     def __init__(self) -> None:
@@ -165,7 +165,7 @@ class Painting:
         return range(max(self.altered[0] - 1, 0), min(self.altered[-1] + 2, SAMPLES))
 
 
-class TwoAuthors(DeskMachine):
+class TwoAuthors(ServiceMachine):
     """Two connected pages that paint over each other."""
 
     def __init__(self) -> None:
@@ -243,7 +243,7 @@ class TwoAuthors(DeskMachine):
         assert [tuple(map(bool, row)) for row in self.gait.timeline.stance] == self.rows
 
 
-class TwoMovers(DeskMachine):
+class TwoMovers(ServiceMachine):
     """Two connected pages that move the swings of one foot: none is ever torn, joined or lost."""
 
     def __init__(self) -> None:

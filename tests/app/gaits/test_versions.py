@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from app.gaits.approvals import ApprovalRequest
-from app.gaits.live_preview import LivePreview
+from app.gaits.live_plans import LivePlans
 from app.gaits.service import GaitService
 from app.gaits.versions import AUTOMATIC_EDITS, AUTOMATIC_SECONDS, MOST_NAME, VersionKind
 from app.store.database import Database
@@ -41,14 +41,14 @@ def clock() -> Clock:
     return Clock()
 
 
-def open_desk(folder: Path, database: Database, clock: Clock) -> GaitService:
+def open_service(folder: Path, database: Database, clock: Clock) -> GaitService:
     tier = FixedTier(SolveStatus.INFEASIBLE)
-    return GaitService(GaitFiles(folder), database, LivePreview(tier).solve_for, clock=clock)
+    return GaitService(GaitFiles(folder), database, LivePlans(tier).solve_for, clock=clock)
 
 
 @pytest.fixture
 def service(tmp_path: Path, database: Database, clock: Clock) -> GaitService:
-    return open_desk(tmp_path, database, clock)
+    return open_service(tmp_path, database, clock)
 
 
 def kinds(service: GaitService, gait_id: str = WALK) -> list[str]:
@@ -142,7 +142,7 @@ def test_versions_survive_a_restart_a_deletion_and_are_not_given_to_another_gait
     edit(service, created.id)
     unsaved = service.open_gait(created.id).gait
     assert service.delete(created.id) is None
-    again = open_desk(tmp_path, database, clock)
+    again = open_service(tmp_path, database, clock)
     other = again.create(created.gait)
     assert kinds(again, other.id) == ["saved"]
     again.restore(created.id)

@@ -97,7 +97,7 @@ def told() -> list[tuple[str, dict[str, Any]]]:
     return []
 
 
-def desk_of(told: list[tuple[str, dict[str, Any]]], *tiers: Tier) -> PatternSearchService:
+def service_of(told: list[tuple[str, dict[str, Any]]], *tiers: Tier) -> PatternSearchService:
     return PatternSearchService(tiers, lambda page, event: told.append((page, event)))
 
 
@@ -111,7 +111,7 @@ def begun(tier: Tier, count: int = 1) -> Handle:
 
 
 def test_an_answer_holds_pattern_score_and_fixed_cells(told: list[tuple[str, dict[str, Any]]]) -> None:
-    search = desk_of(told, Tier(found)).ask("page", question())
+    search = service_of(told, Tier(found)).ask("page", question())
     content = search.future.result(5)
     assert content["state"] == "done"
     assert content["result"]["patterns"][0]["feet"] == ["1" * 12] * 4
@@ -122,7 +122,7 @@ def test_an_answer_holds_pattern_score_and_fixed_cells(told: list[tuple[str, dic
 
 def test_the_newest_question_of_a_page_ends_the_one_before(told: list[tuple[str, dict[str, Any]]]) -> None:
     tier = Tier()
-    service = desk_of(told, tier)
+    service = service_of(told, tier)
     older = service.ask("page", question())
     begun(tier)
     assert service.detach(older)
@@ -136,7 +136,7 @@ def test_the_newest_question_of_a_page_ends_the_one_before(told: list[tuple[str,
 
 def test_pages_and_scripts_do_not_end_each_others_searches(told: list[tuple[str, dict[str, Any]]]) -> None:
     tier = Tier()
-    service = desk_of(told, tier)
+    service = service_of(told, tier)
     searches = [service.ask(page, question()) for page in ("one", "two", "", "")]
     begun(tier, 4)
     assert not any(search.future.done() for search in searches)
@@ -147,7 +147,7 @@ def test_pages_and_scripts_do_not_end_each_others_searches(told: list[tuple[str,
 
 def test_a_search_that_goes_on_tells_its_page_alone(told: list[tuple[str, dict[str, Any]]]) -> None:
     tier = Tier()
-    service = desk_of(told, tier)
+    service = service_of(told, tier)
     search = service.ask("one", question())
     handle = begun(tier)
     assert service.detach(search)
@@ -163,7 +163,7 @@ def test_a_search_that_goes_on_tells_its_page_alone(told: list[tuple[str, dict[s
 
 def test_a_search_goes_to_the_process_that_has_the_fewest(told: list[tuple[str, dict[str, Any]]]) -> None:
     first, second = Tier(), Tier()
-    service = desk_of(told, first, second)
+    service = service_of(told, first, second)
     service.ask("one", question())
     begun(first)
     service.ask("two", question())
@@ -175,7 +175,7 @@ def test_a_search_goes_to_the_process_that_has_the_fewest(told: list[tuple[str, 
 
 def test_a_cancelled_search_and_one_of_a_page_that_left_end(told: list[tuple[str, dict[str, Any]]]) -> None:
     tier = Tier()
-    service = desk_of(told, tier)
+    service = service_of(told, tier)
     search = service.ask("one", question())
     begun(tier)
     assert service.cancel(search.id)["id"] == search.id
@@ -188,7 +188,7 @@ def test_a_cancelled_search_and_one_of_a_page_that_left_end(told: list[tuple[str
 
 def test_the_first_length_that_works_is_taken(told: list[tuple[str, dict[str, Any]]]) -> None:
     tier = Tier(lambda problem: none(problem, 7) if problem.sample_count < 7 else found(problem))
-    search = desk_of(told, tier).ask("page", question(range(4, 61)))
+    search = service_of(told, tier).ask("page", question(range(4, 61)))
     assert search.future.result(5)["result"]["samples"] == 7
     assert [handle.problem.sample_count for handle in tier.handles] == [4, 7]
 
@@ -197,7 +197,7 @@ def test_lengths_that_were_not_tried_are_not_said_to_be_impossible(
     told: list[tuple[str, dict[str, Any]]],
 ) -> None:
     tier = Tier()
-    service = desk_of(told, tier)
+    service = service_of(told, tier)
     search = service.ask("page", question(range(4, 61)))
     handle = begun(tier)
     # The answer of this length arrives together with the wish to end.
@@ -219,7 +219,7 @@ def test_a_search_that_is_cancelled_before_it_reaches_a_process_ends(
             assert goes_on.wait(60)
             return super().submit(problem, **words)
 
-    service = desk_of(told, SlowTier())
+    service = service_of(told, SlowTier())
     search = service.ask("page", question())
     assert reached.wait(60)
     service.cancel(search.id)
@@ -245,7 +245,7 @@ def test_a_length_that_is_too_short_is_said_with_the_first_one_that_works(
 ) -> None:
     tier = Tier(lambda problem: none(problem, 9) if problem.sample_count < 9 else found(problem))
     asked = PatternRequest(transition, range(7, 61), 1, 5.0, too_few=4)
-    result = desk_of(told, tier).ask("page", asked).future.result(5)["result"]
+    result = service_of(told, tier).ask("page", asked).future.result(5)["result"]
     assert (result["status"], result["patterns"]) == ("infeasible", [])
     assert result["explanation"][0].startswith("4 samples are too few to finish the swings and stances")
     assert [(one["samples"], one["words"]) for one in result["relaxations"]] == [
@@ -257,13 +257,13 @@ def test_where_no_length_works_the_last_ones_reason_stands_too(
     told: list[tuple[str, dict[str, Any]]],
 ) -> None:
     asked = PatternRequest(transition, range(7, 8), 1, 5.0, too_few=4)
-    result = desk_of(told, Tier(none)).ask("page", asked).future.result(5)["result"]
+    result = service_of(told, Tier(none)).ask("page", asked).future.result(5)["result"]
     assert result["explanation"][1:] == ["It is too short."]
 
 
 def test_a_solver_that_breaks_off_is_said(told: list[tuple[str, dict[str, Any]]]) -> None:
     tier = Tier()
-    service = desk_of(told, tier)
+    service = service_of(told, tier)
     search = service.ask("page", question())
     begun(tier).end(StateError("The pattern solver's process ended twice."))
     assert search.future.result(5) == {
@@ -278,9 +278,9 @@ def test_a_problem_that_cannot_be_posed_is_refused_at_once(told: list[tuple[str,
         raise InputError("No limb walks.", "limbs")
 
     with pytest.raises(InputError, match="No limb walks"):
-        desk_of(told, Tier()).ask("page", PatternRequest(refuse, None, 1, 5.0))
+        service_of(told, Tier()).ask("page", PatternRequest(refuse, None, 1, 5.0))
 
 
 def test_a_search_that_nobody_began_is_unknown(told: list[tuple[str, dict[str, Any]]]) -> None:
     with pytest.raises(NotFoundError, match="no search 7"):
-        desk_of(told, Tier()).search(7)
+        service_of(told, Tier()).search(7)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from app.routes.patterns.problems import Posed, posed
-from app.routes.patterns.schema import TransitionQuestion
+from app.routes.patterns.schema import TransitionBody
 from core.library.library import library
 from core.patterns.problem import FREE, PatternRules
 
 
 def asked(walkable: bool, samples: int | None = 12, to_sample: int = 9) -> Posed:
-    question = TransitionQuestion(
+    question = TransitionBody(
         kind="transition",
         gait="walk",
         sample=5,

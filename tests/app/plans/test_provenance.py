@@ -26,13 +26,13 @@ from solver_jobs import solve_live
 WALK = "walk"
 
 
-def make_desk(folder: Path, database: Database) -> GaitService:
+def make_service(folder: Path, database: Database) -> GaitService:
     return GaitService(GaitFiles(folder), database, lambda gait: solve_live)
 
 
 @pytest.fixture
 def service(tmp_path: Path, database: Database) -> GaitService:
-    return make_desk(tmp_path, database)
+    return make_service(tmp_path, database)
 
 
 def longer(gait: Gait) -> Gait:
@@ -122,7 +122,7 @@ def test_a_page_that_has_not_heard_of_a_result_does_not_take_it_away(service: Ga
 
 def test_it_survives_a_restart_saved_or_not(service: GaitService, tmp_path: Path, database: Database) -> None:
     take(service, WALK)
-    assert make_desk(tmp_path, database).open_gait(WALK).gait.provenance is not None
+    assert make_service(tmp_path, database).open_gait(WALK).gait.provenance is not None
     service.save(WALK)
     assert GaitFiles(tmp_path).read(WALK).provenance == service.open_gait(WALK).gait.provenance
 
@@ -135,7 +135,7 @@ def test_a_file_from_another_machine_says_that_the_result_is_not_here(
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
     database = Database(elsewhere / "studio.sqlite3")
-    other = make_desk(elsewhere, database)
+    other = make_service(elsewhere, database)
     gait_id = other.create(gait).id
     assert shown(other, gait_id) == (True, False)
     assert other.plan(gait_id).source is PlanSource.LIVE

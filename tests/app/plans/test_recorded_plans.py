@@ -15,7 +15,7 @@ from app.export.formats import ExportFormat, export
 from app.export.import_gait import read_gait
 from app.export.source import Exportable, exportable_plan
 from app.gaits.approvals import ApprovalRequest
-from app.gaits.sequence_documents import AskedPart, made_sequence
+from app.gaits.sequence_documents import PartReference, made_sequence
 from app.gaits.service import GaitService
 from app.plans.plan import Plan, PlanSource, make_plan, verdict_of
 from app.store.database import Database
@@ -291,7 +291,7 @@ def test_a_sequence_that_begins_with_a_recorded_motion_is_exported_whole(
     service: GaitService, recorded: Gait, motion: Trajectory
 ) -> None:
     mine = service.create(replace(recorded, provenance=PROVENANCE))
-    tour = service.create(made_sequence("Tour", [AskedPart(mine.id, 2)], service.document)).gait
+    tour = service.create(made_sequence("Tour", [PartReference(mine.id, 2)], service.document)).gait
     assert (tour.recorded, tour.provenance, motion_source(tour)) == (None, None, MotionSource.SEQUENCE)
     older = replace(tour, recorded=recorded.recorded)
     assert motion_source(older) is MotionSource.SEQUENCE

@@ -39,7 +39,7 @@ def app_with(bridge: FakeBridge, lane: ThreadPoolExecutor | None = None) -> Fast
     app = FastAPI()
     app.include_router(robot.router)
     service = SimpleNamespace(bridge=bridge, view=dict)
-    app.state.studio = SimpleNamespace(robot=service, stop_lane=lane)
+    app.state.studio = SimpleNamespace(robot=service, stop_executor=lane)
     return app
 
 

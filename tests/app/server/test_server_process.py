@@ -245,7 +245,7 @@ def test_a_busy_port_is_exit_2_and_names_the_option(tmp_path: Path) -> None:
     assert ended.stdout == ""
 
 
-def test_a_live_answer_follows_a_document_and_leaves_the_desk_alone(studio: StudioProcess) -> None:
+def test_a_live_answer_follows_a_document_and_leaves_the_gait_alone(studio: StudioProcess) -> None:
     before = studio.ask("GET", "/api/gaits/walk/view").content
     document = before["document"] | {"step": [0.0085, 0.0085, 0.0]}
     answer = studio.ask("POST", "/api/gaits/walk/live", {"document": document}).content

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from app.gaits.open_gait import OpenGait
-from app.gaits.sequence_documents import AskedPart, made_sequence
+from app.gaits.sequence_documents import PartReference, made_sequence
 from app.studio.studio import Studio
 
 DEADLINE = 60
@@ -35,7 +35,7 @@ def test_an_edit_of_a_part_tells_an_open_sequence_only_how_its_parts_stand(
     part = "walk-manual-0"
 
     def made() -> OpenGait:
-        parts = [AskedPart(part, 2), AskedPart("amble-manual-0", 1)]
+        parts = [PartReference(part, 2), PartReference("amble-manual-0", 1)]
         return studio.gaits.create(made_sequence("Tour", parts, studio.gaits.document, ""))
 
     tour = studio.change(made).result(DEADLINE)["id"]

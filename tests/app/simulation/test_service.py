@@ -68,8 +68,8 @@ class Tier:
         return self.handles[-1]
 
 
-class Desk:
-    """A desk whose session is the test's own thread and those of the simulations."""
+class ServiceRig:
+    """A service whose session is the test's own thread and those of the simulations."""
 
     def __init__(self, database: Database) -> None:
         self.tier = Tier()
@@ -97,15 +97,15 @@ def open_gait() -> OpenGait:
 
 
 @pytest.fixture
-def service(database: Database) -> Iterator[Desk]:
-    made = Desk(database)
+def service(database: Database) -> Iterator[ServiceRig]:
+    made = ServiceRig(database)
     yield made
     for handle in made.tier.handles:
         handle.ended.set()
     made.service.close()
 
 
-def test_a_simulation_that_is_done_is_kept_with_its_figures(service: Desk) -> None:
+def test_a_simulation_that_is_done_is_kept_with_its_figures(service: ServiceRig) -> None:
     job_id = service.submit()
     assert service.job_repository.content(job_id)["state"] == "queued"
     service.tier.handles[0].end()
@@ -120,7 +120,7 @@ def test_a_simulation_that_is_done_is_kept_with_its_figures(service: Desk) -> No
     assert len(kept["motion"]["times"]) == len(kept["motion"]["strokes_mm"])
 
 
-def test_progress_is_told_while_it_goes(service: Desk) -> None:
+def test_progress_is_told_while_it_goes(service: ServiceRig) -> None:
     job_id = service.submit()
     service.tier.handles[0].progress(0.25)
     assert service.shown == [("running", 0.25)]
@@ -130,7 +130,7 @@ def test_progress_is_told_while_it_goes(service: Desk) -> None:
     service.wait(job_id, "done")
 
 
-def test_a_cancelled_simulation_leaves_nothing(service: Desk) -> None:
+def test_a_cancelled_simulation_leaves_nothing(service: ServiceRig) -> None:
     job_id = service.submit()
     assert service.service.cancel(job_id)["state"] == "cancelling"
     service.wait(job_id, "cancelled")
@@ -138,7 +138,7 @@ def test_a_cancelled_simulation_leaves_nothing(service: Desk) -> None:
     assert service.service.cancel(job_id)["state"] == "cancelled"
 
 
-def test_a_simulation_that_fails_says_why_and_the_next_one_may_begin(service: Desk) -> None:
+def test_a_simulation_that_fails_says_why_and_the_next_one_may_begin(service: ServiceRig) -> None:
     job_id = service.submit()
     service.tier.handles[0].end(StateError("The physics' process ended twice."))
     service.wait(job_id, "failed")
@@ -146,14 +146,14 @@ def test_a_simulation_that_fails_says_why_and_the_next_one_may_begin(service: De
     assert service.submit() != job_id
 
 
-def test_a_gait_is_simulated_once_at_a_time(service: Desk) -> None:
+def test_a_gait_is_simulated_once_at_a_time(service: ServiceRig) -> None:
     service.submit()
     with pytest.raises(StateError, match="is being simulated"):
         service.submit()
 
 
 def test_after_a_restart_a_simulation_that_was_on_asks_to_simulate_again(
-    service: Desk, database: Database
+    service: ServiceRig, database: Database
 ) -> None:
     job_id = service.submit()
     again = JobRepository(database).content(job_id)
@@ -161,6 +161,6 @@ def test_after_a_restart_a_simulation_that_was_on_asks_to_simulate_again(
     assert again["sentence"].endswith("Simulate again.")
 
 
-def test_an_unknown_job_cannot_be_cancelled(service: Desk) -> None:
+def test_an_unknown_job_cannot_be_cancelled(service: ServiceRig) -> None:
     with pytest.raises(NotFoundError):
         service.service.cancel("none")

@@ -124,7 +124,7 @@ def check(folder: Path, known: Acknowledged) -> None:
         assert not list(folder.rglob("*.partial"))
 
 
-def test_what_a_killed_desk_acknowledged_is_there(worker: subprocess.Popen[str], tmp_path: Path) -> None:
+def test_what_a_killed_service_acknowledged_is_there(worker: subprocess.Popen[str], tmp_path: Path) -> None:
     dice, known = random.Random(SEED), Acknowledged()
     done = 0
     for _ in range(ROUNDS):

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from app.documents.gait_json import gait_content
-from app.gaits.live_preview import LivePreview
+from app.gaits.live_plans import LivePlans
 from app.gaits.service import GaitService
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
@@ -51,8 +51,8 @@ def old_database(path: Path, cursor: int) -> None:
     connection.close()
 
 
-def desk_on(folder: Path, database: Database) -> GaitService:
-    return GaitService(GaitFiles(folder), database, LivePreview(FixedTier(SolveStatus.INFEASIBLE)).solve_for)
+def service_on(folder: Path, database: Database) -> GaitService:
+    return GaitService(GaitFiles(folder), database, LivePlans(FixedTier(SolveStatus.INFEASIBLE)).solve_for)
 
 
 @pytest.mark.parametrize("cursor", [0, 1, 3])
@@ -61,12 +61,12 @@ def test_undo_and_redo_go_on_where_the_cursor_stood(tmp_path: Path, cursor: int)
     old_database(path, cursor)
     for _ in range(2):  # the second time there is nothing left to migrate
         database = Database(path)
-        service = desk_on(tmp_path, database)
+        service = service_on(tmp_path, database)
         assert service.open_gait(GAIT).gait == named(cursor)
         assert service.open_gait(GAIT).revision == 9
         database.close()
     database = Database(path)
-    service = desk_on(tmp_path, database)
+    service = service_on(tmp_path, database)
     for at in range(cursor + 1, 4):
         assert service.redo(GAIT).gait == named(at)
     with pytest.raises(StateError, match="nothing to redo"):

@@ -43,7 +43,7 @@ def closed(monkeypatch: pytest.MonkeyPatch) -> list[type]:
 
 def threads_of_the_studio() -> set[str]:
     names = {thread.name.split("_")[0].split("-")[0] for thread in threading.enumerate()}
-    return names & {"session", "stop", "plans", "footfall", "run recordings"}
+    return names & {"commands", "stop", "plans", "footfall", "run recordings"}
 
 
 def test_the_robot_is_closed_first_and_what_the_others_need_last(tmp_path: Path, closed: list[type]) -> None:

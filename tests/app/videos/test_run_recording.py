@@ -18,7 +18,7 @@ from app.store.database import Database
 from app.store.run_store import RunStore
 from app.videos.run_recording import RunRecordings
 from app.videos.service import VideoService
-from app.vision.recorder import Recorded, RecordOrder
+from app.vision.recorder import Recorded, RecordingJob
 from app.vision.recording_file import RecordingWriter
 from app.vision.services import VisionServices
 from app.vision.video_io import jpeg
@@ -32,7 +32,7 @@ def broken(*_: object) -> NoReturn:
     raise RuntimeError("This is a defect.")
 
 
-def writing(order: RecordOrder) -> None:
+def writing(order: RecordingJob) -> None:
     writer = RecordingWriter(order.folder)
     for number in range(3):
         writer.add(GREY, 0.1 * number)
@@ -40,7 +40,7 @@ def writing(order: RecordOrder) -> None:
 
 
 def cameras(
-    record: Callable[[RecordOrder], None], finish: Callable[[float], Recorded] = broken
+    record: Callable[[RecordingJob], None], finish: Callable[[float], Recorded] = broken
 ) -> CameraService:
     """One camera, whose recordings cannot be ended if nothing else is said."""
     view = {"id": "side", "name": "Side", "use": SIDE, "setup": ""}
@@ -60,7 +60,7 @@ def test_an_unexpected_error_leaves_no_video_that_is_being_recorded(
     database: Database,
     vision: VisionServices,
     monkeypatch: pytest.MonkeyPatch,
-    record: Callable[[RecordOrder], None],
+    record: Callable[[RecordingJob], None],
     state: str,
 ) -> None:
     monkeypatch.setattr(RunStore, "get", lambda log, run: SimpleNamespace(content=RUN))
@@ -81,7 +81,7 @@ def test_the_next_run_is_recorded_while_the_trial_of_the_last_one_is_made(
     begun: queue.SimpleQueue[str] = queue.SimpleQueue()
     may_go_on = threading.Event()
 
-    def recording(order: RecordOrder) -> None:
+    def recording(order: RecordingJob) -> None:
         writing(order)
         begun.put(order.folder.name)
 

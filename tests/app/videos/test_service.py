@@ -10,14 +10,14 @@ import pytest
 
 from app.store.database import Database
 from app.store.video_store import VideoStore
-from app.videos import service as video_desk
+from app.videos import service as video_service
 from app.videos.files import Upload
 from app.videos.service import VideoService
 from app.vision.frame_source import PICTURES
 from app.vision.recording_file import Recording, RecordingWriter
 from app.vision.services import VisionServices, VisionTask, ask
 from app.vision.video_io import jpeg, read_picture
-from app.vision.worker import FactsOf
+from app.vision.worker import ReadFacts
 from core.errors import FootfallError, InputError, StateError
 from tests.support.studio_process import wait_for
 
@@ -78,7 +78,7 @@ def test_a_recording_without_pictures_says_so(service: VideoService) -> None:
 
 
 def test_the_oldest_recordings_make_room(service: VideoService, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(video_desk, "MOST_RECORDED", 1.5 * len(GREY) * 3)
+    monkeypatch.setattr(video_service, "MOST_RECORDED", 1.5 * len(GREY) * 3)
     old, new = recorded(service, 3), recorded(service, 3)
     for video in (old, new):
         service.change(video, state="kept", bytes=3 * len(GREY))
@@ -95,7 +95,7 @@ def test_a_video_that_was_deleted_long_ago_goes(
     service.delete(video)
     service.tidy()
     assert service.files.path(video).exists()
-    monkeypatch.setattr(video_desk, "MOST_DELETED", -1.0)
+    monkeypatch.setattr(video_service, "MOST_DELETED", -1.0)
     service.tidy()
     assert not service.files.path(video).exists()
 
@@ -147,11 +147,11 @@ def test_an_answer_that_cannot_be_kept_is_told_and_the_next_one_comes(
         failures.append(error)
         raise OSError("The disk is full.")
 
-    facts = FactsOf(service.files.path(recorded(service, 3)))
-    look = vision.near.ask(VisionTask(facts, done=broken, failed=broken_again))
+    facts = ReadFacts(service.files.path(recorded(service, 3)))
+    look = vision.interactive.ask(VisionTask(facts, done=broken, failed=broken_again))
     with pytest.raises(StateError):
         look.result(60.0)
-    assert ask(vision.near, facts, 60.0).count == 3
+    assert ask(vision.interactive, facts, 60.0).count == 3
     assert len(failures) == 1
 
 
@@ -172,4 +172,4 @@ def test_an_answer_that_does_not_come_in_time_is_a_sentence(
     service: VideoService, vision: VisionServices
 ) -> None:
     with pytest.raises(StateError, match="the computer is busy"):
-        ask(vision.near, FactsOf(service.files.path(recorded(service, 3))), 0.0)
+        ask(vision.interactive, ReadFacts(service.files.path(recorded(service, 3))), 0.0)

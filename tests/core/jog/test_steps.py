@@ -13,7 +13,7 @@ from hypothesis.extra.numpy import arrays
 from core.arrays import Floats
 from core.errors import InputError
 from core.findings import Finding, Severity
-from core.jog.check import JogAnswer, check_jog, feet_in_robot
+from core.jog.check import JogCheck, check_jog, feet_in_robot
 from core.jog.steps import Axis, JogPart, JogStep, jog_range, jog_strokes, within_range
 from core.robot.leg import strokes_from_foot
 from core.robot.model import ROBOT_NAMES, load_robot
@@ -55,7 +55,7 @@ def along(step: JogStep) -> Floats:
     return np.array([float(axis is step.axis) for axis in Axis])
 
 
-def found(answer: JogAnswer, rule: str) -> Finding:
+def found(answer: JogCheck, rule: str) -> Finding:
     """The one finding of a rule."""
     (finding,) = [f for f in answer.findings if f.rule == rule]
     return finding

@@ -16,7 +16,7 @@ from core.gait.manual_motion import manual_motion
 from core.gait.options import GaitOptions
 from core.gait.transition import feet_transition
 from core.library.library import library, optimised_entry
-from core.library.sequence import chain_runs, derived, outline, run_of, sequence_gait
+from core.library.sequence import chain_runs, derived, ends_and_contact, run_of, sequence_gait
 from core.motion.balance import balance_margins
 from core.motion.trajectory import Trajectory
 from core.problem.body_move import BodyPlace, MoveLimits, body_move
@@ -72,7 +72,7 @@ FIELDS = ("times", "body_world", "heading", "feet_world", "contact")
 
 @pytest.mark.parametrize("name", ["walk", "rotate", "s-gait-manual-1"])
 def test_a_chain_of_one_is_that_motion(name: str) -> None:
-    motion = outline(gait(name), MODEL)
+    motion = ends_and_contact(gait(name), MODEL)
     whole = chained(motion)
     for field in FIELDS:
         assert np.array_equal(getattr(whole.trajectory, field), getattr(motion, field))
@@ -114,7 +114,7 @@ def test_more_than_a_full_turn_is_kept() -> None:
 
 def test_a_part_that_turns_runs_so_many_times_as_copies() -> None:
     sequence = sequence_gait("Turn", [part("rotate", 3)])
-    copies = [outline(gait("rotate"), MODEL)] * 3
+    copies = [ends_and_contact(gait("rotate"), MODEL)] * 3
     once = chained(*copies).trajectory
     whole = chain_runs(sequence, MODEL, copies[:1], no_steps).trajectory
     for field in FIELDS:
@@ -203,7 +203,7 @@ def test_the_timeline_is_the_contact_of_the_chained_motion() -> None:
     parts = [part("walk-manual-0", 2), part("rotate", 2), part("amble-manual-1")]
     sequence = sequence_gait("By hand", parts)
     runs = [run_of(one).gait for one in parts]
-    whole = chain_runs(sequence, MODEL, [outline(run, MODEL) for run in runs], no_steps)
+    whole = chain_runs(sequence, MODEL, [ends_and_contact(run, MODEL) for run in runs], no_steps)
     assert np.array_equal(whole.trajectory.contact.T, sequence.timeline.stance)
     assert [span.is_transition for span in whole.spans] == [False, True, False, False, True, False]
 
@@ -231,7 +231,7 @@ def test_a_foot_that_stands_elsewhere_steps_and_the_others_stay() -> None:
     assert sequence.timeline.sample_count == first.knot_count + 14 + 44
     between = sequence.timeline.stance[:, first.knot_count - 1 : first.knot_count + 14]
     assert (~between).sum(axis=1).tolist() == [5, 0, 0, 0]
-    then = placed_on(first, outline(gait("walk"), MODEL))
+    then = placed_on(first, ends_and_contact(gait("walk"), MODEL))
     assert then.stays.tolist() == [False, True, True, True]
 
 

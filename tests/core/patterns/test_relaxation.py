@@ -1,4 +1,4 @@
-"""A pattern's problem, loosened in one place."""
+"""A pattern's problem, relaxed in one place."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ import pytest
 from core.motion.trajectory import Trajectory
 from core.runs.iterations import iteration_arrivals, plan_ends
 from core.runs.pose import RanPlan
-from core.runs.reading import Command, RunSeries
+from core.runs.reading import RunSeries, SentWaypoint
 from tests.support.ran_robot import ROBOT, ran
 
 
@@ -32,7 +32,7 @@ def twice(trajectory: Trajectory) -> Trajectory:
 
 def series(arrived: list[tuple[int, int, float]]) -> RunSeries:
     strokes = (0.0,) * 12
-    commands = tuple(Command(0.0, strokes, index, lap, time, strokes) for lap, index, time in arrived)
+    commands = tuple(SentWaypoint(0.0, strokes, index, lap, time, strokes) for lap, index, time in arrived)
     return RunSeries(np.zeros(0), np.zeros((0, 12)), np.zeros(0, dtype=np.int64), commands)
 
 

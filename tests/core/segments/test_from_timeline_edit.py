@@ -15,7 +15,7 @@ from core.library.library import Group, default_vocabulary, group_ids, library
 from core.motion.contact_timeline import ContactTimeline, timeline_from_order
 from core.segments.from_timeline import table_from_timeline
 from core.segments.from_timeline_edit import Carried, carried
-from core.segments.segment_chains import LinkedRow, RowWish, cheapest_chain
+from core.segments.segment_chains import LinkedRow, RowTemplate, cheapest_chain
 from core.segments.segment_table import SegmentTable, SegmentVocabulary
 
 BY_HAND = group_ids(Group.BY_HAND)
@@ -276,7 +276,7 @@ def test_a_length_that_fits_nowhere_in_hundreds_of_segments_is_refused_after_a_t
     airborne = np.zeros((4, long.samples_per_segment), dtype=bool)
     tried = []
 
-    def counted(wish: RowWish, vocabulary: SegmentVocabulary) -> LinkedRow | None:
+    def counted(wish: RowTemplate, vocabulary: SegmentVocabulary) -> LinkedRow | None:
         tried.append(wish)
         return cheapest_chain(wish, vocabulary)
 

@@ -183,12 +183,12 @@ def test_a_setup_that_was_changed_elsewhere_is_shown_as_it_is_now(
         for one in studio.ask("GET", "/api/setups").content["setups"]
         if one["setup"]["name"] == name.input_value()
     )
-    setup = {**view["setup"], "name": "from another desk"}
+    setup = {**view["setup"], "name": "from another service"}
     assert studio.ask("PUT", f"/api/setups/{view['id']}", {"revision": 1, "setup": setup}).status == 200
     name.fill("mine")
     name.press("Tab")
     expect(page.get_by_role("alert").filter(has_text="changed elsewhere meanwhile")).to_be_visible()
-    expect(name).to_have_value("from another desk")
+    expect(name).to_have_value("from another service")
     name.fill("mine")
     name.press("Tab")
     expect(panel(page).get_by_role("status", name="Setup state")).to_contain_text("Kept, version 3.")

@@ -1,4 +1,4 @@
-"""The pattern search on the page: transitions, clashes that are relaxed, some limbs that walk, drawings."""
+"""The pattern search on the page: transitions, conflicts that are relaxed, some limbs that walk, drawings."""
 
 from __future__ import annotations
 
@@ -150,7 +150,7 @@ def test_what_is_drawn_stays_and_is_freed_again(search: Page) -> None:
     expect(search.locator("#toasts")).to_contain_text("Move the cursor to another sample")
 
 
-def test_a_clash_is_explained_and_a_button_relaxes_it(search: Page) -> None:
+def test_a_conflict_is_explained_and_a_button_relaxes_it(search: Page) -> None:
     solved(search)
     search.get_by_label("Swings that the feet can do").uncheck()
     solved(search)

@@ -1,4 +1,4 @@
-"""Why there is no pattern: smallest sets of clauses that clash, their words, and what loosens them."""
+"""Why there is no pattern: smallest sets of clauses that conflict, their words, and what relaxes them."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from core.patterns.problem import BalanceModel, PatternProblem, PatternStatus, R
 from core.patterns.relaxation import relaxed
 from solver_jobs import solve_pattern
 from solver_jobs.patterns.explain import Explanation, explain
-from solver_jobs.patterns.probe import Answer, Probe
-from tests.support.solvers.conflicts import CLASHES, F_RULES, periodic, transition
+from solver_jobs.patterns.probe import Feasibility, Probe
+from tests.support.solvers.conflicts import CONFLICTS, F_RULES, periodic, transition
 
 NO_ROOM = "at some sample only two feet are down, and at least 3 must be."
 
@@ -58,7 +58,7 @@ SENTENCES = {
     "must be.",
 }
 
-LOOSENED = {
+RELAXED = {
     "locked limbs leave two feet": [],
     "no foot at the start": [],
     "the start lifts a side": ["A side without a foot down"],
@@ -93,21 +93,21 @@ LOOSENED = {
 }
 
 
-@pytest.fixture(scope="module", params=CLASHES)
+@pytest.fixture(scope="module", params=CONFLICTS)
 def explained(request: pytest.FixtureRequest) -> tuple[str, PatternProblem, Explanation]:
-    problem = CLASHES[request.param]
+    problem = CONFLICTS[request.param]
     return request.param, problem, explain(problem)
 
 
-def test_the_clauses_clash_and_each_is_needed(explained: tuple[str, PatternProblem, Explanation]) -> None:
+def test_the_clauses_conflict_and_each_is_needed(explained: tuple[str, PatternProblem, Explanation]) -> None:
     _, problem, why = explained
     assert Probe().conflict(problem, why.clauses)
     for clause in why.clauses:
         others = [other for other in why.clauses if other is not clause]
-        assert Probe().ask(problem, asked_by(others)) is Answer.SOLVABLE, clause
+        assert Probe().ask(problem, asked_by(others)) is Feasibility.SOLVABLE, clause
 
 
-def test_the_clash_is_said_in_words(explained: tuple[str, PatternProblem, Explanation]) -> None:
+def test_the_conflict_is_said_in_words(explained: tuple[str, PatternProblem, Explanation]) -> None:
     name, _, why = explained
     assert why.sentences[0] == SENTENCES[name]
     assert all(sentence[0].isupper() and sentence.endswith(".") for sentence in why.sentences)
@@ -116,27 +116,27 @@ def test_the_clash_is_said_in_words(explained: tuple[str, PatternProblem, Explan
 def test_every_relaxation_makes_it_solvable(explained: tuple[str, PatternProblem, Explanation]) -> None:
     name, problem, why = explained
     assert len(why.relaxations) <= 6
-    assert [one.words for one in why.relaxations] == LOOSENED[name]
+    assert [one.words for one in why.relaxations] == RELAXED[name]
     for relaxation in why.relaxations:
-        loosened = relaxed(problem, relaxation)
-        result = solve_pattern(loosened, seconds=20)
+        eased = relaxed(problem, relaxation)
+        result = solve_pattern(eased, seconds=20)
         assert result.status is PatternStatus.OPTIMAL, relaxation.words
-        assert check_pattern(loosened, result.patterns[0].stance) == ()
+        assert check_pattern(eased, result.patterns[0].stance) == ()
 
 
 def test_a_relaxed_number_is_the_mildest() -> None:
-    problem = CLASHES["unequal stance"]
-    for number, answer in ((5, Answer.CLASH), (6, Answer.SOLVABLE)):
+    problem = CONFLICTS["unequal stance"]
+    for number, answer in ((5, Feasibility.CONFLICT), (6, Feasibility.SOLVABLE)):
         assert Probe().ask(replace(problem, rules=replace(problem.rules, workload=number))) is answer
 
 
 def test_the_same_words_each_time() -> None:
-    problem = CLASHES["six limbs have no room to swing"]
+    problem = CONFLICTS["six limbs have no room to swing"]
     assert explain(problem) == explain(problem)
 
 
 def test_a_result_without_a_pattern_carries_its_explanation() -> None:
-    problem = CLASHES["a locked limb lets no other swing"]
+    problem = CONFLICTS["a locked limb lets no other swing"]
     result, why = solve_pattern(problem), explain(problem)
     assert (result.status, result.patterns) == (PatternStatus.INFEASIBLE, ())
     assert (result.explanation, result.relaxations) == (why.sentences, why.relaxations)
@@ -148,7 +148,7 @@ def test_a_pattern_needs_no_explanation() -> None:
 
 
 def test_feet_are_called_feet_in_a_document() -> None:
-    problem = replace(CLASHES["a locked limb lets no other swing"], noun="foot")
+    problem = replace(CONFLICTS["a locked limb lets no other swing"], noun="foot")
     why = explain(problem)
     assert why.sentences == (
         f"Foot 3 is locked in swing and foot 1 must swing at least 2 samples in all: {NO_ROOM}",
@@ -159,13 +159,13 @@ def test_feet_are_called_feet_in_a_document() -> None:
 def test_without_work_left_a_question_is_answered_by_neither_yes_nor_no() -> None:
     problem = transition("1111", "1111", 12)
     probe = Probe(work=1e-9)
-    assert [probe.ask(problem), probe.ask(problem)] == [Answer.SOLVABLE, Answer.UNKNOWN]
+    assert [probe.ask(problem), probe.ask(problem)] == [Feasibility.SOLVABLE, Feasibility.UNKNOWN]
     assert not probe.solvable(problem)
     assert not probe.conflict(problem, [])
     assert probe.asked == 1
 
 
-def test_two_rules_are_loosened_where_one_does_not_suffice() -> None:
+def test_two_rules_are_relaxed_where_one_does_not_suffice() -> None:
     problem = replace(periodic(4, 6), rules=replace(F_RULES, least_swing=5))
     why = explain(problem)
     assert [one.words for one in why.relaxations] == [
@@ -178,14 +178,14 @@ def test_two_rules_are_loosened_where_one_does_not_suffice() -> None:
         assert not Probe().solvable(relaxed(problem, one.also[0]))
 
 
-def test_without_work_all_rules_are_said_to_clash(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Probe, "ask", lambda *_: Answer.UNKNOWN)
-    why = explain(CLASHES["a gait has no room"])
+def test_without_work_all_rules_are_said_to_conflict(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Probe, "ask", lambda *_: Feasibility.UNKNOWN)
+    why = explain(CONFLICTS["a gait has no room"])
     assert {clause.rule for clause in why.clauses} == set(Rule) - {Rule.FIXED, Rule.BALANCE}
     assert why.relaxations == ()
 
 
-def test_balance_clashes_and_gives_way() -> None:
+def test_balance_conflicts_and_gives_way() -> None:
     angles = 2 * np.pi * np.arange(6) / 6
     feet = 0.06 * np.column_stack([np.cos(angles), np.sin(angles)])
     problem = replace(
@@ -200,7 +200,7 @@ def test_balance_clashes_and_gives_way() -> None:
     )
     for clause in why.clauses:
         others = [other for other in why.clauses if other is not clause]
-        assert Probe().ask(problem, asked_by(others)) is Answer.SOLVABLE, clause
+        assert Probe().ask(problem, asked_by(others)) is Feasibility.SOLVABLE, clause
     assert [one.words for one in why.relaxations] == [
         "Limb 1 free to walk",
         "Limb 6 free to walk",

@@ -1,4 +1,4 @@
-"""Problems that no pattern solves, one for each way in which rules clash."""
+"""Problems that no pattern solves, one for each way in which rules conflict."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def drawn(problem: PatternProblem, limb: int, samples: range, value: int) -> Pat
     return PatternProblem(problem.kind, cells, problem.walking, problem.sides, problem.rules)
 
 
-CLASHES = {
+CONFLICTS = {
     "locked limbs leave two feet": transition("0110", "0110", 20, (1, 4)),
     "no foot at the start": transition("0000", "1111", 20),
     "the start lifts a side": transition("000111", "111111", 20),

@@ -55,7 +55,7 @@ class _Failure:
     until: float
 
 
-class LivePreview:
+class LivePlans:
     """Solves gaits with the live tier and caches the last results and plans. Thread-safe.
 
     Args:

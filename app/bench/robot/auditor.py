@@ -50,7 +50,7 @@ _WORK = (Echo, Execute, CurrentPoint, ErrorScan, ErrorsChecked)
 
 @dataclass
 class Findings:
-    """What the judge found in one run or in many.
+    """What the auditor found in one run or in many.
 
     Attributes:
         sent: approved waypoints that were written.
@@ -93,7 +93,7 @@ class Findings:
         )  # fmt: skip
 
 
-class Judge:
+class Auditor:
     """Looks at every message before the cable has it, at every line after it, and at the true motors.
 
     Args:

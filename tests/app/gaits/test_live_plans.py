@@ -1,4 +1,4 @@
-"""The live desk: documents in, checked answers out, and nothing on the desk changed."""
+"""The live service: documents in, checked answers out, and nothing on the service changed."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from app.documents.gait_json import gait_content
-from app.gaits.live_preview import FAILED_SECONDS, FIRST_SECONDS, MOST_PLANS, NEXT_SECONDS, LivePreview
+from app.gaits.live_plans import FAILED_SECONDS, FIRST_SECONDS, MOST_PLANS, NEXT_SECONDS, LivePlans
 from app.gaits.normalise import normalise
 from app.gaits.views import plan_view
 from app.jobs.timing_view import timing_content
@@ -40,9 +40,9 @@ class RealTier(FixedTier):
         return solve_live(problem)
 
 
-def tiers() -> tuple[RealTier, LivePreview]:
+def tiers() -> tuple[RealTier, LivePlans]:
     tier = RealTier(SolveStatus.SOLVED)
-    return tier, LivePreview(tier)
+    return tier, LivePlans(tier)
 
 
 def toggled(gait: Gait, foot: int, sample: int) -> Gait:
@@ -66,7 +66,7 @@ def test_a_feasible_document_is_answered_with_a_checked_plan() -> None:
 
 
 def test_an_infeasible_document_says_what_is_missing_and_offers_remedies() -> None:
-    service = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    service = LivePlans(FixedTier(SolveStatus.INFEASIBLE))
     answer = service.answer(WALK, None, True)
     assert (answer["status"], answer["evidence"]) == ("infeasible", "proven")
     lack = answer["lacks"][0]
@@ -81,14 +81,14 @@ def test_an_infeasible_document_says_what_is_missing_and_offers_remedies() -> No
 def test_a_search_that_was_cut_short_says_so() -> None:
     tier = FixedTier(SolveStatus.INFEASIBLE)
     tier.complete = False
-    answer = LivePreview(tier).answer(WALK, None, True)
+    answer = LivePlans(tier).answer(WALK, None, True)
     assert (len(answer["remedies"]), answer["remedies_complete"]) == (1, False)
-    assert LivePreview(tier).answer(WALK, None, False)["remedies_complete"] is None
+    assert LivePlans(tier).answer(WALK, None, False)["remedies_complete"] is None
 
 
 def test_only_the_first_answer_of_a_process_may_take_long() -> None:
     tier = FixedTier(SolveStatus.INFEASIBLE)
-    service = LivePreview(tier)
+    service = LivePlans(tier)
     for name, process in ((1, 7), (2, 7), (3, 8), (4, 8), (5, None)):
         tier.process_id = process
         service.answer(WALK, document(WALK, step=[0.001 * name, 0.0, 0.0]), False)
@@ -97,7 +97,7 @@ def test_only_the_first_answer_of_a_process_may_take_long() -> None:
 
 def test_a_process_that_gave_no_answer_is_still_waited_for() -> None:
     tier = FixedTier(SolveStatus.FAILED)
-    service = LivePreview(tier)
+    service = LivePlans(tier)
     for step in (0.001, 0.002):
         service.answer(WALK, document(WALK, step=[step, 0.0, 0.0]), False)
     assert tier.waits == [FIRST_SECONDS, FIRST_SECONDS]
@@ -105,7 +105,7 @@ def test_a_process_that_gave_no_answer_is_still_waited_for() -> None:
 
 def test_a_solver_that_broke_off_is_left_alone_for_a_moment() -> None:
     tier, now = FixedTier(SolveStatus.FAILED), [100.0]
-    service = LivePreview(tier, lambda: now[0])
+    service = LivePlans(tier, lambda: now[0])
     assert service.answer(WALK, None, False)["status"] == "failed"
     tier.status = SolveStatus.INFEASIBLE
     now[0] += FAILED_SECONDS - 0.1
@@ -204,13 +204,13 @@ def test_a_locked_cell_holds_in_a_live_document_too() -> None:
 
 
 def test_more_iterations_are_drawn_as_an_edit_would() -> None:
-    service = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    service = LivePlans(FixedTier(SolveStatus.INFEASIBLE))
     answer = service.answer(WALK, document(WALK, iterations=2), False)
     assert len(answer["plan"]["times"]) == 85
 
 
 def test_the_newest_plans_are_kept_by_hash_and_older_ones_make_room() -> None:
-    service = LivePreview(FixedTier(SolveStatus.INFEASIBLE))
+    service = LivePlans(FixedTier(SolveStatus.INFEASIBLE))
     hashes = [
         service.answer(WALK, document(WALK, step=list(heading_step(WALK.orientation, step))), False)["plan"][
             "hash"

@@ -7,7 +7,7 @@ from pathlib import Path
 from app.cameras.address import DEVICE, CameraAddress
 from app.cameras.process import CameraProcess
 from app.cameras.setup_service import CameraSetupService
-from app.common.json_values import Json
+from app.common.json import Json
 from app.store.camera_setup_store import CameraSetupStore
 from app.store.database import Database
 from core.errors import InputError, NotFoundError

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from app.cameras.setup_schema import SetupDocument
-from app.common.json_values import Json, finite
+from app.common.json import Json, finite
 from app.store.camera_setup_store import CameraSetupRow, CameraSetupStore
 from app.store.database import Database
 from core.errors import NotFoundError, StateError

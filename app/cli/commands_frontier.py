@@ -7,7 +7,7 @@ import numpy as np
 
 from app.cli.gait_options import Method, asked_gait, returns_anew
 from app.cli.output import INFEASIBLE, end_on_sigterm, show
-from app.common.json_values import Json
+from app.common.json import Json
 from app.export.trajectory_files import write_trajectory
 from core.errors import InputError
 from core.gait.gait import Gait, drawn_timeline

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from app.cli.gait_options import SOLVERS, Method, asked_gait
 from app.cli.output import end_on_sigterm, note, show
-from app.common.json_values import Json
+from app.common.json import Json
 from app.documents.gait_json import gait_schema
 from app.export.trajectory_files import write_trajectory
 from app.plans.verified_result import VerifiedResult, verify

@@ -8,7 +8,7 @@ from contextlib import suppress
 from app.cli.output import INFEASIBLE, Interrupted, end_on_sigterm, ignore_interrupts, show
 from app.cli.pattern_options import asked_pattern
 from app.cli.pattern_text import CHANGE, STANCE, SWING, drawn_pattern
-from app.common.json_values import Json
+from app.common.json import Json
 from core.patterns.check import broken_rules, check_pattern, weighted_sum
 from core.patterns.numerals import counted
 from core.patterns.problem import (

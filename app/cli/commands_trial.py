@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from app.cli.output import end_on_sigterm, note, show
-from app.common.json_values import Json
+from app.common.json import Json
 from app.export.trajectory_files import read_text
 from app.trials.figures import movement_content, part_content
 from core.errors import InputError

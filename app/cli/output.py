@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from types import FrameType
 from typing import Any
 
-from app.common.json_values import finite
+from app.common.json import finite
 from core.findings import SendCost, Severity, Verdict
 
 INFEASIBLE, NOT_FIT = 3, 4

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.documents.gait_schema import (
     GaitDocument,
     OptionsModel,

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
-from app.common.json_values import Json
+from app.common.json import Json
 from core.errors import InputError
 
 VERSION = 1

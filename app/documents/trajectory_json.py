@@ -3,7 +3,7 @@
 import hashlib
 import json
 
-from app.common.json_values import Json
+from app.common.json import Json
 from core.motion.trajectory import Trajectory
 
 _FIELDS = (

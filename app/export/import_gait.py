@@ -3,7 +3,7 @@
 import json
 from dataclasses import replace
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.documents.gait_json import FORMAT, gait_from_content, require_bytes, require_size
 from app.export.trajectory_files import require_world_frame
 from core.errors import InputError

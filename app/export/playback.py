@@ -6,7 +6,7 @@ from importlib import resources
 
 import numpy as np
 
-from app.common.json_values import Json, finite
+from app.common.json import Json, finite
 from app.export.gait_diagram import facts, gait_diagram, plot_area
 from app.export.source import Motion
 from app.export.svg import svg

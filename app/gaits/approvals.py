@@ -3,7 +3,7 @@
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.documents.gait_json import parse_gait
 from app.gaits.open_gait import OpenGait, VerdictOf, approval_of
 from app.plans.plan import Plan

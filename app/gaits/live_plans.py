@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, Protocol, TypeVar
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.documents.gait_json import gait_content, gait_from_content, motion_hash
 from app.gaits.normalise import normalise
 from app.gaits.views import plan_view

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.documents.gait_json import parse_gait
 from app.gaits.approvals import ApprovalRequest, Approvals, approval_record, approved, is_confirmed
 from app.gaits.normalise import normalise, normalise_imported

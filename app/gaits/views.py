@@ -6,7 +6,7 @@ from datetime import UTC, datetime
 
 import numpy as np
 
-from app.common.json_values import Json, finite
+from app.common.json import Json, finite
 from app.documents.gait_json import gait_content
 from app.gaits.open_gait import OpenGait
 from app.plans.plan import Plan

@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable
 from typing import Protocol
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.jobs.repository import ENDED, JobRepository
 
 TELL_SECONDS = 0.2

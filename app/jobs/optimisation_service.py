@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.documents.gait_json import asked_hash
 from app.documents.trajectory_json import trajectory_content
 from app.gaits.open_gait import OpenGait

@@ -6,7 +6,7 @@ Only the command queue's thread calls this.
 import time
 from typing import Any
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.store.database import Database
 from core.errors import NotFoundError
 

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from app.common.json_values import Json, finite
+from app.common.json import Json, finite
 from app.documents.gait_json import gait_content
 from core.errors import StateError
 from core.gait.gait import Gait

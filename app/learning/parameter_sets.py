@@ -3,7 +3,7 @@
 import time
 from dataclasses import dataclass
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.simulation.problem import fitting_sets, physics_content, physics_from_content
 from app.store.database import Database
 from app.store.learning_store import LearningStore

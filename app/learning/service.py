@@ -7,7 +7,7 @@ import uuid
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.learning.parameter_sets import ParameterSet, ParameterSets
 from app.learning.runner import BatchTier, WalkRunner
 from app.learning.views import learned_content, learned_sentence

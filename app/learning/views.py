@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from app.common.json_values import Json, finite
+from app.common.json import Json, finite
 from app.simulation.problem import physics_content
 from app.trials.figures import CM
 from core.identification.learning import Learned, Prediction

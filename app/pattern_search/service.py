@@ -13,7 +13,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.pattern_search.views import progress_content, result_content
 from core.errors import FootfallError, NotFoundError
 from core.patterns.problem import (

@@ -1,6 +1,6 @@
 """The pattern search as the page and scripts see it, as JSON content; limbs and samples count from 0."""
 
-from app.common.json_values import Json
+from app.common.json import Json
 from core.motion.contact_timeline import rows_from_bits
 from core.patterns.problem import FREE, Pattern, PatternProblem, PatternProgress, PatternResult, Relaxation
 

@@ -7,7 +7,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.documents.gait_json import sent_hash
 from app.documents.trajectory_json import content_sha256, trajectory_from_content
 from app.plans.planned_part import PlannedPart

@@ -5,7 +5,7 @@ from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import version
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.common.version import VERSION
 from app.documents.gait_json import asked_hash
 from app.documents.trajectory_json import content_sha256

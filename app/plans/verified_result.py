@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from app.common.json_values import Json, finite
+from app.common.json import Json, finite
 from core.motion.trajectory import Trajectory
 from core.problem.motion_check import MotionCheck, check_motion
 from core.problem.motion_problem import MotionProblem

@@ -10,7 +10,7 @@ import numpy as np
 from app.bridge.bridge import RobotBridge
 from app.bridge.jog import MOVED_MM, JogPlan
 from app.bridge.states import RobotSnapshot
-from app.common.json_values import Json
+from app.common.json import Json
 from app.robot.views import allowed, jog_stop_seconds
 from core.arrays import Floats
 from core.errors import CheckError, InfeasibleError, StateError

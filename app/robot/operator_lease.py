@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from app.bridge.bridge import RobotBridge
 from app.bridge.lease import Holding, Lease, Person, policy, refusal
 from app.bridge.states import IN_RUN, LinkState, RobotState
-from app.common.json_values import Json
+from app.common.json import Json
 from app.undo.history import SCRIPT, Author
 from core.errors import StateError
 

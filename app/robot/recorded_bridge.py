@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from app.bridge.bridge import RobotBridge
 from app.bridge.states import LinkState, RobotSnapshot, RunPlan
-from app.common.json_values import Json
+from app.common.json import Json
 from app.robot.run_recorder import RunRecorder
 from app.robot.views import RUNNING, RunOrigin, run_end
 from app.runs.recovery import end_abandoned

@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Iterable
 
 from app.bridge.states import Direction, Transition
-from app.common.json_values import Json
+from app.common.json import Json
 from app.store.database import Database
 from app.store.run_journal import Entry, EntryKind, RunJournal
 from app.store.run_store import RunStore

@@ -5,7 +5,7 @@ import numpy as np
 from app.bridge.run import start_targets
 from app.bridge.run_range import RunRange, beginnings, why_not_repeated
 from app.bridge.states import RobotSnapshot
-from app.common.json_values import Json
+from app.common.json import Json
 from app.plans.plan import Plan
 from app.robot.views import stop_seconds
 from core.errors import StateError

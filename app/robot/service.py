@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from app.bridge.run_range import WHOLE, RunRange
 from app.bridge.states import LinkState, RobotSnapshot, RunPlan
-from app.common.json_values import Json
+from app.common.json import Json
 from app.emulator.emulated_robot import EmulatedRobot, start_emulator
 from app.emulator.faults import Fault
 from app.gaits.open_gait import OpenGait

@@ -5,7 +5,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunProgress
-from app.common.json_values import Json
+from app.common.json import Json
 from app.emulator.motors import TRAVEL_MM
 from core.arrays import Floats
 from core.wire.messages import RESET_MM

@@ -8,7 +8,7 @@ from fastapi import APIRouter
 from pydantic import Field, model_validator
 from starlette.concurrency import run_in_threadpool
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.gaits.views import plan_view
 from app.web.dependencies import RequestBody, TheAuthor, TheStudio, on_command_thread, on_planned
 from solver_jobs import JobKind

@@ -3,7 +3,7 @@
 from fastapi import APIRouter
 from pydantic import Field
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.web.dependencies import FiniteBody, TheStudio, changed
 from core.gait.gait import MOST_NAME, Gait, Orientation
 from core.gait.options import GaitOptions

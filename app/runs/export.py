@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.common.version import VERSION
 from app.runs.record import RunRecord
 from core.wire.messages import MOTORS

@@ -5,7 +5,7 @@ from dataclasses import asdict
 import numpy as np
 
 from app.bridge.states import RunPlan
-from app.common.json_values import Json
+from app.common.json import Json
 from app.documents.trajectory_json import trajectory_content, trajectory_from_content
 from app.plans.plan import Plan
 from core.arrays import Floats

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from app.common.json_values import Json, finite
+from app.common.json import Json, finite
 from app.runs.record import RunRecord, known_row, read_record
 from app.runs.recovery import end_abandoned
 from app.store.database import Database

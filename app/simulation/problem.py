@@ -6,7 +6,7 @@ from dataclasses import asdict, fields
 
 import numpy as np
 
-from app.common.json_values import Json, finite
+from app.common.json import Json, finite
 from app.common.version import VERSION
 from app.plans.plan import Plan
 from core.errors import CheckError, InputError

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.plans.plan import Plan
 from app.simulation.problem import report_from_content, simulation_key, simulation_problem
 from app.store.simulation_store import SimulationRow, SimulationStore

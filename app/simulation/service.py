@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Protocol
 
-from app.common.json_values import Json, finite
+from app.common.json import Json, finite
 from app.common.version import VERSION
 from app.gaits.open_gait import OpenGait
 from app.jobs.job_tracker import JobTracker

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from app.common.json_values import Json, finite
+from app.common.json import Json, finite
 from core.arrays import Floats
 from core.motion.support_polygon import stability_margins
 from core.physics.findings import SWING_LIMIT, TILT_LIMIT

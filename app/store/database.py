@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.store import run_rows
 from app.store.schema import bring_up_to_date
 from core.errors import InputError

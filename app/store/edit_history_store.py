@@ -7,7 +7,7 @@ import json
 import sqlite3
 from dataclasses import astuple, dataclass
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.store.database import Database
 from app.undo.history import Action, Author, History, LogEntry
 

@@ -2,7 +2,7 @@
 
 import json
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.store.database import Database
 
 

@@ -5,7 +5,7 @@ import sqlite3
 from dataclasses import dataclass
 from typing import Any
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.store.database import Database
 from app.store.run_rows import StateRow, add_states, put_run
 

@@ -3,7 +3,7 @@
 import json
 from dataclasses import dataclass
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.store.database import Database
 
 

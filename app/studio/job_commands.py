@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.gaits.service import GaitService
 from app.jobs.optimisation_service import OptimisationService
 from app.jobs.repository import JobRepository

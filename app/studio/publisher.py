@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from concurrent.futures import Future
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.common.version import VERSION
 from app.documents.gait_json import asked_hash
 from app.gaits.open_gait import OpenGait

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Protocol, TypeVar
 
 from app.cameras.address import CameraAddress
-from app.common.json_values import Json
+from app.common.json import Json
 from app.gaits.live_plans import LivePlans
 from app.gaits.open_gait import OpenGait
 from app.gaits.planner import Planner

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.trials.figures import CM
 from app.trials.record import TrialRecord
 from core.arrays import Floats, interpolated

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.trials.bands import band_content
 from app.trials.figures import movement_content, path_content
 from app.trials.record import ROBOT, TrialRecord

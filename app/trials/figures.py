@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from app.common.json_values import Json
+from app.common.json import Json
 from core.arrays import Floats
 from core.trials.alignment import Alignment, placed_motion
 from core.trials.iterations import FoundIterations, IterationMovement, iteration_movements, standing_slip

@@ -6,7 +6,7 @@ import uuid
 from pathlib import Path
 from typing import Any
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.store.database import Database
 from app.store.gait_files import require_folder, write_atomically
 from app.store.photo_store import PhotoStore

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.store.database import Database
 from app.store.trial_reference_store import TrialReferenceStore
 from app.store.trial_store import TrialRow, TrialStore

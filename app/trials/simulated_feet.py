@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.common.version import VERSION
 from app.simulation.problem import FORM, physics_content
 from app.simulation.service import SimulationHandle, SimulationTier

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.vision.tracking import VideoTrack
 from core.arrays import Bools, stretches
 

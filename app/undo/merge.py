@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Any, Final
 
-from app.common.json_values import Json
+from app.common.json import Json
 from core.gait.gait_difference import OPTION_WORDS
 from core.library.sequence import DERIVED
 

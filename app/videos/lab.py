@@ -7,7 +7,7 @@ from pathlib import Path
 from app.cameras.address import CameraAddress
 from app.cameras.service import CameraService
 from app.cameras.setup_service import CameraSetupService
-from app.common.json_values import Json
+from app.common.json import Json
 from app.jobs.repository import JobRepository
 from app.runs.service import RunService
 from app.store.database import Database

@@ -16,7 +16,7 @@ from app.bridge.states import LinkState, RobotSnapshot
 from app.cameras.process import CameraError, CameraProcess
 from app.cameras.service import UNDER, CameraService
 from app.cameras.setup_service import CameraSetupService
-from app.common.json_values import Json
+from app.common.json import Json
 from app.robot.views import RUNNING
 from app.runs.service import RunService
 from app.store.database import Database

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from app.cameras.setup_service import CameraSetupService
-from app.common.json_values import Json
+from app.common.json import Json
 from app.jobs.job_tracker import JobTracker
 from app.jobs.repository import JobRepository
 from app.runs.service import RunService

@@ -10,7 +10,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.vision.blobs import Blob, Mask, blobs_of, find_feet, in_colours, mask_of, shown_mask
 from app.vision.checkerboard import board_corners, lens_of_corners, straightened
 from app.vision.frame_source import Facts, FrameSource

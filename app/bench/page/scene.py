@@ -16,7 +16,7 @@ import numpy as np
 
 from app.bench.common.measure import Row
 from app.bench.page.edits import READY_MS, SIZE, headless_browser, served_studio
-from app.common.json_values import Json
+from app.common.json import Json
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page

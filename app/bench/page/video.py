@@ -11,7 +11,7 @@ from app.bench.page.film import ACROSS, Film, draw_film, stepping_feet
 from app.bench.robot.processes import Studio, Tap, emulator_process, wait_until
 from app.bench.robot.stop import stop_latencies
 from app.cameras.setup_schema import SetupDocument
-from app.common.json_values import Json
+from app.common.json import Json
 from app.vision.frame_source import PICTURES
 from app.vision.services import ask, open_vision_services
 from app.vision.tracking import track_video

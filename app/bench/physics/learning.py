@@ -5,7 +5,7 @@ from pathlib import Path
 
 from app.bench.common.measure import Row
 from app.bench.common.published import Reference
-from app.common.json_values import Json
+from app.common.json import Json
 from app.export.trajectory_files import read_text
 from app.learning.published_trials import walks_of_table
 from app.learning.runner import WalkRunner

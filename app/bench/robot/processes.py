@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.emulator.ports import PtyPort
 from app.emulator.profiles import ProfileName
 from core.errors import StateError

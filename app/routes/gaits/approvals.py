@@ -4,7 +4,7 @@ from dataclasses import asdict
 
 from fastapi import APIRouter
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.gaits.approvals import ApprovalRecord, approval_difference, approval_figures
 from app.studio.studio import Studio
 from app.web.dependencies import TheStudio, on_planned

@@ -10,7 +10,7 @@ from pydantic import Field, ValidationError
 from starlette.concurrency import run_in_threadpool
 
 from app.bridge.run_range import RunRange
-from app.common.json_values import Json
+from app.common.json import Json
 from app.documents.gait_json import MOST_BYTES, gait_content, parse_gait
 from app.gaits.approvals import ApprovalRequest
 from app.gaits.open_gait import OpenGait

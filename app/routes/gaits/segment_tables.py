@@ -6,7 +6,7 @@ from typing import Annotated
 from fastapi import APIRouter
 from pydantic import Field
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.documents.gait_json import gait_content, gait_from_content
 from app.documents.gait_schema import SegmentTableModel
 from app.web.dependencies import MOST_MOTORS, RequestBody, strokes_from_mm

@@ -5,7 +5,7 @@ from typing import Annotated
 from fastapi import APIRouter, Query
 from pydantic import Field
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.gaits.open_gait import OpenGait
 from app.gaits.sequence_documents import PartReference, made_sequence, refreshed
 from app.web.dependencies import RequestBody, TheAuthor, TheStudio, changed, on_command_thread

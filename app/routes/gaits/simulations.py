@@ -4,7 +4,7 @@ from fastapi import APIRouter
 from fastapi.responses import Response
 from starlette.concurrency import run_in_threadpool
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.scene.simulated_ghost import simulated_blob
 from app.web.dependencies import TheStudio
 from core.robot.model import load_robot

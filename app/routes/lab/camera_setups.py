@@ -11,7 +11,7 @@ from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.cameras.setup_schema import LensDocument, Number, SetupDocument, Side
-from app.common.json_values import Json
+from app.common.json import Json
 from app.studio.studio import Studio
 from app.vision.services import ask
 from app.vision.worker import FindCheckerboard, FitLens, Source, Straighten, data_url

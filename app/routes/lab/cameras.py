@@ -10,7 +10,7 @@ from fastapi.responses import Response, StreamingResponse
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.routes.lab.camera_setups import CornersAsked, checkerboard_of
 from app.routes.lab.picture_streams import BOUNDARY, LookBody, Width, look_at, part
 from app.vision.worker import FindCheckerboard, Source, data_url

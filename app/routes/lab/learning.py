@@ -6,7 +6,7 @@ from fastapi import APIRouter
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.learning.published_trials import ITERATIONS, walks_of_table
 from app.learning.service import MOST_SET_NAME
 from app.learning.walks import SentTrial, walks_of

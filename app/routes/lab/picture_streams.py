@@ -7,7 +7,7 @@ from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.cameras.setup_schema import Colours, LimitsDocument, SetupDocument
-from app.common.json_values import Json
+from app.common.json import Json
 from app.studio.studio import Studio
 from app.videos.service import LOOK_SECONDS
 from app.vision.services import ask

@@ -5,7 +5,7 @@ from typing import Annotated
 from fastapi import APIRouter, Query, Response
 from starlette.concurrency import run_in_threadpool
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.web.dependencies import TheStudio
 
 router = APIRouter(prefix="/api/trials", tags=["trials"])

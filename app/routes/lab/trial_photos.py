@@ -6,7 +6,7 @@ from fastapi import APIRouter, Query, Request, Response
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.trials.photos import check_bytes
 from app.web.dependencies import RequestBody, TheAuthor, TheStudio
 

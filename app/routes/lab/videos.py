@@ -12,7 +12,7 @@ from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import ClientDisconnect
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.routes.lab.camera_setups import Corners, checkerboard_of
 from app.routes.lab.picture_streams import BOUNDARY, LookBody, Width, look_at, part
 from app.routes.lab.trials import Iterations, Length, Name, planned_for

@@ -8,7 +8,7 @@ from fastapi import APIRouter, Body
 from fastapi.responses import JSONResponse
 from starlette.concurrency import run_in_threadpool
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.common.names import free_name
 from app.documents.gait_json import gait_content
 from app.gaits.open_gait import OpenGait

@@ -11,7 +11,7 @@ from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.bridge.run_range import RunRange
-from app.common.json_values import Json
+from app.common.json import Json
 from app.emulator.faults import Fault
 from app.studio.studio import Studio
 from app.undo.history import Author

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from app.common.json_values import Json
+from app.common.json import Json
 from app.trials.report.page import moment, number, plot, table, text
 from app.trials.report.plots import band_from_above
 from app.trials.service import compared

@@ -1,4 +1,4 @@
-"""Logs and versions of gaits in the database.
+"""Each gait's present document, its edit history, its versions and its approvals, in the database.
 
 A change and the version that goes with it are one transaction: after a kill both are there, or neither.
 """

@@ -107,7 +107,7 @@ async def on_planned(studio: Studio, gait_id: str, action: Callable[[], Result])
 
 
 async def changed(studio: Studio, action: Callable[[], OpenGait]) -> dict[str, Any]:
-    """Changes a gait, shows it to every page, and waits for its view."""
+    """Stores a change of a gait, shows it to every page, and waits for its view."""
     return await asyncio.wrap_future(studio.change(action))
 
 

@@ -59,12 +59,12 @@ class JobQueue:
         self._closing = False
         self._news: queue.SimpleQueue[Job | None] = queue.SimpleQueue()
         self._notifier = threading.Thread(target=self._notify, name="footfall-jobs-news", daemon=True)
-        self._services = [
+        self._threads = [
             JobThread(self, WorkerProcess(warm_up, niceness=BACKGROUND_NICENESS), time_limit)
             for _ in range(workers)
         ]
         self._notifier.start()
-        for service in self._services:
+        for service in self._threads:
             service.start()
 
     def __enter__(self) -> JobQueue:
@@ -148,7 +148,7 @@ class JobQueue:
 
     def process_ids(self) -> tuple[int, ...]:
         """Numbers of the worker processes that live."""
-        known = (service.worker.process_id for service in self._services)
+        known = (service.worker.process_id for service in self._threads)
         return tuple(number for number in known if number is not None)
 
     def close(self) -> None:
@@ -159,7 +159,7 @@ class JobQueue:
             self._closing = True
             self._waiting.clear()
             self._changed.notify_all()
-        for service in self._services:
+        for service in self._threads:
             service.join()
         with self._changed:
             for job in self._jobs.values():

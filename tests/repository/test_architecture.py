@@ -5,6 +5,7 @@ The order of the folders is in `test_rooms.py`.
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from collections.abc import Iterable
@@ -105,6 +106,22 @@ def test_modules_import_only_what_their_part_may() -> None:
 def test_the_modules_with_a_package_of_their_own_import_it() -> None:
     for package, path in ONE_MODULE.items():
         assert any(name.split(".")[0] == package for name in imports(path)), (package, path)
+
+
+def opens_the_line(path: str, text: str) -> bool:
+    """Whether a module could write to the robot without the write gate."""
+    free = path not in {"app/bridge/transport.py", "app/bridge/bridge.py"}
+    writes = re.search(r"transport\.write\(|serial_for_url|\bSerial\(", text) is not None
+    return (free and re.search(r"\bTransport\b", text) is not None) or (
+        writes and path != "app/bridge/transport.py"
+    )
+
+
+def test_only_the_bridge_opens_the_line_and_it_writes_by_the_gate() -> None:
+    found = [path for path in files(".py") if opens_the_line(path, (PROJECT / path).read_text())]
+    assert not found, listed(found)
+    assert opens_the_line("app/robot/service.py", "from app.bridge.transport import Transport")
+    assert opens_the_line("app/bridge/bridge.py", "self._transport.write(b'<s,1>')")
 
 
 @pytest.mark.parametrize(

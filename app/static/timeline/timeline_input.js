@@ -170,6 +170,7 @@ export function mountTimelineInput(store, edits, grid, rows, reveal) {
     announce(`Selected: ${regionText(document(), store.state.selection)}.`);
   }
 
+  /** A click without a pointer, as assistive tools send them; a mouse click is a gesture of no length. */
   function click(event) {
     const here = cellOf(event.target);
     if (here && !swallowClick) ({ paint: toggle, select: (cell) => selection.between(cell, cell), lock: (cell) => lockRegion(edits, document(), spanning(cell, cell), !isLocked(document(), cell)) })[store.state.tool](here);

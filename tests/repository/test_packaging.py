@@ -10,7 +10,7 @@ from pathlib import Path
 
 from tests.support.studio_process import PROGRAM, PROJECT, running_studio
 
-IGNORED = shutil.ignore_patterns(".git", ".venv", "build", "*.egg-info", "__pycache__", ".*_cache")
+NO_SOURCE = (".git", ".venv", ".hypothesis", "build", "*.egg-info", "__pycache__", ".*_cache")
 
 
 def run_quietly(*words: str) -> None:
@@ -19,7 +19,7 @@ def run_quietly(*words: str) -> None:
 
 def test_a_wheel_serves_the_studio_far_from_the_checkout(tmp_path: Path) -> None:
     source, wheels, installed = tmp_path / "source", tmp_path / "wheels", tmp_path / "installed"
-    shutil.copytree(PROJECT, source, ignore=IGNORED)
+    shutil.copytree(PROJECT, source, ignore=shutil.ignore_patterns(*NO_SOURCE))
     pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "--no-input"]
     subprocess.run(
         [*pip, "wheel", "--no-deps", "--no-build-isolation", "-w", wheels, source],

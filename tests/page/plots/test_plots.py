@@ -12,6 +12,8 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess, wait_for
 
+SHARES_STUDIO = True
+
 LONGEST_DRAWING_MS = 50.0
 FOUR_FEET = {"foot-1", "foot-2", "foot-3", "foot-4"}
 

@@ -12,6 +12,8 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess
 
+SHARES_STUDIO = True
+
 
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:

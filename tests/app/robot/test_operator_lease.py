@@ -114,6 +114,7 @@ def test_an_unknown_hand_over_is_refused(ask: Submit) -> None:
     assert ask("arm", {"X-Footfall-Page": "no page!"}).status == 422
 
 
+@pytest.mark.heavy
 def test_a_restart_of_the_studio_drops_the_lease(tmp_path: Path, robot: EmulatedRobot) -> None:
     with running_studio(tmp_path, "--robot", robot.device) as studio:
         studio.ask("POST", "/api/robot/connect", headers=ADA)

@@ -27,6 +27,7 @@ def test_an_unknown_fault_is_refused_with_its_field(studio: StudioProcess) -> No
     assert "name" in str(refused.content)
 
 
+@pytest.mark.heavy
 def test_a_fault_strikes_what_lasts_is_mended_and_unplugging_loses_the_link(studio: StudioProcess) -> None:
     assert studio.ask("POST", "/api/robot/connect").status == 200
     wait_for(lambda: studio.robot()["robot"] == "disarmed", "the robot is up", READY_SECONDS)

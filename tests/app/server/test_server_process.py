@@ -175,6 +175,7 @@ def test_a_gait_without_a_standing_foot_leaves_the_page_alive(studio: StudioProc
     assert b"Infinity" not in studio.blob("/api/jobs")
 
 
+@pytest.mark.heavy
 def test_the_end_of_the_studio_stops_a_run_first(tmp_path: Path) -> None:
     robot = start_emulator("nominal", 4.0, booted=True)
     with running_studio(tmp_path, "--robot", robot.device) as studio:

@@ -56,6 +56,7 @@ def test_a_spot_where_the_foot_cannot_be_is_marked_as_false(found: VideoTrack) -
     assert np.linalg.norm(found.track.feet[FALSE_FRAME, 0] - TRACK.feet[FALSE_FRAME, 0]) < 0.001
 
 
+@pytest.mark.heavy
 def test_without_the_lens_places_are_wrong(video: Path) -> None:
     bent = track_video(video, replace(SETUP, lens=None))
     assert bent is not None

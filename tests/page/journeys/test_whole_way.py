@@ -43,6 +43,7 @@ def see_the_sample_gait_walk(page: Page) -> None:
     frame = page.frame_locator("iframe").locator("canvas").first
     frame.wait_for()
     standing = page.get_by_role("region", name="3D preview").screenshot()
+    expect(page.locator("#clock")).to_contain_text("17.6 s")
     page.get_by_role("button", name="Play", exact=True).click()
     expect(page.locator("#clock")).not_to_contain_text(re.compile(r"^0\.[0-9] "))
     page.get_by_role("button", name="Pause", exact=True).click()

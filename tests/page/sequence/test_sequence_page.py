@@ -94,6 +94,7 @@ def test_a_sequence_is_made_from_the_shown_gait_and_grows(page: Page, studio: St
     assert sources(studio, "sequence") == ["rotate", "walk"]
 
 
+@pytest.mark.heavy
 def test_parts_move_by_keys_and_buttons_and_each_move_is_one_undo_step(
     page: Page, studio: StudioProcess, tour: str
 ) -> None:

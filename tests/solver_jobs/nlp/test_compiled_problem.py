@@ -89,6 +89,7 @@ def test_derivatives_agree_with_finite_differences(
     expect_slopes(lambda x: np.array(function(x, parameters)).ravel(), slope, point)
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("elastic", [False, True])
 def test_the_solvers_own_derivatives_agree_with_finite_differences(elastic: bool) -> None:
     compiled = compile_problem(EVERYTHING.model, shape_of(EVERYTHING, elastic=elastic))

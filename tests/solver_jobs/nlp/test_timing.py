@@ -58,6 +58,7 @@ def test_a_longer_smallest_phase_is_kept_and_costs_time() -> None:
     assert timing.total_seconds > fastest_walk().total_seconds + 0.5
 
 
+@pytest.mark.heavy
 def test_the_same_motion_hurried_by_a_tenth_breaks_a_limit() -> None:
     timing = fastest_walk()
     hurried = replace(timing.problem, durations=timing.problem.intervals * 0.9)

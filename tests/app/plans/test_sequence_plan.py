@@ -25,6 +25,7 @@ def gait(name: str) -> Gait:
     return library()[name].gait
 
 
+@pytest.mark.heavy
 def test_the_way_over_http(studio: StudioProcess) -> None:
     parts = [{"gait": "walk", "times": 2}, {"gait": "rotate"}]
     made = studio.ask("POST", "/api/sequences", {"name": "HTTP tour", "parts": parts})

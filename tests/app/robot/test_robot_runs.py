@@ -41,6 +41,7 @@ def ran(studio: StudioProcess, robot: EmulatedRobot, **content: Any) -> list[lis
     return [[round(h, 4) for h in m.strokes_mm] for m in messages if m.strokes_mm is not None]
 
 
+@pytest.mark.heavy
 def test_a_run_from_a_later_pose_is_shown_and_sends_the_rest(
     studio: StudioProcess, robot: EmulatedRobot, walk: dict[str, Any]
 ) -> None:

@@ -48,6 +48,7 @@ def job(studio: StudioProcess) -> dict[str, Any]:
     return waited(studio, submitted(studio, variations=2), "done")
 
 
+@pytest.mark.heavy
 def test_a_simulation_has_the_figures_of_the_command(job: dict[str, Any]) -> None:
     assert (job["kind"], job["share"], job["fresh"]) == ("simulate", 1.0, True)
     assert len(job["result"]["mean_error"]["feet"]) == 4

@@ -22,14 +22,14 @@ class GaitRepository:
     """Stored gaits, by id.
 
     Args:
-        files: the saved ones.
-        log: what is edited of any.
+        files: the saved gaits.
+        edits: the edited gaits, in the database.
     """
 
-    def __init__(self, files: GaitFiles, log: EditHistoryStore) -> None:
+    def __init__(self, files: GaitFiles, edits: EditHistoryStore) -> None:
         self._files = files
-        self._log = log
-        self._logged: dict[str, History] = {}
+        self._edits = edits
+        self._stored: dict[str, History] = {}
 
     def stamps(self) -> dict[str, tuple[int, int] | None]:
         """Built-in gaits first, then saved ones; each with what changes when its file does."""
@@ -39,7 +39,7 @@ class GaitRepository:
     def glance(self, gait_id: str) -> tuple[Gait, bool, bool]:
         """A gait's present document, whether it is built in, and whether it is edited; not its history."""
         saved, builtin, _ = self._saved(gait_id)
-        text = self._log.present_document(gait_id)
+        text = self._edits.present_document(gait_id)
         gait = saved if text is None else parse_gait(text)
         return gait, builtin, gait != saved
 
@@ -50,10 +50,10 @@ class GaitRepository:
             NotFoundError: there is none of that id.
         """
         saved, builtin, saved_at = self._saved(gait_id)
-        row = self._log.editing(gait_id)
+        row = self._edits.editing(gait_id)
         if row is None:
             return fresh_gait(gait_id, saved, builtin, saved_at)
-        self._logged[gait_id] = row.history
+        self._stored[gait_id] = row.history
         present = gait_of(row.history.present)
         opened = OpenGait(gait_id, builtin, row.history, present, row.revision, saved, saved_at, row.notice)
         return replace(opened, kept_approval=row.approval)
@@ -72,15 +72,15 @@ class GaitRepository:
     def put(
         self, open_gait: OpenGait, version: VersionRow | None = None, record: dict[str, Any] | None = None
     ) -> None:
-        """Keeps what is edited of a gait, with version and approval record."""
+        """Keeps an edited gait in the database, with version and approval record; its file stays."""
         kept = open_gait.kept_approval
         approval = kept if open_gait.approval is None else json.dumps(asdict(open_gait.approval))
         row = EditHistoryRow(open_gait.revision, open_gait.history, open_gait.notice, approval)
-        self._log.put(open_gait.id, row, self._logged.get(open_gait.id), version, record)
-        self._logged[open_gait.id] = open_gait.history
+        self._edits.put(open_gait.id, row, self._stored.get(open_gait.id), version, record)
+        self._stored[open_gait.id] = open_gait.history
 
     def write(self, open_gait: OpenGait) -> OpenGait:
-        """Saves a gait's present document; gives the gait back as saved."""
+        """Writes a gait's present document to its file; gives the gait back as saved."""
         self._files.write(open_gait.id, open_gait.gait)
         return replace(open_gait, saved=open_gait.gait, saved_at=self._files.saved_at(open_gait.id))
 
@@ -91,19 +91,19 @@ class GaitRepository:
             gait: the document.
             taken: ids that it must not get, besides those of the repository.
         """
-        used = {ROUTE, *taken, *self.stamps(), *self._files.deleted_ids(), *self._log.ids()}
+        used = {ROUTE, *taken, *self.stamps(), *self._files.deleted_ids(), *self._edits.ids()}
         return self.write(fresh_gait(free_id(gait.name, used), gait, False, None))
 
     def remove(self, gait_id: str) -> None:
         """Takes a saved document away; `restore` brings it back."""
         self._files.remove(gait_id)
-        self._logged.pop(gait_id, None)
+        self._stored.pop(gait_id, None)
 
     def deleted(self) -> tuple[DeletedGait, ...]:
         """What `restore` can bring back, the last deleted first."""
-        return deleted_gaits(self._files, self._log)
+        return deleted_gaits(self._files, self._edits)
 
     def restore(self, gait_id: str) -> None:
         """Brings a document back that was taken away."""
         self._files.restore(gait_id)
-        self._logged.pop(gait_id, None)
+        self._stored.pop(gait_id, None)

@@ -1,4 +1,4 @@
-"""The plan of a sequence: the plans of its parts, one after the other as one motion."""
+"""The plan of any gait; that of a sequence is the plans of its parts, one after the other as one motion."""
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress

@@ -25,7 +25,7 @@ import { mountTimeline } from "./timeline/timeline.js";
 import { mountTools } from "./timeline/timeline_tools.js";
 import { clearRefusals, report } from "./lib/toasts.js";
 import { mountTopbar } from "./shell/topbar.js";
-import { mountTransport } from "./timeline/transport.js";
+import { mountPlayback } from "./timeline/playback_controls.js";
 import { createZoom, mountZoom, zoomAtPlayhead } from "./timeline/zoom.js";
 
 /** A tab in the background is not painted. */
@@ -73,7 +73,7 @@ export function start(store) {
   const gaitTools = mountGaitTools(store, edits, (id) => selectGait(store, id));
   mountJobs(store);
   const { timeline, actions, zoom, tools } = mountEditor(store, edits, playback);
-  mountTransport(store, playback, mountPlots(store), actions.loop);
+  mountPlayback(store, playback, mountPlots(store), actions.loop);
   mountSplitter();
   const goTo = goToFinding(store, playback, timeline);
   const optimise = mountOptimise(store, edits, goTo);

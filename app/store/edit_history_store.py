@@ -53,7 +53,7 @@ class VersionRow:
 
 
 class EditHistoryStore:
-    """Histories and versions.
+    """The tables `open_gait`, `history`, `version`, `approval`; a gait is the last entry of its history.
 
     Args:
         database: where they are kept.

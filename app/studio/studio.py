@@ -26,7 +26,7 @@ from app.session.command_queue import CommandQueue, Result
 from app.session.event_hub import EventHub
 from app.simulation.repository import SimulationRepository
 from app.simulation.service import SimulationService
-from app.store.database import Database
+from app.store.database import DATABASE, Database
 from app.store.gait_files import GaitFiles
 from app.store.simulation_store import SimulationStore
 from app.store.trial_reference_store import TrialReferenceStore
@@ -72,7 +72,7 @@ class Studio:
     def __init__(self, data: Path, device: str, cameras: Sequence[CameraAddress] = ()) -> None:
         with ExitStack() as self._parts:
             files = GaitFiles(data)
-            self._database = self._register(Database(data / "studio.sqlite3"))
+            self._database = self._register(Database(data / DATABASE))
             self.stop_executor = self._parts.enter_context(ThreadPoolExecutor(2, "stop"))
             self.hub = self._register(EventHub())
             self.commands = self._register(CommandQueue())

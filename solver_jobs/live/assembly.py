@@ -1,4 +1,7 @@
-"""The live tier's quadratic program: the linearisation, the rows of all its constraints, and its cost."""
+"""The live tier's quadratic program: linearisation, rows and cost.
+
+`quadratic_program` stacks the rows of `_rows`; `solve.py` adds motor limits, `elastic.py` slack.
+"""
 
 import numpy as np
 

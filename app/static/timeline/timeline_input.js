@@ -171,7 +171,7 @@ export function mountTimelineInput(store, edits, grid, rows, reveal) {
   }
 
   /** A click without a pointer, as assistive tools send them; a mouse click is a gesture of no length. */
-  function click(event) {
+  function clickWithoutPointer(event) {
     const here = cellOf(event.target);
     if (here && !swallowClick) ({ paint: toggle, select: (cell) => selection.between(cell, cell), lock: (cell) => lockRegion(edits, document(), spanning(cell, cell), !isLocked(document(), cell)) })[store.state.tool](here);
     swallowClick = false;
@@ -199,7 +199,7 @@ export function mountTimelineInput(store, edits, grid, rows, reveal) {
   });
   grid.addEventListener("pointercancel", () => end(false));
   grid.addEventListener("pointerover", explain);
-  grid.addEventListener("click", click);
+  grid.addEventListener("click", clickWithoutPointer);
   grid.addEventListener("dblclick", takeSwing);
   grid.addEventListener("keydown", press);
   window.addEventListener("keydown", (event) => { if (event.key === "Tab") delete grid.dataset.pointed; }, true);

@@ -57,7 +57,7 @@ function place(marker, overlayWidth, fraction) {
  * @param {(time: number) => void} showFigures called with every move of the playhead
  * @param {() => void} loop what the key L does
  */
-export function mountTransport(store, playback, showFigures, loop) {
+export function mountPlayback(store, playback, showFigures, loop) {
   const overlay = byId("overlay");
   const showClock = mountClock();
   let axis = axisOf(store.state);

@@ -19,7 +19,7 @@ settings.register_profile(
     "same", deadline=None, derandomize=True, max_examples=25, suppress_health_check=SLOW
 )
 settings.register_profile(
-    "explore", deadline=None, max_examples=300, print_blob=True, suppress_health_check=SLOW
+    "explore", deadline=None, max_examples=100, print_blob=True, suppress_health_check=SLOW
 )
 settings.load_profile("same")
 

@@ -281,7 +281,7 @@ def _import_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("file", type=Path, help="TRAJ.csv, WAY.csv, MOTION.npz, PHASES.json or GAIT.json")
     add("--name", default=None, help="of the gait; the file's where left out")
-    add("--robot", default=None, help="whose motion it is; the first one with so many feet where left out")
+    add("--robot", default=None, help="robot of the motion (default the first one with as many feet)")
     add("--sample-time", type=number(0.001, 60.0, "s"), default=None, help="of a phase list, s")
     add("-o", "--output", type=Path, default=None, help="gait file to write")
 

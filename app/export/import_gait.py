@@ -43,7 +43,7 @@ def read_gait(
         name: of the gait; the document's own, or else made from the file's name, where None.
         companion: text of a trajectory's companion, where there is one.
         sample_time: of a phase list, s; the list's own where None.
-        robot: whose motion a trajectory or waypoints are; the first one with so many feet where None.
+        robot: the robot of a trajectory or of waypoints; None for the first one with as many feet.
 
     Raises:
         InputError: naming line, column, field, foot or phase of what is wrong.
@@ -66,7 +66,7 @@ def gait_of_recording(recording: Recording, name: str, robot: str | None = None)
     Args:
         recording: the file.
         name: of the gait.
-        robot: whose motion it is; the first one with so many feet where None.
+        robot: the robot of the motion; None for the first one with as many feet.
 
     Raises:
         InputError: the file cannot be read, is too large, has uneven intervals, or no robot here has so many

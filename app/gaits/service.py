@@ -325,7 +325,7 @@ class GaitService:
         return self._put(replace(open_gait, approval=approval, revoked=None), version, record)
 
     def on_simulated(self, waypoints_hash: str) -> tuple[OpenGait, ...]:
-        """Revokes verdict and approval of open gaits whose waypoints were simulated since; returns them."""
+        """Revokes verdict and approval of each open gait that was simulated since; returns these gaits."""
         checked = tuple(self._open.values())
         touched = [g for g in checked if g.verdict and g.verdict.waypoints_hash == waypoints_hash]
         return tuple(self._put(gait.unapproved("It was simulated since")) for gait in touched)

@@ -39,7 +39,7 @@ def gait_of_motion(trajectory: Trajectory, name: str, robot: str | None = None) 
     Args:
         trajectory: the motion, at even intervals.
         name: of the gait.
-        robot: whose motion it is; the first one with so many feet where None.
+        robot: the robot of the motion; None for the first one with as many feet.
 
     Raises:
         InputError: its intervals differ, or no robot here has so many feet.

@@ -21,7 +21,7 @@ def recorded_motion(recording: Recording, model: RobotModel | None = None) -> Tr
 
     Args:
         recording: the file as it is kept.
-        model: the robot that it is of; the first one with so many feet where None.
+        model: the robot of the motion; None for the first one with as many feet.
 
     Raises:
         InputError: the text cannot be read, or is of a robot with another number of feet.

@@ -133,8 +133,8 @@ export function feetPart(draft, stage) {
  * Builds the button.
  * @param {object} picture of `pictureView`
  * @param {{changed: () => void, take: (range: object) => void}} acts `changed` when picking begins or ends
- * @returns {{button: HTMLElement, isOn: () => boolean, shown: (hasOwnColours: boolean) => void, end: () => void}} `shown` is to be
- *   told whether the picture that stands there now has its own colours
+ * @returns {{button: HTMLElement, isOn: () => boolean, shown: (hasOwnColours: boolean) => void, end: () => void}} call `shown` with
+ *   each new picture: whether it has its own colours
  */
 export function colourPicking(picture, { changed, take }) {
   const button = h("button", { type: "button", text: "Pick colour", "aria-pressed": "false", title: "Then click on this foot in the picture" });

@@ -176,7 +176,7 @@ const UNKNOWNS = 8;
 const LEAST_POINTS = 4;
 const SINGULAR = 1e-12;
 
-/** Solves A x = b by elimination with pivots; null where A tells no x. */
+/** Solves A x = b by elimination with pivots; null if A is singular. */
 function solved(matrix, right) {
   const rows = matrix.map((row, index) => [...row, right[index]]);
   const size = rows.length;

@@ -19,12 +19,12 @@ function parameterRow({ title, unit, default: usual, fitted, low, high, is_ident
 
 const parameterTable = ({ parameters }) => table("Parameters", "Fitted values with one standard deviation below and above; what the trials cannot tell stays as it was", ["", "usual", "fitted"], parameters.map(parameterRow));
 
-const predictionTable = ({ foretold }) => table("How far foretold travel is off", "Mean over gaits, without sign. A gait that is left out is foretold by what was fitted to the others", ["", "cm", "°"],
-  foretold.map(({ title, error_cm: distance, error_deg: angle, angles, falls }) => h("tr", falls ? { title: `Of a gait that falls the whole way counts, and no angle: the angle is a mean of ${angles}` } : {},
+const predictionTable = ({ foretold: predicted }) => table("How far foretold travel is off", "Mean over gaits, without sign. A gait that is left out is predicted by the fit to the others", ["", "cm", "°"],
+  predicted.map(({ title, error_cm: distance, error_deg: angle, angles, falls }) => h("tr", falls ? { title: `If a gait falls, its whole distance counts as the error and its angle does not: the angle is a mean of ${angles}` } : {},
     h("th", { scope: "row", text: falls ? `${title} (${falls} fall, angle of ${angles})` : title }), h("td", { text: fixed(distance, 2) }), h("td", { text: fixed(angle) }))));
 
-function gaitTable({ gaits, foretold }) {
-  const distances = (name) => foretold.find((one) => one.name === name).distances_cm;
+function gaitTable({ gaits, foretold: predicted }) {
+  const distances = (name) => predicted.find((one) => one.name === name).distances_cm;
   const columns = [gaits.map((gait) => gait.distance_cm), distances("as planned"), distances("default"), distances("left out")];
   return table("Gaits, cm", "Distance by the published definition", ["", "real", "plan", "usual", "left out"],
     gaits.map(({ name }, place) => h("tr", {}, h("th", { scope: "row", text: name }), ...columns.map((values) => h("td", { text: fixed(values[place]) })))));
@@ -75,14 +75,14 @@ const MARKS = [
 
 const label = (x, y, text, anchor = "middle") => svg("text", { x, y, "text-anchor": anchor, text });
 
-function legend(foretold) {
+function legend(predicted) {
   return h("span", { class: "said-legend" }, ...MARKS.map(({ name, mark }) => h("span", {},
-    svg("svg", { viewBox: "0 0 10 10", "aria-hidden": "true" }, mark(5, 5)), foretold.find((prediction) => prediction.name === name).title)));
+    svg("svg", { viewBox: "0 0 10 10", "aria-hidden": "true" }, mark(5, 5)), predicted.find((prediction) => prediction.name === name).title)));
 }
 
 /** @param {{gaits: object[], foretold: object[]}} result of a job */
-function predictionPlot({ gaits, foretold }) {
-  const drawn = MARKS.map((one) => ({ ...one, prediction: foretold.find(({ name }) => name === one.name) }));
+function predictionPlot({ gaits, foretold: predicted }) {
+  const drawn = MARKS.map((one) => ({ ...one, prediction: predicted.find(({ name }) => name === one.name) }));
   const measured = gaits.map(({ distance_cm: distance }) => distance);
   const all = [...measured, ...drawn.flatMap(({ prediction }) => prediction.distances_cm)];
   const [low, high] = [Math.floor(Math.min(...all)), Math.ceil(Math.max(...all))];
@@ -100,5 +100,5 @@ function predictionPlot({ gaits, foretold }) {
       svg("line", { class: "right-line", x1: toX(low), y1: toY(low), x2: toX(high), y2: toY(high) }),
       label((SIZE.left + SIZE.width) / 2, SIZE.height - 4, "measured, cm"),
       ...drawn.flatMap(({ prediction, mark }) => measured.map((value, place) => mark(toX(value), toY(prediction.distances_cm[place]))))),
-    h("figcaption", { class: "quiet" }, h("span", { text: "Foretold over measured distance, cm; on the line it was foretold rightly" }), legend(foretold)));
+    h("figcaption", { class: "quiet" }, h("span", { text: "Predicted over measured distance, cm; exact on the line" }), legend(predicted)));
 }

@@ -93,7 +93,7 @@ def test_what_does_not_show_is_said_to_be_unknown_and_stays_as_it_was(learned: L
     assert learned.physics.backlash == DEFAULT.backlash
 
 
-def test_gaits_that_were_left_out_are_foretold_better_than_by_plan_and_default(learned: Learned) -> None:
+def test_gaits_that_were_left_out_are_predicted_better_than_by_plan_and_default(learned: Learned) -> None:
     errors = {way.name: learned.errors(way)[0] for way in learned.predicted}
     assert errors["as planned"] == pytest.approx(errors["default"])
     assert errors["left out"] < 0.25 * errors["default"]
@@ -156,7 +156,7 @@ def test_a_gait_that_falls_in_most_simulations_is_to_be_left_out() -> None:
         learn(walks, DEFAULT, falling, POINTS)
 
 
-def test_a_gait_that_falls_when_foretold_counts_its_whole_way_and_no_angle() -> None:
+def test_a_gait_that_falls_in_its_prediction_counts_its_whole_distance_and_no_angle() -> None:
     walks = made_walks()
     simulate = simulating(walks)
 

@@ -8,6 +8,7 @@ from enum import StrEnum
 from typing import Any
 
 from core.errors import StateError
+from core.names import is_visible
 
 TOLERANCE = 1e-6
 """What a limit may be passed by before it counts, m."""
@@ -183,7 +184,7 @@ def approve(verdict: Verdict, by: str, when: datetime, *, accept_warnings: bool 
     Raises:
         StateError: an error stands, or a warning that was not accepted, or no name was given.
     """
-    if not by.strip():
+    if not is_visible(by):
         raise StateError("An approval needs the name of the person who gives it.", "by")
     if not verdict.passed:
         errors = [f for f in verdict.findings if f.severity is Severity.ERROR]

@@ -36,6 +36,7 @@ from app.emulator.faults import Fault
 from app.emulator.profiles import ProfileName
 from app.export.formats import ExportFormat
 from core.errors import InputError
+from core.gait.options import LEAST_PHASE_KNOTS, MOST_CLOSING_KNOTS, MOST_PHASE_KNOTS
 from core.patterns.problem import LEAST_SAMPLES, MOST_LEGS, MOST_SAMPLES, PatternRules
 from core.physics.parameters import physics_sets
 from core.physics.problem import Rig
@@ -135,7 +136,7 @@ def _manual_options(parser: argparse.ArgumentParser) -> None:
     add("--step", type=number(0.0, 0.2, "m"), default=0.010, help="m (default 0.010)")
     add("--direction", type=whole(1, 4), default=1)
     add("--iterations", type=whole(1, 20), default=1)
-    add("--segment-samples", type=whole(2, 50), default=5)
+    add("--segment-samples", type=whole(LEAST_PHASE_KNOTS, MOST_PHASE_KNOTS), default=5)
     add_robot(parser, "default deltawalker")
     add("-o", "--output", type=Path, default=None, help="trajectory CSV to write")
 
@@ -163,8 +164,9 @@ def _gait_options(parser: argparse.ArgumentParser) -> None:
     add("--direction", type=whole(1, 4), default=None)
     add("--order", type=foot_order, default=None, help="feet such as 3,2,4,1")
     add("--iterations", type=whole(1, 20), default=None)
-    add("--phase-knots", type=whole(2, 50), default=None, help="knots of each stance phase and of each swing")
-    add("--closing-knots", type=whole(0, 100), default=None, help="knots of stance after the last swing")
+    phase, closing = whole(LEAST_PHASE_KNOTS, MOST_PHASE_KNOTS), whole(0, MOST_CLOSING_KNOTS)
+    add("--phase-knots", type=phase, default=None, help="knots of each stance phase and of each swing")
+    add("--closing-knots", type=closing, default=None, help="knots of stance after the last swing")
     add("--knot-time", type=number(0.01, 10.0, "s"), default=None, help="s between knots (default 0.4)")
     _limit_options(parser)
     add("--boundary", type=one_of(Boundary), metavar=words_of(Boundary), default=None)

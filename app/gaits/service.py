@@ -17,6 +17,7 @@ from app.gaits.repository import GaitRepository
 from app.gaits.trash import DeletedGait
 from app.gaits.undo import merged_gait
 from app.gaits.versions import VersionKind, Versions, is_said_already
+from app.gaits.views import require_line
 from app.plans.plan import Plan, Solve, verdict_of
 from app.plans.provenance import with_result
 from app.plans.sequence_plan import run_motions
@@ -179,6 +180,7 @@ class GaitService:
     def _edited(
         self, open_gait: OpenGait, gait: Gait, label: str, author: Author, notice: str | None = None
     ) -> OpenGait:
+        require_line(gait)
         version = self.versions.due(open_gait)
         history = open_gait.history.edited(gait_text(gait), label, author, self._others(author))
         return self._put(open_gait.changed(history.pruned(), gait, notice), version)
@@ -246,6 +248,7 @@ class GaitService:
     def create(self, gait: Gait) -> OpenGait:
         """Adds a gait under a new id made from its name, and saves it."""
         gait, notice = normalise_imported(derived(gait) if gait.sequence else gait)
+        require_line(gait)
         created = replace(self._repository.add(gait, frozenset(self._open)), notice=notice)
         self.versions.keep(created, VersionKind.SAVED)
         self._open[created.id] = created

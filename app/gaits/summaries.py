@@ -39,7 +39,6 @@ class GaitSummaries:
         if kept is not None and kept[0] == mark:
             return kept
         try:
-            gait, builtin, edited = self._service.glance(gait_id)
+            return mark, line_view(gait_id, *self._service.glance(gait_id))
         except FootfallError:
             return mark, None
-        return mark, line_view(gait_id, gait, builtin, edited)

@@ -53,6 +53,15 @@ def line_view(gait_id: str, gait: Gait, builtin: bool, edited: bool) -> Json:
     }
 
 
+def require_line(gait: Gait) -> None:
+    """A document that is to be kept can be shown in the list.
+
+    Raises:
+        InputError: it cannot.
+    """
+    line_view("", gait, False, True)
+
+
 def steps_view(open_gait: OpenGait, pages: frozenset[str]) -> Json:
     """What can be undone and redone: by a script, and by each connected page."""
     steps = {

@@ -6,7 +6,7 @@ from pydantic import Field
 from app.common.json import Json
 from app.web.dependencies import FiniteBody, TheStudio, changed
 from core.gait.gait import MOST_NAME, Gait, Orientation
-from core.gait.options import GaitOptions
+from core.gait.options import LEAST_PHASE_KNOTS, MOST_CLOSING_KNOTS, MOST_PHASE_KNOTS, GaitOptions
 from core.library.new_gait import DEFAULT_STEP, default_phase_knots, drawn_gait, named_orders
 from core.robot.model import ROBOT_NAMES, RobotModel, load_robot
 
@@ -21,8 +21,8 @@ class NewGait(FiniteBody):
     orientation: Orientation = Orientation.FB
     order: list[int] | None = Field(default=None, max_length=64)
     step: float = DEFAULT_STEP
-    phase_knots: int | None = Field(default=None, ge=2, le=50)
-    closing_knots: int = Field(default=GaitOptions.closing_knots, ge=0, le=100)
+    phase_knots: int | None = Field(default=None, ge=LEAST_PHASE_KNOTS, le=MOST_PHASE_KNOTS)
+    closing_knots: int = Field(default=GaitOptions.closing_knots, ge=0, le=MOST_CLOSING_KNOTS)
     iterations: int = Field(default=1, ge=1, le=20)
 
 

@@ -15,9 +15,10 @@ from core.gait.held_rules import require_feet, require_repeatable, require_rest
 from core.gait.options import GaitOptions
 from core.gait.provenance import Provenance
 from core.gait.recording import Recording
-from core.motion.contact_timeline import ContactTimeline, timeline_from_order
+from core.motion.contact_timeline import ContactTimeline, drawn_samples, timeline_from_order
 from core.motion.heading_profile import HeadingProfile, heading_profile, return_knots
 from core.motion.trajectory import quarter_turn
+from core.names import is_visible
 from core.problem.motion_problem import (
     Boundary,
     MotionLimits,
@@ -94,7 +95,7 @@ class Gait:
     def __post_init__(self) -> None:
         _require_text("name", self.name, MOST_NAME)
         _require_text("notes", self.notes, MOST_NOTES)
-        if not self.name.strip():
+        if not is_visible(self.name):
             raise InputError("The gait has no name; give it one.", "name")
         if self.direction not in (1, 2, 3, 4):
             raise InputError(f"direction is {self.direction}; it must be 1, 2, 3 or 4.", "direction")
@@ -255,6 +256,16 @@ def drawn_timeline(gait: Gait) -> ContactTimeline:
     return drawn.turned(gait.quarter_turns)
 
 
+def is_drawn(gait: Gait) -> bool:
+    """Whether the timeline is the one that the gait's order, phases, iterations and direction draw."""
+    legs, options = gait.timeline.leg_count, gait.options
+    walking = legs - len(gait.held.both)
+    samples = drawn_samples(walking, options.phase_knots, options.closing_knots, gait.iterations)
+    if samples != gait.timeline.sample_count:  # it may also be too long to be drawn
+        return False
+    return np.array_equal(gait.timeline.stance, drawn_timeline(gait).stance)
+
+
 def with_return(gait: Gait, model: RobotModel) -> Gait:
     """The gait redrawn with a closing stance in which its body can turn back over its feet.
 
@@ -283,7 +294,7 @@ def with_iterations(gait: Gait, iterations: int) -> Gait:
     if iterations > 1:
         require_repeatable(gait.held)
     changed = replace(gait, iterations=iterations)
-    drawn = np.array_equal(gait.timeline.stance, drawn_timeline(gait).stance)
+    drawn = is_drawn(gait)
     if drawn or gait.segment_table is not None:
         return replace(changed, timeline=drawn_timeline(changed)) if drawn else changed
     stance, locked = gait.timeline.stance, gait.timeline.locked

@@ -2,9 +2,7 @@
 
 from enum import StrEnum
 
-import numpy as np
-
-from core.gait.gait import Gait, drawn_timeline
+from core.gait.gait import Gait, is_drawn
 
 
 class MotionSource(StrEnum):
@@ -30,5 +28,4 @@ def motion_source(gait: Gait) -> MotionSource:
         return MotionSource.RECORDED
     if gait.segment_table is not None:
         return MotionSource.MANUAL
-    is_drawn_from_order = np.array_equal(gait.timeline.stance, drawn_timeline(gait).stance)
-    return MotionSource.OPTIMISED if is_drawn_from_order else MotionSource.DRAWN
+    return MotionSource.OPTIMISED if is_drawn(gait) else MotionSource.DRAWN

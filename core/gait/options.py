@@ -22,6 +22,11 @@ _OPTION_BOUNDS: dict[str, tuple[float, float, float, str]] = {
 }
 """Factor from SI to what a person reads, least, most, unit."""
 
+LEAST_PHASE_KNOTS, MOST_PHASE_KNOTS = 2, 50
+"""Knots that a stance phase or a swing of a drawn timeline may have."""
+MOST_CLOSING_KNOTS = 100
+"""Knots that the closing stance of a drawn timeline may have."""
+
 
 @dataclass(frozen=True)
 class GaitOptions:
@@ -74,5 +79,10 @@ class GaitOptions:
                     f"The {words} is {value:g}{unit}; it must lie between {lower:g} and {upper:g}{unit}.",
                     name,
                 )
-        if self.phase_knots < 2 or self.closing_knots < 0:
-            raise InputError("phase_knots must be at least 2 and closing_knots at least 0.", "phase_knots")
+        _require_knots("phase_knots", self.phase_knots, LEAST_PHASE_KNOTS, MOST_PHASE_KNOTS)
+        _require_knots("closing_knots", self.closing_knots, 0, MOST_CLOSING_KNOTS)
+
+
+def _require_knots(name: str, knots: int, least: int, most: int) -> None:
+    if not least <= knots <= most:
+        raise InputError(f"{name} is {knots}; it must lie between {least} and {most}.", name)

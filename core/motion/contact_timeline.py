@@ -135,6 +135,11 @@ def rows_from_bits(bits: ArrayLike) -> tuple[str, ...]:
     return tuple("".join("1" if b else "0" for b in row) for row in np.asarray(bits))
 
 
+def drawn_samples(legs: int, phase_knots: int, closing_knots: int, iterations: int) -> int:
+    """Samples of a timeline that `timeline_from_order` draws."""
+    return iterations * legs * 2 * phase_knots + closing_knots
+
+
 def timeline_from_order(
     legs: int,
     order: Sequence[int],
@@ -170,7 +175,14 @@ def timeline_from_order(
             "Phases need at least 2 knots, the closing stance at least 0, and there is at least 1 iteration.",
             "phase_knots",
         )
-    stance = np.ones((legs, iterations * legs * 2 * phase_knots + closing_knots), dtype=np.bool_)
+    samples = drawn_samples(legs, phase_knots, closing_knots, iterations)
+    if samples > MAX_SAMPLES:
+        raise InputError(
+            f"{iterations} iterations of {legs} feet with phases of {phase_knots} knots have {samples} "
+            f"samples; at most {MAX_SAMPLES} are drawn. Take fewer iterations or shorter phases.",
+            "phase_knots",
+        )
+    stance = np.ones((legs, samples), dtype=np.bool_)
     for step, foot in enumerate(list(order) * iterations):
         first = (2 * step + 1) * phase_knots
         stance[foot - 1, first : first + phase_knots] = False

@@ -6,8 +6,9 @@ import numpy as np
 
 from core.arrays import Floats
 from core.errors import InputError
-from core.gait.gait import Gait, Orientation, drawn_timeline
+from core.gait.gait import Gait, Orientation, is_drawn
 from core.gait.held_feet import HeldFeet, held_sentence
+from core.gait.options import LEAST_PHASE_KNOTS, MOST_CLOSING_KNOTS, MOST_PHASE_KNOTS
 from core.motion.contact_timeline import SAME_INTERVAL, ContactTimeline
 from core.motion.trajectory import Trajectory, quarter_turn
 from core.robot.model import ROBOT_NAMES, load_robot
@@ -124,11 +125,10 @@ def _with_phases(gait: Gait) -> Gait:
     phase = min((swing.first for swing in gait.timeline.swings() if swing.foot + 1 not in held), default=0)
     steps = gait.iterations * (gait.timeline.leg_count - len(held))
     closing = gait.timeline.sample_count - 2 * phase * steps
-    if phase < 2 or closing < 0:
+    if not (LEAST_PHASE_KNOTS <= phase <= MOST_PHASE_KNOTS and 0 <= closing <= MOST_CLOSING_KNOTS):
         return gait
     drawn = gait.with_options(phase_knots=phase, closing_knots=closing)
-    same = np.array_equal(drawn_timeline(drawn).stance, gait.timeline.stance)
-    return drawn if same else gait
+    return drawn if is_drawn(drawn) else gait
 
 
 def _heading(travel: Floats) -> tuple[Orientation, int]:

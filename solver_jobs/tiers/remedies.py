@@ -7,7 +7,7 @@ from itertools import permutations
 import numpy as np
 
 from core.errors import FootfallError
-from core.gait.gait import Gait, drawn_timeline, motion_problem
+from core.gait.gait import Gait, drawn_timeline, is_drawn, motion_problem
 from core.gait.options import GaitOptions
 from core.motion.contact_timeline import Swing
 from core.problem.motion_problem import MotionLimits, Workspace
@@ -115,9 +115,7 @@ def _redrawn(gait: Gait) -> Gait:
 
 def _is_drawn(gait: Gait) -> bool:
     """Whether the timeline is that of its order and phase lengths, with nothing locked."""
-    drawn = drawn_timeline(gait)
-    same = np.array_equal(drawn.stance, gait.timeline.stance)
-    return same and not bool(gait.timeline.locked.any())
+    return is_drawn(gait) and not bool(gait.timeline.locked.any())
 
 
 def _swings(gait: Gait, trial: _Trial) -> Remedy | None:

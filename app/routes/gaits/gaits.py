@@ -20,6 +20,7 @@ from app.scene.overlay import plan_poses
 from app.web.dependencies import RequestBody, TheAuthor, TheStudio, changed, on_command_thread, on_planned
 from core.errors import InputError, StateError
 from core.gait.gait import MOST_NAME, Gait
+from core.gait.options import LEAST_PHASE_KNOTS, MOST_CLOSING_KNOTS, MOST_PHASE_KNOTS
 
 router = APIRouter(prefix="/api/gaits", tags=["gaits"])
 
@@ -35,8 +36,8 @@ class Redraw(RequestBody):
     """A foot order and phase lengths to draw the timeline from."""
 
     order: list[int]
-    phase_knots: int = Field(default=5, ge=2, le=50)
-    closing_knots: int = Field(default=5, ge=0, le=100)
+    phase_knots: int = Field(default=5, ge=LEAST_PHASE_KNOTS, le=MOST_PHASE_KNOTS)
+    closing_knots: int = Field(default=5, ge=0, le=MOST_CLOSING_KNOTS)
 
 
 class Approve(RequestBody):

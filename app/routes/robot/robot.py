@@ -10,6 +10,7 @@ from fastapi import APIRouter, Body
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
+from core.names import is_visible
 from app.bridge.run_range import RunRange
 from app.common.json import Json
 from app.emulator.faults import Fault
@@ -74,7 +75,7 @@ async def _moved(
 
 def named(author: Author, actor_body: ActorBody | None) -> Author:
     """Who does it: the name in the body goes before that of the page."""
-    named = actor_body is not None and "by" in actor_body.model_fields_set and actor_body.by.strip()
+    named = actor_body is not None and "by" in actor_body.model_fields_set and is_visible(actor_body.by)
     return replace(author, name=actor_body.by) if actor_body is not None and named else author
 
 
@@ -119,7 +120,7 @@ async def send_stop(studio: Studio, by: str) -> None:
         studio: whose robot.
         by: who stops it.
     """
-    name = by.strip()[:MOST_NAME] or SOMEBODY
+    name = by.strip()[:MOST_NAME] if is_visible(by) else SOMEBODY
     # On this very thread: on a busy computer each further one takes its time to wake up.
     left = studio.robot.bridge.try_stop(name)
     if left is not None:

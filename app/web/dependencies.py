@@ -2,7 +2,7 @@
 
 import asyncio
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any, TypeVar
 from urllib.parse import unquote
 
@@ -10,7 +10,8 @@ import numpy as np
 from fastapi import Depends, FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, Field
+from starlette.exceptions import HTTPException
 
 from app.gaits.open_gait import OpenGait
 from app.studio.studio import Studio
@@ -36,8 +37,25 @@ PAGE_HEADER, NAME_HEADER = "x-footfall-page", "x-footfall-name"
 MOST_NAME = 80
 """Characters of a person's name."""
 
+MOST_QUOTED = 200
+"""Characters of an address that a refusal repeats."""
+
+MOST_NUMBER = 2**53 - 1
+"""Largest whole number that is counted with: JSON and the database keep it exactly."""
+
+MOST_PLACE = 1000.0
+"""How far from its middle something in a scene may stand, m; also the largest heading, rad."""
+
 MOST_MOTORS = 36
 """Motors of the largest robot."""
+
+Revision = Annotated[int, Field(ge=1, le=MOST_NUMBER)]
+"""A revision or a version of something that is kept."""
+
+_UNREADABLE = (
+    "The body cannot be read. Send JSON in UTF-8, without thousands of brackets within each other or numbers "
+    "of thousands of digits."
+)
 
 _PAGE = re.compile(r"[A-Za-z0-9-]{1,64}")
 
@@ -140,6 +158,7 @@ def install_error_handlers(app: FastAPI) -> None:
     """Turns refusals into `{"error": sentence, "where": …}` with a fitting status."""
     app.add_exception_handler(FootfallError, _refused)
     app.add_exception_handler(RequestValidationError, _invalid)
+    app.add_exception_handler(HTTPException, _unanswerable)
     app.add_exception_handler(BodyTooLargeError, _too_large)
 
 
@@ -160,6 +179,22 @@ async def _invalid(request: Request, error: Exception) -> JSONResponse:
     return _refusal(f"{field}: {first['msg']}.", field, 422)
 
 
+async def _unanswerable(request: Request, error: Exception) -> JSONResponse:
+    """What no route was asked: an unknown address, a method that is not taken, a body that is no JSON."""
+    if not isinstance(error, HTTPException):
+        raise error
+    path, headers = request.url.path[:MOST_QUOTED], error.headers
+    if error.status_code == 404:
+        return _refusal(f"There is nothing at {path}. /docs lists every address.", "path", 404)
+    if error.status_code == 405:
+        taken = (headers or {}).get("Allow", "other methods")
+        sentence = f"{path} does not take {request.method}; it takes {taken}. /docs lists every address."
+        return _refusal(sentence, "method", 405, headers)
+    if error.status_code == 400:
+        return _refusal(_UNREADABLE, "body", 422)
+    return _refusal(f"{error.detail}.", None, error.status_code, headers)
+
+
 async def _too_large(request: Request, error: Exception) -> JSONResponse:
     del request
     if not isinstance(error, BodyTooLargeError):
@@ -167,8 +202,10 @@ async def _too_large(request: Request, error: Exception) -> JSONResponse:
     return body_refusal(error)
 
 
-def _refusal(sentence: str, where: str | None, status: int) -> JSONResponse:
+def _refusal(
+    sentence: str, where: str | None, status: int, headers: Mapping[str, str] | None = None
+) -> JSONResponse:
     """The answer; what a refusal quotes may hold halves of characters."""
     words = {"error": sentence, "where": where}
     whole = {key: text and text.encode(errors="backslashreplace").decode() for key, text in words.items()}
-    return JSONResponse(whole, status_code=status)
+    return JSONResponse(whole, status_code=status, headers=headers)

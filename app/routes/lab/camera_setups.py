@@ -15,7 +15,7 @@ from app.common.json import Json
 from app.studio.studio import Studio
 from app.vision.services import ask
 from app.vision.worker import FindCheckerboard, FitLens, Source, Straighten, data_url
-from app.web.dependencies import RequestBody, TheStudio
+from app.web.dependencies import RequestBody, Revision, TheStudio
 from core.errors import InputError
 
 router = APIRouter(prefix="/api", tags=["cameras"])
@@ -35,7 +35,7 @@ CHECKERBOARD_SECONDS = 60.0
 class SetupChange(RequestBody):
     """A setup as it is to be, and the revision that was changed."""
 
-    revision: int = Field(ge=1)
+    revision: Revision
     setup: SetupDocument
 
 
@@ -85,9 +85,7 @@ async def check_setup(setup: SetupDocument, studio: TheStudio) -> Json:
 
 
 @router.get("/setups/{setup}")
-async def read_setup(
-    setup: str, studio: TheStudio, revision: Annotated[int | None, Query(ge=1)] = None
-) -> Json:
+async def read_setup(setup: str, studio: TheStudio, revision: Revision | None = None) -> Json:
     """A setup, or an older revision of it."""
     return await run_in_threadpool(lambda: studio.lab.setups.view(setup, revision))
 

@@ -12,7 +12,7 @@ from app.learning.service import MOST_SET_NAME
 from app.learning.walks import SentTrial, walks_of
 from app.studio.studio import Studio
 from app.trials.record import ROBOT
-from app.web.dependencies import RequestBody, TheAuthor, TheStudio
+from app.web.dependencies import RequestBody, Revision, TheAuthor, TheStudio
 from core.errors import InputError
 from core.identification.learning import Walk
 from core.physics.masses import default_physics
@@ -50,7 +50,7 @@ class SetName(RequestBody):
 class SetVersion(SetName):
     """One version of a set."""
 
-    version: int = Field(ge=1)
+    version: Revision
 
 
 @router.post("", status_code=202)

@@ -11,7 +11,7 @@ from app.studio.studio import Studio
 from app.trials.planned import PlannedFeet, planned_of_gait, planned_of_run
 from app.trials.service import TrialDescription, compared
 from app.trials.tables import table_csv, table_latex
-from app.web.dependencies import FiniteBody, RequestBody, TheAuthor, TheStudio, on_planned
+from app.web.dependencies import FiniteBody, RequestBody, Revision, TheAuthor, TheStudio, on_planned
 from core.vision.track_csv import FRAME_RATE, PixelScale, parse_track_csv
 
 router = APIRouter(prefix="/api/trials", tags=["trials"])
@@ -47,7 +47,7 @@ class NewTrial(FiniteBody):
 class TrialChanges(FiniteBody):
     """What is to be changed of a revision; what is left out stays. `ends` null finds the ends again."""
 
-    revision: int = Field(ge=1)
+    revision: Revision
     name: Name | None = None
     note: str | None = Field(default=None, max_length=4000)
     expected_cm: Length | None = None

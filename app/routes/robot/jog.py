@@ -9,13 +9,14 @@ from starlette.concurrency import run_in_threadpool
 from app.robot.jog_service import JogLook, JogRequest
 from app.routes.robot.robot import SOMEBODY, ActorBody, named
 from app.scene.ghost import ghost_blob
-from app.web.dependencies import MOST_MOTORS, RequestBody, TheAuthor, TheStudio, strokes_from_mm
+from app.web.dependencies import MOST_MOTORS, MOST_PLACE, RequestBody, TheAuthor, TheStudio, strokes_from_mm
 from core.errors import InputError
 from core.jog.steps import MOST_STEPS, Axis, JogPart, JogStep
 from core.robot.model import RobotModel, load_robot
 
 router = APIRouter(prefix="/api/robot", tags=["robot"])
 
+Place = Annotated[float, Field(ge=-MOST_PLACE, le=MOST_PLACE, allow_inf_nan=False)]
 Millimetres = Annotated[float, Field(allow_inf_nan=False)]
 
 
@@ -72,9 +73,9 @@ class JogBody(Target, ActorBody):
 class Ghost(Target):
     """Steps whose target is to be drawn, and where the body stands in the scene."""
 
-    x: float = Field(default=0.0, allow_inf_nan=False)
-    y: float = Field(default=0.0, allow_inf_nan=False)
-    heading: float = Field(default=0.0, allow_inf_nan=False)
+    x: Place = 0.0
+    y: Place = 0.0
+    heading: Place = 0.0
 
 
 @router.post("/jog")

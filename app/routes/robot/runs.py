@@ -13,10 +13,13 @@ from app.runs.export import run_csv, run_mcap
 from app.runs.motion import measured_trajectory
 from app.scene.ghost import ghost_blob
 from app.store.run_store import RunFilter
-from app.web.dependencies import RequestBody, TheStudio
+from app.web.dependencies import MOST_NUMBER, RequestBody, TheStudio
 
 router = APIRouter(prefix="/api/runs", tags=["runs"])
 Word = Annotated[str, Query(max_length=200)]
+
+FIRST_DAY, LAST_DAY = date(1970, 1, 2), date(9000, 1, 1)
+"""Between these the clock has a time for every day; no run is of another one."""
 
 MOST_NOTE = 4000
 """Characters of a note."""
@@ -36,7 +39,7 @@ async def list_runs(
     operator: Word = "",
     since: date | None = None,
     until: date | None = None,
-    offset: Annotated[int, Query(ge=0)] = 0,
+    offset: Annotated[int, Query(ge=0, le=MOST_NUMBER)] = 0,
     most: Annotated[int, Query(ge=1, le=200)] = 50,
 ) -> Json:
     """Runs, the newest first: of a gait, a state, an operator, and of days, the last one included."""
@@ -45,7 +48,7 @@ async def list_runs(
         state,
         operator,
         None if since is None else _begin(since),
-        None if until is None else _begin(until + timedelta(days=1)),
+        None if until is None else _begin(until, timedelta(days=1)),
     )
     return await run_in_threadpool(studio.runs.found, wanted, offset, most)
 
@@ -107,8 +110,9 @@ async def ghost_of_run(run: str, studio: TheStudio) -> Response:
     return Response(await run_in_threadpool(blob), media_type="application/octet-stream")
 
 
-def _begin(day: date) -> float:
-    """When a day begins where the studio runs, s since the epoch."""
+def _begin(day: date, later: timedelta = timedelta()) -> float:
+    """When a day, or one that is later, begins where the studio runs, s since the epoch."""
+    day = min(max(day, FIRST_DAY), LAST_DAY) + later
     return datetime(day.year, day.month, day.day).astimezone().timestamp()
 
 

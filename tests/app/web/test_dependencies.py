@@ -30,3 +30,30 @@ def test_a_refusal_has_its_status_and_its_sentence(error: FootfallError, status:
     answer = TestClient(app).get("/")
     assert (answer.status_code, answer.json()["error"]) == (status, sentence)
     assert (answer.json()["where"] is None) == (error.where is None)
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "body", "status", "words"),
+    [
+        ("GET", "/nowhere", b"", 404, "/nowhere"),
+        ("PUT", "/kept", b"", 405, "POST"),
+        ("POST", "/kept", b"[" * 100_000, 422, "body"),
+        ("POST", "/kept", b'{"a": ' + b"9" * 5000 + b"}", 422, "body"),
+        ("POST", "/kept", b'{"a": "\xff"}', 422, "body"),
+        ("POST", "/kept", b"{", 422, "body"),
+    ],
+)
+def test_what_no_route_answers_is_refused_with_a_sentence_too(
+    method: str, path: str, body: bytes, status: int, words: str
+) -> None:
+    app = FastAPI()
+    install_error_handlers(app)
+
+    @app.post("/kept")
+    async def kept(content: dict[str, int]) -> dict[str, int]:
+        return content
+
+    answer = TestClient(app).request(method, path, content=body, headers={"content-type": "application/json"})
+    assert (answer.status_code, words in answer.json()["error"]) == (status, True)
+    assert answer.json()["where"]
+    assert ("POST" in answer.headers.get("allow", "")) == (status == 405)

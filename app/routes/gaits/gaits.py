@@ -17,7 +17,15 @@ from app.gaits.open_gait import OpenGait
 from app.gaits.trash import ROUTE
 from app.gaits.views import approval_view, verdict_view
 from app.scene.overlay import plan_poses
-from app.web.dependencies import RequestBody, TheAuthor, TheStudio, changed, on_command_thread, on_planned
+from app.web.dependencies import (
+    RequestBody,
+    Revision,
+    TheAuthor,
+    TheStudio,
+    changed,
+    on_command_thread,
+    on_planned,
+)
 from core.errors import InputError, StateError
 from core.gait.gait import MOST_NAME, Gait
 from core.gait.options import LEAST_PHASE_KNOTS, MOST_CLOSING_KNOTS, MOST_PHASE_KNOTS
@@ -117,7 +125,7 @@ async def edit_gait(
     studio: TheStudio,
     author: TheAuthor,
     label: Annotated[str, Query(max_length=120)] = "Edit",
-    revision: int | None = None,
+    revision: Revision | None = None,
 ) -> Json:
     """Changes the document, as one undo step."""
     body = await _document(request)

@@ -10,7 +10,15 @@ from app.documents.gait_json import gait_content, motion_hash, parse_gait
 from app.gaits.open_gait import OpenGait
 from app.gaits.versions import MOST_NAME, VersionKind, is_said_already
 from app.store.edit_history_store import VersionRow
-from app.web.dependencies import RequestBody, TheAuthor, TheStudio, changed, on_command_thread, on_planned
+from app.web.dependencies import (
+    RequestBody,
+    Revision,
+    TheAuthor,
+    TheStudio,
+    changed,
+    on_command_thread,
+    on_planned,
+)
 from core.gait.gait import Gait
 from core.gait.gait_difference import gait_difference
 
@@ -49,7 +57,7 @@ async def name_version(gait_id: str, naming: Naming, studio: TheStudio, author: 
 
 
 @router.get("/{number}")
-async def read_version(gait_id: str, number: int, studio: TheStudio) -> Json:
+async def read_version(gait_id: str, number: Revision, studio: TheStudio) -> Json:
     """A version with its document."""
 
     def version() -> Json:
@@ -62,7 +70,7 @@ async def read_version(gait_id: str, number: int, studio: TheStudio) -> Json:
 
 
 @router.get("/{number}/difference")
-async def difference(gait_id: str, number: int, studio: TheStudio, to: int | None = None) -> Json:
+async def difference(gait_id: str, number: Revision, studio: TheStudio, to: Revision | None = None) -> Json:
     """What another version, or the present document, says that this version does not; in sentences."""
 
     def groups() -> Json:
@@ -80,7 +88,7 @@ async def difference(gait_id: str, number: int, studio: TheStudio, to: int | Non
 
 
 @router.post("/{number}/restore")
-async def restore_version(gait_id: str, number: int, studio: TheStudio, author: TheAuthor) -> Json:
+async def restore_version(gait_id: str, number: Revision, studio: TheStudio, author: TheAuthor) -> Json:
     """Makes a version's document the present one again, as an edit that can be undone."""
     return await changed(studio, lambda: studio.gaits.restore_version(gait_id, number, author))
 

@@ -10,13 +10,13 @@ from fastapi import APIRouter, Body
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
-from core.names import is_visible
 from app.bridge.run_range import RunRange
 from app.common.json import Json
 from app.emulator.faults import Fault
 from app.studio.studio import Studio
 from app.undo.history import Author
 from app.web.dependencies import MOST_NAME, RequestBody, TheAuthor, TheStudio, on_planned
+from core.names import is_visible
 
 router = APIRouter(prefix="/api/robot", tags=["robot"])
 

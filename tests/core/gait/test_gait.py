@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from core.errors import InputError
-from core.gait.gait import drawn_timeline, motion_problem, with_iterations
+from core.gait.gait import drawn_timeline, is_drawn, motion_problem, with_iterations
+from core.gait.motion_source import MotionSource, motion_source
 from core.library.library import library
-from core.motion.contact_timeline import ContactTimeline, rows_from_bits
+from core.motion.contact_timeline import MAX_SAMPLES, ContactTimeline, rows_from_bits, timeline_from_order
 from core.robot.model import load_robot
 
 
@@ -57,3 +58,38 @@ def test_a_swing_of_the_first_sample_alone_is_refused_and_a_longer_one_is_not() 
     stance[0, 1] = False
     longer = replace(walk, timeline=replace(walk.timeline, stance=stance))
     assert not motion_problem(longer, load_robot("deltawalker")).timeline.stance[0, 1]
+
+
+@pytest.mark.parametrize(
+    ("option", "knots"),
+    [("phase_knots", 1), ("phase_knots", 51), ("phase_knots", 10**9), ("closing_knots", 101)],
+)
+def test_phases_that_no_timeline_has_are_refused(option: str, knots: int) -> None:
+    with pytest.raises(InputError) as refused:
+        library()["walk"].gait.with_options(**{option: knots})
+    assert refused.value.where == option
+    assert str(knots) in refused.value.sentence
+
+
+def test_a_timeline_that_is_too_long_to_be_drawn_is_refused_before_it_is_made() -> None:
+    with pytest.raises(InputError) as refused:
+        timeline_from_order(4, (1, 2, 3, 4), phase_knots=10**9)
+    assert refused.value.where == "phase_knots"
+    assert str(MAX_SAMPLES) in refused.value.sentence
+
+
+def test_a_gait_drawn_by_hand_may_have_phases_that_would_be_too_long_to_draw() -> None:
+    walk = library()["walk"].gait
+    long = replace(walk, iterations=20).with_options(phase_knots=50)
+    assert not is_drawn(long)
+    assert motion_source(long) is MotionSource.DRAWN
+    assert is_drawn(walk)
+    with pytest.raises(InputError, match=str(MAX_SAMPLES)):
+        drawn_timeline(long)
+
+
+@pytest.mark.parametrize("name", ["", "   ", "\u200b\u2060", "\u3164", "\u2800", "\t\n", "\u202e"])
+def test_a_name_that_shows_nothing_is_no_name(name: str) -> None:
+    with pytest.raises(InputError) as refused:
+        replace(library()["walk"].gait, name=name)
+    assert refused.value.where == "name"

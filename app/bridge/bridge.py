@@ -25,6 +25,9 @@ logger = logging.getLogger(__name__)
 TICK = 0.05
 """Longest time between two looks at the deadlines, s."""
 
+LATE = 0.25
+"""A worker that wakes so much later than its tick was kept from running; the robot may have spoken, s."""
+
 TELEMETRY_PERIOD = 0.05
 """Subscribers hear of strokes at most 20 times a second."""
 
@@ -337,11 +340,16 @@ class RobotBridge:
 
     def _work(self) -> None:
         while not self._closing:
+            began, slept_from = self._clock(), time.monotonic()
             items = self._take()
+            late = time.monotonic() - slept_from - self._tick
             with self._lock:
                 for item in items:
                     self._feed(item)
-                self._machine.tick(self._clock())
+                now = self._clock()
+                if late > LATE:
+                    self._machine.monitor.excuse(now - began, now)
+                self._machine.tick(now)
             self._tell()
 
     def _take(self) -> list[_Bytes | _HungUp]:

@@ -2,6 +2,7 @@
 
 from enum import Enum, auto
 
+from app.bridge.messages import misread_sentence
 from app.bridge.stop_confirmation import STOP_PAYLOAD
 from core.wire.lines import (
     CurrentPoint,
@@ -160,7 +161,7 @@ class Delivery:
         if line.payload == self.payload:
             self._left.pop(0)
         else:
-            self.failure = f"The robot read “{line.payload[:40]}” where “{self.payload[:40]}” was sent."
+            self.failure = misread_sentence(self.payload, line.payload)
 
     def _await_point(self, line: Line) -> None:
         if isinstance(line, TrajectoryPoint):

@@ -1,6 +1,6 @@
 """The handshake from an open line to a ready robot: one flush, then its effect (docs/firmware.md)."""
 
-from app.bridge.telemetry import TelemetryMonitor
+from app.bridge.telemetry import IDLE_LINES, TelemetryMonitor
 from core.wire.lines import Line, NewData
 
 START_LIMIT = 15.0
@@ -9,9 +9,6 @@ the motors for at most 4 s. Both must be over within this, each for itself, s.""
 
 FLUSH_TIME = 0.3
 """A flush has been read, and what was on its way before it has arrived, this long after it was sent, s."""
-
-GOOD_LINES = 2
-"""Telemetry lines with no movement between them after which a robot idles."""
 
 
 class Handshake:
@@ -50,7 +47,7 @@ class Handshake:
         """Whether the flush has had its effect and the robot idles."""
         if self.flushed_at is None or now < self.flushed_at + FLUSH_TIME:
             return False
-        return monitor.idle_lines >= GOOD_LINES
+        return monitor.idle_lines >= IDLE_LINES
 
     def overdue(self, now: float) -> bool:
         """Whether the robot has taken too long."""

@@ -23,9 +23,6 @@ from app.bridge.write_gate import WriteGate
 from core.errors import RobotError
 from core.wire.lines import Line, LineReader, SetupFinished, SetupMoving
 
-SILENCE_LIMIT = 4.0
-"""An answering robot is never silent longer than 2.5 s (docs/firmware.md, Times), s."""
-
 
 class RobotLink(StateLog, ABC):
     """One link to one robot.
@@ -141,8 +138,9 @@ class RobotLink(StateLog, ABC):
 
     def _check_silence(self, now: float) -> None:
         silence = now - self.monitor.last_byte
-        if self.link is LinkState.READY and silence > SILENCE_LIMIT:
-            self._lose(silent_sentence(silence, SILENCE_LIMIT, self._place), now)
+        limit = self.monitor.longest_silence
+        if self.link is LinkState.READY and silence > limit:
+            self._lose(silent_sentence(silence, limit, self._place), now)
         elif self.link is LinkState.CONNECTING and self._handshake.overdue(now):
             if self._handshake.flushed_at is None:
                 sentence = stranger_sentence(self.device, START_LIMIT, talks=self.monitor.talks)

@@ -1,5 +1,7 @@
 """The sentences of the bridge's states."""
 
+from itertools import zip_longest
+
 from app.bridge.states import RobotState
 from core.wire.messages import THRESHOLD_MM, name_motor
 
@@ -18,6 +20,9 @@ SENTENCES: dict[RobotState, str] = {
     RobotState.DONE: "The plan is done. Arm the robot for another run.",
     RobotState.FAULT: "The robot stands still after a fault. Clear it, then arm the robot again.",
 }
+
+SHOWN_AROUND = 12
+"""Characters that are shown on each side of a difference."""
 
 NOT_CONNECTED = "No robot is connected."
 CONNECTING = (
@@ -48,11 +53,29 @@ def without_remedy(sentence: str) -> str:
     return f"{happened.removesuffix('.')}."
 
 
+def misread_sentence(sent: str, read: str) -> str:
+    """Says where the robot's echo first differs from what was sent, with some characters around."""
+    pairs = zip_longest(sent, read)
+    place = next((index for index, (ours, theirs) in enumerate(pairs) if ours != theirs), len(sent))
+    return (
+        f"The robot read another text than was sent, from character {place + 1} on: it read "
+        f"{_around(read, place)} where {_around(sent, place)} was sent."
+    )
+
+
+def _around(text: str, place: int) -> str:
+    """A text near a place, in quotes; what cannot be printed stands as its code."""
+    begin, end = max(place - SHOWN_AROUND, 0), place + SHOWN_AROUND + 1
+    shown = "".join(c if c.isprintable() else f"\\x{ord(c):02x}" for c in text[begin:end])
+    quoted = f"“{'…' if begin else ''}{shown}{'…' if end < len(text) else ''}”"
+    return quoted if place < len(text) else f"nothing more after {quoted}"
+
+
 def silent_sentence(silence: float, limit: float, place: str) -> str:
     """Says that an answering robot fell silent."""
     return (
-        f"The robot has been silent for {silence:.1f} s {place} (limit {limit} s). "
-        "If it moves, use its power switch; then connect again."
+        f"The robot has been silent for {silence:.1f} s {place} (limit {limit:.1f} s): its board restarted "
+        "or hangs, or power or cable failed. If it moves, use its power switch; then connect again."
     ).replace("  ", " ")
 
 

@@ -212,6 +212,7 @@ class RobotStateMachine(RobotLink):
         kind: MessageKind = MessageKind.WAYPOINT,
     ) -> None:
         distance = max(abs(t - m) for t, m in zip(target_mm, self._measured(), strict=True))
+        self.monitor.expect(distance)
         deadline = arrival_deadline(distance, patience)
         self._delivery = Delivery(message, target_mm, stages, now, deadline, early_end=early_end)
         self.revision += 1

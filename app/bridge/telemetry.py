@@ -1,8 +1,12 @@
-"""What the robot's lines show: strokes, whether it idles, whether it stands still."""
+"""What the robot's lines show: strokes, whether it idles or stands still, and how long it may be silent."""
+
+import math
+from collections.abc import Iterable
 
 from core.wire.lines import (
     Blank,
     CurrentPoint,
+    ErrorScan,
     ErrorsChecked,
     Execute,
     Line,
@@ -11,6 +15,8 @@ from core.wire.lines import (
     Telemetry,
     UnknownLine,
 )
+from core.wire.messages import HIGHEST_MM, LOWEST_MM
+from core.wire.timing import OVERRUN, ramp_time
 
 STILL_MM = 0.05
 """Readings that differ less are of a motor that stands: four counts of the converter."""
@@ -21,6 +27,19 @@ FRESH_TIME = 0.5
 
 STALE_TIME = 1.0
 """A robot that idles tells its strokes every 32 ms at least; older ones are not where it stands, s."""
+
+IDLE_LINES = 2
+"""Telemetry lines with no movement between them after which a robot idles."""
+
+IDLE_SILENCE = 1.7
+"""An idle robot speaks every 32 ms; one that is silent longer than this is lost, so that a restarted board is
+named within 2 s, s."""
+
+LATE_BYTES = 0.4
+"""How late bytes may be after a ramp, s."""
+
+SILENCE_LIMIT = 4.0
+"""No robot is waited for longer than this, whatever it was told, s."""
 
 
 class TelemetryMonitor:
@@ -54,11 +73,29 @@ class TelemetryMonitor:
         self._still_since = now
         self.last_reading = now
         self._scan_began: float | None = None
+        self._farthest_mm = HIGHEST_MM - LOWEST_MM
 
     def heard(self, now: float) -> None:
         """Bytes arrived."""
         self.last_byte = now
         self.talks = True
+
+    def expect(self, distance_mm: float) -> None:
+        """A message is sent that moves a motor by so much, mm."""
+        self.idle_lines = 0
+        self._farthest_mm = distance_mm
+
+    @property
+    def longest_silence(self) -> float:
+        """How long the robot may be silent now: a pass of its loop, or the ramp that it may have begun, s."""
+        if self.idle_lines >= IDLE_LINES:
+            return IDLE_SILENCE
+        ramp = ramp_time(self._farthest_mm / 1000.0) + OVERRUN + LATE_BYTES
+        return min(max(IDLE_SILENCE, ramp), SILENCE_LIMIT)
+
+    def excuse(self, seconds: float, now: float) -> None:
+        """Nobody could listen for so long, until now, s; that time is not the robot's silence."""
+        self.last_byte = min(self.last_byte + seconds, now)
 
     def stands_still(self, now: float) -> bool:
         """Whether every motor has been where it is for 0.3 s, by readings that are still coming in."""
@@ -75,6 +112,9 @@ class TelemetryMonitor:
                 self.idle_lines = 0
             case CurrentPoint():
                 self._scan_began = now
+            case ErrorScan():
+                self.idle_lines = 0
+                self._farthest_mm = max(self._farthest_mm, _largest(line.errors_mm))
             case ErrorsChecked() if self._scan_began is not None:
                 self.longest_scan = max(self.longest_scan or 0.0, now - self._scan_began)
             case UnknownLine():
@@ -95,3 +135,8 @@ class TelemetryMonitor:
         if not still:
             self._still_from = strokes_mm
             self._still_since = now
+
+
+def _largest(errors_mm: Iterable[float]) -> float:
+    """The largest distance, mm; infinite where one is no number."""
+    return max(abs(e) if math.isfinite(e) else math.inf for e in errors_mm)

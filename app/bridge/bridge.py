@@ -168,9 +168,14 @@ class RobotBridge:
         """
         self._do(lambda now: self._machine.arm(by, now))
 
-    def disarm(self, by: str) -> None:
-        """Takes back the permission to move an armed robot; does nothing in any other state."""
-        self._do(lambda now: self._machine.disarm(by, now))
+    def disarm(self, by: str, why: str = "") -> None:
+        """Takes back the permission to move an armed robot; does nothing in any other state.
+
+        Args:
+            by: who does it.
+            why: a sentence for whoever looks at the robot then.
+        """
+        self._do(lambda now: self._machine.disarm(by, now, why))
 
     def send(self, plan: RunPlan, by: str, run_id: str | None = None) -> str:
         """Moves to the start pose slowly, then through the approved waypoints.

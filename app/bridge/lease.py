@@ -78,7 +78,7 @@ class Lease:
     def __init__(self, clock: Callable[[], float]) -> None:
         self._clock = clock
         self._holder: Person | None = None
-        self._seen = 0.0
+        self._seen = clock()
         self._asker: Person | None = None
         self._asked = 0.0
         self._noted_gone = False
@@ -91,6 +91,11 @@ class Lease:
             return Holding()
         asker = self._asker if time - self._asked <= ASK_SECONDS else None
         return Holding(self._holder, 0.0 if self._holder.is_script else time - self._seen, asker)
+
+    @property
+    def is_abandoned(self) -> bool:
+        """Whether nobody who may move the robot was there for long; a script is there when it acts."""
+        return self._clock() - self._seen > GONE_SECONDS
 
     def admit(self, who: Person, *, is_idle: bool, is_away: bool = False) -> bool:
         """Admits the holder and refuses anybody else; if nobody holds the robot, `who` becomes the holder.
@@ -174,9 +179,8 @@ class Lease:
         Raises:
             StateError: they do not hold it.
         """
-        self._require_holder(who)
         asker = self.now.asker
-        self._holder = self._asker = None
+        self.drop(who)
         if asker is not None:
             self._become(asker)
 
@@ -188,6 +192,7 @@ class Lease:
         """
         self._require_holder(who)
         self._holder = self._asker = None
+        self._seen = self._clock()
 
     def heard(self, page: str) -> bool:
         """A page gave a sign of life.
@@ -200,6 +205,11 @@ class Lease:
         was_gone, self._noted_gone = self._noted_gone, False
         self._seen = self._clock()
         return was_gone
+
+    def at_work(self) -> None:
+        """The robot does what it was told; a script is there as long as that lasts."""
+        if self._holder is not None and self._holder.is_script:
+            self._seen = self._clock()
 
     def note_gone(self) -> bool:
         """Returns true once each time the holder turns out to be gone."""
@@ -248,6 +258,12 @@ def policy(holder: Person) -> str:
         holder: who holds the robot.
     """
     if holder.is_script:
-        return "A run of a script goes on to its end whether or not the script is there."
+        return (
+            "A run of a script goes on to its end whether or not the script is there. An armed robot is "
+            f"disarmed {GONE_SECONDS:.0f} s after the script’s last request."
+        )
     whose = f"{holder.name}’s page" if holder.name else "the holder’s page"
-    return f"If {whose} is gone for {GONE_SECONDS:.0f} s, a run pauses at the next pose with all feet down."
+    return (
+        f"If {whose} is gone for {GONE_SECONDS:.0f} s, a run pauses at the next pose with all feet down, and "
+        "an armed robot is disarmed."
+    )

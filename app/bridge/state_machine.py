@@ -87,11 +87,17 @@ class RobotStateMachine(RobotLink):
         self._permit = self._gate.permit()
         self.become(now, f"Armed by {by}.", SENTENCES[RobotState.ARMED], robot=RobotState.ARMED)
 
-    def disarm(self, by: str, now: float) -> None:
-        """Takes back the permission to move an armed robot; does nothing in any other state."""
+    def disarm(self, by: str, now: float, why: str = "") -> None:
+        """Takes back the permission to move an armed robot; does nothing in any other state.
+
+        Args:
+            by: who does it.
+            now: time, s.
+            why: a sentence for whoever looks at the robot then.
+        """
         if self.robot is RobotState.ARMED:
             self._permit = -1
-            sentence = SENTENCES[RobotState.DISARMED]
+            sentence = f"{why} {SENTENCES[RobotState.DISARMED]}".strip()
             self.become(now, f"Disarmed by {by}.", sentence, robot=RobotState.DISARMED)
 
     def send(self, plan: RunPlan, by: str, now: float, run_id: str | None = None) -> str:

@@ -1,5 +1,6 @@
 """The operator lease at work: signs of life of the holder's page, and what happens when they end."""
 
+import itertools
 import logging
 import threading
 import time
@@ -7,7 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from app.bridge.bridge import RobotBridge
-from app.bridge.lease import Holding, Lease, Person, policy, refusal
+from app.bridge.lease import GONE_SECONDS, Holding, Lease, Person, policy, refusal
 from app.bridge.states import IN_RUN, LinkState, RobotState
 from app.common.json import Json
 from app.undo.history import SCRIPT, Author
@@ -17,6 +18,9 @@ logger = logging.getLogger(__name__)
 
 BEAT_SECONDS = 2.0
 """The holder's page is asked for a sign of life this often, s."""
+
+LOOK_SECONDS = 0.5
+"""An armed robot without a holder is looked for at least this often, s."""
 
 TellPage = Callable[[str, Json], None]
 
@@ -47,6 +51,7 @@ class OperatorLease:
         self._beat_seconds = beat
         self._lock = threading.Lock()
         self._last_action = object()
+        self._awaited = 0
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._beat_on, name="robot lease", daemon=True)
         self._thread.start()
@@ -81,6 +86,17 @@ class OperatorLease:
             self._let_go(who, action, to_asker=False)
         else:
             self._changed()
+
+    @contextmanager
+    def awaiting(self) -> Iterator[None]:
+        """While somebody's request is prepared, such as by a plan, an armed robot has not been left alone."""
+        with self._lock:
+            self._awaited += 1
+        try:
+            yield
+        finally:
+            with self._lock:
+                self._awaited -= 1
 
     def heard(self, page: str) -> None:
         """A page gave a sign of life."""
@@ -172,11 +188,29 @@ class OperatorLease:
         self._changed()
 
     def _beat_on(self) -> None:
-        while not self._closing.wait(self._beat_seconds):
+        looks = max(1, round(self._beat_seconds / LOOK_SECONDS))
+        for number in itertools.count(1):
+            if self._closing.wait(self._beat_seconds / looks):
+                return
             try:
-                self._beat()
+                self._disarm_abandoned()
+                if number % looks == 0:
+                    self._beat()
             except Exception:
                 logger.exception("The robot's holder was not asked for a sign of life.")
+
+    def _disarm_abandoned(self) -> None:
+        """An armed robot whose holder is not there any more is disarmed, and says so."""
+        robot = self._bridge.snapshot.robot
+        with self._lock:
+            if robot in IN_RUN:
+                self._lease.at_work()
+            if robot is not RobotState.ARMED or self._awaited or not self._lease.is_abandoned:
+                return
+            absence = f"{_absence(self._lease.now.holder)} for {GONE_SECONDS:.0f} s"
+            self._bridge.disarm(f"the studio, as {absence}", f"The robot was disarmed, as {absence}.")
+        logger.warning("The robot was disarmed, as %s.", absence)
+        self._changed()
 
     def _beat(self) -> None:
         with self._lock:
@@ -196,6 +230,15 @@ class OperatorLease:
         except StateError as refused:  # the run ended meanwhile, or it is a reset, which ends by itself
             logger.info("Not paused although %s is gone: %s", holder.title, refused.sentence)
         self._changed()
+
+
+def _absence(holder: Person | None) -> str:
+    """Who has not been there."""
+    if holder is None:
+        return "nobody held it"
+    if holder.is_script:
+        return f"{holder.title[0].lower()}{holder.title[1:]} asked nothing of it"
+    return f"{holder.name}’s page was gone" if holder.name else "its holder’s page was gone"
 
 
 def person(author: Author) -> Person:

@@ -148,7 +148,8 @@ async def send(studio: TheStudio, author: TheAuthor, wish: Send) -> Json:
             open_gait, plan = studio.gaits.confirmed(wish.gait), studio.gaits.plan(wish.gait)
             studio.robot.send(open_gait, plan, wish.waypoints_hash, actor.name or SOMEBODY, run_range)
 
-    await on_planned(studio, wish.gait, sent)
+    with studio.robot.lease.awaiting():
+        await on_planned(studio, wish.gait, sent)
     return studio.robot.view()
 
 

@@ -204,6 +204,23 @@ def test_the_policy_says_what_happens_to_a_run() -> None:
     assert "pauses at the next pose with all feet down" in policy(ADA)
     assert "Ada" in policy(ADA)
     assert "goes on to its end" in policy(SCRIPT)
+    assert all("disarmed" in policy(holder) for holder in (ADA, SCRIPT))
+
+
+def test_a_lease_is_abandoned_when_nobody_was_there_for_a_while(lease: Lease, clock: Clock) -> None:
+    for holder in (ADA, SCRIPT):
+        lease.take(holder)
+        clock.time += GONE_SECONDS
+        assert not lease.is_abandoned
+        clock.time += 1.0
+        assert lease.is_abandoned
+        lease.at_work()
+        assert lease.is_abandoned is not holder.is_script
+        lease.take(holder)
+        lease.drop(holder)
+        assert not lease.is_abandoned
+    clock.time += GONE_SECONDS + 1.0
+    assert lease.is_abandoned
 
 
 class HandsOver(RuleBasedStateMachine):

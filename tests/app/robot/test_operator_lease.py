@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
@@ -148,6 +149,58 @@ def test_a_run_whose_holder_is_gone_pauses_at_the_next_pose_with_all_feet_down(
         assert bridge.snapshot.robot is RobotState.MOVING
         causes = [transition.cause for transition in bridge.transitions]
         assert "Pause by the studio, as Ada is gone." in causes
+    finally:
+        service.close()
+        bridge.close()
+
+
+@pytest.mark.parametrize(
+    ("holder", "named"), [(Author("page-a", "Ada"), "Ada"), (Author(name="Alan"), "a script of Alan")]
+)
+def test_an_armed_robot_whose_holder_is_gone_is_disarmed_and_says_so(
+    robot: EmulatedRobot, caplog: pytest.LogCaptureFixture, holder: Author, named: str
+) -> None:
+    time, shown, bridge = [0.0], list[str](), RobotBridge()
+    service = OperatorLease(
+        bridge, lambda: shown.append(bridge.snapshot.robot), lambda page, event: None, lambda: time[0], 0.02
+    )
+    try:
+        bridge.connect(robot.device)
+        wait_for(lambda: bridge.snapshot.robot is RobotState.DISARMED, "the robot is up")
+        with service.held_by(holder):
+            bridge.arm(holder.name)
+        time[0] += GONE_SECONDS - 0.1
+        with service.awaiting():
+            time[0] += 1.0
+            assert not threading.Event().wait(0.2)
+            assert bridge.snapshot.robot is RobotState.ARMED
+        wait_for(lambda: bridge.snapshot.robot is RobotState.DISARMED, "the robot is disarmed")
+        assert "disarmed" in bridge.snapshot.sentence
+        assert named in bridge.snapshot.sentence
+        assert named in bridge.transitions[-1].cause
+        wait_for(lambda: named in caplog.text, "the log names the holder")
+        wait_for(lambda: shown[-1:] == [RobotState.DISARMED], "the pages are told")
+    finally:
+        service.close()
+        bridge.close()
+
+
+def test_an_armed_robot_whose_holder_is_there_stays_armed(robot: EmulatedRobot) -> None:
+    time, told, bridge = [0.0], list[str](), RobotBridge()
+    service = OperatorLease(
+        bridge, lambda: None, lambda page, event: told.append(page), lambda: time[0], 0.02
+    )
+    try:
+        bridge.connect(robot.device)
+        wait_for(lambda: bridge.snapshot.robot is RobotState.DISARMED, "the robot is up")
+        with service.held_by(Author("page-a", "Ada")):
+            bridge.arm("Ada")
+        for _ in range(4):
+            time[0] += GONE_SECONDS - 1.0
+            service.heard("page-a")
+            told.clear()
+            wait_for(lambda: len(told) > 2, "the lease was looked at")
+        assert bridge.snapshot.robot is RobotState.ARMED
     finally:
         service.close()
         bridge.close()

@@ -26,6 +26,8 @@ from core.robot.model import load_robot
 LOOK_SECONDS = 0.2
 """How often an emulated robot is looked at for fault states."""
 ROBOT_FAILED = 5
+BAD_INPUT = frozenset({"stroke", "duration"})
+"""Rules that name a number of the file; what breaks them is bad input."""
 
 
 def run_serve(options: Namespace) -> int:
@@ -101,17 +103,19 @@ def run_send(options: Namespace) -> int:
         return _refuse(options, verdict)
     plan = RunPlan(waypoints, _approval(verdict, options), (True,) * waypoints.count)
     data = (options.data or default_data_folder()).expanduser()
-    ended = stream(model, plan, options.file, options.robot, data)
+    clears_stop: bool = options.clear_stop
+    ended = stream(model, plan, options.file, options.robot, data, clears_stop=clears_stop)
     status = _report(options, ended.snapshot, plan)
     return INTERRUPTED if ended.is_interrupted else status
 
 
 def _refuse(options: Namespace, verdict: Verdict) -> int:
-    """Out of range is bad input; everything else is not fit."""
+    """A number out of its range is bad input; everything else is not fit."""
     errors = [f for f in verdict.findings if f.severity is Severity.ERROR]
-    out_of_range = [f for f in errors if f.rule == "stroke"]
+    out_of_range = [f for f in errors if f.rule in BAD_INPUT]
     if out_of_range:
-        raise InputError(out_of_range[0].sentence, f"{options.file}:{(out_of_range[0].sample or 0) + 2}")
+        first = min(out_of_range, key=lambda f: f.sample or 0)
+        raise InputError(first.sentence, f"{options.file}:{(first.sample or 0) + 2}")
     show(
         options,
         {"error": errors[0].sentence, "where": str(options.file), **verdict_view(verdict)},

@@ -293,6 +293,7 @@ def _send_options(parser: argparse.ArgumentParser) -> None:
     add("file", type=Path, help="waypoint CSV")
     add("--robot", required=True, help="emulator, a serial device, or socket://HOST:PORT")
     add("--yes", action="store_true", help="approve in your name without being asked")
+    add("--clear-stop", action="store_true", help="lift a stop that the robot holds from another program")
     add("--data", type=Path, default=None, help="data folder, where the run is kept")
 
 

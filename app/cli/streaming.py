@@ -34,6 +34,10 @@ STOP_SECONDS = STOP_LIMIT + 0.5
 """By then a stop is confirmed, or said not to be."""
 TOLD_SECONDS = 1.0
 """A run's progress is told at least this often, where it can be told on one line, s."""
+STOP_HELD = (
+    "The robot holds a stop from before this run, so nothing moved and the stop stands. Find out who stopped "
+    "it and why; to lift it and send the file, add --clear-stop."
+)
 _ENDS = frozenset({RobotState.DONE, RobotState.STOPPED, RobotState.FAULT})
 
 
@@ -45,7 +49,9 @@ class Streamed:
     is_interrupted: bool
 
 
-def stream(model: RobotModel, plan: RunPlan, file: Path, device: str, data: Path) -> Streamed:
+def stream(
+    model: RobotModel, plan: RunPlan, file: Path, device: str, data: Path, *, clears_stop: bool = False
+) -> Streamed:
     """Connects the robot, sends the waypoints as a run that is kept, and waits for its end.
 
     Args:
@@ -54,6 +60,7 @@ def stream(model: RobotModel, plan: RunPlan, file: Path, device: str, data: Path
         file: what the run is called.
         device: `emulator`, a serial device, or `socket://HOST:PORT`.
         data: the data folder.
+        clears_stop: whether to lift a stop that the robot holds from before.
 
     Raises:
         InputError: the data folder cannot be used.
@@ -64,7 +71,8 @@ def stream(model: RobotModel, plan: RunPlan, file: Path, device: str, data: Path
     with closing(Database(data / "studio.sqlite3")) as database, _robot(device) as line:
         kept = RecordedBridge(database, lambda: note(kept.trouble or "The record of the run has caught up."))
         with closing(kept):
-            sending = Sending(kept, plan, RecordedRun(_origin(plan, file), file_plan_content(model, plan)))
+            run = RecordedRun(_origin(plan, file), file_plan_content(model, plan))
+            sending = Sending(kept, plan, run, clears_stop=clears_stop)
             try:
                 return Streamed(sending.run(line), is_interrupted=False)
             except (KeyboardInterrupt, Interrupted):
@@ -93,12 +101,16 @@ class Sending:
         kept: the bridge and the record.
         plan: what is sent.
         run: what is kept of it, but for its id.
+        clears_stop: whether to lift a stop that the robot holds from before.
     """
 
-    def __init__(self, kept: RecordedBridge, plan: RunPlan, run: RecordedRun) -> None:
+    def __init__(
+        self, kept: RecordedBridge, plan: RunPlan, run: RecordedRun, *, clears_stop: bool = False
+    ) -> None:
         self._kept = kept
         self._plan = plan
         self._run = run
+        self._clears_stop = clears_stop
         self._by = plan.approval.by
         self._progress = Progress(plan)
         self._changed = threading.Event()
@@ -109,11 +121,13 @@ class Sending:
         return self._kept.bridge
 
     def run(self, device: str) -> RobotSnapshot:
-        """Connects and sends; once more where the robot held a stop from before."""
+        """Connects and sends; once more where the robot held a stop from before that is to be lifted."""
         self._bridge.connect(device)
         note("The robot's line is open. Its board may restart; its motors may then move for about 8 s.")
         ended = self._send()
         if ended.robot is RobotState.FAULT and HELD_STOP in ended.sentence:
+            if not self._clears_stop:
+                return replace(ended, sentence=STOP_HELD)
             note("The robot held a stop from before. It is cleared, and the run begins again.")
             self._clear()
             ended = self._send()

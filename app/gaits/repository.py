@@ -103,7 +103,14 @@ class GaitRepository:
         """What `restore` can bring back, the last deleted first."""
         return deleted_gaits(self._files, self._edits)
 
-    def restore(self, gait_id: str) -> None:
-        """Brings a document back that was taken away."""
+    def restore(self, gait_id: str) -> bool:
+        """Brings a document back that was taken away, without the approval that it had.
+
+        Returns:
+            Whether it had one.
+        """
+        is_deleted = gait_id in self._files.deleted_ids() and self._files.saved_at(gait_id) is None
+        had_approval = is_deleted and self._edits.withdraw_approval(gait_id)
         self._files.restore(gait_id)
         self._stored.pop(gait_id, None)
+        return had_approval

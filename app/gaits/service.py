@@ -280,9 +280,12 @@ class GaitService:
         return self._repository.deleted()
 
     def restore(self, gait_id: str) -> OpenGait:
-        """Brings a deleted gait back as it was, unsaved edits and what can be undone included."""
-        self._repository.restore(gait_id)
+        """Brings a deleted gait back with its unsaved edits and its history; it needs a new approval."""
+        had_approval = self._repository.restore(gait_id)
         self._close(gait_id)
+        if had_approval:
+            revoked = "The gait was deleted and brought back, and its approval is gone."
+            self._open[gait_id] = replace(self.open_gait(gait_id), revoked=revoked)
         return (
             self._return(gait_id, "Bring back what was saved")
             if gait_id in library()

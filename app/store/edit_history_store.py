@@ -140,6 +140,14 @@ class EditHistoryStore:
                 content = json.dumps(approval, allow_nan=False)
                 connection.execute("INSERT INTO approval(gait, content) VALUES(?,?)", (gait, content))
 
+    def withdraw_approval(self, gait: str) -> bool:
+        """Takes a gait's approval away, but not its record; returns whether there was one."""
+        with self._database.writing() as connection:
+            changed = connection.execute(
+                "UPDATE open_gait SET approval=NULL WHERE gait=? AND approval IS NOT NULL", (gait,)
+            )
+            return changed.rowcount > 0
+
     def approvals(self, gait: str) -> list[tuple[int, Json]]:
         """The record of a gait's approvals with their numbers, the newest first."""
         rows = self._database.rows(

@@ -1,5 +1,6 @@
-"""Rules on motors and firmware: range, speed, acceleration, size of a move, deafness for Stop."""
+"""Rules on motors and firmware: range, speed, acceleration, size and time of a move, deafness for Stop."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -9,11 +10,12 @@ from core.checks.checked_plan import CheckedPlan, knot_place
 from core.findings import TOLERANCE, Outcome, RuleMargin, Severity, found
 from core.motion.speeds import motor_accelerations, motor_speeds
 from core.robot.model import RobotModel
-from core.wire.timing import ARRIVAL_THRESHOLD, deafness
+from core.wire.messages import LONGEST_DURATION, SHORTEST_DURATION
+from core.wire.timing import ARRIVAL_THRESHOLD, deafness, largest_moves
 from core.wire.waypoints import Waypoints
 
 DEAF_LIMIT = 2.5
-"""A plan during which Stop takes longer gets a warning, s."""
+"""A plan during which the robot does not hear Stop for longer is not fit, s."""
 
 
 def check_strokes(model: RobotModel, waypoints: Waypoints, times: Floats | None = None) -> Outcome:
@@ -42,17 +44,51 @@ def check_strokes(model: RobotModel, waypoints: Waypoints, times: Floats | None 
     return Outcome(RuleMargin("stroke", float(room.min()), "m"), tuple(findings))
 
 
-def check_deafness(waypoints: Waypoints) -> Outcome:
-    """No move keeps the robot from hearing Stop for too long."""
+def check_deafness(waypoints: Waypoints, kept: Sequence[int] | None = None) -> Outcome:
+    """No move keeps the robot from hearing Stop for too long.
+
+    Args:
+        waypoints: what is sent.
+        kept: (count,) knot of each waypoint; None where each is its own.
+    """
     seconds = deafness(waypoints)
     margin = RuleMargin("deafness", DEAF_LIMIT - seconds, "s")
     if seconds <= DEAF_LIMIT + TOLERANCE:
         return Outcome(margin)
+    number = int(largest_moves(waypoints).argmax()) + 1
     words = (
-        f"The longest move keeps the robot from hearing Stop for {seconds:.1f} s; more than {DEAF_LIMIT} s."
+        f"The move to waypoint {number + 1} keeps the robot from hearing Stop for {seconds:.1f} s; at most "
+        f"{DEAF_LIMIT} s may be sent."
     )
-    remedy = "Choose a stop bound, which cuts long moves."
-    return Outcome(margin, (found("deafness", Severity.WARNING, words, remedy, seconds, DEAF_LIMIT),))
+    remedy = f"Choose a stop bound of at most {DEAF_LIMIT} s, which cuts long moves."
+    sample = number if kept is None else kept[number]
+    finding = found("deafness", Severity.ERROR, words, remedy, seconds, DEAF_LIMIT, sample=sample)
+    return Outcome(margin, (finding,))
+
+
+def check_durations(waypoints: Waypoints, kept: Sequence[int] | None = None) -> Outcome:
+    """Every waypoint has a planned time that a message can carry.
+
+    Args:
+        waypoints: what is sent.
+        kept: (count,) knot of each waypoint; None where each is its own.
+    """
+    durations = waypoints.durations
+    room = np.minimum(durations - SHORTEST_DURATION, LONGEST_DURATION - durations)
+    margin = RuleMargin("duration", float(room.min()), "s")
+    wrong = np.nonzero(room < -TOLERANCE)[0]
+    if not wrong.size:
+        return Outcome(margin)
+    first, value = int(wrong[0]), float(durations[wrong[0]])
+    others = f" (and {wrong.size - 1} more)" if wrong.size > 1 else ""
+    words = (
+        f"Waypoint {first + 1}{others} has a duration of {value:g} s; it must lie in "
+        f"{SHORTEST_DURATION:g} to {LONGEST_DURATION:g} s, which is what a message can carry."
+    )
+    remedy = "Give each waypoint the time that its move is planned for."
+    limit = SHORTEST_DURATION if value < SHORTEST_DURATION else LONGEST_DURATION
+    sample = first if kept is None else kept[first]
+    return Outcome(margin, (found("duration", Severity.ERROR, words, remedy, value, limit, sample=sample),))
 
 
 def check_move_size(plan: CheckedPlan) -> Outcome:

@@ -15,6 +15,7 @@ from core.checks.ground import CLEARANCE_LIMIT, check_clearance, check_contact, 
 from core.checks.motors import (
     acceleration_note,
     check_deafness,
+    check_durations,
     check_motor_acceleration,
     check_motor_speed,
     check_move_size,
@@ -35,9 +36,11 @@ def check_plan(plan: CheckedPlan, simulated: Simulated | None = None) -> Verdict
         plan: what is checked.
         simulated: a simulation of exactly these waypoints; without one a note says that there is none.
     """
+    kept = None if plan.way is None else plan.way.kept
     outcomes = [
         check_strokes(plan.model, plan.knots, plan.trajectory.times),
-        check_deafness(plan.waypoints),
+        check_deafness(plan.waypoints, kept),
+        check_durations(plan.waypoints, kept),
         check_balance(plan),
         check_contact(plan),
         check_clearance(plan),
@@ -63,10 +66,11 @@ def check_plan(plan: CheckedPlan, simulated: Simulated | None = None) -> Verdict
 
 
 def check_waypoints(model: RobotModel, waypoints: Waypoints) -> Verdict:
-    """What waypoints alone can show: range, deafness, and balance by forward kinematics."""
+    """What waypoints alone can show: range, durations, deafness, and balance by forward kinematics."""
     outcomes = [
         check_strokes(model, waypoints),
         check_deafness(waypoints),
+        check_durations(waypoints),
         check_standing_balance(model, waypoints),
     ]
     findings = [finding for outcome in outcomes for finding in outcome.findings]

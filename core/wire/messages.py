@@ -29,6 +29,10 @@ THRESHOLD_MM = 1.0
 RESET_MM = 0.5
 """Stroke in mm to which `<r>` and the start of the board send every motor (docs/firmware.md, Messages)."""
 
+SHORTEST_DURATION, LONGEST_DURATION = 0.01, 999.0
+"""Planned time of a waypoint that may be approved, s: a message has two decimals and three digits before the
+point for it, so a shorter one goes out as 0.00, and a longer one does not fit."""
+
 LONGEST_MESSAGE = 110
 """Bytes of the longest message that is ever sent (docs/firmware.md)."""
 
@@ -48,8 +52,11 @@ def encode_waypoint(strokes: ArrayLike, duration: float) -> bytes:
             sentence names motor, value and limit.
     """
     numbers = strokes_to_mm(strokes)
-    if not (math.isfinite(duration) and 0.0 <= duration < 1000.0):
-        raise InputError(f"A duration of {duration} s cannot be sent; it must lie in 0 to 999 s.", "duration")
+    if not (math.isfinite(duration) and 0.0 <= duration <= LONGEST_DURATION):
+        raise InputError(
+            f"A duration of {duration} s cannot be sent; it must lie in 0 to {LONGEST_DURATION:g} s.",
+            "duration",
+        )
     fields = ",".join(f"{h:.{MM_DECIMALS}f}" for h in numbers)
     return f"<p,1,{duration:.2f},{fields}>".encode("ascii")
 

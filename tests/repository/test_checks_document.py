@@ -15,6 +15,7 @@ from core.checks import motors as motor_check
 from core.checks import path as path_check
 from core.physics import findings as physics
 from core.robot.model import load_robot
+from core.wire.messages import LONGEST_DURATION, SHORTEST_DURATION
 from core.wire.timing import ARRIVAL_THRESHOLD
 from tests.support.studio_process import PROJECT
 
@@ -53,6 +54,7 @@ def test_every_rule_that_the_code_names_stands_in_the_table_and_no_other() -> No
         ("motor_speed", [f"{STROKE.speed * 1000:.0f} mm/s, or the gait's own"]),
         ("move_size", [f"{ARRIVAL_THRESHOLD * 1000:.1f} mm"]),
         ("deafness", [f"{motor_check.DEAF_LIMIT} s"]),
+        ("duration", [f"{SHORTEST_DURATION:g} to {LONGEST_DURATION:g} s"]),
         ("balance", ["0 mm", f"{balance_check.BALANCE_RESERVE * 1000:.1f} mm, or the gait's own margin"]),
         ("contact", [f"{ground_check.CONTACT_LIMIT * 1000:.2f} mm"]),
         ("slip", [f"{ground_check.SLIP_LIMIT * 1000:.1f} mm"]),

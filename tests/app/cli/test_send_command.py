@@ -90,6 +90,12 @@ def test_ctrl_c_stops_the_robot_says_what_happened_and_the_next_run_goes_to_its_
     assert answer["error"].startswith(f"Interrupted: {answer['reached']} of {COUNT} waypoints were reached.")
     assert robot.firmware.messages[-1].payload == "s,1"
     assert (newest(service)["state"], newest(service)["reached"]) == ("stopped", answer["reached"])
+    refused = subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, timeout=60)
+    answer = json.loads(refused.stdout)
+    assert (refused.returncode, answer["state"], answer["sent"]) == (5, "fault", 0)
+    assert "--clear-stop" in answer["error"]
+    assert "s,0" not in [message.payload for message in robot.firmware.messages]
+    command.append("--clear-stop")
     second = subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, timeout=60)
     assert second.returncode == 0, second.stderr
     assert json.loads(second.stdout)["reached"] == COUNT
@@ -122,4 +128,26 @@ def test_a_data_folder_that_cannot_be_used_is_bad_input(
     status, answer = run_json(capsys, *words(way, robot.device)[:-1], str(way))
     assert (status, answer["where"]) == (2, "--data")
     assert "Give another with --data" in answer["error"]
+    assert robot.firmware.messages == []
+
+
+@pytest.mark.parametrize("duration", ["0", "0.001", "1e9"])
+def test_a_duration_that_no_message_can_carry_is_bad_input_with_its_line(
+    capsys: pytest.CaptureFixture[str], way: Path, robot: EmulatedRobot, duration: str
+) -> None:
+    lines = way.read_text().splitlines()
+    lines[3] = duration + lines[3][3:]
+    way.write_text("\n".join(lines) + "\n")
+    status, answer = run_json(capsys, *words(way, robot.device))
+    assert (status, answer["where"]) == (2, f"{way}:4")
+    assert "0.01 to 999 s" in answer["error"]
+    assert robot.firmware.messages == []
+
+
+def test_a_move_that_leaves_the_robot_deaf_for_too_long_is_not_fit(
+    capsys: pytest.CaptureFixture[str], way: Path, robot: EmulatedRobot
+) -> None:
+    way.write_text(way.read_text().replace("5.0000", "1.0000").replace("8.0000", "19.0000"))
+    status, answer = run_json(capsys, *words(way, robot.device))
+    assert (status, [f["rule"] for f in answer["findings"] if f["severity"] == "error"]) == (4, ["deafness"])
     assert robot.firmware.messages == []

@@ -143,7 +143,10 @@ class ApprovalMachine(RuleBasedStateMachine):
 
     @rule()
     def bring_back(self) -> None:
+        deleted = self.service.deleted()
         self.change(lambda: self.service.restore(GAIT))
+        if self.service.deleted() != deleted:
+            self.given = None
 
     @rule(back=st.integers(0, 3))
     def restore_a_version(self, back: int) -> None:

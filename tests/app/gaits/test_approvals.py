@@ -133,3 +133,47 @@ def test_approvals_are_compared_in_sentences(opened: Opened) -> None:
     with pytest.raises(NotFoundError, match="has no approval 99"):
         service.approvals.get(GAIT, 99)
     assert issubclass(NotFoundError, InputError)
+
+
+@pytest.mark.parametrize("is_reopened", [False, True])
+def test_a_gait_that_was_deleted_and_brought_back_needs_a_new_approval(
+    opened: Opened, is_reopened: bool
+) -> None:
+    service = opened()
+    for gait_id in (service.create(service.document(GAIT)).id, GAIT):
+        service.save(gait_id)
+        service.check(gait_id)
+        service.approve(gait_id, ADA)
+        service.delete(gait_id)
+        if is_reopened:
+            service = opened()
+        restored = service.restore(gait_id)
+        assert (restored.approval, restored.kept_approval) == (None, None)
+        assert restored.revoked is not None
+        assert "deleted" in restored.revoked
+        service.plan(gait_id)
+        assert service.confirmed(gait_id).approval is None
+        again = opened()
+        again.plan(gait_id)
+        assert again.open_gait(gait_id).approval is None
+        assert len(service.approvals.all(gait_id)) == 1
+        service.check(gait_id)
+        assert service.approve(gait_id, ADA).approval is not None
+
+
+def test_a_restore_of_what_was_not_deleted_takes_no_approval_away(opened: Opened) -> None:
+    service = opened()
+    approved(service)
+    with pytest.raises(InputError, match="no deleted gait"):
+        service.restore(GAIT)
+    service.save(GAIT)
+    service.delete(GAIT)
+    service.save(GAIT)
+    service.check(GAIT)
+    service.approve(GAIT, ADA)
+    with pytest.raises(InputError, match="exists again"):
+        service.restore(GAIT)
+    assert service.confirmed(GAIT).approval is not None
+    again = opened()
+    again.plan(GAIT)
+    assert again.open_gait(GAIT).approval is not None

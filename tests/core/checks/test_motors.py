@@ -19,6 +19,7 @@ from core.checks.motors import (
     still_note,
 )
 from core.findings import Severity
+from core.library.library import library
 from core.motion.trajectory import Trajectory
 from core.robot.model import load_robot
 from core.wire.waypoint_merging import plan_waypoints
@@ -52,6 +53,7 @@ def test_a_stroke_may_pass_its_range_by_rounding_and_no_more() -> None:
 def test_deafness_counts_from_its_limit_on() -> None:
     assert check_deafness(pose(0.001, 0.016)).findings == ()
     finding = check_deafness(pose(0.0005, 0.0195)).findings[0]
+    assert finding.severity is Severity.ERROR
     assert finding.value is not None
     assert finding.value > DEAF_LIMIT
 
@@ -104,3 +106,8 @@ def test_acceleration_is_a_finding_where_the_document_sets_a_limit_and_else_a_no
     [broken] = check_motor_acceleration(replace(plan, asked=Asked(motor_acceleration=0.018)))
     assert broken.findings[0].value == pytest.approx(0.01875)
     assert "the gait allows 18 mm/s²" in broken.findings[0].sentence
+
+
+def test_every_gait_of_the_library_is_cut_so_that_it_may_be_sent() -> None:
+    bounds = [entry.gait.options.stop_bound for entry in library().values()]
+    assert all(bound is not None and bound <= DEAF_LIMIT for bound in bounds)

@@ -130,7 +130,20 @@ def test_long_moves_say_how_long_the_robot_is_deaf() -> None:
     strokes = np.full((2, 4, 3), 0.0005)
     strokes[1] = 0.0195
     verdict = check_waypoints(MODEL, Waypoints(strokes, np.full(2, 0.4)))
-    assert warnings(verdict) == {"deafness"}
+    assert errors(verdict) == {"deafness"}
+    assert not verdict.passed
+    finding = next(f for f in verdict.findings if f.rule == "deafness")
+    assert (finding.sample, finding.limit) == (1, 2.5)
+
+
+@pytest.mark.parametrize("duration", [0.0, 0.009, 999.1, 1e9])
+def test_a_duration_that_no_message_can_carry_is_an_error_where_it_is(duration: float) -> None:
+    durations = np.array([0.4, 0.01, duration, 999.0])
+    verdict = check_waypoints(MODEL, Waypoints(np.full((4, 4, 3), 0.0055), durations))
+    assert errors(verdict) == {"duration"}
+    finding = verdict.findings[0]
+    assert (finding.sample, finding.value) == (2, duration)
+    assert "Waypoint 3 has" in finding.sentence
 
 
 def test_waypoints_alone_show_a_robot_on_two_feet() -> None:

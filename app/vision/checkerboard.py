@@ -1,5 +1,6 @@
 """A camera's lens out of pictures of a checkerboard."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -13,6 +14,9 @@ from core.vision.camera import Lens
 
 LEAST_CHECKERBOARDS = 3
 """Pictures of the checkerboard that a lens needs."""
+
+LARGEST_LOOKED = 1920
+"""A board is looked for in a picture whose longer side is this at most, px; seconds in a photo otherwise."""
 
 MOST_UNEXPLAINED = 5.0
 """A lens that leaves more than this is none, px; a good one leaves less than one."""
@@ -39,8 +43,21 @@ class CalibratedLens:
 def board_corners(picture: Picture, corners: tuple[int, int]) -> Corners | None:
     """The board's inner corners in a picture; None where it is not seen whole."""
     grey = cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY)
-    there, points = cv2.findChessboardCornersSB(grey, corners)
-    return np.asarray(points, dtype=np.float32) if there else None
+    scale = LARGEST_LOOKED / max(grey.shape)
+    if scale >= 1.0:
+        there, points = cv2.findChessboardCornersSB(grey, corners)
+        return np.asarray(points, dtype=np.float32) if there else None
+    small = cv2.resize(grey, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
+    there, points = cv2.findChessboardCornersSB(small, corners)
+    return _refined(np.asarray(grey, np.uint8), np.asarray(points), scale) if there else None
+
+
+def _refined(grey: Picture, points: NDArray[np.float32], scale: float) -> Corners:
+    """Corners in the whole picture, close to those in one that was made smaller by a scale."""
+    whole = np.asarray((points + 0.5) / scale - 0.5, dtype=np.float32)
+    reach = math.ceil(2.0 / scale)
+    ending = (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_MAX_ITER, 40, 0.01)
+    return np.asarray(cv2.cornerSubPix(grey, whole, (reach, reach), (-1, -1), ending), dtype=np.float32)
 
 
 def lens_of_corners(

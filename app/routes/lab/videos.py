@@ -34,6 +34,10 @@ BOARD_FRAMES = 24
 """Pictures of a video that are looked through for a checkerboard where none are named."""
 
 
+BOARD_SECONDS = 2.5
+"""After that long the pictures that are left are named, and not looked through in the same answer."""
+
+
 class TrackBody(FiniteBody):
     """What a video shows; `run` brings the plan that the robot was sent, `gait` the plan it has now."""
 
@@ -180,17 +184,20 @@ async def look_at_video(video: str, look: LookBody, studio: TheStudio, frame: Fr
 
 @router.post("/{video}/boards")
 async def find_checkerboards(video: str, asked: CheckerboardsBody, studio: TheStudio) -> Json:
-    """Where a checkerboard is in some of a video's pictures."""
+    """Where a checkerboard is in some pictures of a video; `left` are those for another request."""
     view = await run_in_threadpool(studio.lab.videos.view, video)
     frames = asked.frames
     if frames is None:
         count = min(BOARD_FRAMES, max(view["frames"], 1))
         frames = [number * max(view["frames"] - 1, 0) // max(count - 1, 1) for number in range(count)]
-    boards = []
+    boards: list[Json] = []
+    due = time.monotonic() + BOARD_SECONDS
     for frame in frames:
+        if boards and time.monotonic() > due:
+            break
         source = await run_in_threadpool(studio.lab.videos.source, video, frame)
         boards.append(await checkerboard_of(studio, FindCheckerboard(source, (asked.columns, asked.rows))))
-    return {"boards": boards}
+    return {"boards": boards, "left": frames[len(boards) :]}
 
 
 @router.post("/{video}/track", status_code=202)

@@ -91,8 +91,14 @@ export function checkerboardSources(stage, book, status) {
   }));
   spread.hidden = source.kind !== "video";
   spread.addEventListener("click", looking(async (signal) => {
-    const { boards } = await videoApi.boards(source.id, { columns: columns(), rows: rows(), frames: null });
-    if (!signal.aborted) await book.add(boards);
+    let [frames, looked] = [null, 0];
+    do {
+      const { boards, left } = await videoApi.boards(source.id, { columns: columns(), rows: rows(), frames });
+      if (signal.aborted) break;
+      await book.add(boards);
+      [frames, looked] = [left, looked + boards.length];
+      if (left.length) setText(status, `Looking for the board: picture ${looked + 1} of ${looked + left.length}…`);
+    } while (frames.length);
   }));
   one.addEventListener("click", looking(async () => {
     const boards = source.kind === "video" ? (await videoApi.boards(source.id, { columns: columns(), rows: rows(), frames: [stage.frame] })).boards : [await cameraApi.board(source.id, columns(), rows())];

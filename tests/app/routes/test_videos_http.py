@@ -92,6 +92,22 @@ def test_a_file_that_is_sent_again_is_not_kept_twice(
     studio.ask("DELETE", f"/api/videos/{other.content['id']}")
 
 
+def test_many_pictures_are_looked_through_for_a_board_a_few_at_a_time(
+    studio: StudioProcess, video: dict[str, Any]
+) -> None:
+    path, asked = f"/api/videos/{video['id']}/boards", {"columns": 4, "rows": 3}
+    frames: list[int] | None = [7] * 100
+    looked = 0
+    while frames:
+        answer = studio.ask("POST", path, {**asked, "frames": frames}).content
+        looked += len(answer["boards"])
+        assert answer["boards"]
+        assert frames == [board["frame"] for board in answer["boards"]] + answer["left"]
+        frames = answer["left"]
+    assert looked == 100
+    assert studio.ask("POST", path, {**asked, "frames": [0]}).content["left"] == []
+
+
 def test_what_tracking_finds_in_a_picture_is_told_with_places_and_refusals(
     studio: StudioProcess, video: dict[str, Any], colours: list[Any]
 ) -> None:

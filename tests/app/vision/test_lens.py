@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
-from app.vision.checkerboard import CalibratedLens, board_corners, lens_of_corners
+from app.vision.checkerboard import LARGEST_LOOKED, CalibratedLens, board_corners, lens_of_corners
 from app.vision.video_io import Picture, jpeg, read_picture
 from core.arrays import Floats
 from core.errors import InputError
@@ -56,6 +56,25 @@ def test_a_lens_is_found_again_from_its_pictures() -> None:
         cv2.undistortPoints(grid, one.matrix, one.distortion, P=LENS.matrix) for one in (lens, LENS)
     )
     assert np.linalg.norm(np.asarray(ours) - np.asarray(real), axis=-1).max() < 3.0
+
+
+def test_a_board_in_a_large_picture_is_looked_for_in_a_small_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    looked: list[tuple[int, ...]] = []
+    search = cv2.findChessboardCornersSB
+
+    def watched(picture: Picture, corners: tuple[int, int]) -> object:
+        looked.append(picture.shape)
+        return search(picture, corners)
+
+    monkeypatch.setattr(cv2, "findChessboardCornersSB", watched)
+    large = np.kron(board(), np.ones((8, 8, 1), dtype=np.uint8))
+    found = board_corners(large, CORNERS)
+    assert found is not None
+    assert max(looked[0]) <= LARGEST_LOOKED < max(large.shape)
+    side = 8 * SQUARE
+    grid = np.stack(np.meshgrid(np.arange(1, CORNERS[0] + 1), np.arange(1, CORNERS[1] + 1)), axis=-1)
+    edges = (grid * side + 8 * 30 - 0.5).reshape(-1, 2)
+    np.testing.assert_allclose(np.sort(found.reshape(-1, 2), axis=0), np.sort(edges, axis=0), atol=0.3)
 
 
 def test_pictures_without_a_board_are_counted_in_the_refusal() -> None:

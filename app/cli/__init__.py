@@ -2,11 +2,10 @@
 
 import json
 import logging
-import os
 import sys
 from collections.abc import Sequence
 
-from app.cli.output import INTERRUPTED, Interrupted
+from app.cli.output import INTERRUPTED, Interrupted, drop, note, write
 from app.cli.parser import make_parser
 from core.errors import CheckError, FootfallError, InfeasibleError, InputError, RobotError, StateError
 
@@ -36,7 +35,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         options = make_parser().parse_args(words)
         status: int = options.run(options)
-        sys.stdout.flush()
+        write(sys.stdout, "")
     except FootfallError as error:
         _report(error, wants_json)
         return next((code for kind, code in _EXIT if isinstance(error, kind)), 1)
@@ -45,13 +44,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return INTERRUPTED
     except BrokenPipeError:
         # Whoever read our output is gone; keep the interpreter from complaining about it at its end.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        drop(sys.stdout)
         return 0
     return status
 
 
 def _report(error: FootfallError, wants_json: bool) -> None:
     if wants_json:
-        sys.stdout.write(json.dumps({"error": error.sentence, "where": error.where}) + "\n")
+        write(sys.stdout, json.dumps({"error": error.sentence, "where": error.where}) + "\n")
     else:
-        sys.stderr.write(f"{error.sentence}\n")
+        note(error.sentence)

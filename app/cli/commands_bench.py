@@ -8,13 +8,13 @@ from app.bench import BENCHMARKS, BY_NAME_ONLY, Benchmark, Row, conditions
 from app.bench.physics.learning import bench_learning
 from app.bench.physics.tables import bench_physics
 from app.bench.solvers.edits import bench_edits
-from app.cli.output import end_on_sigterm, note, show
+from app.cli.output import end_on_signals, note, show
 from core.errors import InputError
 
 
 def run_bench(options: Namespace) -> int:
     """Runs benchmarks and prints their conditions."""
-    end_on_sigterm()
+    end_on_signals()
     unknown = [name for name in options.names if name not in BENCHMARKS]
     if unknown:
         raise InputError(f"There is no benchmark “{unknown[0]}”; choose of {', '.join(BENCHMARKS)}.", "NAME")

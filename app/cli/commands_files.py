@@ -8,7 +8,7 @@ from pathlib import Path
 
 from app.cli.commands_gait import optimise
 from app.cli.gait_options import Method
-from app.cli.output import end_on_sigterm, note, show
+from app.cli.output import end_on_signals, note, show, write
 from app.documents.gait_json import gait_content, parse_gait
 from app.documents.trajectory_json import trajectory_content
 from app.export.formats import NEED_NO_MOTION, ExportedFile, ExportFormat, export
@@ -32,7 +32,7 @@ _TEXT = frozenset(ExportFormat) - {ExportFormat.NPZ, ExportFormat.PNG}
 
 def run_export(options: Namespace) -> int:
     """Writes a gait or a recorded motion in another form."""
-    end_on_sigterm()
+    end_on_signals()
     form: ExportFormat = options.format
     source = _source(options)
     file = export(source, form)
@@ -40,7 +40,7 @@ def run_export(options: Namespace) -> int:
     if output is None and (options.json or form not in _TEXT):
         raise InputError(f"{form} goes into a file; name it with -o, such as -o {file.name}.", "-o")
     if output is None:
-        sys.stdout.write(file.content.decode())
+        write(sys.stdout, file.content.decode())
         return 0
     written = [output]
     if form is ExportFormat.CSV and source.need_motion().is_stated:
@@ -120,7 +120,7 @@ def run_import(options: Namespace) -> int:
     for remark in described.remarks:
         note(remark)
     if options.output is None and not options.json:
-        sys.stdout.write(json.dumps(content, indent=2, ensure_ascii=False) + "\n")
+        write(sys.stdout, json.dumps(content, indent=2, ensure_ascii=False) + "\n")
         return 0
     if options.output is not None:
         write_atomically(options.output, json.dumps(content, indent=2, ensure_ascii=False) + "\n")

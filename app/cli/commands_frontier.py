@@ -6,7 +6,7 @@ from argparse import Namespace
 import numpy as np
 
 from app.cli.gait_options import Method, asked_gait, returns_anew
-from app.cli.output import INFEASIBLE, end_on_sigterm, show
+from app.cli.output import INFEASIBLE, end_on_signals, show
 from app.common.json import Json
 from app.export.trajectory_files import write_trajectory
 from core.errors import InputError
@@ -17,7 +17,7 @@ from solver_jobs import Frontier, FrontierSearch
 
 def run_frontier(options: Namespace) -> int:
     """Finds how far a gait gets in an iteration, and what limits it."""
-    end_on_sigterm()
+    end_on_signals()
     gait = asked_gait(options)
     begin = time.perf_counter()
     frontier = _search(gait, options).run()

@@ -8,7 +8,7 @@ from operator import itemgetter
 from pathlib import Path
 
 from app.cli.gait_options import SOLVERS, Method, asked_gait
-from app.cli.output import end_on_sigterm, note, show
+from app.cli.output import end_on_signals, note, show
 from app.common.json import Json
 from app.documents.gait_json import gait_schema
 from app.export.trajectory_files import write_trajectory
@@ -146,7 +146,7 @@ def optimise(gait: Gait, method: Method = Method.NLP) -> VerifiedResult:
 
 def run_optimise(options: Namespace) -> int:
     """Optimises a gait and writes its trajectory."""
-    end_on_sigterm()
+    end_on_signals()
     gait = asked_gait(options)
     verified = optimise(gait, options.method)
     output = options.output if verified.status is SolveStatus.SOLVED else None

@@ -5,10 +5,11 @@ from argparse import Namespace
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 
-from app.cli.output import INFEASIBLE, Interrupted, end_on_sigterm, ignore_interrupts, show
+from app.cli.output import INFEASIBLE, Interrupted, end_on_signals, show
 from app.cli.pattern_options import asked_pattern
 from app.cli.pattern_text import CHANGE, STANCE, SWING, drawn_pattern
 from app.common.json import Json
+from app.common.signals import ignore_endings
 from core.patterns.check import broken_rules, check_pattern, weighted_sum
 from core.patterns.numerals import counted
 from core.patterns.problem import (
@@ -29,7 +30,7 @@ NOTHING: Json = {"objective": None, "limb_changes": None, "score": None, "patter
 
 def run_pattern(options: Namespace) -> int:
     """Finds the best footfall pattern, draws it, or says why there is none."""
-    end_on_sigterm()
+    end_on_signals()
     problem = asked_pattern(options)
     if options.shortest:
         problem = shortest_problem(problem)
@@ -59,7 +60,7 @@ def _solved(problem: PatternProblem, options: Namespace) -> PatternResult:
                     return search.result(TICK_SECONDS)
         except (KeyboardInterrupt, Interrupted):
             # A process that leaves the solver's thread behind is aborted.
-            ignore_interrupts()
+            ignore_endings()
             raise
         finally:
             left.set()

@@ -6,7 +6,7 @@ from functools import partial
 from pathlib import Path
 
 from app.cli.commands_gait import optimise
-from app.cli.output import NOT_FIT, note, show, verdict_lines
+from app.cli.output import NOT_FIT, note, show, verdict_lines, write
 from app.documents.gait_json import parse_gait
 from app.export.trajectory_files import read_text, read_trajectory, write_waypoints
 from app.gaits.views import verdict_view
@@ -49,7 +49,7 @@ def run_waypoints(options: Namespace) -> int:
         "file": None if options.output is None else str(options.output),
     }
     if options.output is None and not options.json:
-        sys.stdout.write(format_waypoint_csv(waypoints))
+        write(sys.stdout, format_waypoint_csv(waypoints))
         return 0
     lines = [
         f"{waypoints.count} waypoints, about {content['estimated_seconds']:.0f} s on the robot.",

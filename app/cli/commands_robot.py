@@ -11,9 +11,10 @@ from types import FrameType
 from typing import Any
 
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPlan
-from app.cli.output import INTERRUPTED, NOT_FIT, end_on_sigterm, note, show, verdict_lines
+from app.cli.output import INTERRUPTED, NOT_FIT, end_on_signals, note, show, verdict_lines, write
 from app.cli.served_cameras import served_cameras
 from app.cli.streaming import stream
+from app.common.signals import ending_signals
 from app.emulator.emulated_robot import start_emulator
 from app.export.trajectory_files import read_waypoints
 from app.gaits.views import approval_view, verdict_view
@@ -65,8 +66,7 @@ def _require_device(device: str) -> None:
 
 
 def _announce(url: str) -> None:
-    sys.stdout.write(f"Footfall Studio is ready at {url}\n")
-    sys.stdout.flush()
+    write(sys.stdout, f"Footfall Studio is ready at {url}\n")
 
 
 def run_emulate(options: Namespace) -> int:
@@ -77,12 +77,11 @@ def run_emulate(options: Namespace) -> int:
         del number, frame
         ended.set()
 
-    for number in (signal.SIGINT, signal.SIGTERM):
+    for number in (signal.SIGINT, *ending_signals()):
         signal.signal(number, end)
     robot = start_emulator(options.profile, options.speed, tcp=options.tcp, faults=options.fault)
     try:
         show(options, {"device": robot.device}, [robot.device])
-        sys.stdout.flush()
         told: str | None = None
         while not ended.wait(LOOK_SECONDS):
             wrong = robot.firmware.fault or robot.firmware.spoilt
@@ -96,7 +95,7 @@ def run_emulate(options: Namespace) -> int:
 
 def run_send(options: Namespace) -> int:
     """Checks, approves and streams a waypoint file as a run that is kept; Ctrl-C is Stop."""
-    end_on_sigterm()
+    end_on_signals()
     waypoints, model = read_waypoints(options.file), load_robot("deltawalker")
     verdict = check_waypoints(model, waypoints)
     if not verdict.passed:
@@ -137,9 +136,16 @@ def _approval(verdict: Verdict, options: Namespace) -> Approval:
             f"{options.file}: the robot will move, slowly to the start pose first. Stop is Ctrl-C, in effect "
             f"after the move that is running. Approve as {name} and send? [y/N]"
         )
-        if sys.stdin.readline().strip().lower() not in ("y", "yes"):
+        if _answer() not in ("y", "yes"):
             raise CheckError("Not approved; nothing was sent.", str(options.file))
     return approve(verdict, name, datetime.now(UTC), accept_warnings=True)
+
+
+def _answer() -> str:
+    try:
+        return sys.stdin.readline().strip().lower()
+    except OSError:  # the terminal is closed
+        return ""
 
 
 def _report(options: Namespace, snapshot: RobotSnapshot, plan: RunPlan) -> int:

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from app.cli.commands_plan import ROBOT, trajectory_of
-from app.cli.output import NOT_FIT, Interrupted, end_on_sigterm, note, show, tally
+from app.cli.output import NOT_FIT, Interrupted, end_on_signals, note, show, tally
 from app.documents.gait_json import parse_gait
 from app.export.trajectory_files import read_text, read_trajectory
 from app.learning.parameter_sets import ParameterSets
@@ -39,7 +39,7 @@ from solver_jobs import simulate, simulate_variations
 
 def run_simulate(options: Namespace) -> int:
     """Physics of exactly the waypoints that would be sent of a trajectory or gait file."""
-    end_on_sigterm()
+    end_on_signals()
     problem = _problem(options)
     motion = _simulated(problem)
     figures = report(problem, motion)

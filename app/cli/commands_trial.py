@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from app.cli.output import end_on_sigterm, note, show
+from app.cli.output import end_on_signals, note, show
 from app.common.json import Json
 from app.export.trajectory_files import read_text
 from app.trials.figures import movement_content, part_content
@@ -39,7 +39,7 @@ class _Trial:
 
 def run_trial(options: Namespace) -> int:
     """Movement tables of recorded foot tracks."""
-    end_on_sigterm()
+    end_on_signals()
     trials = [_read(options, path, track) for path, track in _tracks(options)]
     for trial in trials:
         if trial.track.gaps:

@@ -1,51 +1,77 @@
 """Printing results, for people or as one JSON object."""
 
+import errno
 import json
+import os
 import signal
 import sys
 from argparse import Namespace
 from collections.abc import Sequence
 from types import FrameType
-from typing import Any
+from typing import Any, TextIO
 
 from app.common.json import finite
+from app.common.signals import ending_signals
+from core.errors import InputError
 from core.findings import SendCost, Severity, Verdict
 
 INFEASIBLE, NOT_FIT = 3, 4
 """Exit status of a command that found no motion or pattern, and of one whose check failed."""
 INTERRUPTED = 130
-"""Exit status of a command that Ctrl-C or SIGTERM ended."""
+"""Exit status of a command that Ctrl-C, SIGTERM or SIGHUP ended."""
+_NO_READER = (errno.EPIPE, errno.EIO)
+"""The pipe's other end is closed; the terminal is closed."""
 
 
 class Interrupted(Exception):  # noqa: N818 - it is no error
-    """SIGTERM arrived; commands end as by Ctrl-C."""
+    """SIGTERM or SIGHUP arrived; commands end as by Ctrl-C."""
 
 
-def end_on_sigterm() -> None:
-    """Makes SIGTERM unwind the command as Ctrl-C does."""
+def end_on_signals() -> None:
+    """Makes SIGTERM unwind the command as Ctrl-C does, and SIGHUP too unless `nohup` has it ignored."""
+    endings = ending_signals()
 
     def raise_interrupted(number: int, frame: FrameType | None) -> None:
         del number, frame
+        for ending in endings:  # a terminal that is closed sends several
+            signal.signal(ending, signal.SIG_IGN)
         raise Interrupted
 
-    signal.signal(signal.SIGTERM, raise_interrupted)
-
-
-def ignore_interrupts() -> None:
-    """Lets a command that has been interrupted end what it does without being broken off again."""
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, signal.SIG_IGN)
+    for number in endings:
+        signal.signal(number, raise_interrupted)
 
 
 def show(options: Namespace, content: dict[str, Any], lines: Sequence[str]) -> None:
     """Prints content as JSON, or lines for people."""
     text = json.dumps(finite(content), allow_nan=False) if options.json else "\n".join(lines)
-    sys.stdout.write(text + "\n")
+    write(sys.stdout, text + "\n")
 
 
 def note(text: str) -> None:
     """Says something beside the result, on standard error."""
-    sys.stderr.write(text + "\n")
+    write(sys.stderr, text + "\n")
+
+
+def write(stream: TextIO, text: str) -> None:
+    """Writes text at once. Where nobody is left to read it, what follows is dropped: a run has to go on.
+
+    Raises:
+        InputError: the output goes to a file that does not take it.
+    """
+    try:
+        stream.write(text)
+        stream.flush()
+    except OSError as error:
+        drop(stream)
+        if stream is not sys.stderr and error.errno not in _NO_READER:
+            raise InputError(
+                f"The output cannot be written: {error.strerror}. Make room, or write it elsewhere.", "output"
+            ) from error
+
+
+def drop(stream: TextIO) -> None:
+    """Drops what is still to be written to a stream, and all that follows."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def tally(errors: int, warnings: int) -> str:

@@ -15,7 +15,8 @@ from app.bridge.bridge import RobotBridge
 from app.bridge.delivery import HELD_STOP
 from app.bridge.states import IN_RUN, LinkState, RobotSnapshot, RobotState, RunPhase, RunPlan, RunProgress
 from app.bridge.stop_confirmation import STOP_LIMIT
-from app.cli.output import Interrupted, ignore_interrupts, note
+from app.cli.output import Interrupted, note, write
+from app.common.signals import ignore_endings
 from app.emulator.emulated_robot import start_emulator
 from app.robot.recorded_bridge import RecordedBridge, RecordedRun
 from app.robot.views import EMULATOR, RunOrigin
@@ -76,7 +77,7 @@ def stream(
             try:
                 return Streamed(sending.run(line), is_interrupted=False)
             except (KeyboardInterrupt, Interrupted):
-                ignore_interrupts()
+                ignore_endings()
                 return Streamed(sending.stop(), is_interrupted=True)
 
 
@@ -214,15 +215,14 @@ class Progress:
         self._told, self._told_at = news, now
         text = f"{snapshot.robot}: {self._place(run)}"
         if self._is_terminal:
-            sys.stderr.write(f"\r\x1b[K{text}")
-            sys.stderr.flush()
+            write(sys.stderr, f"\r\x1b[K{text}")
         else:
             note(text)
 
     def end(self) -> None:
         """Ends the line."""
         if self._is_terminal and self._told is not None:
-            sys.stderr.write("\n")
+            write(sys.stderr, "\n")
 
     def _place(self, run: RunProgress) -> str:
         left = float(self._estimates[run.reached :].sum())

@@ -4,7 +4,6 @@ import asyncio
 import contextlib
 import os
 import secrets
-import signal
 import socket
 import sys
 import webbrowser
@@ -17,6 +16,7 @@ import uvicorn
 from app.cameras.address import CameraAddress
 from app.scene.registry import Scenes
 from app.server.application import MOST_MESSAGE_BYTES, make_app
+from app.server.ending import serve_until_signal
 from app.studio.studio import Studio
 from app.web.access import LOOPBACK_NAMES, Access
 from core.errors import InputError
@@ -52,12 +52,12 @@ class _Server(uvicorn.Server):
 
     @contextlib.contextmanager
     def capture_signals(self) -> Generator[None, None, None]:
-        """Leaves signals to `serve`."""
+        """Leaves signals to `serve_until_signal`."""
         yield
 
 
 def serve(options: ServeOptions, announce: Callable[[str], None]) -> None:
-    """Serves until SIGINT or SIGTERM; then the robot is stopped and everything is closed.
+    """Serves until SIGINT, SIGTERM or SIGHUP; then the robot is stopped and everything is closed.
 
     Args:
         options: how to serve.
@@ -86,24 +86,10 @@ def serve(options: ServeOptions, announce: Callable[[str], None]) -> None:
             )
             url = _url(options.host, listening.getsockname()[1], token)
             server = _Server(config, lambda: _tell(url, announce, options.opens_browser))
-            asyncio.run(_serve_until_signal(server, listening, studio))
+            asyncio.run(serve_until_signal(server, listening, studio))
         finally:
             studio.close()
             scenes.stop()
-
-
-async def _serve_until_signal(server: _Server, listening: socket.socket, studio: Studio) -> None:
-    loop = asyncio.get_running_loop()
-
-    def end() -> None:
-        # The robot first: connections that are still open may take their time to close.
-        studio.stop_run("the end of the studio")
-        server.should_exit = True
-        studio.hub.close()
-
-    for number in (signal.SIGINT, signal.SIGTERM):
-        loop.add_signal_handler(number, end)
-    await server.serve(sockets=[listening])
 
 
 def _listen(host: str, port: int) -> socket.socket:

@@ -42,8 +42,10 @@ def start_process(
 def _stand_back(
     body: Callable[[Connection, Any], None], pipe: Connection, warm_up: Any, niceness: int
 ) -> None:
-    # Ctrl-C in a terminal reaches the whole group; the parent decides when a worker ends.
+    # Ctrl-C and a closed terminal reach the whole group; the parent decides when a worker ends.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if hasattr(signal, "SIGHUP"):
+        signal.signal(signal.SIGHUP, signal.SIG_IGN)
     if hasattr(os, "nice"):
         os.nice(niceness)
     body(pipe, warm_up)

@@ -17,6 +17,8 @@ from app.cameras.address import CameraAddress
 from app.scene.registry import Scenes
 from app.server.application import MOST_MESSAGE_BYTES, make_app
 from app.server.ending import serve_until_signal
+from app.store.folder_lock import StudioLock
+from app.store.gait_files import require_folder
 from app.studio.studio import Studio
 from app.web.access import LOOPBACK_NAMES, Access
 from core.errors import InputError
@@ -64,14 +66,18 @@ def serve(options: ServeOptions, announce: Callable[[str], None]) -> None:
         announce: told the URL as soon as the studio answers.
 
     Raises:
-        InputError: the port is busy, or the data folder cannot be used.
+        InputError: the port is busy, or the data folder cannot be used or is another studio's.
     """
-    listening = _listen(options.host, options.port)
     token = options.token
     if token is None and options.host not in LOOPBACK_NAMES:
         token = secrets.token_urlsafe(18)
     scenes = Scenes()
-    with contextlib.closing(listening):
+    require_folder(options.data)
+    with (
+        contextlib.closing(StudioLock(options.data)) as lock,
+        contextlib.closing(_listen(options.host, options.port)) as listening,
+    ):
+        lock.tell(_url(options.host, listening.getsockname()[1], None))
         studio = Studio(options.data, options.device, options.cameras)
         try:
             app = make_app(studio, scenes, Access(options.host, token))

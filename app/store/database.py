@@ -7,12 +7,13 @@ import json
 import sqlite3
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
 from app.common.json import Json
 from app.store import run_rows
+from app.store.folder_lock import DatabaseUse
 from app.store.schema import bring_up_to_date
 from core.errors import InputError
 
@@ -33,18 +34,22 @@ class Database:
     def __init__(self, path: Path) -> None:
         self.path = path
         self._lock = threading.Lock()
-        try:
-            self._connection = sqlite3.connect(path, check_same_thread=False)
-            self._connection.execute("PRAGMA journal_mode=WAL")
-            self._connection.execute("PRAGMA synchronous=FULL")
-            bring_up_to_date(self._connection)
-        except sqlite3.Error as error:
-            raise InputError(f"The database {path} cannot be used: {error}.", str(path)) from error
+        with ExitStack() as opened:
+            opened.callback(DatabaseUse(path.parent).close)
+            try:
+                self._connection = sqlite3.connect(path, check_same_thread=False)
+                opened.callback(self._connection.close)
+                self._connection.execute("PRAGMA journal_mode=WAL")
+                self._connection.execute("PRAGMA synchronous=FULL")
+                bring_up_to_date(self._connection)
+            except sqlite3.Error as error:
+                raise InputError(f"The database {path} cannot be used: {error}.", str(path)) from error
+            self._opened = opened.pop_all()
 
     def close(self) -> None:
         """Closes the file."""
         with self._lock:
-            self._connection.close()
+            self._opened.close()
 
     @contextmanager
     def writing(self) -> Iterator[sqlite3.Connection]:

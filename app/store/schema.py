@@ -31,22 +31,32 @@ def bring_up_to_date(connection: sqlite3.Connection) -> None:
     Raises:
         InputError: a newer program wrote the database.
     """
-    found = int(connection.execute("PRAGMA user_version").fetchone()[0])
-    if found > len(_MIGRATIONS):
-        raise InputError(
-            f"The database has version {found}; this program reads up to version {len(_MIGRATIONS)}. "
-            "Start the newer program, or give another data folder with --data.",
-            "--data",
-        )
-    if found == len(_MIGRATIONS):
+    if version(connection) == NEWEST:
         return
     connection.execute("BEGIN IMMEDIATE")
     with connection:
+        found = version(connection)  # another program may have changed it until now
         for statement in _BASE.split(";"):
             connection.execute(statement)
         for migrate in _MIGRATIONS[found:]:
             migrate(connection)
-        connection.execute(f"PRAGMA user_version = {len(_MIGRATIONS)}")
+        connection.execute(f"PRAGMA user_version = {NEWEST}")
+
+
+def version(connection: sqlite3.Connection) -> int:
+    """The version of a database's tables; 0 for those of the first release, and for none.
+
+    Raises:
+        InputError: a newer program wrote the database.
+    """
+    found = int(connection.execute("PRAGMA user_version").fetchone()[0])
+    if found > NEWEST:
+        raise InputError(
+            f"The database has version {found}; this program reads up to version {NEWEST}. "
+            "Start the newer program, or give another data folder with --data.",
+            "--data",
+        )
+    return found
 
 
 def _add_authors_and_versions(connection: sqlite3.Connection) -> None:
@@ -159,3 +169,6 @@ _MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     _add_videos,
     _add_learning,
 )
+
+NEWEST = len(_MIGRATIONS)
+"""The version of the tables that this program uses."""

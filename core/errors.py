@@ -41,3 +41,15 @@ class StateError(FootfallError):
 
 class SimulationCancelledError(StateError):
     """A simulation was ended by whoever asked for it."""
+
+
+class StorageError(FootfallError):
+    """The disk or the database does not do what it should; nothing is half-stored."""
+
+
+class StorageFullError(StorageError):
+    """There is no room for what is to be stored."""
+
+
+class StorageDamagedError(StorageError):
+    """What was stored cannot be read any more."""

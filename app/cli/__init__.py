@@ -7,10 +7,19 @@ from collections.abc import Sequence
 
 from app.cli.output import INTERRUPTED, Interrupted, drop, note, write
 from app.cli.parser import make_parser
-from core.errors import CheckError, FootfallError, InfeasibleError, InputError, RobotError, StateError
+from core.errors import (
+    CheckError,
+    FootfallError,
+    InfeasibleError,
+    InputError,
+    RobotError,
+    StateError,
+    StorageError,
+)
 
 _EXIT: tuple[tuple[type[FootfallError], int], ...] = (
     (InputError, 2),
+    (StorageError, 2),
     (InfeasibleError, 3),
     (CheckError, 4),
     (StateError, 4),

@@ -15,6 +15,7 @@ from app.cli import (
     commands_gait,
     commands_pattern,
     commands_plan,
+    commands_restore,
     commands_robot,
     commands_simulate,
     commands_trial,
@@ -96,6 +97,8 @@ def make_parser() -> argparse.ArgumentParser:
     _export_options(command("export", commands_files.run_export, text))
     _import_options(command("import", commands_files.run_import, "Make a gait of another program's file."))
     _send_options(command("send", commands_robot.run_send, "Check, approve and stream a waypoint file."))
+    text = "List the backups of the database, or go back to one; what was there is kept aside."
+    _restore_options(command("restore", commands_restore.run_restore, text))
     _emulate_options(command("emulate", commands_robot.run_emulate, "Run an emulated robot on a line."))
     text = "How far recorded foot tracks went, in cm and degrees, beside what was wanted."
     _trial_options(command("trial", commands_trial.run_trial, text))
@@ -312,6 +315,15 @@ def _trial_options(parser: argparse.ArgumentParser) -> None:
     add("--pixels-per-cm", type=number(0.1, 10_000.0, "px"), default=None, help=text)
     text = "pixel of the platform's centre"
     add("--origin", type=pixel, default=None, metavar="X,Y", help=text)
+
+
+def _restore_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--data", type=Path, default=None, help="data folder")
+    chosen = parser.add_mutually_exclusive_group()
+    text = "go back to this one: a name that the list shows, or a file"
+    chosen.add_argument("--backup", type=Path, default=None, metavar="FILE", help=text)
+    text = "begin with an empty database; saved gaits stay"
+    chosen.add_argument("--empty", action="store_true", help=text)
 
 
 def _emulate_options(parser: argparse.ArgumentParser) -> None:

@@ -4,6 +4,7 @@ Only the command queue's thread calls this.
 """
 
 import json
+from collections.abc import Callable
 from dataclasses import asdict, replace
 from typing import Any
 
@@ -79,20 +80,26 @@ class GaitRepository:
         self._edits.put(open_gait.id, row, self._stored.get(open_gait.id), version, record)
         self._stored[open_gait.id] = open_gait.history
 
-    def write(self, open_gait: OpenGait) -> OpenGait:
-        """Writes a gait's present document to its file; gives the gait back as saved."""
-        self._files.write(open_gait.id, open_gait.gait)
+    def write(self, open_gait: OpenGait, before: Callable[[OpenGait], object]) -> OpenGait:
+        """Writes a gait's present document to its file; gives the gait back as saved.
+
+        Args:
+            open_gait: the gait.
+            before: keeps what goes with it; what it raises leaves the file as it was.
+        """
+        self._files.write(open_gait.id, open_gait.gait, lambda: before(open_gait))
         return replace(open_gait, saved=open_gait.gait, saved_at=self._files.saved_at(open_gait.id))
 
-    def add(self, gait: Gait, taken: frozenset[str]) -> OpenGait:
+    def add(self, gait: Gait, taken: frozenset[str], before: Callable[[OpenGait], object]) -> OpenGait:
         """Saves a document as a new gait, under an id made from its name.
 
         Args:
             gait: the document.
             taken: ids that it must not get, besides those of the repository.
+            before: as for `write`.
         """
         used = {ROUTE, *taken, *self.stamps(), *self._files.deleted_ids(), *self._edits.ids()}
-        return self.write(fresh_gait(free_id(gait.name, used), gait, False, None))
+        return self.write(fresh_gait(free_id(gait.name, used), gait, False, None), before)
 
     def remove(self, gait_id: str) -> None:
         """Takes a saved document away; `restore` brings it back."""

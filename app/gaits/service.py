@@ -228,8 +228,9 @@ class GaitService:
         plan = self._plans.known(open_gait)
         if plan is not None and plan.provenance is not None:
             open_gait = self._restated(open_gait, replace(open_gait.gait, provenance=plan.provenance))
-        self._open[gait_id] = self._repository.write(open_gait)
-        self.versions.keep(open_gait, VersionKind.SAVED, author)
+        self._open[gait_id] = self._repository.write(
+            open_gait, lambda saved: self.versions.keep(saved, VersionKind.SAVED, author)
+        )
         return self._open[gait_id]
 
     def restore_version(self, gait_id: str, number: int, author: Author = _SCRIPT) -> OpenGait:
@@ -249,8 +250,10 @@ class GaitService:
         """Adds a gait under a new id made from its name, and saves it."""
         gait, notice = normalise_imported(derived(gait) if gait.sequence else gait)
         require_line(gait)
-        created = replace(self._repository.add(gait, frozenset(self._open)), notice=notice)
-        self.versions.keep(created, VersionKind.SAVED)
+        added = self._repository.add(
+            gait, frozenset(self._open), lambda saved: self.versions.keep(saved, VersionKind.SAVED)
+        )
+        created = replace(added, notice=notice)
         self._open[created.id] = created
         return created
 

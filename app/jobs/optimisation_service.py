@@ -17,7 +17,7 @@ from app.jobs.timing_view import timed_gait, timing_content, timing_problem
 from app.plans.plan import Plan, iterate_plan
 from app.plans.provenance import result_provenance
 from app.plans.verified_result import VerifiedResult, verify
-from core.errors import InputError, StateError
+from core.errors import InputError, StateError, StorageError
 from core.gait.gait import Gait, motion_problem
 from core.gait.provenance import Provenance
 from core.library.library import library
@@ -71,6 +71,7 @@ class OptimisationService:
         Raises:
             StateError: the gait is made by hand.
             InputError: its timeline or options cannot be optimised.
+            StorageError: the job cannot be kept; it is not begun.
         """
         # A recorded motion is what the gait has, not what is asked.
         gait = replace(open_gait.gait, recorded=None)
@@ -85,8 +86,15 @@ class OptimisationService:
             problem = timing_problem(gait, problem)
         origin = JobOrigin(open_gait.id, gait, asked_hash(gait), problem)
         job_id = self._job_queue.submit(problem, gait.name, kind)
+        try:
+            content = self._job_repository.begin(
+                job_id, KIND_WORDS[kind], origin.gait_id, gait.name, origin.motion
+            )
+        except StorageError:
+            self._job_queue.cancel(job_id)
+            raise
         self._origins[job_id] = origin
-        return self._job_repository.begin(job_id, KIND_WORDS[kind], origin.gait_id, gait.name, origin.motion)
+        return content
 
     def cancel(self, job_id: str) -> Json:
         """Asks a job to end; one that ended already stays as it is."""
@@ -108,6 +116,14 @@ class OptimisationService:
             "ended": job.ended,
             "progress": [_iterate_content(iterate) for iterate in job.progress],
         }
+        try:
+            self._take_result(content, origin, job)
+        except StorageError as error:
+            content |= {"state": JobState.FAILED.value, "sentence": f"It was not kept. {error.sentence}"}
+        self._job_repository.keep(content)
+        return content
+
+    def _take_result(self, content: Json, origin: JobOrigin, job: Job) -> None:
         if isinstance(job.result, TimingResult):
             content["result"] = timing_content(origin.gait, job.result)
             provenance = self._keep_timed_motion(origin.gait, job.result)
@@ -116,8 +132,6 @@ class OptimisationService:
         elif job.result is not None:
             self._keep_iterates(content, job.result.iterate_motions)
             self._verify(content, origin, job.result)
-        self._job_repository.keep(content)
-        return content
 
     def _keep_iterates(self, content: Json, iterate_motions: tuple[Trajectory, ...]) -> None:
         """Keeps the motions of a job's iterations in memory, in place of those of the oldest job."""

@@ -8,6 +8,7 @@ from typing import Any
 
 from app.common.json import Json
 from app.store.database import Database
+from app.store.storage_errors import left_undone
 from core.errors import NotFoundError
 
 ENDED = frozenset({"done", "infeasible", "failed", "cancelled", "interrupted"})
@@ -27,14 +28,16 @@ class JobRepository:
 
     def __init__(self, database: Database) -> None:
         self._database = database
-        self._contents = {content["id"]: content for content in reversed(database.jobs(MOST_SHOWN))}
+        self._contents: dict[str, Json] = {}
+        with left_undone("The list of jobs is empty"):
+            self._contents = {content["id"]: content for content in reversed(database.jobs(MOST_SHOWN))}
         for content in self._contents.values():
             content["course"] = 0
             if content["state"] not in ENDED:
                 content |= {"state": "interrupted", "ended": time.time()}
                 again = AGAIN.get(content["kind"], "Optimise again.")
                 content["sentence"] = f"The studio ended while this job was on. {again}"
-                database.put_job(content)
+                self.keep(content)
 
     def begin(self, job_id: str, kind: str, gait_id: str, gait_name: str, motion: str, **more: Any) -> Json:
         """Adds a job that waits for a worker.
@@ -46,6 +49,9 @@ class JobRepository:
             gait_name: what that is called.
             motion: hash of what it works on, by which its answer is told to be of the gait as it is.
             **more: what else the job says of itself.
+
+        Raises:
+            StorageError: it cannot be kept; then there is no such job.
         """
         content = {
             "id": job_id,
@@ -63,14 +69,15 @@ class JobRepository:
             "result": None,
             **more,
         }
-        self._contents[job_id] = content
         self._database.put_job(content)
+        self._contents[job_id] = content
         return content
 
     def keep(self, content: Json) -> None:
         """Stores a job that has ended; until then it is worth nothing after a restart."""
         if content["state"] in ENDED:
-            self._database.put_job(content)
+            with left_undone("The end of a job is shown until the studio ends, and not kept"):
+                self._database.put_job(content)
 
     def content(self, job_id: str) -> Json:
         """A job as JSON content.

@@ -14,6 +14,7 @@ from app.learning.views import learned_content, learned_sentence
 from app.simulation.problem import physics_from_content
 from app.store.database import Database
 from app.store.learning_store import LearningStore
+from app.store.storage_errors import left_undone
 from core.errors import FootfallError, NotFoundError, StateError
 from core.identification.learning import POINTS, Walk, learn, require_gaits, simulation_count
 from core.physics.parameters import PhysicsSet
@@ -54,9 +55,10 @@ class LearningService:
         self._lock = threading.Lock()
         self._on: _Work | None = None
         self._thread: threading.Thread | None = None
-        for content in self._store.found(MOST_SHOWN):
-            if content["state"] == "running":
-                self._store.put({**content, **INTERRUPTED, "ended": time.time()})
+        with left_undone("Learning that was broken off is not marked so"):
+            for content in self._store.found(MOST_SHOWN):
+                if content["state"] == "running":
+                    self._store.put({**content, **INTERRUPTED, "ended": time.time()})
 
     def start(self, walks: Sequence[Walk], physics: PhysicsSet, by: str, source: str) -> Json:
         """Begins a course.

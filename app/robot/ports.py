@@ -10,7 +10,7 @@ from typing import Any
 from app.bridge.devices import SerialDevice, found_again
 from app.bridge.transport import serial_devices
 from app.store.gait_files import write_atomically
-from core.errors import InputError
+from core.errors import FootfallError
 
 logger = logging.getLogger(__name__)
 
@@ -38,7 +38,7 @@ class RobotPorts:
         self._last = known
         try:
             write_atomically(self._memory, json.dumps(asdict(known)))
-        except InputError as error:  # the line is open all the same
+        except FootfallError as error:  # the line is open all the same
             logger.warning("The robot's device is not remembered: %s", error.sentence)
 
     def view(self, *, is_lost: bool) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from app.robot.run_recorder import RunRecorder
 from app.robot.views import RUNNING, RunOrigin, run_end
 from app.runs.recovery import end_abandoned
 from app.store.database import Database
+from app.store.storage_errors import left_undone
 from core.errors import FootfallError, StateError
 
 
@@ -43,7 +44,9 @@ class RecordedBridge:
 
     def __init__(self, database: Database, changed: Callable[[], None] = lambda: None) -> None:
         end_abandoned(database)
-        self.previous = next(iter(database.runs(1)), None)
+        self.previous: Json | None = None
+        with left_undone("The last run is not shown"):
+            self.previous = next(iter(database.runs(1)), None)
         self.origin: RunOrigin | None = None
         self._recorder = RunRecorder(database, changed)
         self._record: Json | None = None

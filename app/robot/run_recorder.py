@@ -13,7 +13,7 @@ from app.store.database import Database
 from app.store.run_journal import Entry, EntryKind, RunJournal
 from app.store.run_store import RunStore
 from app.store.run_writer import RunWriter
-from core.errors import StateError
+from core.errors import StateError, StorageError
 
 logger = logging.getLogger(__name__)
 
@@ -119,10 +119,10 @@ class RunRecorder:
             journal = RunJournal(self._data, run)
             try:
                 self._runs.begin(content, plan)
-            except sqlite3.Error:
+            except StorageError:
                 journal.close(is_in_database=True)
                 raise
-        except (OSError, sqlite3.Error) as error:
+        except (OSError, StorageError) as error:
             raise StateError(
                 f"The record of the run cannot be begun: the data folder does not take it ({error}). Make "
                 "room on its disk, then send again.",

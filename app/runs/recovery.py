@@ -6,12 +6,18 @@ from app.store.database import Database
 from app.store.run_journal import Entry, EntryKind, abandoned_journal
 from app.store.run_rows import add_bytes, add_states, byte_row, put_run, state_row
 from app.store.run_store import RunStore
+from app.store.storage_errors import left_undone
 
 ABANDONED = "The program that sent this run ended while it was on; nothing resumes by itself."
 
 
 def end_abandoned(database: Database) -> None:
     """Marks the runs of dead processes as interrupted; runs of living processes are left alone."""
+    with left_undone("Runs that were broken off are not marked so"):
+        _end_abandoned(database)
+
+
+def _end_abandoned(database: Database) -> None:
     log = RunStore(database)
     for content in log.running():
         run = content["id"]

@@ -81,9 +81,9 @@ def make_app(studio: Studio, scenes: Scenes, access: Access) -> FastAPI:
     module_page = ModulePage(static)
 
     @app.get("/api/health", tags=["studio"])
-    async def health() -> dict[str, str]:
-        """Whether the studio answers."""
-        return {"status": "ok", "version": VERSION}
+    async def health() -> dict[str, Any]:
+        """Whether the studio answers, and what is wrong with its database."""
+        return {"status": "ok", "version": VERSION, "storage": studio.storage.view()}
 
     @app.get("/api/schema/gait", tags=["gaits"])
     async def schema() -> dict[str, Any]:

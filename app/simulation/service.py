@@ -28,7 +28,7 @@ from app.simulation.problem import (
 from app.simulation.repository import SimulationRepository
 from app.simulation.view import motion_content, report_sentence, variations_content
 from app.store.simulation_store import SimulationRow
-from core.errors import FootfallError, StateError
+from core.errors import FootfallError, StateError, StorageError
 from core.physics.findings import physics_outcomes
 from core.physics.masses import part_masses
 from core.physics.metrics import report
@@ -136,7 +136,11 @@ class SimulationService:
         job_id = uuid.uuid4().hex[:12]
         handle = self._tier.submit(problem, variations, progress=self._running.teller(job_id))
         more = {"share": 0.0, "physics": physics.name, "variations": variations}
-        job = self._job_repository.begin(job_id, KIND, open_gait.id, open_gait.gait.name, key, **more)
+        try:
+            job = self._job_repository.begin(job_id, KIND, open_gait.id, open_gait.gait.name, key, **more)
+        except StorageError:
+            handle.cancel()
+            raise
         row = SimulationRow(open_gait.id, key, problem.waypoints.content_hash, physics.name, time.time())
         work = _Work(job, row, plan.hash, physics, problem, handle)
         self._running.begin(job_id, handle)

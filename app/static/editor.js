@@ -20,6 +20,7 @@ import { mountPlots } from "./plots/plots.js";
 import { Playback } from "./preview/playback.js";
 import { robotTime } from "./state/plan_samples.js";
 import { planIsOn, shownPlan } from "./state/store.js";
+import { mountStorageNotice } from "./shell/storage_notice.js";
 import { mountTabs, openTab } from "./lib/tabs.js";
 import { mountTimeline } from "./timeline/timeline.js";
 import { mountTools } from "./timeline/timeline_tools.js";
@@ -70,6 +71,7 @@ export function start(store) {
   store.watch(({ operator }) => [operator], ({ operator }) => nameAuthor(operator));
   mountTabs();
   mountTopbar(store, edits);
+  mountStorageNotice(store);
   const gaitTools = mountGaitTools(store, edits, (id) => selectGait(store, id));
   mountJobs(store);
   const { timeline, actions, zoom, tools } = mountEditor(store, edits, playback);

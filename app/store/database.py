@@ -4,18 +4,23 @@ Every write is committed before its method returns, so that what was acknowledge
 """
 
 import json
+import logging
 import sqlite3
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
 from app.common.json import Json
 from app.store import run_rows
+from app.store.backups import MIGRATION, make_backup, way_back
 from app.store.folder_lock import DatabaseUse
-from app.store.schema import bring_up_to_date
-from core.errors import InputError
+from app.store.schema import bring_up_to_date, is_outdated
+from app.store.storage_errors import storage_error
+from core.errors import StorageDamagedError
+
+logger = logging.getLogger(__name__)
 
 DATABASE = "studio.sqlite3"
 """Name of the file in a data folder."""
@@ -29,21 +34,31 @@ class Database:
 
     Attributes:
         path: the file.
+        damage: says that the file is damaged, and how to get back; nothing is written to it then, since going
+            back to a backup would lose it again. None where nothing of the kind is known.
+        damaged: called, from any thread, once `damage` is set.
+
+    Raises:
+        InputError: a newer program wrote it, or the data folder cannot be used.
+        StorageError: it cannot be read or brought up to date.
     """
 
     def __init__(self, path: Path) -> None:
         self.path = path
+        self.damage: str | None = None
+        self.damaged: Callable[[], None] = lambda: None
         self._lock = threading.Lock()
         with ExitStack() as opened:
             opened.callback(DatabaseUse(path.parent).close)
-            try:
+            with self._sentences():
                 self._connection = sqlite3.connect(path, check_same_thread=False)
                 opened.callback(self._connection.close)
+                self._connection.text_factory = _text
                 self._connection.execute("PRAGMA journal_mode=WAL")
                 self._connection.execute("PRAGMA synchronous=FULL")
+                if is_outdated(self._connection):
+                    make_backup(path, MIGRATION)
                 bring_up_to_date(self._connection)
-            except sqlite3.Error as error:
-                raise InputError(f"The database {path} cannot be used: {error}.", str(path)) from error
             self._opened = opened.pop_all()
 
     def close(self) -> None:
@@ -53,14 +68,45 @@ class Database:
 
     @contextmanager
     def writing(self) -> Iterator[sqlite3.Connection]:
-        """One transaction; it is on disk when this ends without an error."""
-        with self._lock, self._connection:
+        """One transaction; it is on disk when this ends without an error, and nothing of it is otherwise.
+
+        Raises:
+            StorageError: the disk or the database does not take it.
+        """
+        if self.damage is not None:
+            raise StorageDamagedError(self.damage, str(self.path))
+        with self._sentences(), self._lock, self._connection:
             yield self._connection
 
     def rows(self, query: str, *values: Any) -> list[tuple[Any, ...]]:
-        """What a query finds."""
-        with self._lock:
+        """What a query finds.
+
+        Raises:
+            StorageError: it cannot be read.
+        """
+        with self._sentences(), self._lock:
             return self._connection.execute(query, values).fetchall()
+
+    def take_damage(self, sentence: str) -> None:
+        """Refuses to write from now on, since the file is damaged."""
+        if self.damage is None:
+            self.damage = f"{sentence} Nothing can be stored. {way_back(self.path.parent)}"
+            logger.error("%s", self.damage)
+            self.damaged()
+
+    @contextmanager
+    def _sentences(self) -> Iterator[None]:
+        """Turns what SQLite refuses into sentences."""
+        try:
+            yield
+        except (sqlite3.Error, StorageDamagedError) as error:
+            refusal = storage_error(error, self.path) if isinstance(error, sqlite3.Error) else error
+            if refusal is None:
+                raise
+            if isinstance(refusal, StorageDamagedError):
+                self.take_damage(refusal.sentence)
+                raise StorageDamagedError(self.damage or refusal.sentence, refusal.where) from error
+            raise refusal from error
 
     def result(self, motion: str) -> Json | None:
         """The stored result for a motion hash."""
@@ -101,3 +147,17 @@ class Database:
         """Adds to the record of bytes."""
         with self.writing() as connection:
             run_rows.add_bytes(connection, rows)
+
+
+def _text(content: bytes) -> str:
+    """A stored text; pages that were overwritten hold no text any more.
+
+    Raises:
+        sqlite3.OperationalError: as SQLite's own reader of texts would.
+    """
+    try:
+        if b"\0" not in content:
+            return content.decode()
+    except UnicodeDecodeError:
+        pass
+    raise sqlite3.OperationalError("could not decode a stored text")

@@ -4,12 +4,13 @@ import json
 import os
 import re
 import sys
-from collections.abc import Set
+from collections.abc import Callable, Set
 from contextlib import suppress
 from itertools import chain, count
 from pathlib import Path
 
 from app.documents.gait_json import gait_content, parse_gait
+from app.store.storage_errors import file_error
 from core.errors import InputError
 from core.gait.gait import Gait
 
@@ -25,10 +26,17 @@ def default_data_folder() -> Path:
     return Path(os.environ.get("XDG_DATA_HOME", Path.home() / ".local" / "share")) / "footfall-studio"
 
 
-def write_atomically(path: Path, content: str | bytes) -> None:
+def write_atomically(path: Path, content: str | bytes, before: Callable[[], object] = lambda: None) -> None:
     """Writes a file whole or not at all, and on disk when this returns.
 
+    Args:
+        path: the file.
+        content: what it holds from then on.
+        before: called once the new file is on the disk and is about to take its place; what it raises leaves
+            the old one.
+
     Raises:
+        StorageError: the disk does not take it; what was there before is as it was.
         InputError: the file cannot be written there.
     """
     partial = path.with_name(f".{path.name}.{os.getpid()}.partial")
@@ -37,6 +45,7 @@ def write_atomically(path: Path, content: str | bytes) -> None:
             file.write(content if isinstance(content, bytes) else content.encode())
             file.flush()
             os.fsync(file.fileno())
+        before()
         partial.replace(path)
         folder = os.open(path.parent, os.O_RDONLY)
         try:
@@ -44,10 +53,17 @@ def write_atomically(path: Path, content: str | bytes) -> None:
         finally:
             os.close(folder)
     except OSError as error:
-        raise InputError(f"{path} cannot be written: {error.strerror}.", str(path)) from error
+        raise file_error(error, path) from error
     finally:
         with suppress(OSError):
             partial.unlink(missing_ok=True)
+
+
+def _move(source: Path, target: Path) -> None:
+    try:
+        source.replace(target)
+    except OSError as error:
+        raise file_error(error, target) from error
 
 
 def _sweep(folder: Path) -> None:
@@ -155,14 +171,14 @@ class GaitFiles:
         path = self._path(gait_id)
         return path.stat().st_mtime if path.exists() else None
 
-    def write(self, gait_id: str, gait: Gait) -> None:
-        """Saves a gait; the file is on disk when this returns."""
+    def write(self, gait_id: str, gait: Gait, before: Callable[[], object] = lambda: None) -> None:
+        """Saves a gait; the file is on disk when this returns (see `write_atomically`)."""
         text = json.dumps(gait_content(gait), indent=2, ensure_ascii=False) + "\n"
-        write_atomically(self._path(gait_id), text)
+        write_atomically(self._path(gait_id), text, before)
 
     def remove(self, gait_id: str) -> None:
         """Moves a gait's file into the trash, from where it can be restored."""
-        self._path(gait_id).replace(self._trash / f"{gait_id}.json")
+        _move(self._path(gait_id), self._trash / f"{gait_id}.json")
 
     def restore(self, gait_id: str) -> None:
         """Brings the last removed file of that id back.
@@ -175,7 +191,7 @@ class GaitFiles:
             raise InputError(f"There is no deleted gait “{gait_id}” to restore.", gait_id)
         if self._path(gait_id).exists():
             raise InputError(f"“{gait_id}” exists again; delete or rename it first.", gait_id)
-        source.replace(self._path(gait_id))
+        _move(source, self._path(gait_id))
 
     @staticmethod
     def is_id(gait_id: str) -> bool:

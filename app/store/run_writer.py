@@ -7,7 +7,7 @@ from pathlib import Path
 
 from app.store.run_journal import Entry, EntryKind
 from app.store.run_rows import add_bytes, add_states, byte_row, put_run, state_row
-from core.errors import InputError
+from app.store.storage_errors import storage_error
 
 BUSY_SECONDS = 0.5
 """How long another program's write is waited for at a time, s."""
@@ -20,7 +20,7 @@ class RunWriter:
         path: an existing database of today's form.
 
     Raises:
-        InputError: it cannot be used.
+        StorageError: it cannot be used.
     """
 
     def __init__(self, path: Path) -> None:
@@ -28,7 +28,7 @@ class RunWriter:
             self._connection = sqlite3.connect(path, timeout=BUSY_SECONDS, check_same_thread=False)
             self._connection.execute("PRAGMA synchronous=FULL")
         except sqlite3.Error as error:
-            raise InputError(f"The database {path} cannot be used: {error}.", str(path)) from error
+            raise storage_error(error, path) or error from error
 
     def write(self, entries: Sequence[tuple[str, Entry]]) -> None:
         """Adds entries, each with its run's id.

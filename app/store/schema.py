@@ -43,6 +43,12 @@ def bring_up_to_date(connection: sqlite3.Connection) -> None:
         connection.execute(f"PRAGMA user_version = {NEWEST}")
 
 
+def is_outdated(connection: sqlite3.Connection) -> bool:
+    """Whether there are tables, of an older version; see `version`."""
+    has_tables = connection.execute("SELECT 1 FROM sqlite_master LIMIT 1").fetchone() is not None
+    return version(connection) < NEWEST and has_tables
+
+
 def version(connection: sqlite3.Connection) -> int:
     """The version of a database's tables; 0 for those of the first release, and for none.
 

@@ -27,6 +27,7 @@ from app.session.event_hub import EventHub
 from app.simulation.repository import SimulationRepository
 from app.simulation.service import SimulationService
 from app.store.database import DATABASE, Database
+from app.store.database_keeper import DatabaseKeeper
 from app.store.gait_files import GaitFiles
 from app.store.simulation_store import SimulationStore
 from app.store.trial_reference_store import TrialReferenceStore
@@ -66,6 +67,7 @@ class Studio:
 
     Attributes:
         publisher: shows the pages what changed.
+        storage: checks the database and keeps backups of it.
         job_commands: starts and cancels jobs.
     """
 
@@ -75,11 +77,15 @@ class Studio:
             self._database = self._register(Database(data / DATABASE))
             self.stop_executor = self._parts.enter_context(ThreadPoolExecutor(2, "stop"))
             self.hub = self._register(EventHub())
+            self.storage = self._register(
+                DatabaseKeeper(self._database, self._storage_changed, lambda: not self._is_running())
+            )
             self.commands = self._register(CommandQueue())
             self._open_gaits(files)
             self._open_jobs()
             self._open_trials(data, cameras)
             self._open_robot(device, RobotPorts(data / "robot.json"))
+            self.storage.start()
             self._parts = self._parts.pop_all()
 
     def _register(self, part: Part) -> Part:
@@ -152,8 +158,11 @@ class Studio:
 
     def stop_run(self, by: str) -> None:
         """Stops the robot where a run is on; returns at once."""
-        if self.robot.bridge.snapshot.robot in RUNNING:
+        if self._is_running():
             self.stop_executor.submit(self.robot.bridge.stop, by)
+
+    def _is_running(self) -> bool:
+        return self.robot.bridge.snapshot.robot in RUNNING
 
     def call(self, action: Callable[[], Result]) -> Future[Result]:
         """Runs an action on the command queue's thread."""
@@ -181,13 +190,16 @@ class Studio:
 
     def hello(self) -> Json:
         """The first event for a page: the whole state that it renders."""
-        return self.publisher.hello(self.robot.view())
+        return self.publisher.hello(self.robot.view()) | {"storage": self.storage.view()}
 
     def page_came_or_went(self, page: str) -> None:
         """Updates what the other pages can undo: anybody may undo the edits of a page that is gone."""
         if page not in self.hub.pages():
             self.patterns.forget(page)
         self.publisher.publish_steps(page)
+
+    def _storage_changed(self, view: Json) -> None:
+        self.hub.publish({"type": "storage", "storage": view})
 
     def _job_changed(self, job: Job) -> None:
         self.commands.tell(lambda: self._show_job(job))

@@ -13,7 +13,7 @@ from app.store.photo_store import PhotoStore
 from app.trials.service import TrialService
 from app.vision.services import VisionServices, ask
 from app.vision.worker import MakePhoto, PhotoFiles, Source
-from core.errors import InputError, NotFoundError
+from core.errors import FootfallError, InputError, NotFoundError
 
 MOST_BYTES = 20_000_000
 """Bytes of a picture file as it comes."""
@@ -80,9 +80,14 @@ class TrialPhotos:
                     f"This trial has {MOST_PHOTOS} photos, and no more are kept. Delete one.", name
                 )
             require_folder(self._folder)
-            write_atomically(self._path(photo["id"]), made.file)
-            write_atomically(self._path(photo["id"], is_small=True), made.small)
-            self._store.add(photo)
+            paths = self._path(photo["id"]), self._path(photo["id"], is_small=True)
+            try:
+                write_atomically(paths[0], made.file)
+                write_atomically(paths[1], made.small, lambda: self._store.add(photo))
+            except FootfallError:
+                for path in paths:
+                    path.unlink(missing_ok=True)
+                raise
         return photo
 
     def caption(self, trial: str, photo: str, caption: str) -> Json:

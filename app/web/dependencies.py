@@ -26,6 +26,8 @@ from core.errors import (
     NotFoundError,
     RobotError,
     StateError,
+    StorageError,
+    StorageFullError,
 )
 from core.robot.model import RobotModel
 
@@ -66,6 +68,8 @@ _STATUS: tuple[tuple[type[FootfallError], int], ...] = (
     (RobotError, 503),
     (InputError, 422),
     (InfeasibleError, 422),
+    (StorageFullError, 507),
+    (StorageError, 503),
 )
 
 

@@ -16,7 +16,7 @@ function receive(store, message, onHello) {
   switch (message.type) {
     case "hello":
       store.set({
-        connected: true, greeted: true, version: message.version, gaits: message.gaits, robot: message.robot,
+        connected: true, greeted: true, version: message.version, gaits: message.gaits, robot: message.robot, storage: message.storage,
         jobs: message.jobs.reduce((jobs, job) => withJob(jobs, job), []),
       });
       onHello();
@@ -29,6 +29,7 @@ function receive(store, message, onHello) {
     case "steps": acceptSteps(store, message); break;
     case "sources": acceptSources(store, message); break;
     case "job": store.set({ jobs: withJob(store.state.jobs, message.job) }); break;
+    case "storage": store.set({ storage: message.storage }); break;
     case "pattern": store.set({ pattern: message }); break;
     case "setups": store.set({ setups: message.setups }); break;
     case "cameras": store.set({ cameras: message.cameras }); break;

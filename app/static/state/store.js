@@ -13,6 +13,7 @@ const INITIAL = Object.freeze({
   gaits: Object.freeze([]),
   jobs: Object.freeze([]),
   robot: null,
+  storage: null,
   selected: null,
   view: null,
   pending: Object.freeze([]),

@@ -1,0 +1,84 @@
+"""What SQLite and the disk refuse, as sentences."""
+
+import errno
+import logging
+import sqlite3
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from core.errors import InputError, StorageDamagedError, StorageError, StorageFullError
+
+logger = logging.getLogger(__name__)
+
+FULL = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
+_WRONG_PATH = frozenset({errno.ENOENT, errno.ENOTDIR, errno.EISDIR, errno.ENAMETOOLONG, errno.ELOOP})
+
+_RIGHT = "Give yourself the right to write to it and to its folder"
+_DAMAGED = frozenset({sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB})
+_FULL = {
+    sqlite3.SQLITE_FULL: "its disk is full. Make room on it, then try again",
+    sqlite3.SQLITE_TOOBIG: "this is more than one entry can hold. Make it smaller",
+    sqlite3.SQLITE_NOMEM: "the memory of this computer is full. End other programs, then try again",
+}
+_OTHER = {
+    sqlite3.SQLITE_IOERR: "the disk reports an error, or takes no more. Look at its state and its room; if "
+    "that is well, try again",
+    sqlite3.SQLITE_READONLY: f"it may only be read. {_RIGHT}, or give another folder with --data",
+    sqlite3.SQLITE_PERM: f"the rights to it are missing. {_RIGHT}",
+    sqlite3.SQLITE_BUSY: "another program is writing to it. Try again when that has ended",
+    sqlite3.SQLITE_LOCKED: "something else is writing to it. Try again in a moment",
+    sqlite3.SQLITE_PROTOCOL: "its locks fail. Keep the data folder on a disk of this computer",
+    sqlite3.SQLITE_NOLFS: "its disk takes no file as large as this. Keep the data folder on another disk",
+    sqlite3.SQLITE_CANTOPEN: "it, or a file beside it, cannot be opened. Look whether its folder is there, "
+    "may be written to and has room",
+    sqlite3.SQLITE_AUTH: f"the rights to it are missing. {_RIGHT}",
+    sqlite3.SQLITE_SCHEMA: "another program changed its tables. Start this one again",
+    sqlite3.SQLITE_INTERRUPT: "it was interrupted. Try again",
+}
+
+
+def storage_error(error: sqlite3.Error, path: Path) -> StorageError | None:
+    """What a database refused; None for a defect of the program, which stays what it is.
+
+    Args:
+        error: what SQLite said.
+        path: the database.
+    """
+    if isinstance(error, sqlite3.IntegrityError | sqlite3.ProgrammingError | sqlite3.InterfaceError):
+        return None
+    code = getattr(error, "sqlite_errorcode", None)
+    primary = None if code is None else code & 0xFF
+    if primary in _DAMAGED or (primary is None and "decode" in str(error)):
+        return StorageDamagedError(f"The database {path} is damaged ({error}).", str(path))
+    if primary in _FULL:
+        return StorageFullError(_sentence(path, error, _FULL[primary]), str(path))
+    known = _OTHER.get(primary or 0, "it is not as this program expects it. Start the program again")
+    return StorageError(_sentence(path, error, known), str(path))
+
+
+def _sentence(path: Path, error: sqlite3.Error, reason: str) -> str:
+    return f"The database {path} does not do this ({error}): {reason}. Nothing of this was stored."
+
+
+def file_error(error: OSError, path: Path) -> StorageError | InputError:
+    """Why a file cannot be written; the file that was there before is as it was."""
+    reason = f"{path} cannot be written: {error.strerror}."
+    if error.errno in FULL:
+        return StorageFullError(f"{reason} Make room on its disk, then try again.", str(path))
+    return InputError(reason, str(path)) if error.errno in _WRONG_PATH else StorageError(reason, str(path))
+
+
+@contextmanager
+def left_undone(what: str) -> Iterator[None]:
+    """Goes on without something that the disk or the database refuses, and logs that.
+
+    Args:
+        what: is not done, as the beginning of a sentence.
+    """
+    try:
+        yield
+    except StorageDamagedError:  # what is damaged was logged when it was found
+        logger.warning("%s, since the database is damaged.", what)
+    except StorageError as error:
+        logger.warning("%s. %s", what, error.sentence)

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 
+from app.common.table_cell import safe_header
 from app.documents.gait_json import gait_content
 from app.export.gait_diagram import gait_diagram
 from app.export.playback import playback_page
@@ -65,8 +66,8 @@ def _json(source: Exportable) -> bytes:
 def _csv(source: Exportable) -> bytes:
     motion = source.need_motion()
     if motion.recording is not None:
-        return motion.recording.text.encode()
-    return format_trajectory_csv(motion.trajectory, motion.layout).encode()
+        return safe_header(motion.recording.text).encode()
+    return safe_header(format_trajectory_csv(motion.trajectory, motion.layout)).encode()
 
 
 def _companion(source: Exportable) -> bytes:
@@ -77,9 +78,11 @@ def _companion(source: Exportable) -> bytes:
             "are not written down as if they were known.",
             "companion",
         )
-    if motion.recording is not None and motion.recording.companion is not None:
-        return motion.recording.companion.encode()
-    return format_companion(motion.trajectory, _csv(source).decode()).encode()
+    text = _csv(source).decode()
+    recording = motion.recording
+    if recording is not None and recording.companion is not None and recording.text == text:
+        return recording.companion.encode()
+    return format_companion(motion.trajectory, text).encode()
 
 
 def _waypoints(source: Exportable) -> bytes:

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from app.common.json import Json
+from app.common.table_cell import table_cell
 from app.common.version import VERSION
 from app.runs.record import RunRecord
 from core.wire.messages import MOTORS
@@ -60,7 +61,7 @@ def run_csv(record: RunRecord) -> str:
     rows = zip(series.times, record.states_told, record.commanded_mm, series.measured_mm, strict=True)
     for time, state, commanded, measured in rows:
         numbers = ["" if math.isnan(value) else f"{value:.4f}" for value in (*commanded, *measured)]
-        lines.append(",".join([f"{time:.4f}", state, *numbers]))
+        lines.append(",".join([f"{time:.4f}", table_cell(state), *numbers]))
     return "\n".join(lines) + "\n"
 
 

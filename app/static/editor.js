@@ -4,6 +4,7 @@ import { nameAuthor } from "./api/author.js";
 import { createActions } from "./timeline/actions.js";
 import { menuIsOpen } from "./lib/check_menu.js";
 import { mountClipboard } from "./timeline/clipboard.js";
+import { mountCopiedTables } from "./lib/copied_tables.js";
 import { mountDecimalComma } from "./lib/decimal_comma.js";
 import { createEdits } from "./state/edits.js";
 import { mountGaitTools } from "./shell/gait_menu.js";
@@ -68,6 +69,7 @@ export function start(store) {
   window.addEventListener("beforeunload", (event) => { if (edits.areUnsent()) event.preventDefault(); });
   recallOperator(store);
   mountDecimalComma();
+  mountCopiedTables();
   store.watch(({ operator }) => [operator], ({ operator }) => nameAuthor(operator));
   mountTabs();
   mountTopbar(store, edits);

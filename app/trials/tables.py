@@ -5,6 +5,8 @@ import io
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from app.common.table_cell import table_cell
+
 COLUMNS = {
     "gait_name": "Gait",
     "step_cm": "Step (cm)",
@@ -37,7 +39,7 @@ _LATEX = {
 
 
 def table_csv(groups: Sequence[Mapping[str, Any]]) -> str:
-    """Gaits compared, a row a gait and step; what is not known is empty.
+    """Gaits compared, a row a gait and step; what is not known is empty, and no name begins a formula.
 
     Args:
         groups: of `app.trials.service.compared`.
@@ -45,7 +47,7 @@ def table_csv(groups: Sequence[Mapping[str, Any]]) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(COLUMNS.values())
-    writer.writerows([_cell(group, key) for key in COLUMNS] for group in groups)
+    writer.writerows([table_cell(_cell(group, key)) for key in COLUMNS] for group in groups)
     return text.getvalue()
 
 

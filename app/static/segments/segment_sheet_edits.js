@@ -2,6 +2,7 @@
 
 import { capital, counted } from "../lib/format.js";
 import { clamp } from "../lib/clamp.js";
+import { plainCell } from "../lib/table_cell.js";
 import { errorSentence, errorsOf, placeAfter, placeBefore, rowName, waitAt, walked } from "../document/segment_sheet.js";
 
 const MOST_SAMPLES = 2000;
@@ -63,13 +64,14 @@ export function fillDown(sheet, range) {
  */
 export function paste(sheet, range, names) {
   const known = new Map(Object.keys(sheet.words.segments).map((name) => [name.toLowerCase(), name]));
+  const nameOf = (cell) => known.get(plainCell(cell).toLowerCase()) ?? known.get(cell.toLowerCase());
   const [top, left] = [range.rows[0], range.feet[0]];
   const alone = names.length === 1 && names[0].length === 1;
   const block = alone ? cellsOf(range).map(([row, foot]) => [row, foot, names[0][0]]) : names.flatMap((row, down) => row.map((name, right) => [top + down, left + right, name]));
   const fitting = block.filter(([row, foot]) => row < sheet.rows.length && foot < sheet.legs);
-  const wrong = fitting.find(([, , name]) => !known.has(name.toLowerCase()));
+  const wrong = fitting.find(([, , name]) => !nameOf(name));
   if (wrong) return { reason: `Not pasted. Foot ${wrong[1] + 1}, ${rowName(sheet, wrong[0])}: there is no segment “${wrong[2]}”; known are ${[...known.values()].join(", ")}.` };
-  const cells = fitting.map(([row, foot, name]) => [row, foot, known.get(name.toLowerCase())]);
+  const cells = fitting.map(([row, foot, name]) => [row, foot, nameOf(name)]);
   const [below, beside] = [top + names.length - sheet.rows.length, left + Math.max(...names.map((row) => row.length)) - sheet.legs];
   const missing = alone ? [] : [below > 0 && `${counted(below, "row")} below the last segment`, beside > 0 && `${counted(beside, "column")} behind the last foot`].filter(Boolean);
   const last = [Math.min(top + names.length, sheet.rows.length) - 1, Math.min(left + Math.max(...names.map((row) => row.length)), sheet.legs) - 1];

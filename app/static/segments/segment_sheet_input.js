@@ -5,6 +5,7 @@
 
 import { rowsOf, samplesOf } from "../document/segment_sheet.js";
 import { clamp } from "../lib/clamp.js";
+import { tableCell } from "../lib/table_cell.js";
 import { announce, toast } from "../lib/toasts.js";
 import { commit, shownSegmentSheet } from "../state/segment_draft.js";
 import { openSegmentChooser } from "./segment_sheet_chooser.js";
@@ -214,7 +215,7 @@ function mountClipboard(grid, sheet, range, run, select) {
 }
 
 /** Rows of names as lines with tabs. */
-const textOf = (rows) => rows.map((row) => row.join("\t")).join("\n");
+const textOf = (rows) => rows.map((row) => row.map(tableCell).join("\t")).join("\n");
 
 /** The fields of one line of CSV, also those in which nothing stands; a quoted field may hold the separator, and doubled quotes. */
 function fieldsOf(line, separator) {

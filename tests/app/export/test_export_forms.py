@@ -16,14 +16,16 @@ from PIL import Image
 
 from app.documents.gait_json import parse_gait
 from app.export.formats import NEED_NO_MOTION, ExportFormat, export
+from app.export.import_gait import gait_of_recording
 from app.export.source import Exportable, exportable_file, exportable_plan
 from app.plans.plan import make_plan
 from core.errors import FootfallError, InputError
 from core.gait.gait import Gait
+from core.gait.recording import Recording, RecordingForm
 from core.library.library import library
 from core.motion.phase_list import parse_phases
 from core.motion.trajectory_npz import parse_npz
-from core.wire.trajectory_csv import parse_trajectory_csv
+from core.wire.trajectory_csv import format_companion, parse_trajectory_csv
 from core.wire.waypoints import parse_waypoint_csv
 from solver_jobs import SolveStatus, solve_live
 from tests.support.live_tiers import result_of
@@ -107,6 +109,21 @@ def test_a_recorded_file_is_exported_as_it_stands() -> None:
     assert numbers[0].tobytes() == numbers[1].tobytes()
     with pytest.raises(InputError, match="only assumed"):
         export(source, ExportFormat.COMPANION)
+
+
+def test_a_recorded_header_that_holds_a_formula_is_exported_as_text_and_its_companion_fits() -> None:
+    motion = planned("walk").need_motion()
+    text = written(planned("walk"), ExportFormat.CSV).replace("Column1", "=HYPERLINK(A1)", 1)
+    companion = format_companion(motion.trajectory, text)
+    recording = Recording("walk.csv", RecordingForm.TRAJECTORY, text, companion)
+    gait = gait_of_recording(recording, "Recorded").gait
+    source = exportable_plan("walk", gait, make_plan(gait, None, solve_live))
+    ours = written(source, ExportFormat.CSV)
+    assert ours.startswith("'=HYPERLINK(A1),Column2")
+    assert ours.partition("\n")[2] == text.partition("\n")[2]
+    read = parse_trajectory_csv(ours, "walk.csv", written(source, ExportFormat.COMPANION))
+    assert read.assumptions == ()
+    assert np.array_equal(read.trajectory.times, motion.trajectory.times)
 
 
 def locked_gait(name: str = "Walk") -> Gait:

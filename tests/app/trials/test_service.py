@@ -149,4 +149,8 @@ def test_trials_of_one_gait_and_step_stand_in_one_row_of_the_tables(service: Tri
     rows = list(csv.reader(io.StringIO(table_csv(groups))))
     assert rows[0] == list(COLUMNS.values())
     assert rows[2][:5] == ["Walk 10 mm", "1.00", "2", "3.00", "3.30"]
+    named = [{**groups[0], "gait_name": name, "angle_deg": -1.5} for name in ("=1+1", "Walk, -1", "-2")]
+    rows = list(csv.reader(io.StringIO(table_csv(named))))
+    assert [row[0] for row in rows[1:]] == ["'=1+1", "Walk, -1", "-2"]
+    assert {row[list(COLUMNS).index("angle_deg")] for row in rows[1:]} == {"-1.50"}
     assert r"Amble \& more & 1.50 & 1 & 4.50" in table_latex(groups)

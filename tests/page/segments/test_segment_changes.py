@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterator
 
@@ -47,6 +48,60 @@ def test_copies_go_to_other_cells_and_come_from_a_spreadsheet(page: Page, studio
     cell(page, 3, 3).click()
     page.keyboard.press("Control+v")
     wait_for(lambda: table(studio, gait)["feet"][2][2:6] == ["Wait A", "Lift A", "Step A", "Zero A"], "CSV")
+
+
+def test_names_that_a_spreadsheet_would_run_are_copied_as_text_and_come_back(
+    page: Page, studio: StudioProcess
+) -> None:
+    names = {"Lift A": "=1+1", "Step A": "-Step A", "Zero A": "'=Zero A"}
+    content = json.dumps(studio.document(WALK)["segment_table"])
+    for before, after in names.items():
+        content = content.replace(f'"{before}"', f'"{after}"')
+    gait = copy_of(studio, WALK, "Formulas", segment_table=json.loads(content))
+    choose(page, "Formulas")
+    cell(page, 3, 3).click()
+    cell(page, 5, 3).click(modifiers=["Shift"])
+    page.keyboard.press("Control+c")
+    copied = page.evaluate("() => navigator.clipboard.readText()")
+    assert copied == "'=1+1\n'-Step A\n''=Zero A"
+    page.keyboard.press("Delete")
+    wait_for(lambda: table(studio, gait)["feet"][2] == ["Push A", *["Wait A"] * 10], "the foot waits")
+    for text in (copied, "\n".join(names.values())):
+        put_on_clipboard(page, text)
+        cell(page, 8, 3).click()
+        page.keyboard.press("Control+v")
+        wait_for(lambda: table(studio, gait)["feet"][2][7:10] == list(names.values()), "the paste")
+        page.keyboard.press("Delete")
+        wait_for(lambda: table(studio, gait)["feet"][2] == ["Push A", *["Wait A"] * 10], "the foot waits")
+
+
+TABLE = """() => {
+  const table = document.createElement("table");
+  for (const texts of [["Gait", "Error"], ["=1+1", "-1.50"], ["Walk", "@SUM(A1)"]]) {
+    const row = table.insertRow();
+    for (const text of texts) row.insertCell().textContent = text;
+  }
+  document.body.append(table);
+  getSelection().selectAllChildren(table);
+}"""
+
+
+def test_a_table_of_the_page_that_is_copied_begins_no_formula(page: Page) -> None:
+    page.evaluate("() => document.activeElement.blur()")
+    page.evaluate(TABLE)
+    page.keyboard.press("Control+c")
+    copied = page.evaluate("() => navigator.clipboard.readText()")
+    assert [line.split("\t") for line in copied.strip().splitlines()] == [
+        ["Gait", "Error"],
+        ["'=1+1", "-1.50"],
+        ["Walk", "'@SUM(A1)"],
+    ]
+    html = page.evaluate(
+        "async () => (await (await navigator.clipboard.read())[0].getType('text/html')).text()"
+    )
+    assert "<td>'=1+1</td>" in html
+    assert "<td>-1.50</td>" in html
+    page.evaluate("() => document.body.lastElementChild.remove()")
 
 
 def test_a_paste_that_does_not_fit_is_refused_with_the_place_and_the_table_stays(

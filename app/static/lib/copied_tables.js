@@ -1,0 +1,44 @@
+/** Tables of the page that are selected and copied: no cell of theirs begins a formula in a spreadsheet. */
+
+import { tableCell } from "./table_cell.js";
+
+/** Rows as lines with tabs, and the text around them. */
+function plainText(copied) {
+  for (const row of copied.querySelectorAll("tr")) row.replaceWith(`${[...row.cells].map((cell) => cell.textContent).join("\t")}\n`);
+  return copied.textContent;
+}
+
+function markCells(copied) {
+  let marked = false;
+  for (const cell of copied.querySelectorAll("td, th")) {
+    if (tableCell(cell.textContent) === cell.textContent) continue;
+    cell.prepend("'");
+    marked = true;
+  }
+  return marked;
+}
+
+/** What is selected, as it would be copied; cells of one row in a row of their own. */
+function contentsOf(selection) {
+  const copied = document.createElement("div");
+  copied.append(selection.getRangeAt(0).cloneContents());
+  if (copied.querySelector(":scope > td, :scope > th")) {
+    const row = document.createElement("tr");
+    row.append(...copied.childNodes);
+    copied.append(row);
+  }
+  return copied;
+}
+
+/** Watches what is copied; where no cell begins a formula, the browser copies by itself. */
+export function mountCopiedTables() {
+  document.addEventListener("copy", (event) => {
+    const selection = getSelection();
+    if (event.defaultPrevented || !selection || selection.isCollapsed || event.target?.closest?.("input, textarea")) return;
+    const copied = contentsOf(selection);
+    if (!markCells(copied)) return;
+    event.clipboardData.setData("text/html", copied.querySelector("table") ? copied.innerHTML : `<table>${copied.innerHTML}</table>`);
+    event.clipboardData.setData("text/plain", plainText(copied));
+    event.preventDefault();
+  });
+}

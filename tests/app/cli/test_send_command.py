@@ -92,7 +92,7 @@ def test_ctrl_c_stops_the_robot_says_what_happened_and_the_next_run_goes_to_its_
     assert (newest(service)["state"], newest(service)["reached"]) == ("stopped", answer["reached"])
     refused = subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, timeout=60)
     answer = json.loads(refused.stdout)
-    assert (refused.returncode, answer["state"], answer["sent"]) == (5, "fault", 0)
+    assert (refused.returncode, answer["state"], answer["reached"]) == (5, "fault", 0)
     assert "--clear-stop" in answer["error"]
     assert "s,0" not in [message.payload for message in robot.firmware.messages]
     command.append("--clear-stop")

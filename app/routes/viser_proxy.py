@@ -11,7 +11,7 @@ import contextlib
 import hashlib
 import importlib.util
 import json
-from collections.abc import Callable, Coroutine, Sequence
+from collections.abc import Callable, Coroutine, Mapping, Sequence
 from importlib import resources
 from pathlib import Path
 from typing import Protocol
@@ -32,7 +32,7 @@ CONTENT_SECURITY = "; ".join(
         "default-src 'none'",
         "script-src 'self' 'unsafe-inline' 'wasm-unsafe-eval'",
         "worker-src blob:",
-        "connect-src 'self' ws: blob: data:",
+        "connect-src 'self' blob: data:",
         "img-src 'self' data: blob:",
         "style-src 'self' 'unsafe-inline'",
         "font-src 'self' data:",
@@ -61,6 +61,10 @@ class ViserScene(Protocol):
     @property
     def port(self) -> int:
         """Port of Viser on loopback."""
+
+    @property
+    def relay_headers(self) -> Mapping[str, str]:
+        """What a request to that port must carry."""
 
     def place(self, names: Sequence[str], poses: NDArray[np.float32]) -> None:
         """Moves nodes to (nodes, 7) poses."""
@@ -92,7 +96,7 @@ def make_viser_router(scene_of: Callable[[str], ViserScene]) -> APIRouter:
     async def socket(browser: WebSocket, robot: str = FIRST_ROBOT) -> None:
         scene = await _opened(browser, scene_of, robot)
         if scene is not None:
-            await relay(browser, scene.port)
+            await relay(browser, scene)
 
     @router.websocket("/viser/poses")
     async def poses(browser: WebSocket, robot: str = FIRST_ROBOT) -> None:
@@ -154,12 +158,13 @@ def _viser_folder() -> Path:
     return Path(found.origin).parent
 
 
-async def relay(browser: WebSocket, port: int) -> None:
+async def relay(browser: WebSocket, scene: ViserScene) -> None:
     """Passes messages between a browser and Viser until either closes; each side holds up the other."""
     offered = [Subprotocol(name) for name in browser.scope.get("subprotocols", [])]
     try:
         viser = await connect(
-            f"ws://127.0.0.1:{port}",
+            f"ws://127.0.0.1:{scene.port}",
+            additional_headers=scene.relay_headers,
             subprotocols=offered or None,
             max_size=None,
             max_queue=WAITING_MESSAGES,

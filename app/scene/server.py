@@ -1,7 +1,8 @@
-"""The Viser server that holds the 3D scene; it listens on loopback only and is reached through our port."""
+"""The Viser server that holds the 3D scene; only the relay behind our own port may talk to it."""
 
+import secrets
 import threading
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import rich
@@ -11,11 +12,11 @@ from numpy.typing import NDArray
 from app.scene.environment import add_floor, add_light, add_overlay, set_camera
 from app.scene.nodes import Surface, link_surfaces
 from app.scene.poses import ROBOT_ROOT, PoseBlob, pose_frames
+from app.scene.viser_guard import RELAY_HEADER, guarded_viser
 from core.errors import InputError, StateError
 from core.problem.motion_problem import standing_pose
 from core.robot.model import RobotModel, load_robot
 
-LOOPBACK = "127.0.0.1"
 OPAQUE = 255
 
 
@@ -34,17 +35,22 @@ class SceneServer:
     def __init__(self, robot_name: str) -> None:
         self._model = load_robot(robot_name)
         self._surfaces = link_surfaces(robot_name)
+        self._secret = secrets.token_urlsafe(32)
         self._server: viser.ViserServer | None = None
         self._lock = threading.Lock()
 
     def start(self) -> None:
-        """Starts listening on any free port of the loopback interface, with the robot standing."""
+        """Starts listening on any free port of the loopback interface, with the robot standing.
+
+        Raises:
+            StateError: the installed Viser's port cannot be guarded.
+        """
         with self._lock:
             if self._server is not None:
                 return
             # Viser prints a table on standard output, which is the command line's alone.
             rich.get_console().quiet = True
-            server = viser.ViserServer(host=LOOPBACK, port=0, label="Footfall Studio", verbose=False)
+            server = guarded_viser("Footfall Studio", self._secret)
             server.gui.configure_theme(show_logo=False, show_share_button=False)
             with server.atomic():
                 self._furnish(server)
@@ -74,6 +80,11 @@ class SceneServer:
             StateError: the scene is not running.
         """
         return self._running().get_port()
+
+    @property
+    def relay_headers(self) -> Mapping[str, str]:
+        """What a request to that port must carry; for the relay alone."""
+        return {RELAY_HEADER: self._secret}
 
     def place(self, names: Sequence[str], poses: NDArray[np.float32]) -> None:
         """Moves nodes in every client: the slow way, for pages that can't reach into their client.

@@ -1,7 +1,7 @@
 """The relay between a browser and Viser, against a stand-in for Viser."""
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from threading import Thread
 
 import httpx2
@@ -23,7 +23,12 @@ LARGE = 3_000_000
 
 
 class StandIn:
-    """Echoes what it gets; a text "large" is answered by many bytes, "bye" by closing."""
+    """Echoes what it gets.
+
+    A text "large" is answered by many bytes, "heads" by what came with the request, "bye" by closing.
+    """
+
+    relay_headers: Mapping[str, str] = {"X-Only": "the relay"}
 
     def __init__(self, port: int) -> None:
         self.port = port
@@ -39,6 +44,9 @@ def answer(socket: ServerConnection) -> None:
     for message in socket:
         if message == "large":
             socket.send(b"x" * LARGE)
+        elif message == "heads":
+            sent = socket.request.headers.raw_items() if socket.request else ()
+            socket.send(json.dumps([[name.lower(), value] for name, value in sent]))
         elif message == "bye":
             socket.close(1000)
         else:
@@ -76,6 +84,16 @@ def test_both_directions_are_relayed_with_the_servers_choice_of_protocol(host: s
         assert socket.recv(5) == "text"
         socket.send("large")
         assert len(socket.recv(5)) == LARGE
+
+
+def test_viser_gets_the_relays_own_headers_and_none_of_the_browsers(host: str, stand_in: StandIn) -> None:
+    own = {"Cookie": "footfall_token=x", "Origin": "http://evil.example", "X-Only": "a browser"}
+    with connect(f"ws://{host}/viser/ws", subprotocols=[PROTOCOL], additional_headers=own) as socket:
+        socket.send("heads")
+        sent = json.loads(socket.recv(5))
+    assert [value for name, value in sent if name == "x-only"] == ["the relay"]
+    assert [value for name, value in sent if name == "host"] == [f"127.0.0.1:{stand_in.port}"]
+    assert not {"cookie", "origin"} & {name for name, _ in sent}
 
 
 @pytest.mark.parametrize("name", ["ShareUrlRequest", "ShareUrlDisconnect"])

@@ -58,6 +58,9 @@ async def _next_or_gone(subscriber: Subscriber, listening: asyncio.Task[None]) -
 async def _drain(socket: WebSocket, studio: Studio, page: str) -> None:
     while True:
         studio.robot.lease.heard(page)
-        word, _, name = (await socket.receive_text()).partition(" ")
+        message = await socket.receive()
+        if message["type"] == "websocket.disconnect":
+            raise WebSocketDisconnect(message.get("code", 1000))
+        word, _, name = (message.get("text") or "").partition(" ")
         if word == STOP:
             await send_stop(studio, name)

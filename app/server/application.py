@@ -26,10 +26,7 @@ from app.web.assets import REVALIDATED, Assets
 from app.web.body_limit import BodyLimit
 from app.web.dependencies import install_error_handlers
 from app.web.page import ModulePage
-
-MOST_MESSAGE_BYTES = 64 * 1024 * 1024
-"""Largest web-socket message; the scene's meshes travel in one."""
-
+from app.web.socket_limit import SocketLimit
 
 _ROUTERS = (
     exports.router,
@@ -70,7 +67,7 @@ def make_app(studio: Studio, scenes: Scenes, access: Access) -> FastAPI:
         title="Footfall Studio",
         version=VERSION,
         redoc_url=None,
-        middleware=[Middleware(Guard, access=access), Middleware(BodyLimit)],
+        middleware=[Middleware(Guard, access=access), Middleware(BodyLimit), Middleware(SocketLimit)],
     )
     app.state.studio = studio
     install_error_handlers(app)

@@ -15,12 +15,14 @@ import uvicorn
 
 from app.cameras.address import CameraAddress
 from app.scene.registry import Scenes
-from app.server.application import MOST_MESSAGE_BYTES, make_app
+from app.server.application import make_app
 from app.server.ending import serve_until_signal
+from app.server.web_sockets import BoundedSocket
 from app.store.folder_lock import StudioLock
 from app.store.gait_files import require_folder
 from app.studio.studio import Studio
 from app.web.access import LOOPBACK_NAMES, Access
+from app.web.socket_limit import MOST_MESSAGE
 from core.errors import InputError
 
 GRACE_SECONDS = 3
@@ -86,7 +88,8 @@ def serve(options: ServeOptions, announce: Callable[[str], None]) -> None:
                 log_level="warning",
                 access_log=False,
                 lifespan="off",
-                ws_max_size=MOST_MESSAGE_BYTES,
+                ws=BoundedSocket,
+                ws_max_size=MOST_MESSAGE,
                 ws_per_message_deflate=False,
                 timeout_graceful_shutdown=GRACE_SECONDS,
             )

@@ -1,1 +1,1 @@
-"""The HTTP layer below the routes: access rules, errors, body limit, and the assembly of the page."""
+"""The HTTP layer below the routes: access rules, errors, limits, and the assembly of the page."""

@@ -12,6 +12,7 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
 
 from app.gaits.open_gait import OpenGait
 from app.studio.studio import Studio
@@ -164,6 +165,7 @@ def install_error_handlers(app: FastAPI) -> None:
     app.add_exception_handler(RequestValidationError, _invalid)
     app.add_exception_handler(HTTPException, _unanswerable)
     app.add_exception_handler(BodyTooLargeError, _too_large)
+    app.add_exception_handler(ClientDisconnect, _broken_off)
 
 
 async def _refused(request: Request, error: Exception) -> JSONResponse:
@@ -197,6 +199,12 @@ async def _unanswerable(request: Request, error: Exception) -> JSONResponse:
     if error.status_code == 400:
         return _refusal(_UNREADABLE, "body", 422)
     return _refusal(f"{error.detail}.", None, error.status_code, headers)
+
+
+async def _broken_off(request: Request, error: Exception) -> JSONResponse:
+    """An answer that nobody reads, so that a body that breaks off is no error of the program."""
+    del request, error
+    return _refusal("The request broke off before its end; send it again.", "body", 400)
 
 
 async def _too_large(request: Request, error: Exception) -> JSONResponse:

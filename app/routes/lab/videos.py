@@ -10,7 +10,6 @@ from fastapi import APIRouter, Query, Request
 from fastapi.responses import FileResponse, Response, StreamingResponse
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
-from starlette.requests import ClientDisconnect
 
 from app.common.json import Json
 from app.routes.lab.camera_setups import Corners, checkerboard_of
@@ -87,8 +86,6 @@ async def upload(
         if kept["again"]:
             response.status_code = 200
         return kept
-    except ClientDisconnect:
-        return {}  # nobody is there to read it
     finally:
         await run_in_threadpool(taken.discard)
 

@@ -10,9 +10,11 @@ from contextlib import contextmanager
 from threading import Event, Thread
 
 import uvicorn
-from fastapi import FastAPI
+from starlette.types import ASGIApp
 
 from app.scene import Scenes
+from app.server.web_sockets import BoundedSocket
+from app.web.socket_limit import MOST_MESSAGE
 
 DEADLINE = 10.0
 
@@ -28,11 +30,16 @@ class _Server(uvicorn.Server):
 
 
 @contextmanager
-def serving(app: FastAPI) -> Iterator[str]:
-    """Serves an application on a free loopback port; yields "127.0.0.1:PORT"."""
+def serving(app: ASGIApp, sockets: type[BoundedSocket] = BoundedSocket) -> Iterator[str]:
+    """Serves an application on a free loopback port as the studio does; yields "127.0.0.1:PORT"."""
     listener = socket.create_server(("127.0.0.1", 0))
     config = uvicorn.Config(
-        app, log_level="error", ws="websockets-sansio", ws_max_size=2**30, ws_per_message_deflate=False
+        app,
+        log_level="error",
+        lifespan="off",
+        ws=sockets,
+        ws_max_size=MOST_MESSAGE,
+        ws_per_message_deflate=False,
     )
     server = _Server(config)
     thread = Thread(target=server.run, kwargs={"sockets": [listener]})

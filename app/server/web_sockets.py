@@ -1,0 +1,34 @@
+"""Web sockets whose clients cannot fill the server's memory with frames that are no messages."""
+
+from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
+from websockets.frames import CloseCode, Frame
+
+MOST_PARTS = 256
+"""Parts that one message may come in; each costs memory, an empty one too."""
+
+
+class BoundedSocket(WebSocketsSansIOProtocol):
+    """uvicorn's web socket, which keeps every part of a message and answers every ping, read or not."""
+
+    def handle_cont(self, event: Frame) -> None:
+        """Takes a further part of a message."""
+        super().handle_cont(event)
+        if len(self.frames) > MOST_PARTS:
+            self.frames.clear()
+            self.conn.fail(CloseCode.MESSAGE_TOO_BIG, f"At most {MOST_PARTS} parts.")
+            self.handle_parser_exception()
+
+    def handle_ping(self) -> None:
+        """Answers a ping, as long as the client reads what it is sent."""
+        if self.writable.is_set():
+            super().handle_ping()
+        else:
+            self.conn.data_to_send()
+
+    def handle_parser_exception(self) -> None:
+        """Ends a connection that sends what is no frame; before it is accepted there is nothing to close."""
+        if self.conn.close_sent is not None:
+            super().handle_parser_exception()
+            return
+        self.queue.put_nowait({"type": "websocket.disconnect", "code": CloseCode.PROTOCOL_ERROR})
+        self.transport.abort()

@@ -17,25 +17,34 @@ _WRONG_PATH = frozenset({errno.ENOENT, errno.ENOTDIR, errno.EISDIR, errno.ENAMET
 _RIGHT = "Give yourself the right to write to it and to its folder"
 _DAMAGED = frozenset({sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB})
 _FULL = {
-    sqlite3.SQLITE_FULL: "its disk is full. Make room on it, then try again",
-    sqlite3.SQLITE_TOOBIG: "this is more than one entry can hold. Make it smaller",
-    sqlite3.SQLITE_NOMEM: "the memory of this computer is full. End other programs, then try again",
+    sqlite3.SQLITE_FULL: ("its disk is full", "Make room on it, then try again."),
+    sqlite3.SQLITE_TOOBIG: ("one entry cannot hold so much", "Make smaller what is to be stored."),
+    sqlite3.SQLITE_NOMEM: ("this computer's memory is full", "End other programs, then try again."),
 }
 _OTHER = {
-    sqlite3.SQLITE_IOERR: "the disk reports an error, or takes no more. Look at its state and its room; if "
-    "that is well, try again",
-    sqlite3.SQLITE_READONLY: f"it may only be read. {_RIGHT}, or give another folder with --data",
-    sqlite3.SQLITE_PERM: f"the rights to it are missing. {_RIGHT}",
-    sqlite3.SQLITE_BUSY: "another program is writing to it. Try again when that has ended",
-    sqlite3.SQLITE_LOCKED: "something else is writing to it. Try again in a moment",
-    sqlite3.SQLITE_PROTOCOL: "its locks fail. Keep the data folder on a disk of this computer",
-    sqlite3.SQLITE_NOLFS: "its disk takes no file as large as this. Keep the data folder on another disk",
-    sqlite3.SQLITE_CANTOPEN: "it, or a file beside it, cannot be opened. Look whether its folder is there, "
-    "may be written to and has room",
-    sqlite3.SQLITE_AUTH: f"the rights to it are missing. {_RIGHT}",
-    sqlite3.SQLITE_SCHEMA: "another program changed its tables. Start this one again",
-    sqlite3.SQLITE_INTERRUPT: "it was interrupted. Try again",
+    sqlite3.SQLITE_IOERR: (
+        "the disk reports an error or takes no more",
+        "Look at its state and its room, then try again.",
+    ),
+    sqlite3.SQLITE_READONLY: ("it may only be read", f"{_RIGHT}, or give another folder with --data."),
+    sqlite3.SQLITE_PERM: ("the rights to it are missing", f"{_RIGHT}."),
+    sqlite3.SQLITE_AUTH: ("the rights to it are missing", f"{_RIGHT}."),
+    sqlite3.SQLITE_BUSY: ("another program is writing to it", "Try again when that has ended."),
+    sqlite3.SQLITE_LOCKED: ("something else is writing to it", "Try again in a moment."),
+    sqlite3.SQLITE_PROTOCOL: ("its locks fail", "Keep the data folder on a disk of this computer."),
+    sqlite3.SQLITE_NOLFS: (
+        "its disk takes no file as large as this",
+        "Keep the data folder on another disk.",
+    ),
+    sqlite3.SQLITE_CANTOPEN: (
+        "it, or a file beside it, cannot be opened",
+        "Look whether its folder is there, may be written to and has room.",
+    ),
+    sqlite3.SQLITE_SCHEMA: ("another program changed its tables", "Start this one again."),
+    sqlite3.SQLITE_INTERRUPT: ("it was interrupted", "Try again."),
 }
+_UNKNOWN = ("it is not as this program expects it", "Start the program again.")
+"""Reason and remedy, by SQLite's code."""
 
 
 def storage_error(error: sqlite3.Error, path: Path) -> StorageError | None:
@@ -51,14 +60,10 @@ def storage_error(error: sqlite3.Error, path: Path) -> StorageError | None:
     primary = None if code is None else code & 0xFF
     if primary in _DAMAGED or (primary is None and "decode" in str(error)):
         return StorageDamagedError(f"The database {path} is damaged ({error}).", str(path))
-    if primary in _FULL:
-        return StorageFullError(_sentence(path, error, _FULL[primary]), str(path))
-    known = _OTHER.get(primary or 0, "it is not as this program expects it. Start the program again")
-    return StorageError(_sentence(path, error, known), str(path))
-
-
-def _sentence(path: Path, error: sqlite3.Error, reason: str) -> str:
-    return f"The database {path} does not do this ({error}): {reason}. Nothing of this was stored."
+    reason, remedy = (_FULL | _OTHER).get(primary or 0, _UNKNOWN)
+    kind = StorageFullError if primary in _FULL else StorageError
+    sentence = f"The database {path} cannot do this: {reason} ({error}). Nothing of it was stored. {remedy}"
+    return kind(sentence, str(path))
 
 
 def file_error(error: OSError, path: Path) -> StorageError | InputError:

@@ -13,7 +13,8 @@ import { FOLLOWS, isSequence } from "../document/sequence_edits.js";
 import { acceptView, shownDocument } from "./store.js";
 import { report, toast } from "../lib/toasts.js";
 
-const REFUSED = 422;
+/** Refusals after which a drawing stays: of the document, by another state, by the database, by a full disk. */
+const STAYS = [422, CONFLICT, 503, 507];
 const MOST_TRIES = 8;
 const NO_ANSWER = 0;
 const RETRY_MS = 1000;
@@ -77,7 +78,7 @@ export function createEdits(store) {
     } catch (error) {
       if (error.status === NO_ANSWER) return false;
       const isStanding = batch.every((edit) => store.state.pending.includes(edit));
-      if (isStanding && drawing && [REFUSED, CONFLICT].includes(error.status)) keep(batch, error.message);
+      if (isStanding && drawing && STAYS.includes(error.status)) keep(batch, error.message);
       else {
         settle(batch, { formError: drawing ? null : error.message });
         if (drawing || !isShown(gait)) report(error);

@@ -1,6 +1,7 @@
 """`serve`, `send` and `emulate`."""
 
 import getpass
+import re
 import signal
 import sys
 import threading
@@ -29,18 +30,25 @@ LOOK_SECONDS = 0.2
 ROBOT_FAILED = 5
 BAD_INPUT = frozenset({"stroke", "duration"})
 """Rules that name a number of the file; what breaks them is bad input."""
+LEAST_TOKEN, MOST_TOKEN = 12, 200
+"""Characters of a token."""
+_TOKEN = re.compile(rf"[!-~]{{{LEAST_TOKEN},{MOST_TOKEN}}}")
 
 
 def run_serve(options: Namespace) -> int:
     """Serves the studio until a signal ends it."""
     cameras = served_cameras(options.camera)
+    token: str | None = options.token
+    if token and not _TOKEN.fullmatch(token):
+        raise InputError(
+            f"A token has {LEAST_TOKEN} to {MOST_TOKEN} letters, digits and signs without blanks; "
+            "--token alone makes one.",
+            "--token",
+        )
+    _require_device(options.robot)
     # The web server and the 3D scene take a second to load; the other commands do without them.
     from app.server.launch import ServeOptions, serve
 
-    token: str | None = options.token
-    if token is not None and len(token) < 12:
-        raise InputError("The token must have at least 12 characters.", "--token")
-    _require_device(options.robot)
     serve(
         ServeOptions(
             host=options.host,
@@ -65,8 +73,9 @@ def _require_device(device: str) -> None:
         )
 
 
-def _announce(url: str) -> None:
+def _announce(url: str, who: str) -> None:
     write(sys.stdout, f"Footfall Studio is ready at {url}\n")
+    note(who)
 
 
 def run_emulate(options: Namespace) -> int:

@@ -120,7 +120,8 @@ def _serve_options(parser: argparse.ArgumentParser) -> None:
     add("--port", type=whole(0, 65535), default=8400, help="port (default 8400; 0 any free)")
     add("--robot", default="emulator", help="emulator, a serial device, or socket://HOST:PORT")
     add("--data", type=Path, default=None, help="data folder")
-    add("--token", default=None, help="demanded of every request; made where host is public")
+    text = "demanded of every request; made where no word follows, and always where host is public"
+    add("--token", nargs="?", const="", default=None, help=text)
     text = "play a video file as a camera of that name; may be given several times"
     add("--camera", action="append", default=[], metavar="NAME=VIDEO", help=text)
     add("--no-browser", action="store_true", help="do not open a browser")

@@ -22,6 +22,7 @@ from app.routes.viser_proxy import make_viser_router
 from app.scene.registry import Scenes
 from app.studio.studio import Studio
 from app.web.access import Access, Guard
+from app.web.api_page import add_api_page
 from app.web.assets import REVALIDATED, Assets
 from app.web.body_limit import BodyLimit
 from app.web.dependencies import install_error_handlers
@@ -66,10 +67,12 @@ def make_app(studio: Studio, scenes: Scenes, access: Access) -> FastAPI:
     app = FastAPIOffline(
         title="Footfall Studio",
         version=VERSION,
+        docs_url=None,
         redoc_url=None,
         middleware=[Middleware(Guard, access=access), Middleware(BodyLimit), Middleware(SocketLimit)],
     )
     app.state.studio = studio
+    add_api_page(app)
     install_error_handlers(app)
     for router in (*_ROUTERS, make_viser_router(scenes.of)):
         app.include_router(router)

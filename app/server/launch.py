@@ -10,6 +10,7 @@ import webbrowser
 from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from pathlib import Path
+from urllib.parse import quote
 
 import uvicorn
 
@@ -17,6 +18,7 @@ from app.cameras.address import CameraAddress
 from app.scene.registry import Scenes
 from app.server.application import make_app
 from app.server.ending import serve_until_signal
+from app.server.reach import who_can_reach
 from app.server.web_sockets import BoundedSocket
 from app.store.folder_lock import StudioLock
 from app.store.gait_files import require_folder
@@ -38,6 +40,7 @@ class ServeOptions:
     device: str
     data: Path
     token: str | None
+    """Demanded of every request; one is made where it is empty, or None and the host is not loopback."""
     opens_browser: bool
     cameras: tuple[CameraAddress, ...] = ()
 
@@ -60,18 +63,18 @@ class _Server(uvicorn.Server):
         yield
 
 
-def serve(options: ServeOptions, announce: Callable[[str], None]) -> None:
+def serve(options: ServeOptions, announce: Callable[[str, str], None]) -> None:
     """Serves until SIGINT, SIGTERM or SIGHUP; then the robot is stopped and everything is closed.
 
     Args:
         options: how to serve.
-        announce: told the URL as soon as the studio answers.
+        announce: told the URL, and who can reach it, as soon as the studio answers.
 
     Raises:
         InputError: the port is busy, or the data folder cannot be used or is another studio's.
     """
     token = options.token
-    if token is None and options.host not in LOOPBACK_NAMES:
+    if token == "" or (token is None and options.host not in LOOPBACK_NAMES):
         token = secrets.token_urlsafe(18)
     scenes = Scenes()
     require_folder(options.data)
@@ -93,8 +96,9 @@ def serve(options: ServeOptions, announce: Callable[[str], None]) -> None:
                 ws_per_message_deflate=False,
                 timeout_graceful_shutdown=GRACE_SECONDS,
             )
+            who = who_can_reach(options.host, token is not None)
             url = _url(options.host, listening.getsockname()[1], token)
-            server = _Server(config, lambda: _tell(url, announce, options.opens_browser))
+            server = _Server(config, lambda: _tell(url, who, announce, options.opens_browser))
             asyncio.run(serve_until_signal(server, listening, studio))
         finally:
             studio.close()
@@ -122,11 +126,11 @@ def _listen(host: str, port: int) -> socket.socket:
 
 def _url(host: str, port: int, token: str | None) -> str:
     shown = f"[{host}]" if ":" in host else host
-    return f"http://{shown}:{port}/" + (f"?token={token}" if token else "")
+    return f"http://{shown}:{port}/" + (f"?token={quote(token, safe='')}" if token else "")
 
 
-def _tell(url: str, announce: Callable[[str], None], opens_browser: bool) -> None:
-    announce(url)
+def _tell(url: str, who: str, announce: Callable[[str, str], None], opens_browser: bool) -> None:
+    announce(url, who)
     has_screen = sys.platform in ("darwin", "win32") or any(
         os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY")
     )

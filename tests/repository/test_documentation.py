@@ -13,7 +13,12 @@ from tests.repository.source_tree import PARTS, files, listed
 from tests.support.studio_process import PROJECT
 
 DOCUMENTS = sorted(
-    ["README.md", "robot_description/README.md", *(f"docs/{p.name}" for p in PROJECT.glob("docs/*.md"))]
+    [
+        "README.md",
+        "SECURITY.md",
+        "robot_description/README.md",
+        *(f"docs/{p.name}" for p in PROJECT.glob("docs/*.md")),
+    ]
 )
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 CODE = re.compile(r"`([^`\n]+)`")

@@ -10,11 +10,12 @@ from typing import Any
 
 from app.documents.gait_json import parse_gait
 from app.gaits.open_gait import OpenGait, fresh_gait, gait_of
+from app.gaits.saved_file import WAYS_OUT, SavedFiles
 from app.gaits.trash import ROUTE, DeletedGait, deleted_gaits
 from app.store.edit_history_store import EditHistoryRow, EditHistoryStore, VersionRow
 from app.store.gait_files import GaitFiles, free_id
 from app.undo.history import History
-from core.errors import NotFoundError
+from core.errors import NotFoundError, StateError
 from core.gait.gait import Gait
 from core.library.library import library
 
@@ -30,6 +31,7 @@ class GaitRepository:
     def __init__(self, files: GaitFiles, edits: EditHistoryStore) -> None:
         self._files = files
         self._edits = edits
+        self._saved_files = SavedFiles(files, edits)
         self._stored: dict[str, History] = {}
 
     def stamps(self) -> dict[str, tuple[int, int] | None]:
@@ -64,8 +66,9 @@ class GaitRepository:
         if not self._files.is_id(gait_id):
             raise NotFoundError(f"There is no gait “{gait_id}”.", gait_id)
         builtin, saved_at = library().get(gait_id), self._files.saved_at(gait_id)
-        if saved_at is not None:
-            return self._files.read(gait_id), builtin is not None, saved_at
+        file = self._saved_files.of(gait_id)
+        if file is not None:
+            return file.gait, builtin is not None, saved_at
         if builtin is None:
             raise NotFoundError(f"There is no gait “{gait_id}”.", gait_id)
         return builtin.gait, True, None
@@ -86,9 +89,62 @@ class GaitRepository:
         Args:
             open_gait: the gait.
             before: keeps what goes with it; what it raises leaves the file as it was.
+
+        Raises:
+            StateError: the file was changed outside the studio.
         """
+        outside = self.outside(open_gait)
+        if outside is not None:
+            raise StateError(outside, open_gait.id)
         self._files.write(open_gait.id, open_gait.gait, lambda: before(open_gait))
+        return self._as_saved(open_gait)
+
+    def _as_saved(self, open_gait: OpenGait) -> OpenGait:
+        self._saved_files.forget(open_gait.id)
         return replace(open_gait, saved=open_gait.gait, saved_at=self._files.saved_at(open_gait.id))
+
+    def misnamed(self) -> tuple[str, ...]:
+        """JSON files beside the gaits whose names are no ids."""
+        return self._files.misnamed()
+
+    def outside(self, open_gait: OpenGait) -> str | None:
+        """How an open gait's file differs from what the studio saved, in a sentence; None where it does not.
+
+        Raises:
+            InputError: it cannot be read, and the studio never saved anything in it.
+        """
+        file = self._saved_files.of(open_gait.id)
+        if file is None or file.outside is not None:
+            return None if file is None else file.outside
+        is_known = file.gait == open_gait.saved
+        return None if is_known else f"{open_gait.id}.json was changed outside the studio. {WAYS_OUT}"
+
+    def outside_of(self, gait_id: str) -> str | None:
+        """The same of a gait that is not open."""
+        file = self._saved_files.of(gait_id)
+        return None if file is None else file.outside
+
+    def theirs(self, gait_id: str) -> Gait:
+        """What a gait's file says, whoever wrote it.
+
+        Raises:
+            InputError: it cannot be read.
+            StateError: there is none.
+        """
+        if self._files.stamp(gait_id) is None:
+            raise StateError(f"{gait_id}.json is not there any more; save the gait to write it.", gait_id)
+        return self._files.read(gait_id)
+
+    def taken_over(self, open_gait: OpenGait) -> OpenGait:
+        """A gait whose present document is what its file says."""
+        return self._as_saved(open_gait)
+
+    def keep_mine(self, open_gait: OpenGait) -> OpenGait:
+        """Writes what the studio saved last; what was in the file is kept in the folder `set-aside`."""
+        mine = open_gait.gait if open_gait.saved is None else open_gait.saved
+        self._files.set_aside(open_gait.id, lambda: self._files.write(open_gait.id, mine))
+        self._saved_files.forget(open_gait.id)
+        return replace(open_gait, saved=mine, saved_at=self._files.saved_at(open_gait.id))
 
     def add(self, gait: Gait, taken: frozenset[str], before: Callable[[OpenGait], object]) -> OpenGait:
         """Saves a document as a new gait, under an id made from its name.
@@ -104,6 +160,7 @@ class GaitRepository:
     def remove(self, gait_id: str) -> None:
         """Takes a saved document away; `restore` brings it back."""
         self._files.remove(gait_id)
+        self._saved_files.forget(gait_id)
         self._stored.pop(gait_id, None)
 
     def deleted(self) -> tuple[DeletedGait, ...]:
@@ -119,5 +176,6 @@ class GaitRepository:
         is_deleted = gait_id in self._files.deleted_ids() and self._files.saved_at(gait_id) is None
         had_approval = is_deleted and self._edits.withdraw_approval(gait_id)
         self._files.restore(gait_id)
+        self._saved_files.forget(gait_id)
         self._stored.pop(gait_id, None)
         return had_approval

@@ -26,7 +26,7 @@ from app.store.edit_history_store import EditHistoryStore, VersionRow
 from app.store.gait_files import GaitFiles
 from app.undo.history import Author, UndoResult
 from core.checks.simulation import Simulated
-from core.errors import StateError
+from core.errors import InputError, NotFoundError, StateError
 from core.findings import Verdict
 from core.gait.gait import Gait, drawn_timeline
 from core.library.library import library
@@ -82,6 +82,20 @@ class GaitService:
         if open_gait is not None:
             return open_gait.gait, open_gait.builtin, open_gait.edited
         return self._repository.glance(gait_id)
+
+    def outside(self, gait_id: str) -> str | None:
+        """How a gait's file differs from what the studio saved, in a sentence; None where it does not."""
+        open_gait = self._open.get(gait_id)
+        if open_gait is None:
+            return self._repository.outside_of(gait_id)
+        try:
+            return self._repository.outside(open_gait)
+        except InputError as error:
+            return f"{error.sentence} It was changed outside the studio. Keep yours to write it again."
+
+    def misnamed(self) -> tuple[str, ...]:
+        """JSON files beside the gaits whose names are no ids."""
+        return self._repository.misnamed()
 
     def open_gait(self, gait_id: str) -> OpenGait:
         """The gait's present state.
@@ -233,6 +247,38 @@ class GaitService:
         )
         return self._open[gait_id]
 
+    def take_file(self, gait_id: str, author: Author = _SCRIPT) -> OpenGait:
+        """Makes what a gait's file says the present document, as an edit that can be undone.
+
+        Raises:
+            InputError: the file cannot be read.
+            StateError: there is none.
+        """
+        open_gait, theirs = self.open_gait(gait_id), self._repository.theirs(gait_id)
+        require_line(theirs)
+        self.versions.keep(open_gait, VersionKind.BEFORE_RESTORE, author)
+        taken = open_gait
+        if theirs != open_gait.gait:
+            taken = self._edited(open_gait, theirs, "Take the file over", author)
+        self.versions.keep(taken, VersionKind.SAVED, author)
+        self._open[gait_id] = self._repository.taken_over(taken)
+        return self._open[gait_id]
+
+    def keep_mine(self, gait_id: str) -> OpenGait:
+        """Writes what the studio saved last over a file that was changed outside; that file is set aside.
+
+        Raises:
+            StateError: the file was not changed.
+            StorageError: the disk does not take it.
+        """
+        open_gait = self.open_gait(gait_id)
+        if self.outside(gait_id) is None:
+            raise StateError(
+                f"{gait_id}.json is as the studio saved it; nothing has to be set aside.", "keep"
+            )
+        self._open[gait_id] = self._repository.keep_mine(open_gait)
+        return self._open[gait_id]
+
     def restore_version(self, gait_id: str, number: int, author: Author = _SCRIPT) -> OpenGait:
         """Makes a version's document the present one again, as an edit that can be undone.
 
@@ -266,7 +312,14 @@ class GaitService:
         Raises:
             StateError: the gait comes with the program and was not saved over.
         """
-        open_gait = self.open_gait(gait_id)
+        try:
+            open_gait = self.open_gait(gait_id)
+        except NotFoundError:
+            raise
+        except InputError:  # a file that cannot be opened can go all the same
+            self._repository.remove(gait_id)
+            self._close(gait_id)
+            return self.open_gait(gait_id) if gait_id in library() else None
         if open_gait.saved_at is None:
             raise StateError(
                 f"“{open_gait.gait.name}” comes with the program and cannot be deleted; "

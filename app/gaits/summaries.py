@@ -3,11 +3,17 @@
 from typing import Any
 
 from app.gaits.service import GaitService
-from app.gaits.views import line_view
-from core.errors import FootfallError
+from app.gaits.views import line_view, problem_view
+from core.errors import FootfallError, NotFoundError
+from core.library.library import library
 
 Line = dict[str, Any]
 """What the list shows of a gait."""
+
+_MISNAMED = (
+    "{} is no gait's file name: lower-case letters, digits and hyphens stand before .json. Rename the file, "
+    "or import it."
+)
 
 Mark = tuple[object, ...]
 """Changes whenever a gait's line may."""
@@ -25,10 +31,16 @@ class GaitSummaries:
         self._kept: dict[str, tuple[Mark, Line | None]] = {}
 
     def lines(self) -> list[Line]:
-        """A line of every gait that can be opened; one whose file is damaged is left out."""
+        """A line of every gait, and of every file that cannot be opened, which says why."""
         marks = self._service.marks()
         self._kept = {gait_id: self._line(gait_id, mark) for gait_id, mark in marks.items()}
-        return [line for _, line in self._kept.values() if line is not None]
+        lines = [line for _, line in self._kept.values() if line is not None]
+        return lines + [problem_view(name, _MISNAMED.format(name)) for name in self._service.misnamed()]
+
+    def troubles(self) -> dict[str, str]:
+        """What is wrong with files, in sentences, by gait."""
+        found = ((line["id"], line["problem"] or line["outside"]) for line in self.lines())
+        return {gait_id: sentence for gait_id, sentence in found if sentence is not None}
 
     def has(self, gait_id: str) -> bool:
         """Whether the list that was given out last has a gait."""
@@ -39,6 +51,9 @@ class GaitSummaries:
         if kept is not None and kept[0] == mark:
             return kept
         try:
-            return mark, line_view(gait_id, *self._service.glance(gait_id))
-        except FootfallError:
+            outside = self._service.outside(gait_id)
+            return mark, line_view(gait_id, *self._service.glance(gait_id), outside)
+        except NotFoundError:
             return mark, None
+        except FootfallError as error:
+            return mark, problem_view(gait_id, error.sentence, gait_id in library())

@@ -31,7 +31,7 @@ class DeletedGait:
 def deleted_gaits(files: GaitFiles, log: EditHistoryStore) -> tuple[DeletedGait, ...]:
     """What can be brought back, the last deleted first.
 
-    A damaged file cannot, nor one whose id is in use again.
+    One whose id is in use again cannot. A damaged file goes by its own name.
 
     Args:
         files: the saved gaits and the trash.
@@ -41,9 +41,9 @@ def deleted_gaits(files: GaitFiles, log: EditHistoryStore) -> tuple[DeletedGait,
     for gait_id in files.deleted_ids():
         if not files.is_id(gait_id) or files.saved_at(gait_id) is not None:
             continue
+        name = f"{gait_id}.json"
         with suppress(FootfallError):
-            gait, when = files.deleted(gait_id)
             text = None if gait_id in library() else log.present_document(gait_id)
-            name = gait.name if text is None else parse_gait(text).name
-            found.append(DeletedGait(gait_id, name, when))
+            name = files.deleted(gait_id).name if text is None else parse_gait(text).name
+        found.append(DeletedGait(gait_id, name, files.deleted_at(gait_id)))
     return tuple(sorted(found, key=lambda gait: gait.when, reverse=True))

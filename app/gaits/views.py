@@ -29,7 +29,7 @@ from core.wire.waypoint_merging import WaypointPlan
 from core.wire.waypoint_path import estimate_seconds
 
 
-def line_view(gait_id: str, gait: Gait, builtin: bool, edited: bool) -> Json:
+def line_view(gait_id: str, gait: Gait, builtin: bool, edited: bool, outside: str | None = None) -> Json:
     """A line of the list of gaits.
 
     Args:
@@ -37,6 +37,7 @@ def line_view(gait_id: str, gait: Gait, builtin: bool, edited: bool) -> Json:
         gait: its present document.
         builtin: whether a gait of this id comes with the program.
         edited: whether the document differs from what is saved.
+        outside: how its file was changed outside the studio, in a sentence; None where it was not.
     """
     return {
         "id": gait_id,
@@ -50,6 +51,33 @@ def line_view(gait_id: str, gait: Gait, builtin: bool, edited: bool) -> Json:
         "step": list(gait.step),
         "edited": edited,
         "walks": library()[gait_id].walks if builtin and not edited else None,
+        "outside": outside,
+        "problem": None,
+    }
+
+
+def problem_view(gait_id: str, sentence: str, builtin: bool = False) -> Json:
+    """The line of a file that cannot be opened.
+
+    Args:
+        gait_id: its id, or its name where that is no id.
+        sentence: what is wrong with it, and what can be done.
+        builtin: whether a gait of this id comes with the program.
+    """
+    return {
+        "id": gait_id,
+        "name": library()[gait_id].gait.name if builtin else gait_id.removesuffix(".json"),
+        "kind": "damaged",
+        "group": library()[gait_id].group.value if builtin else "Saved",
+        "robot": None,
+        "source": None,
+        "orientation": None,
+        "order": [],
+        "step": None,
+        "edited": False,
+        "walks": None,
+        "outside": None,
+        "problem": sentence,
     }
 
 

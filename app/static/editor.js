@@ -21,6 +21,7 @@ import { mountPlots } from "./plots/plots.js";
 import { Playback } from "./preview/playback.js";
 import { robotTime } from "./state/plan_samples.js";
 import { planIsOn, shownPlan } from "./state/store.js";
+import { mountFileNotice } from "./shell/file_notice.js";
 import { mountStorageNotice } from "./shell/storage_notice.js";
 import { mountTabs, openTab } from "./lib/tabs.js";
 import { mountTimeline } from "./timeline/timeline.js";
@@ -74,6 +75,7 @@ export function start(store) {
   mountTabs();
   mountTopbar(store, edits);
   mountStorageNotice(store);
+  mountFileNotice(store, edits);
   const gaitTools = mountGaitTools(store, edits, (id) => selectGait(store, id));
   mountJobs(store);
   const { timeline, actions, zoom, tools } = mountEditor(store, edits, playback);

@@ -91,6 +91,13 @@ class EditHistoryStore:
         )
         return rows[0][0] if rows else None
 
+    def saved_document(self, gait: str) -> str | None:
+        """The document that was saved last, as JSON text; None where none was."""
+        rows = self._database.rows(
+            "SELECT document FROM version WHERE gait=? AND kind='saved' ORDER BY number DESC LIMIT 1", gait
+        )
+        return rows[0][0] if rows else None
+
     def put(
         self,
         gait: str,

@@ -4,15 +4,20 @@ import json
 import os
 import re
 import sys
+import time
 from collections.abc import Callable, Set
 from contextlib import suppress
 from itertools import chain, count
 from pathlib import Path
 
 from app.documents.gait_json import gait_content, parse_gait
+from app.store.plain_file import read_plain_file
 from app.store.storage_errors import file_error
 from core.errors import InputError
 from core.gait.gait import Gait
+
+MOST_FILE_BYTES = 16_000_000
+"""A gait's file of more bytes is not read; indented, the largest document has fewer."""
 
 _ID = re.compile(r"[a-z0-9][a-z0-9-]{0,79}")
 
@@ -66,6 +71,19 @@ def _move(source: Path, target: Path) -> None:
         raise file_error(error, target) from error
 
 
+def _is_json(name: str) -> bool:
+    return name.endswith(".json") and not name.startswith(".")
+
+
+def _stamp(entry: Path | os.DirEntry[str]) -> tuple[int, int] | None:
+    """Time in ns and size of a file, of a link those of the link; None where there is none."""
+    try:
+        state = entry.lstat() if isinstance(entry, Path) else entry.stat(follow_symlinks=False)
+    except FileNotFoundError:
+        return None
+    return state.st_mtime_ns, state.st_size
+
+
 def _sweep(folder: Path) -> None:
     """Takes away what a killed program had half written; what counts are the whole files beside it."""
     for partial in folder.glob(".*.partial"):
@@ -117,21 +135,26 @@ class GaitFiles:
     def __init__(self, data: Path) -> None:
         self._gaits = data / "gaits"
         self._trash = data / "trash"
+        self._aside = data / "set-aside"
         for folder in (data, self._gaits, self._trash):
             require_folder(folder)
         _sweep(self._gaits)
 
     def stamps(self) -> dict[str, tuple[int, int]]:
         """Every saved gait's id with what changes whenever its file does: time in ns, and size."""
-        stamps = {}
         with os.scandir(self._gaits) as found:
-            for entry in found:
-                gait_id, _, ending = entry.name.rpartition(".")
-                if ending == "json" and self.is_id(gait_id):
-                    with suppress(FileNotFoundError):
-                        state = entry.stat()
-                        stamps[gait_id] = (state.st_mtime_ns, state.st_size)
-        return stamps
+            entries = [(entry.name.removesuffix(".json"), entry) for entry in found if _is_json(entry.name)]
+        stamps = ((name, _stamp(entry)) for name, entry in entries if self.is_id(name))
+        return {name: stamp for name, stamp in stamps if stamp is not None}
+
+    def stamp(self, gait_id: str) -> tuple[int, int] | None:
+        """The same of one gait; None where it has no file."""
+        return _stamp(self._path(gait_id))
+
+    def misnamed(self) -> tuple[str, ...]:
+        """JSON files whose names are no ids, so that no gait can be opened from them."""
+        names = (name for name in os.listdir(self._gaits) if _is_json(name))
+        return tuple(sorted(name for name in names if not self.is_id(name.removesuffix(".json"))))
 
     def ids(self) -> tuple[str, ...]:
         """Ids of all saved gaits, by name."""
@@ -141,18 +164,25 @@ class GaitFiles:
         """Ids of gaits in the trash."""
         return tuple(p.stem for p in self._trash.glob("*.json"))
 
-    def deleted(self, gait_id: str) -> tuple[Gait, float]:
-        """A gait in the trash, and when it came there, s since the epoch.
+    def deleted(self, gait_id: str) -> Gait:
+        """A gait in the trash.
 
         Raises:
             InputError: it is not there, or its file is damaged.
         """
         path = self._trash / self._path(gait_id).name
         try:
-            # Moving a file leaves its time of writing (st_mtime) alone and sets st_ctime.
-            return parse_gait(path.read_bytes(), path.name), path.stat().st_ctime
-        except OSError as error:
+            return parse_gait(read_plain_file(path, MOST_FILE_BYTES), path.name)
+        except FileNotFoundError as error:
             raise InputError(f"There is no deleted gait “{gait_id}”.", gait_id) from error
+
+    def deleted_at(self, gait_id: str) -> float:
+        """When a gait came into the trash, s since the epoch; 0 where it is not there."""
+        try:
+            # Moving a file leaves its time of writing (st_mtime) alone and sets st_ctime.
+            return (self._trash / self._path(gait_id).name).lstat().st_ctime
+        except FileNotFoundError:
+            return 0.0
 
     def read(self, gait_id: str) -> Gait:
         """Reads a saved gait.
@@ -162,14 +192,14 @@ class GaitFiles:
         """
         path = self._path(gait_id)
         try:
-            return parse_gait(path.read_bytes(), path.name)
-        except OSError as error:
+            return parse_gait(read_plain_file(path, MOST_FILE_BYTES), path.name)
+        except FileNotFoundError as error:
             raise InputError(f"There is no saved gait “{gait_id}”.", gait_id) from error
 
     def saved_at(self, gait_id: str) -> float | None:
         """When the gait was saved, s since the epoch; None where it is not."""
-        path = self._path(gait_id)
-        return path.stat().st_mtime if path.exists() else None
+        stamp = self.stamp(gait_id)
+        return None if stamp is None else stamp[0] / 1e9
 
     def write(self, gait_id: str, gait: Gait, before: Callable[[], object] = lambda: None) -> None:
         """Saves a gait; the file is on disk when this returns (see `write_atomically`)."""
@@ -180,6 +210,30 @@ class GaitFiles:
         """Moves a gait's file into the trash, from where it can be restored."""
         _move(self._path(gait_id), self._trash / f"{gait_id}.json")
 
+    def set_aside(self, gait_id: str, write: Callable[[], None]) -> Path:
+        """Has another file take a gait's place; what was there is kept, whatever it is.
+
+        Args:
+            gait_id: whose file.
+            write: writes the other file; where that fails, everything is as before.
+
+        Returns:
+            Where it is kept.
+
+        Raises:
+            StorageError: the disk does not take it.
+        """
+        path = self._path(gait_id)
+        require_folder(self._aside)
+        kept = self._aside / f"{gait_id}-{time.strftime('%Y-%m-%d-%H%M%S')}-{time.time_ns() % 1000:03}.json"
+        _move(path, kept)
+        try:
+            write()
+        except BaseException:
+            _move(kept, path)
+            raise
+        return kept
+
     def restore(self, gait_id: str) -> None:
         """Brings the last removed file of that id back.
 
@@ -187,9 +241,9 @@ class GaitFiles:
             InputError: there is none, or the id is in use again.
         """
         source = self._trash / self._path(gait_id).name
-        if not source.exists():
+        if _stamp(source) is None:
             raise InputError(f"There is no deleted gait “{gait_id}” to restore.", gait_id)
-        if self._path(gait_id).exists():
+        if self.stamp(gait_id) is not None:
             raise InputError(f"“{gait_id}” exists again; delete or rename it first.", gait_id)
         _move(source, self._path(gait_id))
 

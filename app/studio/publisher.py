@@ -50,6 +50,7 @@ class Publisher:
         self._simulations = simulations
         self._job_repository = job_repository
         self._list = GaitSummaries(gaits)
+        self._troubles: dict[str, str] = {}
         self._simulated_as: dict[str, frozenset[str]] = {}
         self._told_sources: dict[str, tuple[int, list[str]]] = {}
 
@@ -84,6 +85,7 @@ class Publisher:
         self._simulated_as[open_gait.id] = self._simulations.keys_of(plan)
         view = gait_view(open_gait, plan, self._hub.pages())
         return view | {
+            "outside": self._gaits.outside(open_gait.id),
             "simulation": self._simulations.standing(open_gait.id, plan),
             "sources": self._sources(open_gait),
             "version": self._gaits.versions.newest_number(open_gait.id),
@@ -141,6 +143,15 @@ class Publisher:
         for sequence in self._gaits.sequences_with(open_gait.id):
             self._publish_sources(sequence)
         return view
+
+    def look_at_files(self) -> None:
+        """Shows every page what is wrong with gait files, if that is new."""
+        before, self._troubles = self._troubles, self._list.troubles()
+        touched = {gait for gait, _ in before.items() ^ self._troubles.items()}
+        if touched:
+            self.publish_list()
+        for gait_id in touched & self._simulated_as.keys():
+            self.publish_soon(gait_id)
 
     def publish_list(self) -> None:
         """Shows the list of gaits to every page."""

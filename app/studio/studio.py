@@ -31,6 +31,7 @@ from app.store.database_keeper import DatabaseKeeper
 from app.store.gait_files import GaitFiles
 from app.store.simulation_store import SimulationStore
 from app.store.trial_reference_store import TrialReferenceStore
+from app.studio.file_watch import FileWatch
 from app.studio.job_commands import JobCommands
 from app.studio.publisher import Publisher
 from app.trials.comparison import TrialComparison
@@ -111,6 +112,7 @@ class Studio:
         self.job_repository = JobRepository(database)
         self.publisher = Publisher(hub, self.gaits, self._plans, self.simulations, self.job_repository)
         self.commands.tell(self.publisher.summaries)
+        self._register(FileWatch(partial(self.commands.tell, self.publisher.look_at_files)))
         searches = tuple(self._register(PatternSolver()) for _ in range(PATTERN_PROCESSES))
         self.patterns = PatternSearchService(searches, self.publisher.tell_page)
 

@@ -1,6 +1,7 @@
 """Gaits: list, documents, edits, plans, checks and approvals."""
 
 from dataclasses import asdict, replace
+from enum import StrEnum
 from functools import partial
 from typing import Annotated
 
@@ -38,6 +39,21 @@ _DOCUMENT = {
         "content": {"application/json": {"schema": {"$ref": "/api/schema/gait"}}},
     }
 }
+
+
+class Kept(StrEnum):
+    """Which of two documents is kept as a gait's file."""
+
+    FILE = "file"
+    """What somebody else wrote into it; it becomes the present document, and the studio's one a version."""
+    MINE = "mine"
+    """What the studio saved last; the other file is set aside."""
+
+
+class FileChoice(RequestBody):
+    """What becomes of a file that was changed outside the studio."""
+
+    keep: Kept
 
 
 class Redraw(RequestBody):
@@ -179,8 +195,25 @@ async def save(gait_id: str, studio: TheStudio, author: TheAuthor) -> Json:
 
 @router.post("/{gait_id}/restore")
 async def restore(gait_id: str, studio: TheStudio) -> Json:
-    """Brings a deleted gait back."""
-    return await changed(studio, lambda: studio.gaits.restore(gait_id))
+    """Brings a deleted gait back; a file that cannot be opened comes back too, and is refused then."""
+
+    def restored() -> OpenGait:
+        try:
+            return studio.gaits.restore(gait_id)
+        except InputError:
+            studio.publisher.publish_list()
+            raise
+
+    return await changed(studio, restored)
+
+
+@router.post("/{gait_id}/file")
+async def settle_file(gait_id: str, choice: FileChoice, studio: TheStudio, author: TheAuthor) -> Json:
+    """Takes over a file that was changed outside the studio, or writes the studio's own document again."""
+    gaits = studio.gaits
+    if choice.keep is Kept.FILE:
+        return await changed(studio, lambda: gaits.take_file(gait_id, author))
+    return await changed(studio, lambda: gaits.keep_mine(gait_id))
 
 
 @router.post("/{gait_id}/live", response_model=Json)

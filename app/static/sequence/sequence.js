@@ -48,7 +48,7 @@ function adder(store, edits) {
     const chosen = select.value;
     const groups = Map.groupBy ? Map.groupBy(gaits, ({ group }) => group) : new Map([["Gaits", gaits]]);
     select.replaceChildren(...[...groups].map(([label, members]) => h("optgroup", { label },
-      ...members.filter(({ id }) => id !== selected).map(({ id, name }) => h("option", { value: id, text: name })))));
+      ...members.filter(({ id, problem }) => id !== selected && !problem).map(({ id, name }) => h("option", { value: id, text: name })))));
     if (gaits.some(({ id }) => id === chosen && id !== selected)) select.value = chosen;
   });
   return h("div", { class: "part-add" }, select, button);

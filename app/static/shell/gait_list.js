@@ -2,7 +2,7 @@
 
 import { api } from "../api/gaits.js";
 import { byId, h, setAttribute, setText } from "../lib/dom.js";
-import { clearOfGait, report } from "../lib/toasts.js";
+import { attempt, clearOfGait, report, toast } from "../lib/toasts.js";
 import { acceptView } from "../state/store.js";
 
 const KEY = "footfall.gait";
@@ -52,9 +52,10 @@ async function rename(store, id) {
 export function selectAfterHello(store) {
   const { gaits, selected, robot, view } = store.state;
   // What was just made may be shown before the greeting knows of it.
-  const known = (id) => gaits.some((gait) => gait.id === id) || id === view?.id;
+  const known = (id) => gaits.some((gait) => gait.id === id && !gait.problem) || id === view?.id;
   const running = robot?.run && robot.run.phase !== "ended" ? robot.run.gait : null;
-  const choice = [selected, running, lastUsed(), gaits[0]?.id].find((id) => id && known(id));
+  const first = gaits.find(({ problem }) => !problem)?.id;
+  const choice = [selected, running, lastUsed(), first].find((id) => id && known(id));
   if (choice) selectGait(store, choice);
 }
 
@@ -69,14 +70,39 @@ function item(gait) {
   return { element, button, name, tag, dot };
 }
 
+/** Says why a file cannot be opened; one whose name is an id can be deleted, and brought back. */
+function tellProblem({ id, problem }) {
+  const bringBack = attempt(() => api.restore(id));
+  const remove = attempt(async () => {
+    await api.remove(id);
+    toast(`${id}.json is deleted.`, { action: { label: "Bring it back", act: bringBack } });
+  });
+  toast(problem, { tone: "bad", action: id.endsWith(".json") ? null : { label: "Delete the file", act: remove } });
+}
+
+function showProblem(part, { name, problem }) {
+  setText(part.name, name);
+  setText(part.tag, "unreadable");
+  setAttribute(part.button, "data-stuck", true);
+  part.dot.hidden = true;
+  setAttribute(part.button, "aria-current", null);
+  setAttribute(part.button, "title", problem);
+}
+
+const tagOf = ({ outside, walks, source, orientation }) => (outside ? "changed" : walks === false ? "infeasible" : source === "sequence" ? "seq." : orientation);
+
 function show(part, gait, selected) {
+  if (gait.problem) {
+    showProblem(part, gait);
+    return;
+  }
   setText(part.name, gait.name);
   const walks = gait.walks !== false;
-  setText(part.tag, walks ? (gait.source === "sequence" ? "seq." : gait.orientation) : "infeasible");
-  setAttribute(part.button, "data-stuck", !walks);
+  setText(part.tag, tagOf(gait));
+  setAttribute(part.button, "data-stuck", !walks || Boolean(gait.outside));
   part.dot.hidden = !gait.edited;
   setAttribute(part.button, "aria-current", gait.id === selected ? "true" : null);
-  setAttribute(part.button, "title", `${gait.name}: ${gait.robot}, ${gait.source}, ${gait.kind}${gait.source === "sequence" ? "" : `, foot order ${gait.order.join(" ")}`}${gait.edited ? ", unsaved changes" : ""}${walks ? "" : ". No motion of it keeps every limit"}. Double click: its name`);
+  setAttribute(part.button, "title", `${gait.name}: ${gait.robot}, ${gait.source}, ${gait.kind}${gait.source === "sequence" ? "" : `, foot order ${gait.order.join(" ")}`}${gait.edited ? ", unsaved changes" : ""}${gait.outside ? ". " + gait.outside : ""}${walks ? "" : ". No motion of it keeps every limit"}. Double click: its name`);
 }
 
 const FIRST = "Saved";
@@ -111,11 +137,13 @@ export function mountGaits(store) {
   list.before(search.element);
   list.addEventListener("click", ({ target }) => {
     const id = target.closest("[data-gait]")?.dataset.gait;
-    if (id) selectGait(store, id);
+    const unreadable = store.state.gaits.find((gait) => gait.id === id && gait.problem);
+    if (unreadable) tellProblem(unreadable);
+    else if (id) selectGait(store, id);
   });
   list.addEventListener("dblclick", ({ target }) => {
     const id = target.closest("[data-gait]")?.dataset.gait;
-    if (id) rename(store, id);
+    if (id && !store.state.gaits.some((gait) => gait.id === id && gait.problem)) rename(store, id);
   });
 
   function draw({ gaits, selected }) {

@@ -47,7 +47,7 @@ async function remove(store, show, deletedHere) {
   }
   announceDeleted(`${name} is deleted.`, selected, show);
   if (store.state.selected !== selected) return;
-  const next = store.state.gaits.find(({ id }) => id !== selected) ?? null;
+  const next = store.state.gaits.find(({ id, problem }) => id !== selected && !problem) ?? null;
   await show(store.state.gaits.some(({ id }) => id === selected) ? selected : next?.id);
 }
 

@@ -110,14 +110,16 @@ def test_gaits_come_go_and_come_back(service: GaitService) -> None:
 
 
 @pytest.mark.parametrize("content", ["{", "[]", '{"format": "footfall-gait", "version": 99}', ""])
-def test_a_damaged_file_is_left_out_and_comes_when_it_is_mended(
+def test_a_damaged_file_is_marked_until_it_is_mended(
     service: GaitService, tmp_path: Path, content: str
 ) -> None:
     path = tmp_path / "gaits" / "trial-0003.json"
     whole = path.read_text()
     path.write_text(content)
     gaits = GaitSummaries(service)
-    assert len(gaits.lines()) == COUNT + len(library()) - 1
+    assert len(gaits.lines()) == COUNT + len(library())
+    assert "trial-0003.json" in line(gaits, "trial-0003")["problem"]
+    assert gaits.troubles().keys() == {"trial-0003"}
     with pytest.raises(InputError, match=r"trial-0003\.json"):
         service.open_gait("trial-0003")
     path.write_text(whole)

@@ -1,0 +1,81 @@
+"""A gait's file beside what the studio saved there last: anybody may have changed it since."""
+
+from dataclasses import dataclass
+
+from app.documents.gait_json import parse_gait
+from app.gaits.open_gait import gait_text
+from app.store.edit_history_store import EditHistoryStore
+from app.store.gait_files import GaitFiles
+from core.errors import FootfallError, InputError
+from core.gait.gait import Gait
+
+WAYS_OUT = "Take it over, or keep yours; neither is lost."
+"""What a person can do about a file that was changed outside the studio."""
+
+
+@dataclass(frozen=True)
+class SavedFile:
+    """A gait's file.
+
+    Args:
+        gait: what counts as saved: what the studio saved last, or what the file says where it saved nothing.
+        theirs: what the file says; None where it cannot be read.
+        outside: how the file differs from what the studio saved, in a sentence; None where it does not.
+    """
+
+    gait: Gait
+    theirs: Gait | None
+    outside: str | None
+
+
+class SavedFiles:
+    """The files of all gaits, each looked at again only when it changed.
+
+    Args:
+        files: the files.
+        edits: what was saved in them, in the database.
+    """
+
+    def __init__(self, files: GaitFiles, edits: EditHistoryStore) -> None:
+        self._files = files
+        self._edits = edits
+        self._kept: dict[str, tuple[tuple[int, int], SavedFile]] = {}
+
+    def of(self, gait_id: str) -> SavedFile | None:
+        """A gait's file; None where it has none.
+
+        Raises:
+            InputError: it cannot be read, and the studio never saved anything in it.
+        """
+        stamp = self._files.stamp(gait_id)
+        kept = self._kept.get(gait_id)
+        if stamp is None or (kept is not None and kept[0] == stamp):
+            return None if stamp is None or kept is None else kept[1]
+        found = self._look(gait_id)
+        self._kept[gait_id] = (stamp, found)
+        return found
+
+    def forget(self, gait_id: str) -> None:
+        """The studio writes the file or takes it away."""
+        self._kept.pop(gait_id, None)
+
+    def _look(self, gait_id: str) -> SavedFile:
+        text = self._edits.saved_document(gait_id)
+        mine = None if text is None else _readable(text)
+        try:
+            theirs = self._files.read(gait_id)
+        except InputError as error:
+            if mine is None:
+                raise
+            sentence = f"{error.sentence} It was changed outside the studio, which goes on with its own copy."
+            return SavedFile(mine, None, f"{sentence} Mend it and take it over, or keep yours.")
+        if mine is None or gait_text(theirs) == text or theirs == mine:
+            return SavedFile(theirs, theirs, None)
+        return SavedFile(mine, theirs, f"{gait_id}.json was changed outside the studio. {WAYS_OUT}")
+
+
+def _readable(text: str) -> Gait | None:
+    try:
+        return parse_gait(text)
+    except FootfallError:  # of an older program, whose bounds were wider
+        return None

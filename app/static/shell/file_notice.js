@@ -1,0 +1,29 @@
+/** A gait's file that was changed outside the studio: what happened, and the two ways out of it. */
+
+import { api } from "../api/gaits.js";
+import { byId, h } from "../lib/dom.js";
+import { attempt } from "../lib/toasts.js";
+import { acceptView } from "../state/store.js";
+
+/**
+ * Shows over the preview that the shown gait's file was changed, for as long as it is so.
+ * @param {object} store
+ * @param {{settled: () => Promise<void>}} edits what was done before is kept, whichever document is taken
+ */
+export function mountFileNotice(store, edits) {
+  const settle = (keep) => attempt(async () => {
+    const { selected } = store.state;
+    await edits.settled();
+    acceptView(store, await api.settleFile(selected, keep));
+  });
+  const sentence = h("p", {});
+  const notice = byId("file-notice");
+  notice.append(sentence, h("div", { class: "buttons" },
+    h("button", { text: "Take it over", title: "What the file says becomes the gait; yours is kept as a version, and Undo brings it back", on: { click: settle("file") } }),
+    h("button", { text: "Keep mine", title: "Writes what was saved here last; the other file is kept in the folder set-aside", on: { click: settle("mine") } })));
+  store.watch(({ view, selected }) => [view?.outside, view?.id === selected], ({ view, selected }) => {
+    const outside = view?.id === selected ? view.outside : null;
+    notice.hidden = !outside;
+    sentence.textContent = outside ?? "";
+  });
+}

@@ -1,0 +1,62 @@
+"""A studio whose gait files are damaged, or changed by somebody else while it runs."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.support.studio_process import StudioProcess, running_studio
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("data")
+
+
+@pytest.fixture(scope="module")
+def studio(data: Path) -> Iterator[StudioProcess]:
+    (data / "gaits").mkdir()
+    os.mkfifo(data / "gaits" / "pipe.json")
+    with running_studio(data) as running:
+        yield running
+
+
+def listed(studio: StudioProcess) -> dict[str, Any]:
+    return {line["id"]: line for line in studio.ask("GET", "/api/gaits").content["gaits"]}
+
+
+def test_a_pipe_among_the_gaits_holds_nothing_up(studio: StudioProcess) -> None:
+    assert "pipe" in listed(studio)["pipe"]["problem"]
+    assert studio.ask("GET", "/api/gaits/pipe/view").status == 422
+    assert studio.ask("DELETE", "/api/gaits/pipe").status == 200
+    assert "pipe" not in listed(studio)
+    assert studio.ask("POST", "/api/gaits/pipe/restore").status == 422
+    assert "pipe" in listed(studio)
+
+
+@pytest.mark.parametrize(("keep", "notes"), [("file", "theirs"), ("mine", "")])
+def test_a_file_changed_outside_is_taken_over_or_set_aside(
+    keep: str, notes: str, studio: StudioProcess, data: Path
+) -> None:
+    made = studio.ask("POST", f"/api/gaits?copy_of=walk&name=Copy%20{keep}", {}).content
+    gait, path = made["id"], data / "gaits" / f"{made['id']}.json"
+    path.write_text(json.dumps({**made["document"], "notes": "theirs"}))
+    assert listed(studio)[gait]["outside"]
+    assert studio.ask("GET", f"/api/gaits/{gait}/view").content["outside"]
+    refused = studio.ask("POST", f"/api/gaits/{gait}/save")
+    assert (refused.status, refused.content["where"]) == (409, gait)
+    settled = studio.ask("POST", f"/api/gaits/{gait}/file", {"keep": keep})
+    assert (settled.status, settled.content["document"]["notes"]) == (200, notes)
+    assert (settled.content["outside"], settled.content["edited"]) == (None, False)
+    assert json.loads(path.read_text())["notes"] == notes
+    assert studio.ask("POST", f"/api/gaits/{gait}/save").status == 200
+
+
+@pytest.mark.parametrize("content", [{}, {"keep": "both"}, {"keep": "file", "more": 1}])
+def test_a_choice_that_is_none_is_refused(content: dict[str, Any], studio: StudioProcess) -> None:
+    assert studio.ask("POST", "/api/gaits/walk/file", content).status == 422

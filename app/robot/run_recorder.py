@@ -122,7 +122,9 @@ class RunRecorder:
             except StorageError:
                 journal.close(is_in_database=True)
                 raise
-        except (OSError, StorageError) as error:
+        except StorageError as error:
+            raise StateError(f"The record of the run cannot be begun. {error.sentence}", "record") from error
+        except OSError as error:
             raise StateError(
                 f"The record of the run cannot be begun: the data folder does not take it ({error}). Make "
                 "room on its disk, then send again.",

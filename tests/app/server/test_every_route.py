@@ -6,7 +6,6 @@ The routes are the application's own, so a new one is tried by itself. Viser's o
 
 from __future__ import annotations
 
-import asyncio
 import re
 import sys
 from collections import Counter
@@ -24,6 +23,7 @@ from app.server.application import make_app
 from app.studio.studio import Studio
 from app.web import wrong_tokens
 from app.web.access import Access
+from tests.support.own_loop import run_apart
 
 HOST, TOKEN = "127.0.0.1:8400", "a-token-of-enough-letters"
 SHOWN = {"authorization": f"Bearer {TOKEN}"}
@@ -156,7 +156,7 @@ def test_strangers_are_refused_everywhere(app: FastAPI, record_property: Any) ->
                 refused[kind] += 1
         return refused, let_in
 
-    counts, let_in = asyncio.run(walk())
+    counts, let_in = run_apart(walk())
     record_property("requests", dict(counts))
     ways = len(list(doors(app)))
     sys.stdout.write(
@@ -179,7 +179,7 @@ def test_who_has_the_token_comes_through_everywhere(app: FastAPI) -> None:
                 outcomes["reached the studio"] += 1
         return outcomes
 
-    outcomes = asyncio.run(walk())
+    outcomes = run_apart(walk())
     assert outcomes["refused"] == 0
     assert outcomes["reached the studio"] > 80
 

@@ -12,6 +12,7 @@ from starlette.middleware import Middleware
 
 from app.web.access import Access, Guard
 from app.web.wrong_tokens import WrongTokens
+from tests.support.own_loop import run_apart
 
 TOKEN = "a-token-of-enough-letters"
 
@@ -73,4 +74,4 @@ def test_right_tokens_stop_and_requests_without_a_token_pass_those_that_wait(wro
             held.released.set()
             assert await asyncio.gather(*late) == [403] * len(late)
 
-    asyncio.run(play())
+    run_apart(play())

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import socket
-from collections.abc import Iterator
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -12,7 +11,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from tests.support.studio_process import StudioProcess, running_studio, text_of, wait_for
+from tests.support.studio_process import StudioProcess, text_of, wait_for
 
 MOST_GROWTH_KB = 16_000
 """Memory that a message of 63 MB may cost; the rest of the studio breathes too."""
@@ -33,9 +32,8 @@ BROKEN_OFF = {
 
 
 @pytest.fixture(scope="module")
-def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess]:
-    with running_studio(tmp_path_factory.mktemp("data")) as running:
-        yield running
+def studio(lent_studio: StudioProcess) -> StudioProcess:
+    return lent_studio
 
 
 def memory_kb(studio: StudioProcess) -> int:

@@ -15,7 +15,7 @@ from app.gaits.open_gait import OpenGait
 from app.gaits.views import plan_view
 from app.pattern_search.service import PatternRequest, Search
 from app.routes.patterns.problems import AnyQuestion, Posed, posed
-from app.routes.patterns.schema import PatternUse, Question
+from app.routes.patterns.schema import PatternUse
 from app.studio.studio import Studio
 from app.undo.history import SCRIPT, Author
 from app.web.dependencies import TheAuthor, TheStudio, changed, on_command_thread
@@ -38,7 +38,9 @@ async def _answered(studio: Studio, search: Search) -> bool:
 
 
 @router.post("", response_model=Json, responses={202: {"description": "The search goes on."}})
-async def search(question: Annotated[Question, Body()], studio: TheStudio, author: TheAuthor) -> JSONResponse:
+async def search(
+    question: Annotated[AnyQuestion, Body(discriminator="kind")], studio: TheStudio, author: TheAuthor
+) -> JSONResponse:
     """Searches for the best patterns, in the place of the page's last search.
 
     Answers with the result, or with 202 and the search's id where it takes longer: a page then hears of it by

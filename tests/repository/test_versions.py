@@ -33,7 +33,7 @@ def requirements(file: str) -> list[tuple[Requirement, list[str]]]:
 
 def pinned(file: str) -> dict[str, Version]:
     """The versions that a file pins, by name."""
-    found = {}
+    found: dict[str, Version] = {}
     for requirement, _ in requirements(file):
         (only,) = requirement.specifier
         assert only.operator == "==", requirement

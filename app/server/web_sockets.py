@@ -7,20 +7,27 @@ MOST_PARTS = 256
 """Parts that one message may come in; each costs memory, an empty one too."""
 
 
+MOST_WAITING = 65_536
+"""Bytes that wait for a client; while more do, its pings go without an answer."""
+
+
 class BoundedSocket(WebSocketsSansIOProtocol):
     """uvicorn's web socket, which keeps every part of a message and answers every ping, read or not."""
 
+    _parts = 0
+
     def handle_cont(self, event: Frame) -> None:
         """Takes a further part of a message."""
-        super().handle_cont(event)
-        if len(self.frames) > MOST_PARTS:
-            self.frames.clear()
+        self._parts = 0 if event.fin else self._parts + 1
+        if self._parts < MOST_PARTS:
+            super().handle_cont(event)
+        elif not self.transport.is_closing():
             self.conn.fail(CloseCode.MESSAGE_TOO_BIG, f"At most {MOST_PARTS} parts.")
             self.handle_parser_exception()
 
     def handle_ping(self) -> None:
         """Answers a ping, as long as the client reads what it is sent."""
-        if self.writable.is_set():
+        if self.transport.get_write_buffer_size() < MOST_WAITING:
             super().handle_ping()
         else:
             self.conn.data_to_send()

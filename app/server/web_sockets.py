@@ -34,8 +34,7 @@ class BoundedSocket(WebSocketsSansIOProtocol):
 
     def handle_parser_exception(self) -> None:
         """Ends a connection that sends what is no frame; before it is accepted there is nothing to close."""
-        if self.conn.close_sent is not None:
+        if self.conn.close_sent is None:
+            self.transport.abort()
+        else:
             super().handle_parser_exception()
-            return
-        self.queue.put_nowait({"type": "websocket.disconnect", "code": CloseCode.PROTOCOL_ERROR})
-        self.transport.abort()

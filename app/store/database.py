@@ -150,13 +150,13 @@ class Database:
 
 
 def _text(content: bytes) -> str:
-    """A stored text; pages that were overwritten hold no text any more.
+    """A stored text; pages that were overwritten hold no text any more, or end in zeros.
 
     Raises:
         sqlite3.OperationalError: as SQLite's own reader of texts would.
     """
     try:
-        if b"\0" not in content:
+        if content.strip(b"\0") == content:  # within a text an older version may have kept one
             return content.decode()
     except UnicodeDecodeError:
         pass

@@ -10,7 +10,7 @@ import numpy as np
 from fastapi import Depends, FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, field_validator
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 
@@ -75,9 +75,16 @@ _STATUS: tuple[tuple[type[FootfallError], int], ...] = (
 
 
 class RequestBody(BaseModel):
-    """A request's body; unknown fields are refused."""
+    """A request's body; unknown fields are refused, and texts that the database cannot keep whole."""
 
     model_config = ConfigDict(extra="forbid")
+
+    @field_validator("*")
+    @classmethod
+    def _without_nul(cls, value: Any) -> Any:
+        if isinstance(value, str) and "\0" in value:
+            raise ValueError("The character U+0000 cannot be kept; leave it out")
+        return value
 
 
 class FiniteBody(RequestBody):
@@ -110,6 +117,10 @@ async def author_of(request: Request) -> Author:
     page, name = request.headers.get(PAGE_HEADER), unquote(request.headers.get(NAME_HEADER, ""))
     if page is not None and not is_page(page):
         raise InputError(f"{PAGE_HEADER} takes up to 64 letters, digits and hyphens.", PAGE_HEADER)
+    if "\0" in name:
+        raise InputError(
+            "The name has the character U+0000, which cannot be kept; leave it out.", NAME_HEADER
+        )
     if len(name) > MOST_NAME:
         raise InputError(f"The name has {len(name)} characters; at most {MOST_NAME} are kept.", NAME_HEADER)
     return Author(name=name) if page is None else Author(page, name)

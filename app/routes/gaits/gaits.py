@@ -140,7 +140,7 @@ async def edit_gait(
     request: Request,
     studio: TheStudio,
     author: TheAuthor,
-    label: Annotated[str, Query(max_length=120)] = "Edit",
+    label: Annotated[str, Query(max_length=120, pattern=r"^[^\x00]*$")] = "Edit",
     revision: Revision | None = None,
 ) -> Json:
     """Changes the document, as one undo step."""

@@ -120,7 +120,7 @@ async def send_stop(studio: Studio, by: str) -> None:
         studio: whose robot.
         by: who stops it.
     """
-    name = by.strip()[:MOST_NAME] if is_visible(by) else SOMEBODY
+    name = by.replace("\0", "").strip()[:MOST_NAME] if is_visible(by) else SOMEBODY
     # On this very thread: on a busy computer each further one takes its time to wake up.
     left = studio.robot.bridge.try_stop(name)
     if left is not None:

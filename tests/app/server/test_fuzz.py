@@ -9,13 +9,14 @@ import os
 import secrets
 import sys
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from random import Random
 from statistics import median
 
 import pytest
 
-from tests.support.fuzz.campaign import Campaign, Memory, failure
+from tests.support.fuzz.campaign import Campaign, Memory, Outcome, failure, together
 from tests.support.fuzz.client import Answered, Connection
 from tests.support.fuzz.operations import operations_of
 from tests.support.fuzz.report import report, tracebacks
@@ -25,40 +26,67 @@ from tests.support.fuzz.values import Pairs, Raw, encoded, mutated
 from tests.support.studio_process import PROGRAM, StudioProcess, running_studio
 
 REQUESTS = int(os.environ.get("FOOTFALL_FUZZ_REQUESTS", "20000"))
+PARTS = 8
+"""In which they are sent, each within the time that a test may take on a busy machine."""
+
 MOST_GROWTH = 0.15
 """Of the memory of the studio and its processes, from 30 % of the requests to the last ones."""
 
 
-@pytest.fixture
-def studio(tmp_path: Path) -> Iterator[StudioProcess]:
-    file = tmp_path / "film.avi"
+@dataclass(frozen=True)
+class Attack:
+    """A campaign against a studio of its own.
+
+    Args:
+        studio: that is attacked.
+        campaign: what is sent, and what came of it.
+        seed: of the requests.
+        folder: where requests that failed are kept.
+    """
+
+    studio: StudioProcess
+    campaign: Campaign
+    seed: int
+    folder: Path
+
+    def words(self, outcome: Outcome) -> str:
+        """What came of a part, for people."""
+        return f"\n{report(outcome, self.seed, self.studio.url, self.folder)}\n"
+
+
+@pytest.fixture(scope="module")
+def attack(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Attack]:
+    seed = int(os.environ.get("FOOTFALL_FUZZ_SEED") or secrets.randbelow(10**6))
+    folder = tmp_path_factory.mktemp("fuzz")
+    file = folder / "film.avi"
     file.write_bytes(film())
-    with running_studio(tmp_path / "data", "--camera", f"film={file}", program=PROGRAM) as running:
-        yield running
+    with running_studio(folder / "data", "--camera", f"film={file}", program=PROGRAM) as studio:
+        stock, description = stocked(studio), studio.ask("GET", "/openapi.json").content
+        operations = operations_of(description)
+        requests = Requests(operations, description["components"]["schemas"], stock, seed)
+        yield Attack(studio, Campaign(studio, requests, stock), seed, folder)
 
 
 @pytest.mark.heavy
-def test_no_request_makes_an_error_a_long_wait_or_a_leak(studio: StudioProcess, tmp_path: Path) -> None:
-    seed = int(os.environ.get("FOOTFALL_FUZZ_SEED") or secrets.randbelow(10**6))
-    stock, description = stocked(studio), studio.ask("GET", "/openapi.json").content
-    requests = Requests(operations_of(description), description["components"]["schemas"], stock, seed)
-    outcome = Campaign(studio, requests, stock, REQUESTS).run()
-    found = report(outcome, seed, studio.url, tmp_path)
-    sys.stdout.write(f"\n{found}\n")
-    assert not outcome.failures, found
-    assert growth([one.everything for one in outcome.memory]) < MOST_GROWTH, found
-    assert studio.said is not None
-    assert not tracebacks(studio.said.read_text(errors="replace"))
-    for path in (
-        "/api/health",
-        "/api/gaits",
-        "/api/gaits/deleted",
-        "/api/runs",
-        "/api/trials",
-        "/api/videos",
-    ):
-        assert studio.ask("GET", path).status == 200
-    assert studio.ask("POST", "/api/robot/stop").status == 200
+@pytest.mark.parametrize("part", range(PARTS))
+def test_no_request_makes_an_error_or_a_long_wait(attack: Attack, part: int) -> None:
+    outcome = attack.campaign.run(REQUESTS // PARTS)
+    words = attack.words(outcome)
+    sys.stdout.write(f"part {part}: {words}")
+    assert not outcome.failures, words
+
+
+@pytest.mark.heavy
+def test_after_all_that_the_memory_is_flat_and_the_studio_as_good_as_new(attack: Attack) -> None:
+    words = attack.words(together(attack.campaign.parts))
+    sys.stdout.write(words)
+    sizes = [one.everything for part in attack.campaign.parts for one in part.memory]
+    assert growth(sizes) < MOST_GROWTH, words
+    assert attack.studio.said is not None
+    assert not tracebacks(attack.studio.said.read_text(errors="replace"))
+    for path in ("health", "gaits", "gaits/deleted", "runs", "trials", "videos", "setups", "jobs"):
+        assert attack.studio.ask("GET", f"/api/{path}").status == 200
+    assert attack.studio.ask("POST", "/api/robot/stop").status == 200
 
 
 def growth(sizes: list[int]) -> float:

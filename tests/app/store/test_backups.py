@@ -299,3 +299,10 @@ def test_a_full_disk_leaves_the_database_in_its_place(
         restore(tmp_path, good.path)
     assert path.read_bytes() == content
     assert not list(tmp_path.glob(".*"))
+
+
+def test_a_zero_within_a_text_is_no_damage(tmp_path: Path) -> None:
+    database = Database(tmp_path / "studio.sqlite3")
+    with closing(database), database.writing() as connection:
+        connection.execute("INSERT INTO job VALUES('a', 1.0, ?)", ("an old\0 label",))
+        assert connection.execute("SELECT content FROM job").fetchone() == ("an old\0 label",)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import itertools
 import json
 import threading
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
@@ -95,6 +94,20 @@ class Outcome:
                 kept.append((asked, answered))
 
 
+def together(parts: Sequence[Outcome]) -> Outcome:
+    """What came of all parts."""
+    whole = Outcome()
+    for part in parts:
+        whole.statuses += part.statuses
+        whole.counts += part.counts
+        whole.failures |= part.failures
+        whole.memory += part.memory
+        whole.seconds += part.seconds
+        whole.slowest += part.slowest
+    whole.slowest = sorted(whole.slowest, key=lambda one: -one[0])[:LONGEST_LIST]
+    return whole
+
+
 def failure(asked: Asked, answered: Answered) -> str | None:
     """What is wrong with an answer; None where nothing is."""
     if answered.status == 0:
@@ -127,21 +140,26 @@ class Campaign:
         studio: that is attacked.
         requests: what is sent.
         stock: what the studio holds.
-        count: of the requests.
+
+    Attributes:
+        parts: what came of each part so far.
     """
 
-    def __init__(self, studio: StudioProcess, requests: Requests, stock: Stock, count: int) -> None:
-        self._studio, self._requests, self._stock, self._count = studio, requests, stock, count
-        self._numbers: Iterator[int] = itertools.count()
+    def __init__(self, studio: StudioProcess, requests: Requests, stock: Stock) -> None:
+        self._studio, self._requests, self._stock = studio, requests, stock
+        self.parts: list[Outcome] = []
+        self._numbers: Iterator[int] = iter(())
         self._lock = threading.Lock()
         self._tidying = threading.Lock()
         self._outcome = Outcome()
         self._done = 0
         self._broken: list[BaseException] = []
 
-    def run(self) -> Outcome:
-        """Sends all of them, then repeats the slow ones with nothing else under way."""
+    def run(self, count: int) -> Outcome:
+        """Sends so many more of them, then repeats the slow ones with nothing else under way."""
         begun = time.monotonic()
+        self._outcome = Outcome()
+        self._numbers = iter(range(self._done, self._done + count))
         threads = [threading.Thread(target=self._guarded, name=f"fuzz {n}") for n in range(CONNECTIONS)]
         for thread in threads:
             thread.start()
@@ -151,6 +169,7 @@ class Campaign:
             raise self._broken[0]
         self._outcome.seconds = time.monotonic() - begun
         self._repeat_slow_ones()
+        self.parts.append(self._outcome)
         return self._outcome
 
     def _guarded(self) -> None:
@@ -161,7 +180,7 @@ class Campaign:
 
     def _send_all(self) -> None:
         connection = Connection(self._studio.url)
-        while not self._broken and (number := next(self._numbers)) < self._count:
+        while not self._broken and (number := self._next()) is not None:
             if number % TIDY_EVERY == TIDY_EVERY - 1:
                 self._tidy_up()
             asked = self._requests.request(number)
@@ -173,6 +192,10 @@ class Campaign:
                 if self._done % MEMORY_EVERY == 0:
                     self._outcome.memory.append(self._memory())
         connection.close()
+
+    def _next(self) -> int | None:
+        with self._lock:
+            return next(self._numbers, None)
 
     def _memory(self) -> Memory:
         sizes = resident_bytes(self._studio.process.pid)

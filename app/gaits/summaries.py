@@ -29,22 +29,28 @@ class GaitSummaries:
     def __init__(self, service: GaitService) -> None:
         self._service = service
         self._kept: dict[str, tuple[Mark, Line | None]] = {}
+        self._given: frozenset[str] = frozenset()
 
     def lines(self) -> list[Line]:
         """A line of every gait, and of every file that cannot be opened, which says why."""
+        lines = self._lines()
+        self._given = frozenset(line["id"] for line in lines)
+        return lines
+
+    def _lines(self) -> list[Line]:
         marks = self._service.marks()
         self._kept = {gait_id: self._line(gait_id, mark) for gait_id, mark in marks.items()}
         lines = [line for _, line in self._kept.values() if line is not None]
         return lines + [problem_view(name, _MISNAMED.format(name)) for name in self._service.misnamed()]
 
     def troubles(self) -> dict[str, str]:
-        """What is wrong with files, in sentences, by gait."""
-        found = ((line["id"], line["problem"] or line["outside"]) for line in self.lines())
+        """What is wrong with files, in sentences, by gait; nobody is given a list."""
+        found = ((line["id"], line["problem"] or line["outside"]) for line in self._lines())
         return {gait_id: sentence for gait_id, sentence in found if sentence is not None}
 
     def has(self, gait_id: str) -> bool:
         """Whether the list that was given out last has a gait."""
-        return self._kept.get(gait_id, ((), None))[1] is not None
+        return gait_id in self._given
 
     def _line(self, gait_id: str, mark: Mark) -> tuple[Mark, Line | None]:
         kept = self._kept.get(gait_id)

@@ -15,6 +15,7 @@ from core.gait.provenance import Provenance
 from core.gait.recording import Recording, RecordingForm
 from core.motion.contact_timeline import ContactTimeline
 from core.motion.heading_profile import HeadingProfile
+from core.names import is_visible
 from core.problem.motion_problem import Boundary, Cost, Workspace
 from core.robot.model import ROBOT_NAMES, load_robot
 from core.segments.segment_table import Segment, SegmentTable, SegmentVocabulary
@@ -138,7 +139,7 @@ def gaits(draw: st.DrawFn) -> Gait:
     robot = draw(st.sampled_from(ROBOT_NAMES))
     legs = load_robot(robot).leg_count
     gait = Gait(
-        name=draw(st.text(min_size=1, max_size=20).filter(str.strip)),
+        name=draw(st.text(min_size=1, max_size=20).filter(is_visible)),
         robot=robot,
         orientation=draw(st.sampled_from(Orientation)),
         direction=draw(st.integers(1, 4)),

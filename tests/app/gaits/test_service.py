@@ -125,7 +125,8 @@ def test_deleted_gaits_are_listed_by_their_last_names_until_they_are_back(
         service.delete(gait.id)
     (tmp_path / "trash" / "broken.json").write_text("{")
     listed = reopened(tmp_path, database).deleted()
-    assert {gait.id: gait.name for gait in listed} == {"one": "First", "two": "Two", "deleted-2": "Deleted"}
+    names = {"one": "First", "two": "Two", "deleted-2": "Deleted", "broken": "broken.json"}
+    assert {gait.id: gait.name for gait in listed} == names
     assert [gait.when for gait in listed] == sorted((gait.when for gait in listed), reverse=True)
     assert all(began < gait.when <= time.time() for gait in listed)
     service.restore("two")
@@ -142,7 +143,9 @@ def test_a_damaged_file_is_named_and_the_others_are_listed(service: GaitService,
     (tmp_path / "gaits" / "broken.json").write_text("{")
     with pytest.raises(InputError, match=r"broken\.json is not JSON"):
         service.open_gait("broken")
-    assert {line["id"] for line in GaitSummaries(service).lines()} == set(library())
+    lines = {line["id"]: line["problem"] for line in GaitSummaries(service).lines()}
+    assert lines.keys() == {*library(), "broken"}
+    assert [gait_id for gait_id, problem in lines.items() if problem] == ["broken"]
 
 
 def test_drawing_over_a_segment_table_sets_it_aside_until_undo(service: GaitService) -> None:

@@ -126,6 +126,14 @@ def test_a_damaged_file_is_marked_until_it_is_mended(
     assert line(gaits, "trial-0003")["name"] == "Trial 3"
 
 
+def test_a_look_at_the_files_gives_nobody_a_list(service: GaitService) -> None:
+    gaits = GaitSummaries(service)
+    gaits.lines()
+    made = service.create(replace(library()[WALK].gait, name="New"))
+    gaits.troubles()
+    assert not gaits.has(made.id)
+
+
 def test_after_an_edit_pages_are_sent_one_gait_and_not_the_list(
     tmp_path: Path,
 ) -> None:

@@ -33,4 +33,4 @@ def test_a_text_with_nul_is_refused(
 
 def test_a_stop_by_a_name_with_nul_is_carried_out(studio: StudioProcess) -> None:
     assert studio.ask("POST", "/api/robot/stop?by=A%00da").status == 200
-    assert studio.ask("GET", "/api/health").content["storage"] is None
+    assert studio.ask("GET", "/api/health").content["storage"]["sentence"] is None

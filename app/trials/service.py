@@ -17,7 +17,7 @@ from app.trials.planned import PlannedFeet
 from app.trials.record import ROBOT, TrialRecord, kept_track, told_ends, trial_record
 from app.trials.track_source import TrackRecord, astray_content, fit_content
 from core.arrays import Floats
-from core.errors import InputError, NotFoundError, StateError
+from core.errors import FootfallError, InputError, NotFoundError, StateError
 from core.robot.model import load_robot
 from core.trials.alignment import align, placed_motion
 from core.trials.iterations import find_iterations
@@ -66,6 +66,7 @@ class TrialService:
         self._store = TrialStore(database)
         self._beside = TrialReferenceStore(database)
         self._lines: dict[str, tuple[Json, Json]] = {}
+        """Content and line of each listed trial; the line of one without figures has a `sentence`."""
 
     def add(
         self,
@@ -83,7 +84,7 @@ class TrialService:
             track_record: how a camera saw the track; None where it came as a file.
 
         Raises:
-            InputError: the track is too short for its iterations.
+            InputError: the track is too short for its iterations, or has no figures.
         """
         find_iterations(track, words.iterations)
         content = {
@@ -95,22 +96,30 @@ class TrialService:
             "plan": None if planned is None else _kept_plan(planned),
             "sight": None if track_record is None else track_record.content(),
         }
-        self._store.add(content, format_track_csv(track))
+        row = TrialRow(content, format_track_csv(track), False)
+        summary = _summary(row)
+        self._store.add(content, row.track)
         if planned is not None and planned.sent is not None:
             self._beside.put_sent(content["id"], dict(planned.sent))
-        return self._told(content["id"])
+        self._tell(row)
+        return summary
 
     def lines(self) -> list[Json]:
-        """All trials, the newest first, each with its mean figures."""
-        return [self._line(row) for row in self._store.found()]
+        """All trials that have figures, the newest first, each with its mean figures."""
+        return [line for line in self._all_lines() if "sentence" not in line]
 
-    def _line(self, row: TrialRow) -> Json:
-        """A trial's line, computed once for what is known of it."""
-        content, line = self._lines.get(row.content["id"], ({}, {}))
-        if content != row.content:
-            line = _line(row)
-            self._lines[row.content["id"]] = (row.content, line)
-        return line
+    def unreadable(self) -> list[Json]:
+        """Kept trials whose figures cannot be computed: id, name and a sentence why."""
+        return [line for line in self._all_lines() if "sentence" in line]
+
+    def _all_lines(self) -> list[Json]:
+        """The line of each listed trial, computed once for what is known of it."""
+        lines: dict[str, tuple[Json, Json]] = {}
+        for row in self._store.found():
+            content, line = self._lines.get(row.content["id"], ({}, {}))
+            lines[row.content["id"]] = (row.content, line if content == row.content else _line(row))
+        self._lines = lines
+        return [line for _, line in lines.values()]
 
     def summary(self, trial: str) -> Json:
         """A trial's figures, each foot's and each iteration's, beside its plan's."""
@@ -161,9 +170,12 @@ class TrialService:
 
     def restore(self, trial: str) -> Json:
         """Brings a deleted trial back."""
-        self._known(trial)
+        kept = self._known(trial)
+        row = TrialRow(kept.content, kept.track, False)
+        summary = _summary(row)
         self._store.put_deleted(trial, None)
-        return self._told(trial)
+        self._tell(row)
+        return summary
 
     def record(self, trial: str) -> TrialRecord:
         """A trial as it was kept, for what is laid over it."""
@@ -187,11 +199,6 @@ class TrialService:
         if row.is_deleted:
             raise StateError(f"The trial “{row.content['name']}” is deleted. Bring it back first.", "trial")
         return row
-
-    def _told(self, trial: str) -> Json:
-        row = self._known(trial)
-        self._tell(row)
-        return _summary(row)
 
     def _tell(self, row: TrialRow) -> None:
         revision = revision_of(row.content)
@@ -268,7 +275,10 @@ def _record_content(track_record: Json | None) -> Json:
 
 
 def _line(row: TrialRow) -> Json:
-    summary = _summary(row)
+    try:
+        summary = _summary(row)
+    except FootfallError as error:
+        return {"id": row.content["id"], "name": row.content["name"], "sentence": error.sentence}
     mean = summary["figures"]
     speeds = [part["speed_mm_s"] for part in summary["parts"]]
     plan = summary["plan"]

@@ -91,9 +91,10 @@ async def planned_for(
 
 @router.get("")
 async def list_trials(studio: TheStudio) -> Json:
-    """All trials, the newest first, and gaits by steps compared."""
+    """All trials, the newest first, gaits by steps compared, and kept trials without figures."""
     lines = await run_in_threadpool(studio.trials.lines)
-    return {"trials": lines, "compared": compared(lines)}
+    unreadable = await run_in_threadpool(studio.trials.unreadable)
+    return {"trials": lines, "compared": compared(lines), "unreadable": unreadable}
 
 
 @router.get("/table", response_class=Response)

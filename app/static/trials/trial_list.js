@@ -77,14 +77,20 @@ function trialRow(trial, open) {
   return h("li", {}, button);
 }
 
-function listParts({ trials, compared }, { open, band }) {
+/** A kept trial that has no figures: why, and a way to be rid of it. */
+function unreadableRow({ id, name, sentence }) {
+  const away = h("button", { type: "button", class: "link", text: "Delete", "aria-label": `Delete ${name}`, on: { click: attempt(() => trialApi.remove(id)) } });
+  return h("li", { class: "why", data: { toneText: "caution" } }, `“${name}” cannot be shown. ${sentence} `, away);
+}
+
+function listParts({ trials, compared, unreadable }, { open, band }) {
   const groups = compared.map((group) => ({ ...group, lines: trials.filter(({ id }) => group.trials.includes(id)) }));
   const file = (form, text, help) => h("a", { href: `/api/trials/table?form=${form}`, download: "", text, title: help });
   return [
     trials.length ? comparedTable(groups, band) : h("p", { class: "teach", text: "No trial yet. Add the foot tracks of a recording: how far each foot went, which way, how fast, and how that compares with the plan." }),
     ...(trials.length ? [h("div", { class: "run-files" }, file("csv", "CSV", "The table of gaits"), file("latex", "LaTeX", "The table of gaits for a paper"),
       h("a", { href: "/api/trials/report", download: "", text: "Report", title: "One HTML file with the table, and the trials of each gait over each other" }))] : []),
-    h("ul", { class: "run-list", role: "list", "aria-label": "Trials" }, ...trials.map((trial) => trialRow(trial, open))),
+    h("ul", { class: "run-list", role: "list", "aria-label": "Trials" }, ...trials.map((trial) => trialRow(trial, open)), ...unreadable.map(unreadableRow)),
   ];
 }
 

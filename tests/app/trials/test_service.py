@@ -11,10 +11,13 @@ import numpy as np
 import pytest
 
 from app.store.database import Database
+from app.store.trial_store import TrialStore
 from app.trials.planned import PlannedFeet
 from app.trials.service import TrialDescription, TrialService, compared
 from app.trials.tables import COLUMNS, table_csv, table_latex
 from core.errors import InputError, NotFoundError, StateError
+from core.vision.track import FootTrack
+from core.vision.track_csv import format_track_csv
 from tests.support.trials.tracks import STANCE, stepping_track
 
 WORDS = TrialDescription("first", "Ada", 3.0, 3, gait="walk", gait_name="Walk 10 mm")
@@ -154,3 +157,33 @@ def test_trials_of_one_gait_and_step_stand_in_one_row_of_the_tables(service: Tri
     assert [row[0] for row in rows[1:]] == ["'=1+1", "Walk, -1", "-2"]
     assert {row[list(COLUMNS).index("angle_deg")] for row in rows[1:]} == {"-1.50"}
     assert r"Amble \& more & 1.50 & 1 & 4.50" in table_latex(groups)
+
+
+def in_one_point(track: FootTrack) -> FootTrack:
+    """The track with all feet where the first one is, so that no direction is known."""
+    return replace(track, feet=np.repeat(track.feet[:, :1], track.foot_count, axis=1))
+
+
+def test_a_trial_without_figures_is_refused_and_not_kept(service: TrialService, database: Database) -> None:
+    with pytest.raises(InputError, match="one point"):
+        service.add(in_one_point(TRACK), WORDS, straight_plan())
+    assert TrialStore(database).found() == ()
+    assert service.lines() == []
+
+
+def test_a_kept_trial_without_figures_is_marked_and_the_list_goes_on(
+    service: TrialService, database: Database
+) -> None:
+    good = service.add(TRACK, WORDS, straight_plan())["id"]
+    row = TrialStore(database).found()[0]
+    bad = {**row.content, "id": "bad", "name": "all in one point"}
+    TrialStore(database).add(bad, format_track_csv(in_one_point(TRACK)))
+    assert [line["id"] for line in service.lines()] == [good]
+    (marked,) = service.unreadable()
+    assert (marked["id"], marked["name"]) == ("bad", bad["name"])
+    assert "one point" in marked["sentence"]
+    service.delete("bad")
+    assert service.unreadable() == []
+    with pytest.raises(InputError, match="one point"):
+        service.restore("bad")
+    assert [line["id"] for line in service.lines()] == [good]

@@ -1,1 +1,0 @@
-"""Requests that are made to break a running studio."""

@@ -51,7 +51,7 @@ class SavedFiles:
         kept = self._kept.get(gait_id)
         if stamp is None or (kept is not None and kept[0] == stamp):
             return None if stamp is None or kept is None else kept[1]
-        found = self._look(gait_id)
+        found = self._look(gait_id, stamp[0] / 1e9)
         self._kept[gait_id] = (stamp, found)
         return found
 
@@ -59,9 +59,9 @@ class SavedFiles:
         """The studio writes the file or takes it away."""
         self._kept.pop(gait_id, None)
 
-    def _look(self, gait_id: str) -> SavedFile:
-        text = self._edits.saved_document(gait_id)
-        mine = None if text is None else _readable(text)
+    def _look(self, gait_id: str, written: float) -> SavedFile:
+        saved = self._edits.last_saved(gait_id)
+        mine = _readable(saved[0][1]) if saved else None
         try:
             theirs = self._files.read(gait_id)
         except InputError as error:
@@ -69,9 +69,16 @@ class SavedFiles:
                 raise
             sentence = f"{error.sentence} It was changed outside the studio, which goes on with its own copy."
             return SavedFile(mine, None, f"{sentence} Mend it and take it over, or keep yours.")
-        if mine is None or gait_text(theirs) == text or theirs == mine:
+        if mine is None or theirs == mine or _was_broken_off(saved, theirs, written):
             return SavedFile(theirs, theirs, None)
         return SavedFile(mine, theirs, f"{gait_id}.json was changed outside the studio. {WAYS_OUT}")
+
+
+def _was_broken_off(saved: list[tuple[float, str]], theirs: Gait, written: float) -> bool:
+    """Whether the studio ended between keeping the last saved document and writing it into the file."""
+    if len(saved) < 2 or written > saved[0][0]:
+        return False
+    return gait_text(theirs) == saved[1][1] or theirs == _readable(saved[1][1])
 
 
 def _readable(text: str) -> Gait | None:

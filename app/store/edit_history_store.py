@@ -91,12 +91,13 @@ class EditHistoryStore:
         )
         return rows[0][0] if rows else None
 
-    def saved_document(self, gait: str) -> str | None:
-        """The document that was saved last, as JSON text; None where none was."""
+    def last_saved(self, gait: str) -> list[tuple[float, str]]:
+        """The last two documents that were saved, the newer first: when, s since the epoch, and JSON text."""
         rows = self._database.rows(
-            "SELECT document FROM version WHERE gait=? AND kind='saved' ORDER BY number DESC LIMIT 1", gait
+            "SELECT made, document FROM version WHERE gait=? AND kind='saved' ORDER BY number DESC LIMIT 2",
+            gait,
         )
-        return rows[0][0] if rows else None
+        return [(made, document) for made, document in rows]
 
     def put(
         self,

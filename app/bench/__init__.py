@@ -12,6 +12,7 @@ from app.bench.patterns.transitions import bench_transitions
 from app.bench.physics.learning import bench_learning
 from app.bench.physics.tables import bench_physics
 from app.bench.robot.all import bench_bridge
+from app.bench.robot.flooded_stop import bench_floods
 from app.bench.robot.telemetry import bench_telemetry
 from app.bench.solvers.edits import bench_edits
 from app.bench.solvers.exact import bench_exact, bench_growth
@@ -41,6 +42,7 @@ BENCHMARKS: dict[str, Benchmark] = {
     "learning": bench_learning,
     "bridge": bench_bridge,
     "telemetry": bench_telemetry,
+    "floods": bench_floods,
     "video": bench_video,
     "page": bench_page,
     "gaits": bench_gait_list,

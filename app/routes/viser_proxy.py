@@ -51,6 +51,9 @@ UNSUPPORTED_DATA = 1003
 LONGEST_REASON = 100
 """Characters of a close reason; the protocol allows 123 bytes."""
 
+MOST_RELAYS = 64
+"""Browsers whose 3D client is relayed at a time; each takes three connections of this process."""
+
 WAITING_MESSAGES = 8
 """Messages from Viser that may wait for a slow browser before Viser itself is held up."""
 
@@ -92,11 +95,22 @@ def make_viser_router(scene_of: Callable[[str], ViserScene]) -> APIRouter:
             return Response(status_code=304, headers=headers)
         return Response(page, media_type="text/html; charset=utf-8", headers=headers)
 
+    relayed: set[WebSocket] = set()
+
     @router.websocket("/viser/ws")
     async def socket(browser: WebSocket, robot: str = FIRST_ROBOT) -> None:
-        scene = await _opened(browser, scene_of, robot)
-        if scene is not None:
-            await relay(browser, scene)
+        if len(relayed) >= MOST_RELAYS:
+            await browser.close(
+                TRY_AGAIN_LATER, "Too many 3D views are open. Close one, then reload this page."
+            )
+            return
+        relayed.add(browser)
+        try:
+            scene = await _opened(browser, scene_of, robot)
+            if scene is not None:
+                await relay(browser, scene)
+        finally:
+            relayed.discard(browser)
 
     @router.websocket("/viser/poses")
     async def poses(browser: WebSocket, robot: str = FIRST_ROBOT) -> None:

@@ -1,1 +1,1 @@
-"""The web application, put together from the routes, and its process."""
+"""The web application, put together from the routes, its process, and the limits of its connections and log."""

@@ -20,6 +20,7 @@ from app.routes.patterns import search as patterns
 from app.routes.robot import jog, robot, runs
 from app.routes.viser_proxy import make_viser_router
 from app.scene.registry import Scenes
+from app.server.admission import Admission
 from app.studio.studio import Studio
 from app.web.access import Access, Guard
 from app.web.api_page import add_api_page
@@ -69,7 +70,12 @@ def make_app(studio: Studio, scenes: Scenes, access: Access) -> FastAPI:
         version=VERSION,
         docs_url=None,
         redoc_url=None,
-        middleware=[Middleware(Guard, access=access), Middleware(BodyLimit), Middleware(SocketLimit)],
+        middleware=[
+            Middleware(Guard, access=access),
+            Middleware(Admission),
+            Middleware(BodyLimit),
+            Middleware(SocketLimit),
+        ],
     )
     app.state.studio = studio
     add_api_page(app)

@@ -7,7 +7,7 @@ import secrets
 import socket
 import sys
 import webbrowser
-from collections.abc import Callable, Generator
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import quote
@@ -17,9 +17,12 @@ import uvicorn
 from app.cameras.address import CameraAddress
 from app.scene.registry import Scenes
 from app.server.application import make_app
+from app.server.bounded_server import BoundedServer
+from app.server.connections import limits_for
+from app.server.descriptors import raise_limit
 from app.server.ending import serve_until_signal
+from app.server.protocols import CountedSocket
 from app.server.reach import who_can_reach
-from app.server.web_sockets import BoundedSocket
 from app.store.folder_lock import StudioLock
 from app.store.gait_files import require_folder
 from app.studio.studio import Studio
@@ -43,24 +46,6 @@ class ServeOptions:
     """Demanded of every request; one is made where it is empty, or None and the host is not loopback."""
     opens_browser: bool
     cameras: tuple[CameraAddress, ...] = ()
-
-
-class _Server(uvicorn.Server):
-    """A server whose signals are ours: ending by a signal is a normal end."""
-
-    def __init__(self, config: uvicorn.Config, ready: Callable[[], None]) -> None:
-        super().__init__(config)
-        self._ready = ready
-
-    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        """Starts listening, then says so."""
-        await super().startup(sockets)
-        self._ready()
-
-    @contextlib.contextmanager
-    def capture_signals(self) -> Generator[None, None, None]:
-        """Leaves signals to `serve_until_signal`."""
-        yield
 
 
 def serve(options: ServeOptions, announce: Callable[[str, str], None]) -> None:
@@ -89,16 +74,20 @@ def serve(options: ServeOptions, announce: Callable[[str, str], None]) -> None:
             config = uvicorn.Config(
                 app,
                 log_level="warning",
+                log_config=None,
                 access_log=False,
                 lifespan="off",
-                ws=BoundedSocket,
+                ws=CountedSocket,
                 ws_max_size=MOST_MESSAGE,
                 ws_per_message_deflate=False,
                 timeout_graceful_shutdown=GRACE_SECONDS,
             )
             who = who_can_reach(options.host, token is not None)
             url = _url(options.host, listening.getsockname()[1], token)
-            server = _Server(config, lambda: _tell(url, who, announce, options.opens_browser))
+            limits = limits_for(raise_limit(), has_token=token is not None)
+            server = BoundedServer(
+                config, limits, token, lambda: _tell(url, who, announce, options.opens_browser)
+            )
             asyncio.run(serve_until_signal(server, listening, studio))
         finally:
             studio.close()
@@ -112,7 +101,7 @@ def _listen(host: str, port: int) -> socket.socket:
     listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         listening.bind((host, port))
-        listening.listen(128)
+        listening.listen()
     except (OSError, OverflowError) as error:
         listening.close()
         reason = error.strerror if isinstance(error, OSError) else "the number is out of range"

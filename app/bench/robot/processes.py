@@ -13,7 +13,7 @@ import time
 import tty
 import urllib.request
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -117,24 +117,29 @@ class Studio:
         data: its data folder.
         device: its robot.
         *more: further words of `footfall serve`.
+        log: where its log goes; to ours where None.
 
     Raises:
         StateError: it does not start.
     """
 
-    def __init__(self, data: Path, device: str, *more: str) -> None:
+    def __init__(self, data: Path, device: str, *more: str, log: Path | None = None) -> None:
         options = ("--port", "0", "--data", str(data), "--robot", device, "--no-browser")
         words = (sys.executable, "-u", "-m", "app", "serve", *options, *more)
-        self._process = subprocess.Popen(words, stdout=subprocess.PIPE, text=True)
+        with log.open("wb") if log is not None else nullcontext() as said:
+            self._process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=said, text=True)
         line = self._process.stdout.readline() if self._process.stdout is not None else ""
-        found = re.search(r"http://\S+", line)
+        found = re.search(r"(http://[^\s?]+)(?:\?token=(\S+))?", line)
         if found is None:
             raise StateError(f"The studio does not start; it said {line!r}.", "bridge")
-        self._url = found.group()
+        self._url, token = found.groups()
+        self._headers = {"content-type": "application/json"}
+        if token is not None:
+            self._headers["authorization"] = f"Bearer {token}"
 
     @property
     def address(self) -> str:
-        """Where its page is."""
+        """Where its page is, without a token."""
         return self._url
 
     def memory_mb(self) -> float:
@@ -156,8 +161,7 @@ class Studio:
             urllib.error.HTTPError: it was refused.
         """
         body = None if content is None else json.dumps(content).encode()
-        headers = {"content-type": "application/json"}
-        request = urllib.request.Request(self._url + path, data=body, method=method, headers=headers)
+        request = urllib.request.Request(self._url + path, data=body, method=method, headers=self._headers)
         with urllib.request.urlopen(request, timeout=ANSWER_SECONDS) as answer:
             return json.loads(answer.read())
 

@@ -62,12 +62,14 @@ def stop_latencies(studio: Studio, tap: Tap, stops: int) -> list[float]:
         seen = len(tap.from_host)
         asked = time.monotonic()
         studio.ask("POST", "api/robot/stop")
-        latencies.append(_when_stopped(tap, seen) - asked)
+        latencies.append(when_stopped(tap, seen) - asked)
         time.sleep(BETWEEN_STOPS)
     return latencies
 
 
-def _when_stopped(tap: Tap, seen: int) -> float:
+def when_stopped(tap: Tap, seen: int) -> float:
+    """When the first stop after so many pieces was on the line, by `time.monotonic()` in s."""
+
     def found() -> bool:
         return any(encode_stop() in piece.data for piece in tap.from_host[seen:])
 

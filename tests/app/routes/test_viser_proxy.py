@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from fastapi import FastAPI
 from numpy.typing import NDArray
-from websockets.exceptions import ConnectionClosed
+from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 from websockets.sync.server import ServerConnection, serve
 from websockets.typing import Subprotocol
@@ -17,6 +17,7 @@ from websockets.typing import Subprotocol
 from app.routes.viser_proxy import client_page, is_refused, make_viser_router
 from core.errors import InputError
 from tests.support.page.serving import serving
+from tests.support.studio_process import wait_for
 
 PROTOCOL = Subprotocol("viser-v9")
 LARGE = 3_000_000
@@ -118,6 +119,27 @@ def test_a_scene_that_does_not_answer_refuses_the_browser() -> None:
     app.include_router(make_viser_router(lambda _: StandIn(port=9)))
     with serving(app) as host, pytest.raises(Exception, match="403"):
         browser(host)
+
+
+def test_a_browser_too_many_is_refused_until_another_one_goes(
+    host: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("app.routes.viser_proxy.MOST_RELAYS", 2)
+
+    def is_relayed() -> bool:
+        try:
+            with browser(host) as third:
+                third.send("text")
+                return third.recv(5) == "text"
+        except InvalidStatus:
+            return False
+
+    with browser(host) as first:
+        with browser(host):
+            assert not is_relayed()
+        wait_for(is_relayed, "a place is free")
+        first.send("text")
+        assert first.recv(5) == "text"
 
 
 def test_the_page_is_the_installed_client_with_our_head_and_policy(host: str) -> None:

@@ -1,1 +1,1 @@
-"""The web application, put together from the routes, its process, and the limits of its connections and log."""
+"""The web application, put together from the routes, its process, and limits of connections and log."""

@@ -12,7 +12,8 @@ import numpy as np
 from app.bench.common.measure import Row, milliseconds, seconds_of
 from app.bench.robot.floods import Attack, Flood, attacked, loopback_addresses
 from app.bench.robot.processes import Studio, Tap, busy_cores, emulator_process, sleeper
-from app.bench.robot.stop import BETWEEN_STOPS, BUSY, when_stopped
+from app.bench.robot.stop import BETWEEN_STOPS, when_stopped
+from solver_jobs import NICENESS
 
 STOPS = 100
 """Under each flood."""
@@ -21,6 +22,7 @@ CONNECTIONS = 1150
 ADDRESSES = 64
 TOKEN = "token-of-the-measurement"
 
+NO_FLOOD = "none"
 SETTLED = 2.0
 """From the last connection of a flood to the first stop, s."""
 
@@ -122,27 +124,24 @@ class FloodedStudio:
 
 
 def bench_floods(stops: int = STOPS) -> list[Row]:
-    """Time from a request's being sent to the stop's bytes on the line, with busy cores, under each flood.
+    """Time from a request's being sent to the stop's bytes on the line under each flood.
 
-    The flood comes from one process more, which opens each connection again that the studio closes. Beside it
+    Every core is busy with solvers. The flood comes from one process more, which opens each connection again that the studio closes. Beside it
     stands how late a process that only sleeps wakes up meanwhile: the machine's own share.
     """
-    rows = []
     with tempfile.TemporaryDirectory() as folder, emulator_process() as robot:
         flooded = FloodedStudio(Path(folder), robot)
         try:
-            for cores, niceness in BUSY.items():
-                with busy_cores(niceness):
-                    all_measured = {name: flooded.under(one, stops) for name, one in all_attacks().items()}
-                rows += [_row(name, cores, [measured]) for name, measured in all_measured.items()]
-                del all_measured["none"]
-                rows.append(_row("every flood", cores, list(all_measured.values())))
+            with busy_cores(NICENESS):
+                all_measured = {name: flooded.under(one, stops) for name, one in all_attacks().items()}
         finally:
             flooded.close()
-    return rows
+    rows = [_row(name, [measured]) for name, measured in all_measured.items()]
+    floods = [measured for name, measured in all_measured.items() if name != NO_FLOOD]
+    return [*rows, _row("every flood", floods)]
 
 
-def _row(flood: str, cores: str, measured: list[Flooded]) -> Row:
+def _row(flood: str, measured: list[Flooded]) -> Row:
     stops = [latency for one in measured for latency in one.stops]
     p50, p99 = np.percentile(stops, (50, 99))
     wakes = [wake for one in measured for wake in one.wakes]
@@ -150,7 +149,6 @@ def _row(flood: str, cores: str, measured: list[Flooded]) -> Row:
     opened, seconds = sum(one.opened for one in measured), sum(one.seconds for one in measured)
     return {
         "flood": flood,
-        "cores": cores,
         "stops": len(stops),
         "repeated": sum(one.repeated for one in measured),
         "median_ms": milliseconds(float(p50)),

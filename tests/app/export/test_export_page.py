@@ -13,6 +13,7 @@ from app.export.source import exportable_plan
 from app.plans.plan import make_plan
 from core.library.library import library
 from solver_jobs import solve_live
+from tests.support.studio_process import wait_for
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +71,7 @@ def test_it_opens_still_where_motion_is_not_wanted_and_shows_the_robot(page: Pag
 def test_play_moves_the_robot_and_pause_stops_it(page: Page) -> None:
     page.get_by_label("Speed").select_option("10")
     page.get_by_role("button", name="Play").click()
-    page.wait_for_function("() => Number(document.getElementById('scrub').value) > 2")
+    wait_for(lambda: float(page.get_by_label("Time").input_value()) > 2, "playing has passed 2 s")
     page.get_by_role("button", name="Pause").click()
     expect(page.get_by_role("button", name="Play")).to_be_visible()
     stopped = page.locator("#clock").inner_text()
@@ -99,7 +100,7 @@ def test_a_click_on_the_diagram_goes_to_that_sample(page: Page) -> None:
     sample = 12
     x = area["x"] + area["width"] * (104 + 940 * (sample + 0.5) / 45) / 1120
     page.mouse.click(x, area["y"] + area["height"] / 2)
-    page.wait_for_function("() => document.getElementById('scrub').value > 0")
+    wait_for(lambda: float(page.get_by_label("Time").input_value()) > 0, "the sample is shown")
     assert float(page.get_by_label("Time").input_value()) == pytest.approx(sample * 0.4, abs=0.05)
 
 
@@ -109,9 +110,9 @@ def test_dragging_turns_the_view_and_the_button_brings_it_back(page: Page) -> No
     page.mouse.down()
     page.mouse.move(620, 260)
     page.mouse.up()
-    page.wait_for_function("(before) => document.getElementById('stage').toDataURL() !== before", arg=before)
+    wait_for(lambda: picture(page) != before, "another picture")
     page.get_by_role("button", name="Reset view").click()
-    page.wait_for_function("(before) => document.getElementById('stage').toDataURL() === before", arg=before)
+    wait_for(lambda: picture(page) == before, "the first picture again")
 
 
 def test_the_same_moment_is_the_same_picture_however_often_it_is_painted(page: Page) -> None:
@@ -132,6 +133,6 @@ def test_the_body_can_be_taken_away_to_see_what_is_below(page: Page) -> None:
     body = page.get_by_role("button", name="Body")
     body.click()
     expect(body).to_have_attribute("aria-pressed", "false")
-    page.wait_for_function("(before) => document.getElementById('stage').toDataURL() !== before", arg=before)
+    wait_for(lambda: picture(page) != before, "another picture")
     body.click()
-    page.wait_for_function("(before) => document.getElementById('stage').toDataURL() === before", arg=before)
+    wait_for(lambda: picture(page) == before, "the first picture again")

@@ -126,8 +126,9 @@ class FloodedStudio:
 def bench_floods(stops: int = STOPS) -> list[Row]:
     """Time from a request's being sent to the stop's bytes on the line under each flood.
 
-    Every core is busy with solvers. The flood comes from one process more, which opens each connection again that the studio closes. Beside it
-    stands how late a process that only sleeps wakes up meanwhile: the machine's own share.
+    Every core is busy with solvers. The flood comes from one process more, which opens each connection again
+    that the studio closes. Beside it stands how late a process that only sleeps wakes up meanwhile: the
+    machine's own share.
     """
     with tempfile.TemporaryDirectory() as folder, emulator_process() as robot:
         flooded = FloodedStudio(Path(folder), robot)

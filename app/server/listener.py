@@ -210,6 +210,7 @@ class Listener:
         self._timers["look"] = self._loop.call_later(LOOK_SECONDS, self._look)
 
     def _look(self) -> None:
+        self._look_later()  # first, so that no error ends the looks
         now = self._loop.time()
         for connection in self._register.all():
             self._look_at(connection, now)
@@ -218,7 +219,6 @@ class Listener:
         self._register.troubles.clear()
         self._spares.fill()
         self._on_look()
-        self._look_later()
 
     def _look_at(self, connection: Connection, now: float) -> None:
         unsent = connection.holder.unsent_bytes()

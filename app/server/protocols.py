@@ -69,7 +69,10 @@ class BoundedHttp(H11Protocol):
 
     def data_received(self, data: bytes) -> None:
         """Takes bytes, and sets the deadline for the next ones."""
+        refused = self.cycle if self._is_refused() else None
         super().data_received(data)
+        if refused is not None and self.cycle is not refused:
+            self.transport.close()
         if not self._is_upgraded:
             self._connection.is_asking = self._is_asking()
             self._set_deadline(len(data))
@@ -81,14 +84,25 @@ class BoundedHttp(H11Protocol):
         self._connection.deadline = None
         super().handle_websocket_upgrade(event)
 
+    def send_400_response(self, msg: str) -> None:
+        """Answers what is no HTTP; where an answer has begun already, the line is closed."""
+        if self._is_asking():
+            self.cycle.disconnected = True
+            self.cycle.message_event.set()
+        if self.conn.our_state in (h11.IDLE, h11.SEND_RESPONSE):
+            super().send_400_response(msg)
+        else:
+            self.transport.close()
+
     def on_response_complete(self) -> None:
         """Goes on with the next request, or waits for it."""
         self._close_if_refused()
         super().on_response_complete()
+        if self._is_upgraded:
+            return
         if not self._is_asking():
             self._connection.answered()
-        if not self._is_upgraded:
-            self._set_deadline(0)
+        self._set_deadline(0)
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Forgets the connection."""
@@ -118,13 +132,15 @@ class BoundedHttp(H11Protocol):
     def _is_asking(self) -> bool:
         return self.cycle is not None and not self.cycle.response_complete
 
+    def _is_refused(self) -> bool:
+        return self.cycle is not None and self.cycle.response_complete and not self._connection.is_known
+
     def _close_if_refused(self) -> None:
         """Closes after a refusal, so that nobody asks on and on.
 
         A body that still comes is read to its end: a peer that is cut off would not see the answer.
         """
-        is_refused = self.cycle is not None and self.cycle.response_complete and not self._connection.is_known
-        if is_refused and self.conn.their_state is not h11.SEND_BODY:
+        if self._is_refused() and self.conn.their_state is not h11.SEND_BODY:
             self.transport.close()
 
     def _set_deadline(self, received: int) -> None:

@@ -6,15 +6,23 @@ from websockets.frames import CloseCode, Frame
 MOST_PARTS = 256
 """Parts that one message may come in; each costs memory, an empty one too."""
 
-
 MOST_WAITING = 65_536
 """Bytes that wait for a client; while more do, its pings go without an answer."""
+
+NO_OPENING = b"HTTP/1.1 400 Bad Request\r\nconnection: close\r\ncontent-length: 0\r\n\r\n"
 
 
 class BoundedSocket(WebSocketsSansIOProtocol):
     """uvicorn's web socket, which keeps every part of a message and answers every ping, read or not."""
 
     _parts = 0
+
+    def data_received(self, data: bytes) -> None:
+        """Takes bytes; an opening that cannot be read is refused, which the library leaves without an answer."""
+        super().data_received(data)
+        if self.conn.handshake_exc is not None and not self.handshake_initiated:
+            self.transport.write(NO_OPENING)
+            self.transport.close()
 
     def handle_cont(self, event: Frame) -> None:
         """Takes a further part of a message."""

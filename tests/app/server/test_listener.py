@@ -9,6 +9,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
 from app.server import listener, protocols
+from app.server.bounded_server import BoundedServer
 from app.server.connections import Limits, Trouble
 from app.server.listener import peer_of
 from tests.support.bounded_server import LONG, SHOWN, TOKEN, Served, all_of, head, is_open, served, until
@@ -20,6 +21,7 @@ HALF = "GET /short HTTP/1.1\r\nHost: 127.0.0.1\r\n"
 WRONG = "Authorization: Bearer wrong\r\n"
 HALF_HANDSHAKE = HALF + "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
 BODY = "Connection: close\r\nContent-Length: 6000\r\n"
+OPENING = f"{SHOWN}Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: {'A' * 22}==\r\n"
 
 
 @pytest.fixture
@@ -110,6 +112,68 @@ def test_a_refused_peer_must_connect_anew() -> None:
     with served(LIMITS) as server:
         answers = all_of(server.line(head("GET /short", WRONG) * 3))
         assert answers.count(b"HTTP/1.1 403 ") == 1
+
+
+def test_a_refused_peer_that_still_sent_its_body_must_connect_anew_too() -> None:
+    refused = head("POST /count", WRONG + "Content-Length: 2\r\n")
+    with served(LIMITS) as server:
+        line = server.line(refused)
+        assert b" 403 " in until(line, b"}")
+        line.sendall(f"ab{refused}ab".encode())
+        assert all_of(line) == b""
+
+
+@pytest.mark.parametrize(
+    "opening",
+    [
+        head("POST /talk", OPENING),
+        head("GET /talk", OPENING + "Content-Length: 2\r\n") + "ab",
+        head("GET /talk", OPENING + "Transfer-Encoding: chunked\r\n") + "0\r\n\r\n",
+        head("GET /talk?x=" + "x" * 9000, OPENING),
+        head("GET /talk", OPENING + "".join(f"X-{number}: 1\r\n" for number in range(300))),
+    ],
+    ids=["method", "body", "chunks", "long", "many"],
+)
+def test_an_opening_that_no_web_socket_takes_is_refused(opening: str) -> None:
+    with served(LIMITS) as server:
+        assert all_of(server.line(opening)).startswith(b"HTTP/1.1 400 ")
+
+
+@pytest.mark.parametrize("is_answered", [True, False])
+def test_garbage_beside_an_answer_leaves_no_traceback(
+    caplog: pytest.LogCaptureFixture, is_answered: bool
+) -> None:
+    with served(LIMITS) as server:
+        line = server.line(
+            head("GET /short", SHOWN + "Transfer-Encoding: chunked\r\n") + "zz\r\n" * (not is_answered)
+        )
+        if is_answered:
+            until(line, b"short")
+            line.sendall(b"zz\r\n")
+        all_of(line)
+        assert server.ask("GET /short").endswith(b"short")
+    assert [record for record in caplog.records if record.levelname == "ERROR"] == []
+
+
+def test_a_socket_that_opens_behind_another_request_keeps_its_place() -> None:
+    with served(LIMITS) as server:
+        line = server.line(head("GET /short") + head("GET /talk", OPENING))
+        until(line, b" 101 ")
+        for _ in range(3 * KNOWN):
+            assert b"short" in until(server.line(head("GET /short")), b"short")
+        assert is_open(line)
+
+
+def test_deadlines_go_on_after_an_error_while_they_were_looked_at(
+    soon: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fails(server: BoundedServer) -> None:
+        raise OSError("the log cannot be written")
+
+    monkeypatch.setattr(BoundedServer, "_flush_log", fails)
+    with served(LIMITS) as server:
+        assert all_of(server.line()) == b""
+        assert all_of(server.line()) == b""
 
 
 def test_stop_finds_its_way_when_every_place_is_taken() -> None:

@@ -12,7 +12,7 @@ from urllib.parse import quote
 
 from app.server.connections import Connection, Connections, Trouble
 from app.server.descriptors import Spares
-from app.server.newcomers import Newcomer, is_whole, received
+from app.server.newcomers import Newcomer, is_whole, received, shows_one
 from app.server.protocols import HEAD_SECONDS, BoundedHttp
 
 BACKLOG = 2048
@@ -84,7 +84,7 @@ class Listener:
         on_look: Callable[[], None],
     ) -> None:
         self._listening, self._register = listening, register
-        self._tokens = [] if token is None else [form.encode() for form in (token, quote(token, safe=""))]
+        self._tokens = frozenset(() if token is None else (token.encode(), quote(token, safe="").encode()))
         self._make_protocol, self._on_look = make_protocol, on_look
         self._loop = asyncio.get_running_loop()
         self._spares = Spares()
@@ -134,7 +134,7 @@ class Listener:
 
     def _goes_first(self, head: bytes) -> bool:
         """Whether a head may be accepted, as far as a look at it tells."""
-        return any(token in head for token in self._tokens) if self._tokens else is_whole(head)
+        return shows_one(head, self._tokens) if self._tokens else is_whole(head)
 
     def _take_next(self) -> None:
         while self._waiting and not self._waiting[0].is_open:

@@ -5,6 +5,7 @@ import contextlib
 import re
 import socket
 from collections.abc import Callable
+from itertools import islice
 
 from app.server.connections import Connection
 from app.server.protocols import TIMEOUT_ANSWER
@@ -15,6 +16,10 @@ MOST_HEAD = 16_384
 _HEAD_END = re.compile(rb"\n\r?\n")
 _FIRST_LETTER = 0x21
 """No request begins with a byte below this; a TLS handshake does."""
+
+_SHOWN = re.compile(rb"(?:[?&]token=|[Bb]earer |footfall_token_\d+=)([^\s&;]+)")
+MOST_SHOWN = 16
+"""Tokens of a head that are looked at: a browser sends the cookies of all studios of a computer."""
 
 
 def received(line: socket.socket) -> bytes | None:
@@ -32,6 +37,12 @@ def is_whole(head: bytes) -> bool:
     if not head:
         return False
     return _HEAD_END.search(head) is not None or len(head) >= MOST_HEAD or head[0] < _FIRST_LETTER
+
+
+def shows_one(head: bytes, tokens: frozenset[bytes]) -> bool:
+    """Whether a head shows one of some tokens; among very many, as of somebody who guesses, it does not."""
+    shown = (found[1] for found in islice(_SHOWN.finditer(head), MOST_SHOWN))
+    return not tokens.isdisjoint(shown)
 
 
 class Newcomer:

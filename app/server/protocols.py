@@ -10,6 +10,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 from uvicorn.server import ServerState
 
 from app.server.connections import Connection, Trouble
+from app.server.untaken import untaken_bytes
 from app.server.web_sockets import BoundedSocket
 
 CONNECTION = "connection"
@@ -127,7 +128,7 @@ class BoundedHttp(H11Protocol):
 
     def unsent_bytes(self) -> int:
         """Bytes of answers that wait for the peer to read."""
-        return self.transport.get_write_buffer_size() if self.transport is not None else 0
+        return untaken_bytes(self.transport) if self.transport is not None else 0
 
     def _is_asking(self) -> bool:
         return self.cycle is not None and not self.cycle.response_complete
@@ -185,7 +186,7 @@ class CountedSocket(BoundedSocket):
 
     def unsent_bytes(self) -> int:
         """Bytes of messages that wait for the peer to read."""
-        return self.transport.get_write_buffer_size()
+        return untaken_bytes(self.transport)
 
     def _counted(self) -> Connection:
         connection: Connection = self.app_state[CONNECTION]

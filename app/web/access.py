@@ -154,9 +154,8 @@ def _cookie_name(headers: dict[str, str]) -> str:
 def _tokens(scope: Scope, headers: dict[str, str]) -> list[str]:
     """The tokens that a request shows."""
     cookies = cookie_parser(headers.get("cookie", ""))
-    shown = [_query_token(scope), headers.get("authorization", "").removeprefix("Bearer ")]
-    shown += [value for name, value in cookies.items() if name.startswith(COOKIE)]
-    return [text for text in shown if text]
+    header, cookie = headers.get("authorization", ""), cookies.get(_cookie_name(headers))
+    return [text for text in (_query_token(scope), header.removeprefix("Bearer "), cookie) if text]
 
 
 def _is_among(token: str, shown: list[str]) -> bool:

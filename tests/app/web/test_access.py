@@ -108,6 +108,12 @@ def test_each_studio_of_a_computer_has_a_cookie_of_its_own() -> None:
     assert answer.status_code == 200
 
 
+def test_one_request_tries_one_cookie() -> None:
+    cookies = f"footfall_token=x; footfall_token_1=y; footfall_token_2={TOKEN}"
+    answer = client("0.0.0.0", TOKEN, "http://10.1.2.3:8400").get("/", headers={"cookie": cookies})
+    assert answer.status_code == 403
+
+
 @pytest.mark.parametrize(
     "path",
     ["//evil.example/x", "/%2Fevil.example/x", "///evil.example", "/%5Cevil.example", "/%09/evil.example"],

@@ -24,6 +24,7 @@ from app.plans.sequence_plan import run_motions
 from app.store.database import Database
 from app.store.edit_history_store import EditHistoryStore, VersionRow
 from app.store.gait_files import GaitFiles
+from app.store.storage_errors import left_undone
 from app.undo.history import Author, UndoResult
 from core.checks.simulation import Simulated
 from core.errors import InputError, NotFoundError, StateError
@@ -130,10 +131,14 @@ class GaitService:
         return plan
 
     def _seen(self, before: OpenGait, now: OpenGait) -> None:
-        """Takes a gait with its plan over; an approval that it took away is gone in the database too."""
+        """Takes a gait with its plan over; an approval that it took away is gone in the database too.
+
+        People can look at a gait even if the disk takes nothing: what stays there lapses anew at each start.
+        """
         self._open[now.id] = now
         if (before.approval or before.kept_approval) and not (now.approval or now.kept_approval):
-            self._put(now)
+            with left_undone(f"The lapsed approval of {now.id} is still in the database"):
+                self._put(now)
 
     def planned(self, gait: Gait) -> Plan:
         """Computes the plan of any document, also one that no gait has now. Thread-safe."""

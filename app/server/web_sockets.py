@@ -18,7 +18,7 @@ class BoundedSocket(WebSocketsSansIOProtocol):
     _parts = 0
 
     def data_received(self, data: bytes) -> None:
-        """Takes bytes; an opening that cannot be read is refused, which the library leaves without an answer."""
+        """Takes bytes; refuses an opening that cannot be read, which the library leaves without an answer."""
         super().data_received(data)
         if self.conn.handshake_exc is not None and not self.handshake_initiated:
             self.transport.write(NO_OPENING)

@@ -17,6 +17,7 @@ from starlette.requests import ClientDisconnect
 from app.gaits.open_gait import OpenGait
 from app.studio.studio import Studio
 from app.undo.history import Author
+from app.web.access import HEADERS
 from app.web.body_limit import BodyTooLargeError, body_refusal
 from core.arrays import Floats
 from core.errors import (
@@ -177,6 +178,7 @@ def install_error_handlers(app: FastAPI) -> None:
     app.add_exception_handler(HTTPException, _unanswerable)
     app.add_exception_handler(BodyTooLargeError, _too_large)
     app.add_exception_handler(ClientDisconnect, _broken_off)
+    app.add_exception_handler(Exception, _defect)
 
 
 async def _refused(request: Request, error: Exception) -> JSONResponse:
@@ -216,6 +218,14 @@ async def _broken_off(request: Request, error: Exception) -> JSONResponse:
     """An answer that nobody reads, so that a body that breaks off is no error of the program."""
     del request, error
     return _refusal("The request broke off before its end; send it again.", "body", 400)
+
+
+async def _defect(request: Request, error: Exception) -> JSONResponse:
+    """The answer to an error of the program, which the log describes; it passes no middleware any more."""
+    del request, error
+    sentence = "The studio met an error of its own, which its log describes. Try again, and please report it."
+    headers = {name.decode(): text.decode() for name, text in HEADERS.items()}
+    return _refusal(sentence, None, 500, headers)
 
 
 async def _too_large(request: Request, error: Exception) -> JSONResponse:

@@ -12,9 +12,10 @@ from app.gaits.service import GaitService
 from app.plans.plan import Plan
 from app.simulation.problem import simulation_problem
 from app.store.database import Database
+from app.store.edit_history_store import EditHistoryStore
 from app.store.gait_files import GaitFiles
 from core.checks.simulation import NOT_SIMULATED, Simulated
-from core.errors import InputError, NotFoundError, StateError
+from core.errors import InputError, NotFoundError, StateError, StorageFullError
 from core.physics.metrics import report
 from core.physics.parameters import physics_set
 from core.robot.model import RobotModel
@@ -106,6 +107,22 @@ def test_other_parameters_of_the_robot_take_the_approval_for_good(
     again = opened()
     again.plan(GAIT)
     assert again.open_gait(GAIT).approval is None
+
+
+def test_a_full_disk_keeps_nobody_from_looking_at_a_gait_whose_approval_lapsed(
+    opened: Opened, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object) -> None:
+        raise StorageFullError("The disk is full.", "studio.sqlite3")
+
+    approved(opened())
+    monkeypatch.setattr(RobotModel, "parameters_hash", property(lambda model: "0" * 64))
+    monkeypatch.setattr(EditHistoryStore, "put", full)
+    service = opened()
+    service.plan(GAIT)
+    gait = service.open_gait(GAIT)
+    assert (gait.approval, gait.kept_approval) == (None, None)
+    assert gait.revoked is not None
 
 
 def test_approvals_are_compared_in_sentences(opened: Opened) -> None:

@@ -13,6 +13,7 @@ from app.server.bounded_server import BoundedServer
 from app.server.connections import Limits, Trouble
 from app.server.listener import peer_of
 from tests.support.bounded_server import LONG, SHOWN, TOKEN, Served, all_of, head, is_open, served, until
+from tests.support.raw_request import UPGRADE
 from tests.support.studio_process import wait_for
 
 OF_PEER, STRANGERS, KNOWN, SOCKETS = 4, 10, 6, 3
@@ -21,7 +22,7 @@ HALF = "GET /short HTTP/1.1\r\nHost: 127.0.0.1\r\n"
 WRONG = "Authorization: Bearer wrong\r\n"
 HALF_HANDSHAKE = HALF + "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
 BODY = "Connection: close\r\nContent-Length: 6000\r\n"
-OPENING = f"{SHOWN}Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: {'A' * 22}==\r\n"
+OPENING = SHOWN + "".join(f"{name}: {value}\r\n" for name, value in UPGRADE.items())
 
 
 @pytest.fixture

@@ -5,7 +5,9 @@ from __future__ import annotations
 import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
+from starlette.middleware import Middleware
 
+from app.web.access import HEADERS, Access, Guard
 from app.web.dependencies import install_error_handlers
 from core.errors import FootfallError, InputError, NotFoundError, RobotError, StateError
 
@@ -57,3 +59,18 @@ def test_what_no_route_answers_is_refused_with_a_sentence_too(
     assert (answer.status_code, words in answer.json()["error"]) == (status, True)
     assert answer.json()["where"]
     assert ("POST" in answer.headers.get("allow", "")) == (status == 405)
+
+
+def test_a_defect_is_answered_with_a_sentence_and_the_headers_of_every_answer() -> None:
+    app = FastAPI(middleware=[Middleware(Guard, access=Access("127.0.0.1", None))])
+    install_error_handlers(app)
+
+    @app.get("/")
+    async def defect() -> None:
+        raise ValueError("secret insides")
+
+    answer = TestClient(app, "http://127.0.0.1", raise_server_exceptions=False).get("/")
+    assert answer.status_code == 500
+    assert answer.json()["error"]
+    assert "secret" not in answer.text
+    assert {name.decode(): text.decode() for name, text in HEADERS.items()}.items() <= answer.headers.items()

@@ -51,21 +51,28 @@ function progressOf(run) {
   return { fraction: run.count ? run.reached / run.count : 0, text: `${what}${again}${run.reached} of ${run.count} reached, ${run.sent} sent${time}` };
 }
 
-/** Check knows no robot; where its number is another one, both stand there with why. */
-function stopTimeText({ stop_seconds: stop, checked_stop_seconds: checked, scan_seconds: scan }) {
-  if (seconds(stop) === seconds(checked)) return `${seconds(stop)} s`;
+/** Check knows no robot: where its number is another one, this says why. */
+function checkedStopText({ stop_seconds: stop, checked_stop_seconds: checked, scan_seconds: scan }) {
+  if (seconds(stop) === seconds(checked)) return null;
   const why = scan === null ? "of all waypoints" : `with the slowest scan known; this robot's took ${seconds(scan)} s`;
-  return `${seconds(stop)} s (Check: ${seconds(checked)} s, ${why})`;
+  return `Check: ${seconds(checked)} s, ${why}`;
 }
 
 function summaryRows({ runSummary: run, view, selected }) {
   if (!run || run.gait !== selected || !view) return [];
-  const rows = [["Waypoints", `${run.waypoints}`], ["Takes about", `${fixed(run.estimated_seconds, 0)} s`]];
-  if (run.start_distance_mm !== null && run.start_distance_mm !== undefined) {
-    rows.push(["To the start pose", `${fixed(run.start_distance_mm)} mm${run.start_moves ? ` in ${counted(run.start_moves, "move")}` : ""}`]);
-  }
-  rows.push(["Largest move", `${fixed(run.largest_move_mm)} mm`], ["Stop acts within", stopTimeText(run)], ["Hash", shortHash(run.waypoints_hash), run.waypoints_hash]);
-  return rows.flatMap(([name, value, help]) => [h("dt", { text: name }), h("dd", { class: help ? "mono" : null, text: value, title: help ?? null })]);
+  const row = (name, value, options = {}) => [h("dt", { text: name }), h("dd", { text: value, ...options })];
+  const isKnown = run.start_distance_mm !== null && run.start_distance_mm !== undefined;
+  const moves = run.start_moves ? ` in ${counted(run.start_moves, "move")}` : "";
+  const checked = checkedStopText(run);
+  return [
+    ...row("Waypoints", `${run.waypoints}`),
+    ...row("Takes about", `${fixed(run.estimated_seconds, 0)} s`),
+    ...(isKnown ? row("To the start pose", `${fixed(run.start_distance_mm)} mm${moves}`) : []),
+    ...row("Largest move", `${fixed(run.largest_move_mm)} mm`),
+    ...row("Stop acts within", `${seconds(run.stop_seconds)} s`),
+    ...(checked ? [h("dd", { class: "why", text: checked })] : []),
+    ...row("Hash", shortHash(run.waypoints_hash), { class: "mono", title: run.waypoints_hash }),
+  ];
 }
 
 function build(store) {

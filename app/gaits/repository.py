@@ -125,7 +125,7 @@ class GaitRepository:
         return None if file is None else file.outside
 
     def theirs(self, gait_id: str) -> Gait:
-        """What a gait's file says, whoever wrote it.
+        """The document in a gait's file, whoever wrote it.
 
         Raises:
             InputError: it cannot be read.
@@ -136,7 +136,7 @@ class GaitRepository:
         return self._files.read(gait_id)
 
     def taken_over(self, open_gait: OpenGait) -> OpenGait:
-        """A gait whose present document is what its file says."""
+        """A gait whose present document is the one in its file."""
         return self._as_saved(open_gait)
 
     def keep_mine(self, open_gait: OpenGait) -> OpenGait:

@@ -18,8 +18,8 @@ class SavedFile:
     """A gait's file.
 
     Args:
-        gait: what counts as saved: what the studio saved last, or what the file says where it saved nothing.
-        theirs: what the file says; None where it cannot be read.
+        gait: what counts as saved: what the studio saved last, or the file's document where it saved nothing.
+        theirs: the file's document; None where it cannot be read.
         outside: how the file differs from what the studio saved, in a sentence; None where it does not.
     """
 

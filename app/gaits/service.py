@@ -253,7 +253,7 @@ class GaitService:
         return self._open[gait_id]
 
     def take_file(self, gait_id: str, author: Author = _SCRIPT) -> OpenGait:
-        """Makes what a gait's file says the present document, as an edit that can be undone.
+        """Makes the document in a gait's file the present one, as an edit that can be undone.
 
         Raises:
             InputError: the file cannot be read.

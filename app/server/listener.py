@@ -72,7 +72,7 @@ class Listener:
         register: counts the connections.
         make_protocol: makes the HTTP of a connection whose first head has come.
         token: requests whose head holds it go before all others; None where none is demanded.
-        on_look: called at each look at the deadlines.
+        on_look: called whenever the deadlines are checked.
     """
 
     def __init__(
@@ -133,7 +133,7 @@ class Listener:
         return False
 
     def _goes_first(self, head: bytes) -> bool:
-        """Whether a head may be accepted, as far as a look at it tells."""
+        """Whether a head shows the token, or none is demanded."""
         return shows_one(head, self._tokens) if self._tokens else is_whole(head)
 
     def _take_next(self) -> None:

@@ -4,15 +4,16 @@ import os
 import shlex
 import shutil
 import sqlite3
+import stat
 import time
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
 from app.store.quick_check import damage_of, reading
 from app.store.storage_errors import file_error, storage_error
-from core.errors import StorageDamagedError, StorageFullError
+from core.errors import StorageDamagedError, StorageError, StorageFullError
 
 FOLDER = "backups"
 DAILY, MIGRATION = "daily", "before-migration"
@@ -41,15 +42,26 @@ class Backup:
 
 
 def found_backups(data: Path) -> tuple[Backup, ...]:
-    """The backups in a data folder, the newest first."""
-    states = [(path, path.stat()) for path in (data / FOLDER).glob("studio-*.sqlite3")]
-    backups = [Backup(path, state.st_mtime, state.st_size) for path, state in states]
+    """The backups in a data folder, the newest first; links and folders are none."""
+    backups = []
+    for path in (data / FOLDER).glob("studio-*.sqlite3"):
+        with suppress(FileNotFoundError):  # it was taken away meanwhile
+            state = path.lstat()
+            if stat.S_ISREG(state.st_mode):
+                backups.append(Backup(path, state.st_mtime, state.st_size))
     return tuple(sorted(backups, key=lambda backup: (backup.made, backup.path.name), reverse=True))
 
 
 def last_good(data: Path) -> Backup | None:
     """The newest backup that is whole; None where there is none."""
-    return next((backup for backup in found_backups(data) if damage_of(backup.path) is None), None)
+    return next((backup for backup in found_backups(data) if _is_good(backup)), None)
+
+
+def _is_good(backup: Backup) -> bool:
+    try:
+        return damage_of(backup.path) is None
+    except StorageError:
+        return False
 
 
 def way_back(data: Path) -> str:

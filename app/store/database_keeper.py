@@ -61,16 +61,19 @@ class DatabaseKeeper:
 
     def look(self) -> None:
         """Makes a backup where one is due; says why where that fails."""
-        if self._database.damage is not None or not self._may_copy() or not self._is_due():
+        if self._database.damage is not None or not self._may_copy():
             return
+        failure = "No backup of the database could be made today."
         try:
-            make_backup(self._database.path, DAILY)
+            if self._is_due():
+                make_backup(self._database.path, DAILY)
+                self._take_trouble(None)
         except StorageDamagedError as error:
             self._database.take_damage(error.sentence)
         except FootfallError as error:
-            self._take_trouble(f"No backup of the database could be made today. {error.sentence}")
-        else:
-            self._take_trouble(None)
+            self._take_trouble(f"{failure} {error.sentence}")
+        except OSError as error:
+            self._take_trouble(f"{failure} {self._database.path.parent}: {error.strerror}.")
 
     def _work(self) -> None:
         if not self._is_checked:

@@ -13,7 +13,7 @@ from pathlib import Path
 from app.documents.gait_json import gait_content, parse_gait
 from app.store.plain_file import read_plain_file
 from app.store.storage_errors import file_error
-from core.errors import InputError
+from core.errors import InputError, StorageError
 from core.gait.gait import Gait
 
 MOST_FILE_BYTES = 16_000_000
@@ -142,8 +142,7 @@ class GaitFiles:
 
     def stamps(self) -> dict[str, tuple[int, int]]:
         """Every saved gait's id with what changes whenever its file does: time in ns, and size."""
-        with os.scandir(self._gaits) as found:
-            entries = [(entry.name.removesuffix(".json"), entry) for entry in found if _is_json(entry.name)]
+        entries = [(entry.name.removesuffix(".json"), entry) for entry in self._entries()]
         stamps = ((name, _stamp(entry)) for name, entry in entries if self.is_id(name))
         return {name: stamp for name, stamp in stamps if stamp is not None}
 
@@ -153,8 +152,24 @@ class GaitFiles:
 
     def misnamed(self) -> tuple[str, ...]:
         """JSON files whose names are no ids, so that no gait can be opened from them."""
-        names = (name for name in os.listdir(self._gaits) if _is_json(name))
+        names = (entry.name for entry in self._entries())
         return tuple(sorted(name for name in names if not self.is_id(name.removesuffix(".json"))))
+
+    def _entries(self) -> list[os.DirEntry[str]]:
+        """The JSON files in the folder of gaits.
+
+        Raises:
+            StorageError: the folder cannot be read.
+        """
+        try:
+            with os.scandir(self._gaits) as found:
+                return [entry for entry in found if _is_json(entry.name)]
+        except OSError as error:
+            raise StorageError(
+                f"The folder of the gaits {self._gaits} cannot be read: {error.strerror}. Look whether its "
+                "disk is there and whether you may read it.",
+                str(self._gaits),
+            ) from error
 
     def ids(self) -> tuple[str, ...]:
         """Ids of all saved gaits, by name."""

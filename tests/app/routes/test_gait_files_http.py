@@ -60,3 +60,13 @@ def test_a_file_changed_outside_is_taken_over_or_set_aside(
 @pytest.mark.parametrize("content", [{}, {"keep": "both"}, {"keep": "file", "more": 1}])
 def test_a_choice_that_is_none_is_refused(content: dict[str, Any], studio: StudioProcess) -> None:
     assert studio.ask("POST", "/api/gaits/walk/file", content).status == 422
+
+
+def test_a_folder_that_is_gone_is_a_sentence_until_it_is_back(studio: StudioProcess, data: Path) -> None:
+    (data / "gaits").rename(data / "elsewhere")
+    try:
+        refused = studio.ask("GET", "/api/gaits")
+    finally:
+        (data / "elsewhere").rename(data / "gaits")
+    assert (refused.status, refused.content["where"]) == (503, str(data / "gaits"))
+    assert "pipe" in listed(studio)

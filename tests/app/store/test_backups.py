@@ -71,6 +71,43 @@ def test_only_the_newest_backups_are_kept_of_each_kind(tmp_path: Path) -> None:
     assert not any("2026-01-01" in name for name in kept)
 
 
+def test_what_is_no_file_or_cannot_be_read_is_no_good_backup(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = fill(tmp_path, 1)
+    good = make_backup(path, DAILY)
+    folder = good.path.parent
+    (folder / "studio-a.sqlite3").mkdir()
+    (folder / "studio-b.sqlite3").symlink_to(tmp_path / "nowhere")
+    unreadable = folder / "studio-c.sqlite3"
+    unreadable.write_bytes(b"")
+
+    def damage(found: Path) -> str | None:
+        if found == unreadable:
+            raise StorageError("It cannot be opened.", str(found))
+        return damage_of(found)
+
+    monkeypatch.setattr(backups, "damage_of", damage)
+    assert {backup.path for backup in found_backups(tmp_path)} == {good.path, unreadable}
+    assert last_good(tmp_path) == good
+
+
+def test_a_disk_that_fails_while_a_backup_is_due_does_not_end_the_backups(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fails(*_: Any) -> Any:
+        raise PermissionError(13, "Permission denied")
+
+    with closing(Database(tmp_path / "studio.sqlite3")) as database:
+        keeper = keeper_of(database)
+        with monkeypatch.context() as failing:
+            failing.setattr(database_keeper, "found_backups", fails)
+            keeper.look()
+        assert "Permission denied" in str(keeper.view()["sentence"])
+        keeper.look()
+        assert keeper.view()["sentence"] is None
+
+
 def test_what_a_kill_left_of_a_backup_goes_with_the_next_one(tmp_path: Path) -> None:
     path = fill(tmp_path, 1)
     folder = tmp_path / backups.FOLDER

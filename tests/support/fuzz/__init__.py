@@ -1,0 +1,1 @@
+"""Requests that are made to break a running studio."""

@@ -7,12 +7,14 @@ import selectors
 import threading
 import time
 from collections.abc import Callable
+from typing import Protocol
 
 import serial
 from serial.tools import list_ports
 
 from app.bridge.devices import SerialDevice
-from core.errors import RobotError
+from app.bridge.network_line import CONNECT_DEADLINE, SCHEME, NetworkLine
+from core.errors import InputError, RobotError
 
 BAUD = 9600
 """As the sketch asks for; the board's own USB ignores it. Never 1200, which starts the boot loader."""
@@ -36,6 +38,14 @@ def _said(description: str | None) -> str:
     return "" if description in (None, "n/a") else str(description)
 
 
+class _Line(Protocol):
+    """An open device or socket."""
+
+    def fileno(self) -> int: ...
+
+    def close(self) -> None: ...
+
+
 class Transport:
     """An open line to the robot.
 
@@ -45,6 +55,7 @@ class Transport:
         on_lost: called once by the reader's thread with a sentence when the line hangs up by itself.
 
     Raises:
+        InputError: it is the address of something else, or has options.
         RobotError: the device is absent, busy or not allowed; the sentence says what to do.
     """
 
@@ -120,20 +131,23 @@ class Transport:
             return None
 
 
-def _open(device: str) -> serial.SerialBase:
-    _require_line(device)
+def _open(device: str) -> _Line:
     try:
-        return serial.serial_for_url(device, baudrate=BAUD, timeout=0, exclusive=True)
+        if device.startswith(SCHEME):
+            return NetworkLine(device)
+        _require_device(device)
+        port: _Line = serial.serial_for_url(device, baudrate=BAUD, timeout=0, exclusive=True)
+        return port
     except (serial.SerialException, OSError, ValueError) as error:
         raise RobotError(_refusal(device, error), device) from error
 
 
-def _require_line(device: str) -> None:
-    """Refuses pyserial's other addresses: some are no line, and one writes a file of the caller's choice."""
-    if "://" in device and not device.startswith("socket://"):
-        raise RobotError(
+def _require_device(device: str) -> None:
+    """Refuses pyserial's own addresses: some are no line, and one writes a file of the caller's choice."""
+    if "://" in device:
+        raise InputError(
             f"{device} is no robot's line. Name a serial device such as /dev/ttyACM0, or socket://HOST:PORT.",
-            device,
+            "device",
         )
 
 
@@ -144,8 +158,11 @@ def _refusal(device: str, error: Exception) -> str:
         return f"{device} is in use by another program. Close that program, then connect again."
     if number == errno.EACCES:
         return f"{device} may not be opened by this user. Ask for the right to use serial ports (dialout)."
-    if device.startswith("socket://"):
-        return f"Nothing answers at {device}. Start the robot's server there, or correct host and port."
+    if device.startswith(SCHEME):
+        return (
+            f"Nothing answers at {device} (limit {CONNECT_DEADLINE:.0f} s). Start the robot's server there, or "
+            "correct host and port."
+        )
     if number == errno.ENOENT or "no such file" in text:
         return f"There is no device {device}. Plug the robot in, or choose another device."
     return f"{device} cannot be opened as a serial line: {error}. Choose another device."

@@ -16,9 +16,7 @@ from core.errors import InputError, RobotError
 PATIENCE = 60.0
 
 
-@pytest.mark.parametrize(
-    "device", ["/dev/no-robot-here", "socket://127.0.0.1:9", os.devnull, "socket://nowhere"]
-)
+@pytest.mark.parametrize("device", ["/dev/no-robot-here", "socket://127.0.0.1:9", os.devnull])
 def test_a_device_that_is_no_line_is_refused_by_name(device: str) -> None:
     bridge = RobotBridge()
     with pytest.raises(RobotError, match=device):
@@ -32,7 +30,7 @@ def test_a_device_that_is_no_line_is_refused_by_name(device: str) -> None:
 def test_an_address_that_is_no_line_is_refused_before_anything_is_opened(tmp_path: Path) -> None:
     written = tmp_path / "written"
     for device in (f"spy:///dev/null?file={written}", "loop://", "rfc2217://127.0.0.1:9"):
-        with pytest.raises(RobotError, match="is no robot's line"):
+        with pytest.raises(InputError, match="is no robot's line"):
             Transport(device, lambda _: None, lambda _: None)
     assert not written.exists()
 

@@ -13,7 +13,7 @@ from core.errors import InputError
 SCHEME = "socket://"
 
 CONNECT_DEADLINE = 4.0
-"""A host that has not taken the connection after this long is absent, names that are looked up included, s."""
+"""A host that has not taken the connection after this long is absent; its name is looked up within it, s."""
 
 
 class NetworkLine:

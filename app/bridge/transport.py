@@ -160,8 +160,8 @@ def _refusal(device: str, error: Exception) -> str:
         return f"{device} may not be opened by this user. Ask for the right to use serial ports (dialout)."
     if device.startswith(SCHEME):
         return (
-            f"Nothing answers at {device} (limit {CONNECT_DEADLINE:.0f} s). Start the robot's server there, or "
-            "correct host and port."
+            f"Nothing answers at {device} (limit {CONNECT_DEADLINE:.0f} s). Start the robot's server there, "
+            "or correct host and port."
         )
     if number == errno.ENOENT or "no such file" in text:
         return f"There is no device {device}. Plug the robot in, or choose another device."

@@ -3,10 +3,13 @@
 import secrets
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor, wait
+from contextlib import ExitStack, contextmanager
 
 from app.bridge.run_range import WHOLE, RunRange
 from app.bridge.states import LinkState, RobotSnapshot, RunPlan
+from app.bridge.stop_confirmation import STOP_LIMIT
 from app.common.json import Json
 from app.emulator.emulated_robot import EmulatedRobot, start_emulator
 from app.emulator.faults import Fault
@@ -19,10 +22,17 @@ from app.robot.run_summary import run_summary, unwired
 from app.robot.views import EMULATOR, RunOrigin, allowed, robot_view
 from app.runs.plan_json import run_plan_content
 from app.store.database import Database
+from app.undo.history import Author
 from core.errors import StateError
 
 MOST_SHOWN = 200
 """Changes of state that a page shows."""
+
+DISCONNECT_SECONDS = 4.0
+"""Who disconnects is answered after this long at most, whether or not the line is closed by then, s."""
+
+CONNECT_PATIENCE = 0.5
+"""Who connects waits this long for a line that is just being opened or closed, s."""
 
 
 class RobotService:
@@ -51,6 +61,10 @@ class RobotService:
         self._device = device
         self._emulator: EmulatedRobot | None = None
         self._connecting = threading.Lock()
+        self._disconnecting = threading.Lock()
+        self._departures = ThreadPoolExecutor(1, "robot departure")
+        self._departure: Future[None] | None = None
+        self._is_leaving = False
         self._recorded_bridge = RecordedBridge(database, self._show)
         self.bridge = self._recorded_bridge.bridge
         self._changed = changed
@@ -62,12 +76,19 @@ class RobotService:
         """Stops a run, closes the line and ends the emulated robot."""
         self.lease.close()
         self._recorded_bridge.close()
+        self._departures.shutdown()
         self._close_emulator()
 
     def connect(self, device: str | None) -> None:
-        """Opens the line to the studio's robot, or to another device."""
+        """Opens the line to the studio's robot, or to another device.
+
+        Raises:
+            InputError: the device is the address of something else.
+            StateError: a robot is connected, or a line is just being opened or closed.
+            RobotError: the device is absent or busy.
+        """
         wanted = device or self._device
-        with self._connecting:
+        with self._line_changes():
             if self.bridge.snapshot.link in (LinkState.CONNECTING, LinkState.READY):
                 raise StateError("The robot is connected already. Disconnect it first.", "connect")
             self._close_emulator()
@@ -92,11 +113,55 @@ class RobotService:
             for one in self.bridge.transitions[-MOST_SHOWN:]
         ]
 
-    def disconnect(self) -> None:
-        """Stops a run and closes the line; may take as long as the move that is on."""
-        with self._connecting:
-            self.bridge.disconnect()
-            self._close_emulator()
+    def disconnect(self, author: Author) -> bool:
+        """Stops a run and closes the line; nobody holds the robot then.
+
+        The line is closed when the robot has confirmed the stop, or has not for `STOP_LIMIT`. What lasts
+        longer than `DISCONNECT_SECONDS` goes on by itself; who asks meanwhile waits for the same.
+
+        Args:
+            author: who does it.
+
+        Returns:
+            Whether the line is closed.
+
+        Raises:
+            StateError: somebody else holds the robot.
+        """
+        with self._disconnecting:
+            if self._departure is None or self._departure.done():
+                held = ExitStack()
+                held.enter_context(self.lease.held_by(author, ends=True))
+                self._is_leaving = True
+                self._departure = self._departures.submit(self._leave, held)
+            departure = self._departure
+        is_closed = bool(wait([departure], DISCONNECT_SECONDS).done)
+        if is_closed:
+            departure.result()
+        return is_closed
+
+    def _leave(self, held: ExitStack) -> None:
+        with held:
+            try:
+                with self._connecting:
+                    self.bridge.disconnect()
+                    self._close_emulator()
+            finally:
+                self._is_leaving = False
+
+    @contextmanager
+    def _line_changes(self) -> Iterator[None]:
+        """While a line is opened, nobody else opens or closes one."""
+        if not self._connecting.acquire(timeout=CONNECT_PATIENCE):
+            raise StateError(
+                "The robot’s line is just being opened or closed, which takes "
+                f"{STOP_LIMIT:.0f} s at most. Wait for that, then connect again.",
+                "connect",
+            )
+        try:
+            yield
+        finally:
+            self._connecting.release()
 
     def strike(self, fault: Fault | None) -> None:
         """Injects a fault into the emulated robot, or ends all lasting faults.
@@ -112,9 +177,9 @@ class RobotService:
             self._emulator.inject(fault)
 
     def _close_emulator(self) -> None:
-        if self._emulator is not None:
-            self._emulator.close()
-            self._emulator = None
+        emulator, self._emulator = self._emulator, None
+        if emulator is not None:
+            emulator.close()
 
     def send(
         self,
@@ -161,8 +226,10 @@ class RobotService:
 
     def view(self, snapshot: RobotSnapshot | None = None) -> Json:
         """The robot as JSON content."""
+        shown = snapshot or self.bridge.snapshot
+        is_leaving = self._is_leaving and shown.link is not LinkState.DISCONNECTED
         return {
-            **robot_view(snapshot or self.bridge.snapshot, self._device, self._recorded_bridge.origin),
+            **robot_view(shown, self._device, self._recorded_bridge.origin, is_leaving=is_leaving),
             "previous_run": self._recorded_bridge.previous,
             "record_trouble": self._recorded_bridge.trouble,
             "lease": self.lease.view(),

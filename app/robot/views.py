@@ -5,6 +5,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunProgress
+from app.bridge.stop_confirmation import STOP_LIMIT
 from app.common.json import Json
 from app.emulator.motors import TRAVEL_MM
 from core.arrays import Floats
@@ -34,13 +35,19 @@ class RunOrigin:
     """(count,) the plan's time of each waypoint, s."""
 
 
-def robot_view(shown: RobotSnapshot, device: str, origin: RunOrigin | None) -> Json:
+LEAVING = f"Disconnecting: the line is closed when the robot stands still, or after {STOP_LIMIT:.0f} s."
+
+
+def robot_view(
+    shown: RobotSnapshot, device: str, origin: RunOrigin | None, *, is_leaving: bool = False
+) -> Json:
     """The robot for pages and scripts.
 
     Args:
         shown: the bridge's snapshot.
         device: what the studio calls the robot.
         origin: where the last run that this studio sent came from.
+        is_leaving: somebody disconnects, and the line is not closed yet.
     """
     run = shown.run
     known = origin if run is not None and origin is not None and origin.run_id == run.run_id else None
@@ -49,7 +56,8 @@ def robot_view(shown: RobotSnapshot, device: str, origin: RunOrigin | None) -> J
         "stamp": shown.number,  # orders answers and events, which may overtake each other
         "link": shown.link.value,
         "robot": shown.robot.value,
-        "sentence": shown.sentence,
+        "sentence": f"{LEAVING} {shown.sentence}" if is_leaving else shown.sentence,
+        "disconnecting": is_leaving,
         "device": device,
         "emulated": device == EMULATOR,
         "strokes_mm": strokes_mm,
@@ -60,7 +68,7 @@ def robot_view(shown: RobotSnapshot, device: str, origin: RunOrigin | None) -> J
         "jog": None if shown.jog is None else asdict(shown.jog),
         "commanded_mm": None if run is None or known is None else _commanded_mm(run, known),
         "stop_seconds": _stop_seconds(shown, origin),
-        "allowed": allowed(shown),
+        "allowed": allowed(shown) | ({"disconnect": LEAVING} if is_leaving else {}),
     }
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from enum import StrEnum
 from typing import Annotated, Literal
 
-from fastapi import APIRouter, Body
+from fastapi import APIRouter, Body, Response
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
@@ -59,14 +59,12 @@ async def _moved(
     author: Author,
     actor_body: ActorBody | None,
     action: Callable[[str], object],
-    *,
-    ends: bool = False,
 ) -> Json:
-    """Does what needs the lease, in the name of who does it; where it `ends`, nobody holds the robot then."""
+    """Does what needs the lease, in the name of who does it."""
     actor = named(author, actor_body)
 
     def done() -> None:
-        with studio.robot.lease.held_by(actor, ends=ends):
+        with studio.robot.lease.held_by(actor):
             action(actor.name or SOMEBODY)
 
     await run_in_threadpool(done)
@@ -107,10 +105,18 @@ async def connect(
     )
 
 
-@router.post("/disconnect")
-async def disconnect(studio: TheStudio, author: TheAuthor, actor_body: TheActor = None) -> Json:
-    """Stops a run and closes the line; nobody holds the robot then."""
-    return await _moved(studio, author, actor_body, lambda _: studio.robot.disconnect(), ends=True)
+@router.post("/disconnect", responses={202: {"description": "The stop is not confirmed yet; it goes on."}})
+async def disconnect(
+    studio: TheStudio, author: TheAuthor, response: Response, actor_body: TheActor = None
+) -> Json:
+    """Stops a run and closes the line; nobody holds the robot then.
+
+    The line stays open until the robot has confirmed the stop, 6 s at most. After 4 s the answer is 202 with
+    `disconnecting` true; the rest goes on by itself, and the robot's state shows its end.
+    """
+    if not await run_in_threadpool(studio.robot.disconnect, named(author, actor_body)):
+        response.status_code = 202
+    return studio.robot.view()
 
 
 async def send_stop(studio: Studio, by: str) -> None:

@@ -42,7 +42,14 @@ def test_an_option_is_refused_and_nothing_is_opened(listener: socket.socket, res
 @pytest.mark.parametrize(
     "device",
     [
-        *("socket://nowhere", "socket://", "socket://:5", "socket://h:0", "socket://h:65536", "socket://h:-1"),
+        *(
+            "socket://nowhere",
+            "socket://",
+            "socket://:5",
+            "socket://h:0",
+            "socket://h:65536",
+            "socket://h:-1",
+        ),
         *("socket://h:x", "socket://[::1", "socket://me@h:5", "socket://me:secret@h:5", "socket://h:5/file"),
     ],
 )

@@ -37,3 +37,9 @@ def test_a_fault_strikes_what_lasts_is_mended_and_unplugging_loses_the_link(stud
         assert answer.content["emulated"]
     wait_for(lambda: studio.robot()["link"] == "lost", "the line has hung up", READY_SECONDS)
     assert "hung up" in studio.robot()["sentence"]
+
+
+@pytest.mark.parametrize("device", ["socket://127.0.0.1:9?logging=debug", "socket://nowhere", "loop://"])
+def test_an_address_that_is_no_line_is_bad_input(studio: StudioProcess, device: str) -> None:
+    answer = studio.ask("POST", "/api/robot/connect", {"device": device})
+    assert (answer.status, answer.content["where"]) == (422, "device")

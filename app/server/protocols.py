@@ -117,7 +117,7 @@ class BoundedHttp(H11Protocol):
             self.transport.abort()
 
     def time_out(self) -> bool:
-        """Closes the line, with a sentence if no answer has begun; not while the studio itself reads no further."""
+        """Closes the line, saying why if no answer has begun; not while the studio itself reads nothing."""
         if self.flow.read_paused:
             self._connection.deadline = self.loop.time() + BODY_SECONDS
             return False

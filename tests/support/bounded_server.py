@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import contextlib
 import errno
 import socket
@@ -23,6 +22,7 @@ from app.server.bounded_server import BoundedServer
 from app.server.connections import Limits
 from app.server.protocols import CountedSocket
 from app.web.access import Access, Guard
+from tests.support.own_loop import run_apart
 
 TOKEN = "the-token-of-the-test"
 SHOWN = f"Authorization: Bearer {TOKEN}\r\n"
@@ -124,7 +124,7 @@ def served(limits: Limits, token: str | None = TOKEN, failures: int = 0) -> Iter
             timeout_graceful_shutdown=1,
         )
         server = BoundedServer(config, limits, token, ready.set)
-        thread = threading.Thread(target=lambda: asyncio.run(server.serve([listening])))
+        thread = threading.Thread(target=run_apart, args=[server.serve([listening])])
         thread.start()
         assert ready.wait(PATIENCE)
         server_and_lines = Served(listening.getsockname()[1])

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 Result = TypeVar("Result")
 
 
-def run_apart(coroutine: Coroutine[Any, Any, Result]) -> Result:
-    """Runs a coroutine in a thread with a loop of its own."""
-    with ThreadPoolExecutor(1) as thread:
-        return thread.submit(asyncio.run, coroutine).result()
+def run_apart(coroutine: Coroutine[Any, Any, Result], name: str = "apart") -> Result:
+    """Runs a coroutine in a thread of a name, with a loop of its own."""
+    with ThreadPoolExecutor(1, name) as thread:
+        return thread.submit(asyncio.run, coroutine).result()  # noqa: TID251 - the place for it

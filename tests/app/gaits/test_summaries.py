@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import json
 import os
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -26,6 +25,7 @@ from core.library.library import library
 from solver_jobs import SolveStatus
 from tests.app.gaits.test_service import WALK, edit
 from tests.support.live_tiers import FixedTier
+from tests.support.own_loop import run_apart
 
 COUNT = 30
 
@@ -140,9 +140,7 @@ def test_after_an_edit_pages_are_sent_one_gait_and_not_the_list(
     fill(tmp_path, COUNT)
     studio = Studio(tmp_path, "emulator")
     try:
-        # In a thread of its own: in this one the browser of other tests may have its loop.
-        with ThreadPoolExecutor(max_workers=1) as elsewhere:
-            told = elsewhere.submit(lambda: asyncio.run(_told(studio))).result()
+        told = run_apart(_told(studio))
     finally:
         studio.close()
     assert [event["type"] for event in told] == ["gait", "gait", "gaits"]

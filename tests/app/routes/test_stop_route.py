@@ -15,6 +15,7 @@ from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
 from app.routes.robot import robot
+from tests.support.own_loop import run_apart
 
 PATIENCE = 60.0
 
@@ -57,10 +58,8 @@ async def stop_where_every_worker_is_taken(bridge: FakeBridge, lane: ThreadPoolE
 @pytest.mark.parametrize("leaves_some", [False, True])
 def test_a_stop_goes_out_on_the_servers_own_thread_though_every_worker_is_taken(leaves_some: bool) -> None:
     bridge = FakeBridge(leaves_some=leaves_some)
-    # A thread of its own, since a browser in the same process keeps a loop running in this one.
-    with ThreadPoolExecutor(1, "stop") as lane, ThreadPoolExecutor(1, "server") as server:
-        status = server.submit(lambda: asyncio.run(stop_where_every_worker_is_taken(bridge, lane)))
-        assert status.result(PATIENCE) == 200
+    with ThreadPoolExecutor(1, "stop") as lane:
+        assert run_apart(stop_where_every_worker_is_taken(bridge, lane), "server") == 200
     assert bridge.by == "Grace"
     assert bridge.sent_on.startswith("server")
     assert bridge.left_to.startswith("stop") is leaves_some

@@ -12,6 +12,7 @@ from uvicorn.server import ServerState
 
 from app.server.connections import Connections, Limits, Trouble
 from app.server.protocols import BODY_RATE, BODY_SECONDS, BoundedHttp
+from tests.support.own_loop import run_apart
 
 HEAD = b"POST /count HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 1000000000\r\n\r\n"
 LIMITS = Limits(of_peer=4, strangers=10, known=6, sockets=3)
@@ -55,11 +56,11 @@ async def deadlines(pieces: list[tuple[float, int]], *, is_known: bool, is_pause
 def test_a_steady_body_may_take_hours_and_a_slow_one_may_not(is_paused: bool) -> None:
     second = int(BODY_RATE)
     pieces = [(10.0, second), (15.0, 3 * second), (3600.0, 10_000 * second), (3601.0, 0 * second + 1)]
-    found = asyncio.run(deadlines(pieces, is_known=True, is_paused=is_paused))
+    found = run_apart(deadlines(pieces, is_known=True, is_paused=is_paused))
     assert found[:4] == [BODY_SECONDS, BODY_SECONDS + 1, BODY_SECONDS + 4, 3600.0 + BODY_SECONDS]
     assert found[4] == pytest.approx(3600.0 + BODY_SECONDS, abs=0.01)
 
 
 def test_a_body_without_an_accepted_request_gets_no_more_time() -> None:
-    found = asyncio.run(deadlines([(10.0, 100_000)], is_known=False, is_paused=False))
+    found = run_apart(deadlines([(10.0, 100_000)], is_known=False, is_paused=False))
     assert found == [BODY_SECONDS, BODY_SECONDS]

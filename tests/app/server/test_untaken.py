@@ -9,6 +9,7 @@ import sys
 import pytest
 
 from app.server.untaken import untaken_bytes
+from tests.support.own_loop import run_apart
 from tests.support.studio_process import wait_for
 
 SENT, READ = 16_000_000, 300_000
@@ -32,4 +33,4 @@ def test_whatever_a_slow_peer_takes_counts_at_once() -> None:
     with socket.create_server(("127.0.0.1", 0)) as listening, socket.socket() as peer:
         peer.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 65536)
         peer.connect(listening.getsockname())
-        asyncio.run(reads_a_little(listening.accept()[0], peer))
+        run_apart(reads_a_little(listening.accept()[0], peer))

@@ -3,7 +3,7 @@
 import json
 
 from app.store.database import Database
-from app.store.run_journal import Entry, EntryKind, abandoned_journal
+from app.store.run_journal import Entry, EntryKind, abandoned_journal, journalled_runs
 from app.store.run_rows import add_bytes, add_states, byte_row, put_run, state_row
 from app.store.run_store import RunStore
 from app.store.storage_errors import left_undone
@@ -12,15 +12,16 @@ ABANDONED = "The program that sent this run ended while it was on; nothing resum
 
 
 def end_abandoned(database: Database) -> None:
-    """Marks the runs of dead processes as interrupted; runs of living processes are left alone."""
+    """Marks the runs of dead processes as interrupted, and takes their journals; leaves living ones alone."""
     with left_undone("Runs that were broken off are not marked so"):
         _end_abandoned(database)
 
 
 def _end_abandoned(database: Database) -> None:
     log = RunStore(database)
-    for content in log.running():
-        run = content["id"]
+    running = [content["id"] for content in log.running()]
+    # A journal may also be of a run that was not begun yet, or that the database had wholly.
+    for run in {*running, *journalled_runs(database.path.parent)}:
         with abandoned_journal(database.path.parent, run) as entries:
             row = log.get(run)
             if entries is not None and row is not None and row.content["state"] == "running":

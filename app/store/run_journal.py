@@ -59,8 +59,7 @@ class RunJournal:
     def __init__(self, data: Path, run: str) -> None:
         self._path = _path(data, run)
         self._path.parent.mkdir(exist_ok=True)
-        self._file = os.open(self._path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o644)
-        fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        self._file = _new_locked(self._path)
         self._is_full = False
 
     def add(self, entry: Entry) -> None:
@@ -104,6 +103,29 @@ def abandoned_journal(data: Path, run: str) -> Iterator[tuple[Entry, ...] | None
     except BlockingIOError:
         yield None
     finally:
+        os.close(file)
+
+
+def journalled_runs(data: Path) -> list[str]:
+    """Runs that have a journal, whoever writes it.
+
+    Args:
+        data: the data folder.
+    """
+    return sorted(path.stem for path in (data / "running").glob("*.journal"))
+
+
+def _new_locked(path: Path) -> int:
+    """A new locked file; made again where somebody took it for abandoned before it was locked."""
+    while True:
+        file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC, 0o644)
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            if os.path.exists(path) and os.path.samestat(os.fstat(file), os.stat(path)):
+                return file
+        except OSError:
+            os.close(file)
+            raise
         os.close(file)
 
 

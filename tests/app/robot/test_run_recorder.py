@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import sqlite3
 import threading
 from collections.abc import Iterator, Sequence
@@ -228,6 +229,38 @@ def test_an_entry_that_was_cut_off_is_left_out(database: Database) -> None:
     path.write_bytes(path.read_bytes()[:-3])
     end_abandoned(database)
     assert RunStore(database).bytes_of("r") == [(11.0, "from robot", b"whole")]
+
+
+@pytest.mark.parametrize("state", [None, "done"])
+def test_a_kill_before_the_record_began_or_after_it_was_whole_leaves_no_journal(
+    database: Database, state: str | None
+) -> None:
+    journal = RunJournal(database.path.parent, "r")
+    if state is not None:
+        database.put_run(RECORD | {"state": state})
+    end_abandoned(database)
+    assert journals(database) == ["r.journal"]  # its program lives
+    journal.close(is_in_database=False)
+    end_abandoned(database)
+    assert journals(database) == []
+    assert [run["state"] for run in database.runs()] == ([] if state is None else [state])
+
+
+def test_a_journal_that_was_taken_for_abandoned_before_it_was_locked_is_made_again(
+    database: Database, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lock, path = fcntl.flock, database.path.parent / "running" / "r.journal"
+
+    def late(file: int, operation: int) -> None:
+        monkeypatch.undo()
+        path.unlink()
+        lock(file, operation)
+
+    monkeypatch.setattr(fcntl, "flock", late)
+    journal = RunJournal(database.path.parent, "r")
+    journal.add(Entry(EntryKind.FROM_ROBOT, 11.0, b"j,"))
+    assert path.read_bytes().endswith(b"j,")
+    journal.close(is_in_database=True)
 
 
 def test_only_runs_whose_program_is_gone_are_called_interrupted_also_while_the_studio_is_open(

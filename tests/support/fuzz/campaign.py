@@ -20,8 +20,6 @@ from tests.support.studio_process import StudioProcess
 CONNECTIONS = 4
 LONGEST_SECONDS = 5.0
 """No answer takes longer."""
-WITH_PROGRESS = {"POST /api/robot/disconnect": 15.0}
-"""Longer ones, s, which pages see going on: the line stays open until the robot has confirmed its stop."""
 
 TIDY_EVERY = 500
 """Requests after which the stored gaits are as they were, and the robot is ready again."""
@@ -116,15 +114,10 @@ def failure(asked: Asked, answered: Answered) -> str | None:
     if answered.status >= 500:
         is_absent = answered.status == 503 and asked.target.startswith(MAY_BE_ABSENT) and sentence
         return None if is_absent else str(answered.status)
-    if answered.seconds > longest(asked):
+    if answered.seconds > LONGEST_SECONDS:
         return "slow"
     is_refused = answered.status >= 400 and asked.is_http and asked.method not in ("HEAD", "TRACE")
     return f"{answered.status} without a sentence" if is_refused and not sentence else None
-
-
-def longest(asked: Asked) -> float:
-    """How long its answer may take, s."""
-    return WITH_PROGRESS.get(asked.operation, LONGEST_SECONDS)
 
 
 def _sentence(answered: Answered) -> str | None:

@@ -7,7 +7,7 @@ import threading
 import time
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
+from contextlib import closing, suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -172,19 +172,18 @@ class Campaign:
             self._broken.append(error)
 
     def _send_all(self) -> None:
-        connection = Connection(self._studio.url)
-        while not self._broken and (number := self._next()) is not None:
-            if number % TIDY_EVERY == TIDY_EVERY - 1:
-                self._tidy_up()
-            asked = self._requests.request(number)
-            answered = connection.ask(asked)
-            self._undo(connection, asked, answered)
-            with self._lock:
-                self._outcome.add(asked, answered)
-                self._done += 1
-                if self._done % MEMORY_EVERY == 0:
-                    self._outcome.memory.append(self._memory())
-        connection.close()
+        with closing(Connection(self._studio.url)) as connection:
+            while not self._broken and (number := self._next()) is not None:
+                if number % TIDY_EVERY == TIDY_EVERY - 1:
+                    self._tidy_up()
+                asked = self._requests.request(number)
+                answered = connection.ask(asked)
+                self._undo(connection, asked, answered)
+                with self._lock:
+                    self._outcome.add(asked, answered)
+                    self._done += 1
+                    if self._done % MEMORY_EVERY == 0:
+                        self._outcome.memory.append(self._memory())
 
     def _next(self) -> int | None:
         with self._lock:

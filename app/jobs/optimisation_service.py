@@ -23,7 +23,7 @@ from core.gait.provenance import Provenance
 from core.library.library import library
 from core.motion.trajectory import Trajectory
 from core.problem.motion_problem import MotionProblem
-from core.robot.model import load_robot
+from core.robot.model import RobotModel, load_robot
 from solver_jobs import Job, JobKind, JobQueue, JobState, MotionResult, SolveStatus, TimingResult
 
 MOST_COURSES = 4
@@ -63,7 +63,7 @@ class OptimisationService:
         self._job_queue = job_queue
         self._on_result = on_result
         self._origins: dict[str, JobOrigin] = {}
-        self._iterate_motions: OrderedDict[str, tuple[Trajectory, ...]] = OrderedDict()
+        self._iterates: OrderedDict[str, tuple[RobotModel, tuple[Trajectory, ...]]] = OrderedDict()
 
     def submit(self, open_gait: OpenGait, kind: JobKind = JobKind.MOTION) -> Json:
         """Starts the optimisation of a gait as it is now, or the search for its fastest timing.
@@ -121,6 +121,8 @@ class OptimisationService:
         except StorageError as error:
             content |= {"state": JobState.FAILED.value, "sentence": f"It was not kept. {error.sentence}"}
         self._job_repository.keep(content)
+        if content["state"] in ENDED:
+            del self._origins[job.id]
         return content
 
     def _take_result(self, content: Json, origin: JobOrigin, job: Job) -> None:
@@ -130,15 +132,15 @@ class OptimisationService:
             if provenance is not None:
                 content["result"]["usable"]["document"]["provenance"] = asdict(provenance)
         elif job.result is not None:
-            self._keep_iterates(content, job.result.iterate_motions)
+            self._keep_iterates(content, origin.problem.model, job.result.iterate_motions)
             self._verify(content, origin, job.result)
 
-    def _keep_iterates(self, content: Json, iterate_motions: tuple[Trajectory, ...]) -> None:
+    def _keep_iterates(self, content: Json, model: RobotModel, motions: tuple[Trajectory, ...]) -> None:
         """Keeps the motions of a job's iterations in memory, in place of those of the oldest job."""
-        self._iterate_motions[content["id"]] = iterate_motions
-        content["course"] = len(iterate_motions)
-        while len(self._iterate_motions) > MOST_COURSES:
-            oldest, _ = self._iterate_motions.popitem(last=False)
+        self._iterates[content["id"]] = model, motions
+        content["course"] = len(motions)
+        while len(self._iterates) > MOST_COURSES:
+            oldest, _ = self._iterates.popitem(last=False)
             self._job_repository.content(oldest)["course"] = 0
 
     def iterate(self, job_id: str, number: int) -> Plan:
@@ -150,24 +152,19 @@ class OptimisationService:
             InputError: it has no iteration of that number.
         """
         content = self._job_repository.content(job_id)
-        iterate_motions = self._iterate_motions.get(job_id, ())
-        if not iterate_motions:
+        if not content["course"]:
             raise StateError(
                 f"The iterations of this job are not kept any more; those of the last {MOST_COURSES} jobs "
                 "are, until the studio ends. Optimise again to look at them.",
                 "course",
             )
-        if not 0 <= number < len(iterate_motions):
+        model, motions = self._iterates[job_id]
+        if not 0 <= number < len(motions):
             raise InputError(
-                f"This job has iterations 0 to {len(iterate_motions) - 1}, and none of number {number}.",
+                f"This job has iterations 0 to {len(motions) - 1}, and none of number {number}.",
                 "course",
             )
-        return iterate_plan(
-            self._origins[content["id"]].problem.model,
-            iterate_motions[number],
-            number,
-            len(iterate_motions) - 1,
-        )
+        return iterate_plan(model, motions[number], number, len(motions) - 1)
 
     def _keep_timed_motion(self, gait: Gait, result: TimingResult) -> Provenance | None:
         """Keeps the exact motion of the gait in its new timings, so that it is there when they are used."""

@@ -14,6 +14,8 @@ from core.errors import NotFoundError
 ENDED = frozenset({"done", "infeasible", "failed", "cancelled", "interrupted"})
 MOST_SHOWN = 20
 """Jobs in the page's list."""
+MOST_KEPT = 100
+"""Ended jobs that are kept in memory; older ones are read from the database."""
 
 AGAIN = {"simulate": "Simulate again.", "track": "Track the video again."}
 """What to do about a job that was interrupted, by kind."""
@@ -32,12 +34,7 @@ class JobRepository:
         with left_undone("The list of jobs is empty"):
             self._contents = {content["id"]: content for content in reversed(database.jobs(MOST_SHOWN))}
         for content in self._contents.values():
-            content["course"] = 0
-            if content["state"] not in ENDED:
-                content |= {"state": "interrupted", "ended": time.time()}
-                again = AGAIN.get(content["kind"], "Optimise again.")
-                content["sentence"] = f"The studio ended while this job was on. {again}"
-                self.keep(content)
+            self._take_back(content)
 
     def begin(self, job_id: str, kind: str, gait_id: str, gait_name: str, motion: str, **more: Any) -> Json:
         """Adds a job that waits for a worker.
@@ -71,6 +68,7 @@ class JobRepository:
         }
         self._database.put_job(content)
         self._contents[job_id] = content
+        self._forget_old()
         return content
 
     def keep(self, content: Json) -> None:
@@ -85,11 +83,29 @@ class JobRepository:
         Raises:
             NotFoundError: there is none of that id.
         """
-        if job_id not in self._contents:
+        known = self._contents.get(job_id)
+        if known is not None:
+            return known
+        stored = self._database.job(job_id)
+        if stored is None:
             raise NotFoundError(f"There is no job “{job_id}”.", job_id)
-        found: Json = self._contents[job_id]
-        return found
+        return self._take_back(stored)
 
     def contents(self) -> list[Json]:
         """The newest jobs, newest first."""
         return list(reversed(self._contents.values()))[:MOST_SHOWN]
+
+    def _take_back(self, content: Json) -> Json:
+        """A job from the database: nothing of its course is there, and it is not on any more."""
+        content["course"] = 0
+        if content["state"] not in ENDED:
+            content |= {"state": "interrupted", "ended": time.time()}
+            again = AGAIN.get(content["kind"], "Optimise again.")
+            content["sentence"] = f"The studio ended while this job was on. {again}"
+            self.keep(content)
+        return content
+
+    def _forget_old(self) -> None:
+        ended = [job_id for job_id, content in self._contents.items() if content["state"] in ENDED]
+        for job_id in ended[: max(0, len(ended) - MOST_KEPT)]:
+            del self._contents[job_id]

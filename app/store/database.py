@@ -125,6 +125,11 @@ class Database:
         rows = self.rows("SELECT content FROM job ORDER BY created DESC LIMIT ?", most)
         return [json.loads(row[0]) for row in rows]
 
+    def job(self, job_id: str) -> Json | None:
+        """A job as it was stored; None where there is none of that id."""
+        rows = self.rows("SELECT content FROM job WHERE id = ?", job_id)
+        return json.loads(rows[0][0]) if rows else None
+
     def put_job(self, content: Json) -> None:
         """Stores a job as it is now."""
         with self.writing() as connection:

@@ -21,6 +21,7 @@ from app.server.bounded_server import BoundedServer
 from app.server.connections import limits_for
 from app.server.descriptors import raise_limit
 from app.server.ending import serve_until_signal
+from app.server.freed_memory import give_back_freed_memory
 from app.server.protocols import CountedSocket
 from app.server.reach import who_can_reach
 from app.store.folder_lock import StudioLock
@@ -58,6 +59,7 @@ def serve(options: ServeOptions, announce: Callable[[str, str], None]) -> None:
     Raises:
         InputError: the port is busy, or the data folder cannot be used or is another studio's.
     """
+    give_back_freed_memory()
     token = options.token
     if token == "" or (token is None and options.host not in LOOPBACK_NAMES):
         token = secrets.token_urlsafe(18)

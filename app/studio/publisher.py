@@ -19,7 +19,7 @@ from app.session.event_hub import EventHub
 from app.simulation.repository import SimulationRepository
 from app.simulation.service import KIND as SIMULATE
 from app.videos.tracking_service import KIND as TRACK
-from core.errors import FootfallError
+from core.errors import FootfallError, NotFoundError
 from core.gait.gait import Gait
 
 
@@ -125,7 +125,7 @@ class Publisher:
         """
         if shown is None:
             shown = Future()
-            shown.add_done_callback(log_failure)
+            shown.add_done_callback(_log_unless_deleted)
         self._plans.after(gait_id, lambda: self.publish_gait(self._gaits.open_gait(gait_id)), shown)
 
     def publish_all_soon(self, gaits: Iterable[OpenGait]) -> None:
@@ -199,3 +199,9 @@ class Publisher:
     def tell_page(self, page: str, event: Json) -> None:
         """Sends an event to one page."""
         self._hub.publish(event, page)
+
+
+def _log_unless_deleted(shown: Future[Json]) -> None:
+    """A gait that was deleted before its plan was known is shown nowhere."""
+    if not isinstance(shown.exception(), NotFoundError):
+        log_failure(shown)

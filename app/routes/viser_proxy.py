@@ -25,7 +25,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
 from app.scene.registry import FIRST_ROBOT
-from core.errors import FootfallError, StateError
+from core.errors import FootfallError, InputError, StateError
 
 CONTENT_SECURITY = "; ".join(
     [
@@ -50,6 +50,9 @@ TRY_AGAIN_LATER = 1013
 UNSUPPORTED_DATA = 1003
 LONGEST_REASON = 100
 """Characters of a close reason; the protocol allows 123 bytes."""
+
+POSE_BYTES = 7 * 4
+"""A node's pose: quaternion wxyz and position xyz as float32."""
 
 MOST_RELAYS = 64
 """Browsers whose 3D client is relayed at a time; each takes three connections of this process."""
@@ -141,15 +144,41 @@ async def take_poses(browser: WebSocket, scene: ViserScene) -> None:
         if message["type"] == "websocket.disconnect":
             return
         try:
-            if message.get("text"):
-                names = [str(name) for name in json.loads(message["text"])]
+            text = message.get("text")
+            if text is not None:
+                names = node_names(text)
                 continue
-            values = np.frombuffer(message["bytes"], dtype="<f4").reshape(-1, 7)
-            await asyncio.to_thread(scene.place, names, values)
-        except (FootfallError, ValueError, TypeError) as error:
-            await browser.close(UNSUPPORTED_DATA, str(error)[:LONGEST_REASON])
+            await asyncio.to_thread(scene.place, names, poses_of(message.get("bytes") or b""))
+        except FootfallError as error:
+            await browser.close(UNSUPPORTED_DATA, error.sentence[:LONGEST_REASON])
             return
         await browser.send_text("shown")
+
+
+def node_names(text: str) -> list[str]:
+    """Names of nodes out of a page's message.
+
+    Raises:
+        InputError: the text is no JSON list of texts.
+    """
+    try:
+        names = json.loads(text)
+    except (ValueError, RecursionError):
+        names = None
+    if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
+        raise InputError("The names cannot be read. Send a JSON list of texts, one for each node.", "names")
+    return names
+
+
+def poses_of(data: bytes) -> NDArray[np.float32]:
+    """Poses, (nodes, 7), out of a page's message.
+
+    Raises:
+        InputError: the bytes are no whole poses.
+    """
+    if len(data) % POSE_BYTES:
+        raise InputError(f"{len(data)} bytes are no whole poses. Send seven float32 for each node.", "poses")
+    return np.frombuffer(data, dtype="<f4").reshape(-1, 7)
 
 
 def client_page() -> bytes:
@@ -194,7 +223,10 @@ async def relay(browser: WebSocket, scene: ViserScene) -> None:
         await _run_both(_to_viser(browser, viser), _to_browser(viser, browser))
     if browser.application_state is not WebSocketState.DISCONNECTED:
         with contextlib.suppress(RuntimeError, WebSocketDisconnect):
-            await browser.close()
+            # A reason stands with the code of what Viser could not take; without one it simply went.
+            await browser.close(
+                (viser.close_code if viser.close_reason else None) or 1000, viser.close_reason
+            )
 
 
 async def _run_both(*directions: Coroutine[None, None, None]) -> None:

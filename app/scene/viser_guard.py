@@ -2,7 +2,8 @@
 
 Viser makes its server of `websockets` itself and hands nothing out to check requests with. So the function
 that makes such servers is replaced while Viser starts, by one that puts our check before Viser's own. A scene
-whose check was not put in is closed again, so a later Viser that starts otherwise cannot be left open.
+whose check was not put in is closed again, so a later Viser that starts otherwise cannot be left open. In the
+same way Viser gets connections on which only messages come that it can read.
 """
 
 import contextlib
@@ -17,9 +18,12 @@ import viser
 from viser import _messages
 from websockets.asyncio import server as websockets_server
 from websockets.asyncio.server import ServerConnection
+from websockets.frames import CloseCode
 from websockets.http11 import Request, Response
+from websockets.typing import Data
 
-from core.errors import StateError
+from app.scene.client_messages import is_camera
+from core.errors import InputError, StateError
 
 LOOPBACK = "127.0.0.1"
 RELAY_HEADER = "X-Footfall-Relay"
@@ -79,7 +83,8 @@ def _checked_first(secret: str) -> Iterator[threading.Event]:
             return None if process_request is None else process_request(connection, request)
 
         checked.set()
-        return original(*places, **{**options, "process_request": check, "logger": _log})
+        ours = {"process_request": check, "logger": _log, "create_connection": ReadableConnection}
+        return original(*places, **{**options, **ours})
 
     with _replacing:
         websockets_server.serve = serve  # type: ignore[assignment, misc]
@@ -87,6 +92,24 @@ def _checked_first(secret: str) -> Iterator[threading.Event]:
             yield checked
         finally:
             websockets_server.serve = original  # type: ignore[misc]
+
+
+class ReadableConnection(ServerConnection):
+    """A client's connection that is closed with a sentence where a message comes that Viser cannot read."""
+
+    async def recv(self, decode: bool | None = None) -> Data:  # type: ignore[override]
+        """The next message that Viser needs; others are dropped.
+
+        Raises:
+            ConnectionClosed: the connection is closed, by the client or here.
+        """
+        while True:
+            data = await super().recv(decode)
+            try:
+                if is_camera(data):
+                    return data
+            except InputError as error:
+                await self.close(CloseCode.UNSUPPORTED_DATA, error.sentence)
 
 
 def is_from_relay(connection: ServerConnection, request: Request, secret: str) -> bool:

@@ -1,5 +1,7 @@
 """The largest message that each web socket takes, so that nobody can fill the server's memory with one."""
 
+import contextlib
+
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 MOST_MESSAGE = 262_144
@@ -36,7 +38,8 @@ class SocketLimit:
             if is_cut or size <= most:
                 return message
             is_cut = True
-            await send({"type": "websocket.close", "code": TOO_BIG, "reason": f"At most {most} bytes."})
+            with contextlib.suppress(OSError):  # the connection has ended meanwhile
+                await send({"type": "websocket.close", "code": TOO_BIG, "reason": f"At most {most} bytes."})
             return {"type": "websocket.disconnect", "code": TOO_BIG}
 
         async def sending(message: Message) -> None:

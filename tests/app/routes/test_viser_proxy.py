@@ -14,7 +14,7 @@ from websockets.sync.client import ClientConnection, connect
 from websockets.sync.server import ServerConnection, serve
 from websockets.typing import Subprotocol
 
-from app.routes.viser_proxy import client_page, is_refused, make_viser_router
+from app.routes.viser_proxy import client_page, is_refused, make_viser_router, node_names
 from core.errors import InputError
 from tests.support.page.serving import serving
 from tests.support.studio_process import wait_for
@@ -26,7 +26,8 @@ LARGE = 3_000_000
 class StandIn:
     """Echoes what it gets.
 
-    A text "large" is answered by many bytes, "heads" by what came with the request, "bye" by closing.
+    A text "large" is answered by many bytes, "heads" by what came with the request, "bye" by closing,
+    "no" by closing with a reason.
     """
 
     relay_headers: Mapping[str, str] = {"X-Only": "the relay"}
@@ -50,6 +51,8 @@ def answer(socket: ServerConnection) -> None:
             socket.send(json.dumps([[name.lower(), value] for name, value in sent]))
         elif message == "bye":
             socket.close(1000)
+        elif message == "no":
+            socket.close(1003, "Reload the page.")
         else:
             socket.send(message)
 
@@ -114,6 +117,14 @@ def test_the_browser_learns_that_viser_went(host: str) -> None:
             socket.recv(5)
 
 
+def test_the_browser_learns_why_viser_refused_a_message(host: str) -> None:
+    with browser(host) as socket:
+        socket.send("no")
+        with pytest.raises(ConnectionClosed):
+            socket.recv(5)
+        assert (socket.close_code, socket.close_reason) == (1003, "Reload the page.")
+
+
 def test_a_scene_that_does_not_answer_refuses_the_browser() -> None:
     app = FastAPI()
     app.include_router(make_viser_router(lambda _: StandIn(port=9)))
@@ -164,8 +175,23 @@ def test_poses_from_a_page_move_the_nodes(host: str, stand_in: StandIn) -> None:
     assert np.array_equal(placed.ravel(), pose)
 
 
+NO_NAMES = ["", "[", "5", "null", '"/a"', '{"/a": 1}', "[1e400]", "[null]", "[" * 100_000, "9" * 5000]
+
+
+@pytest.mark.parametrize("text", NO_NAMES)
+def test_what_is_no_list_of_texts_is_refused_as_names(text: str) -> None:
+    with pytest.raises(InputError, match="Send a JSON list of texts"):
+        node_names(text)
+
+
+def test_names_may_hold_any_text() -> None:
+    assert node_names('["/a", "", "\\ud800"]') == ["/a", "", "\ud800"]
+
+
 @pytest.mark.parametrize(
-    ("names", "values"), [("[", b""), ("5", b""), ('["/a"]', b"\0" * 27), ('["/a"]', b"\0" * 56)]
+    ("names", "values"),
+    [("", b""), ("[", b""), ("[" * 100_000, b""), ('["/a"]', b"\0" * 27), ('["/a"]', b"\0" * 56)],
+    ids=["empty", "cut off", "deep", "no whole pose", "a pose too many"],
 )
 def test_poses_that_do_not_fit_close_the_socket(host: str, names: str, values: bytes) -> None:
     with connect(f"ws://{host}/viser/poses") as socket:
@@ -175,3 +201,4 @@ def test_poses_that_do_not_fit_close_the_socket(host: str, names: str, values: b
         with pytest.raises(ConnectionClosed):
             socket.recv(5)
         assert socket.close_code == 1003
+        assert (socket.close_reason or "").endswith(".")

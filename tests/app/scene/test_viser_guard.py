@@ -6,6 +6,7 @@ import threading
 from collections.abc import Iterator
 from typing import Any
 
+import msgspec
 import pytest
 import viser
 from viser import _messages
@@ -16,6 +17,7 @@ from websockets.typing import Subprotocol
 
 from app.scene.server import SceneServer
 from core.errors import StateError
+from tests.support.client_camera import CAMERA
 from tests.support.raw_request import UPGRADE, status_of
 
 FOREIGN: dict[str, dict[str, str | None]] = {
@@ -70,7 +72,7 @@ def test_a_client_cannot_have_the_scene_shared(monkeypatch: pytest.MonkeyPatch) 
     try:
         viser_server = scene._running()
         after = threading.Event()
-        viser_server._websock_server.register_handler(_messages.CommandTriggerMessage, lambda *_: after.set())
+        viser_server._websock_server.register_handler(_messages.ViewerCameraMessage, lambda *_: after.set())
         with connect(
             f"ws://127.0.0.1:{scene.port}",
             subprotocols=[Subprotocol(f"viser-v{viser.__version__}")],
@@ -79,7 +81,7 @@ def test_a_client_cannot_have_the_scene_shared(monkeypatch: pytest.MonkeyPatch) 
         ) as client:
             client.send(packed("ShareUrlRequest"))
             client.send(packed("ShareUrlDisconnect"))
-            client.send(packed("CommandTriggerMessage", "uuid"))
+            client.send(msgspec.msgpack.encode(CAMERA))
             assert after.wait(30)
             viser_server._thread_executor.submit(lambda: None).result(30)
     finally:

@@ -16,7 +16,7 @@ from tests.support.page.serving import serving
 from tests.support.raw_request import UPGRADE
 
 TEXT, CONTINUED, LAST_PING = b"\x01", b"\x00", b"\x89"
-TOO_BIG = struct.pack("!H", 1009)
+TOO_BIG, NO_UTF_8 = struct.pack("!H", 1009), struct.pack("!H", 1007)
 MOST_WAITING = 1_000_000
 """Bytes of answers that may wait for a client; the system keeps a part of them."""
 
@@ -111,4 +111,14 @@ def test_what_is_no_frame_ends_a_connection_that_is_not_accepted_yet(
         assert UNDECIDED.wait(30)
         line.sendall(b"no frame at all")
         assert rest(line) == b""
+    assert caplog.records == []
+
+
+def test_a_text_that_is_no_utf_8_closes_the_socket_with_a_sentence(
+    port: int, caplog: pytest.LogCaptureFixture
+) -> None:
+    with upgraded(port) as line:
+        assert b" 101 " in line.recv(4096)
+        line.sendall(frame(b"\x81", b"\xff"))
+        assert rest(line).endswith(NO_UTF_8 + b"Send text in UTF-8.")
     assert caplog.records == []

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, is_hypothesis_test, settings
@@ -12,6 +13,7 @@ from playwright.sync_api import Browser, expect, sync_playwright
 from app.emulator.emulated_robot import EmulatedRobot, start_emulator
 from tests.support.chromium import LONG_MS, WORDS, chromium_path
 from tests.support.studio_process import StudioProcess, running_studio, said_by_studios
+from tests.support.timeout import harden_timer
 
 # A slow machine is no failure, and one commit gives one answer; `python -m tests --all` looks further.
 SLOW = [HealthCheck.too_slow]
@@ -22,6 +24,9 @@ settings.register_profile(
     "explore", deadline=None, max_examples=100, print_blob=True, suppress_health_check=SLOW
 )
 settings.load_profile("same")
+
+TIMER = pytest.StashKey[Callable[[], None]]()
+"""Starts the timer of a test again."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -51,6 +56,21 @@ def pytest_runtest_makereport(
     if said:
         report.sections.append((f"Standard error of the studios at the end of {item.name}", said))
     return report
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_timeout_set_timer(item: pytest.Item, settings: Any) -> Generator[None, bool, bool]:
+    """Has a test that takes too long fail alone, wherever it waits."""
+    is_set = yield
+    item.stash[TIMER] = harden_timer(settings.timeout)
+    return is_set
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_teardown(item: pytest.Item) -> None:
+    """Gives the end of a test a time of its own; a failure has ended that of the test."""
+    if TIMER in item.stash:
+        item.stash[TIMER]()
 
 
 @pytest.fixture(scope="module")

@@ -12,13 +12,12 @@ import pytest
 
 from tests.support.studio_process import PROJECT
 
-pytestmark = pytest.mark.heavy
-
 PYTHONS = ("python3.11", "python3.12")
 """For later ones several of the oldest versions have no ready-made files."""
 OLDEST = PROJECT / "lowest-versions.txt"
 INSTALL_SECONDS, TEST_SECONDS = 900, 1800
 """Deadlines for loaded machines, which no test waits out."""
+pytestmark = [pytest.mark.heavy, pytest.mark.timeout(3 * INSTALL_SECONDS + TEST_SECONDS)]
 PACKAGES = ("app", "core", "robot_description", "solver_jobs")
 LOAD_ALL = f"""
 import importlib, pkgutil

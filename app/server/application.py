@@ -27,6 +27,7 @@ from app.web.api_page import add_api_page
 from app.web.assets import REVALIDATED, Assets
 from app.web.body_limit import BodyLimit
 from app.web.dependencies import install_error_handlers
+from app.web.head_requests import HeadRequests
 from app.web.page import ModulePage
 from app.web.socket_limit import SocketLimit
 
@@ -73,6 +74,7 @@ def make_app(studio: Studio, scenes: Scenes, access: Access) -> FastAPI:
         middleware=[
             Middleware(Guard, access=access),
             Middleware(Admission),
+            Middleware(HeadRequests),
             Middleware(BodyLimit),
             Middleware(SocketLimit),
         ],

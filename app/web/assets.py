@@ -51,7 +51,7 @@ class Assets:
         request = Request(scope)
         below = scope["path"].removeprefix(scope.get("root_path", "")).lstrip("/")
         version, _, name = below.partition("/") if below.startswith(VERSION_MARK) else ("", "", below)
-        found = self._found(name) if request.method in ("GET", "HEAD") else None
+        found = self._found(name) if request.method == "GET" else None
         if found is None:
             response = Response("There is no such file.", status_code=404)
         else:
@@ -96,7 +96,6 @@ def _answer(request: Request, asset: Asset, caching: dict[str, str]) -> Response
     headers = {**caching, "etag": tag, "vary": "accept-encoding"}
     if request.headers.get("if-none-match") == tag:
         return Response(status_code=304, headers=headers)
-    headers["content-length"] = str(len(body))
     if packs:
         headers["content-encoding"] = "gzip"
-    return Response(b"" if request.method == "HEAD" else body, media_type=asset.kind, headers=headers)
+    return Response(body, media_type=asset.kind, headers=headers)

@@ -93,12 +93,13 @@ def app(monkeypatch: pytest.MonkeyPatch) -> FastAPI:
 
 
 def doors(app: FastAPI) -> Iterator[Door]:
-    """Each route by each of its methods, and each as a web socket too."""
+    """Each route by each of its methods, by HEAD where it takes GET, and as a web socket too."""
     # Older versions keep their routes flat.
     flat: Callable[[Any], Iterable[Any]] = getattr(fastapi.routing, "iter_route_contexts", list)
     for route in flat(app.routes):
         path = re.sub(r"\{[^}]*\}", "x", route.path)
-        for method in sorted(getattr(route, "methods", None) or {"GET", "POST"}):
+        methods = set(getattr(route, "methods", None) or {"GET", "POST"})
+        for method in sorted(methods | ({"HEAD"} if "GET" in methods else set())):
             yield Door("http", method, path)
         yield Door("websocket", "", path)
 

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from core.gait.gait import Orientation
-from core.gait.options import GaitOptions
+from core.gait.options import OPTION_BOUNDS, GaitOptions
 from core.gait.recording import RecordingForm
 from core.motion.heading_profile import HeadingProfile
 from core.problem.motion_problem import Boundary, Cost, Workspace
@@ -15,6 +15,13 @@ SCHEMA_DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 def _field(description: str, **words: Any) -> Any:
     return Field(description=description, **words)
+
+
+def _option(name: str, description: str) -> Any:
+    """An option with its default and its bounds, which `GaitOptions` holds documents to."""
+    bounds = OPTION_BOUNDS.get(name)
+    limits: dict[str, Any] = {} if bounds is None else {"minimum": bounds.least_si, "maximum": bounds.most_si}
+    return Field(description=description, default=getattr(GaitOptions, name), json_schema_extra=limits)
 
 
 def _title(name: str, info: object) -> str:
@@ -71,37 +78,33 @@ class HeldModel(_Model):
 class OptionsModel(_Model):
     """What the optimiser is asked, and how its answer is sent."""
 
-    clearance: float = _field("how high each swing rises at least, m", default=GaitOptions.clearance)
-    margin: float = _field(
-        "how far the centre of pressure stays inside the support polygon, m", default=GaitOptions.margin
+    clearance: float = _option("clearance", "how high each swing rises at least, m")
+    margin: float = _option("margin", "how far the centre of pressure stays inside the support polygon, m")
+    body_speed: float = _option("body_speed", "limit of the body's speed, m/s")
+    plane_height: float = _option("plane_height", "actuator plane at the start, m")
+    workspace: Workspace = _option("workspace", "which form of reach holds")
+    cost: Cost = _option("cost", "what is minimised")
+    phase_knots: int = _option(
+        "phase_knots", "samples of each stance phase and of each swing of a drawn timeline"
     )
-    body_speed: float = _field("limit of the body's speed, m/s", default=GaitOptions.body_speed)
-    plane_height: float = _field("actuator plane at the start, m", default=GaitOptions.plane_height)
-    workspace: Workspace = _field("which form of reach holds", default=GaitOptions.workspace)
-    cost: Cost = _field("what is minimised", default=GaitOptions.cost)
-    phase_knots: int = _field(
-        "samples of each stance phase and of each swing of a drawn timeline", default=GaitOptions.phase_knots
+    closing_knots: int = _option("closing_knots", "samples after the last swing of a drawn timeline")
+    end_plane_height: float | None = _option(
+        "end_plane_height", "actuator plane at the goal, m; null: as at the start"
     )
-    closing_knots: int = _field(
-        "samples after the last swing of a drawn timeline", default=GaitOptions.closing_knots
+    friction: float | None = _option("friction", "coefficient of the friction cones, no unit; null: none")
+    motor_speed: float | None = _option("motor_speed", "limit of each motor's speed, m/s; null: none")
+    motor_acceleration: float | None = _option(
+        "motor_acceleration", "limit of each motor's acceleration, m/s²; null: none"
     )
-    end_plane_height: float | None = _field(
-        "actuator plane at the goal, m; null: as at the start", default=None
-    )
-    friction: float | None = _field("coefficient of the friction cones, no unit; null: none", default=None)
-    motor_speed: float | None = _field("limit of each motor's speed, m/s; null: none", default=None)
-    motor_acceleration: float | None = _field(
-        "limit of each motor's acceleration, m/s²; null: none", default=None
-    )
-    boundary: Boundary = _field("from rest to rest, or a cycle", default=GaitOptions.boundary)
-    turning: HeadingProfile = _field("when a gait with yaw turns the body", default=GaitOptions.turning)
-    merge: float = _field(
+    boundary: Boundary = _option("boundary", "from rest to rest, or a cycle")
+    turning: HeadingProfile = _option("turning", "when a gait with yaw turns the body")
+    merge: float = _option(
+        "merge",
         "waypoints are left out within this distance of the motors' path, m; 0: one waypoint a knot is sent",
-        default=GaitOptions.merge,
     )
-    stop_bound: float | None = _field(
+    stop_bound: float | None = _option(
+        "stop_bound",
         "how long the robot may be deaf for Stop, s; moves are cut for it; null: as long as a move takes",
-        default=GaitOptions.stop_bound,
     )
 
 

@@ -4,7 +4,7 @@ from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 
 from app.common.json import Json
-from app.documents.gait_json import parse_gait
+from app.documents.stored_gait import stored_gait
 from app.gaits.open_gait import OpenGait, VerdictOf, approval_of
 from app.plans.plan import Plan
 from app.store.edit_history_store import EditHistoryStore
@@ -142,7 +142,7 @@ class Approvals:
     def document(self, gait_id: str, record: ApprovalRecord) -> Gait | None:
         """The document that was approved; None where it is not kept."""
         row = None if record.version is None else self._log.version(gait_id, record.version)
-        return None if row is None else parse_gait(row.document, f"version {row.number}")
+        return None if row is None else stored_gait(row.document, f"version {row.number}").gait
 
 
 def approval_difference(

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from typing import Any
 
-from app.documents.gait_json import gait_content, parse_gait
+from app.documents.gait_json import gait_content
+from app.documents.stored_gait import StoredGait, stored_gait
 from app.plans.plan import Plan
 from app.undo.history import History, LogEntry, fresh_history
-from core.errors import FootfallError
+from core.errors import FootfallError, InputError
 from core.findings import Approval, Verdict
 from core.gait.gait import Gait
 
@@ -53,9 +55,11 @@ class OpenGait:
 
     @property
     def before(self) -> Gait | None:
-        """The document before the present one; None where it was never changed."""
+        """The document before the present one; None where it was never changed, or cannot be read."""
         entry = self.history.before
-        return None if entry is None else gait_of(entry)
+        with suppress(InputError):
+            return None if entry is None else gait_of(entry)
+        return None
 
     @property
     def edited(self) -> bool:
@@ -113,9 +117,11 @@ def _what_changed(approval: Approval, verdict: Verdict) -> str:
     return "The rules of the check, or the simulation, say something else than before"
 
 
-def fresh_gait(gait_id: str, gait: Gait, builtin: bool, saved_at: float | None) -> OpenGait:
+def fresh_gait(
+    gait_id: str, gait: Gait, builtin: bool, saved_at: float | None, notice: str | None = None
+) -> OpenGait:
     """A gait that was just opened."""
-    return OpenGait(gait_id, builtin, fresh_history(gait_text(gait)), gait, 1, gait, saved_at)
+    return OpenGait(gait_id, builtin, fresh_history(gait_text(gait)), gait, 1, gait, saved_at, notice)
 
 
 def gait_text(gait: Gait) -> str:
@@ -124,7 +130,16 @@ def gait_text(gait: Gait) -> str:
 
 
 def gait_of(entry: LogEntry) -> Gait:
-    """The document of an entry of the log."""
+    """The document of an entry of the log.
+
+    Raises:
+        InputError: it cannot be read.
+    """
+    return stored_entry(entry).gait
+
+
+def stored_entry(entry: LogEntry) -> StoredGait:
+    """The document of an entry of the log, and what of it is different now (see `gait_of`)."""
     return _parsed(entry.document)
 
 
@@ -136,5 +151,5 @@ def approval_of(content: dict[str, Any]) -> Approval:
 
 
 @lru_cache(maxsize=64)
-def _parsed(document: str) -> Gait:
-    return parse_gait(document)
+def _parsed(document: str) -> StoredGait:
+    return stored_gait(document)

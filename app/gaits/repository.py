@@ -8,14 +8,14 @@ from collections.abc import Callable
 from dataclasses import asdict, replace
 from typing import Any
 
-from app.documents.gait_json import parse_gait
-from app.gaits.open_gait import OpenGait, fresh_gait, gait_of
+from app.documents.stored_gait import StoredGait, stored_gait
+from app.gaits.open_gait import OpenGait, fresh_gait, stored_entry
 from app.gaits.saved_file import WAYS_OUT, SavedFiles
 from app.gaits.trash import ROUTE, DeletedGait, deleted_gaits
 from app.store.edit_history_store import EditHistoryRow, EditHistoryStore, VersionRow
 from app.store.gait_files import GaitFiles, free_id
 from app.undo.history import History
-from core.errors import NotFoundError, StateError
+from core.errors import InputError, NotFoundError, StateError
 from core.gait.gait import Gait
 from core.library.library import library
 
@@ -41,37 +41,73 @@ class GaitRepository:
 
     def glance(self, gait_id: str) -> tuple[Gait, bool, bool]:
         """A gait's present document, whether it is built in, and whether it is edited; not its history."""
-        saved, builtin, _ = self._saved(gait_id)
+        saved = self._saved(gait_id)
         text = self._edits.present_document(gait_id)
-        gait = saved if text is None else parse_gait(text)
-        return gait, builtin, gait != saved
+        gait = saved.gait if text is None else stored_gait(text).gait
+        return gait, gait_id in library(), gait != saved.gait
 
     def gait(self, gait_id: str) -> OpenGait:
         """A gait as it was put last.
 
         Raises:
             NotFoundError: there is none of that id.
+            InputError: its document or its file cannot be read.
         """
-        saved, builtin, saved_at = self._saved(gait_id)
+        saved, builtin = self._saved(gait_id), gait_id in library()
+        saved_at = self._files.saved_at(gait_id)
         row = self._edits.editing(gait_id)
         if row is None:
-            return fresh_gait(gait_id, saved, builtin, saved_at)
+            return fresh_gait(gait_id, saved.gait, builtin, saved_at, saved.notice)
+        present = stored_entry(row.history.present)
         self._stored[gait_id] = row.history
-        present = gait_of(row.history.present)
-        opened = OpenGait(gait_id, builtin, row.history, present, row.revision, saved, saved_at, row.notice)
+        notice = row.notice or present.notice
+        opened = OpenGait(
+            gait_id, builtin, row.history, present.gait, row.revision, saved.gait, saved_at, notice
+        )
         return replace(opened, kept_approval=row.approval)
 
-    def _saved(self, gait_id: str) -> tuple[Gait, bool, float | None]:
-        """The document as saved or built in, whether it is built in, and when it was saved."""
+    def saved(self, gait_id: str) -> Gait:
+        """A gait's document as saved or built in.
+
+        Raises:
+            NotFoundError: there is none of that id.
+            InputError: its file cannot be read.
+        """
+        return self._saved(gait_id).gait
+
+    def _saved(self, gait_id: str) -> StoredGait:
         if not self._files.is_id(gait_id):
             raise NotFoundError(f"There is no gait “{gait_id}”.", gait_id)
-        builtin, saved_at = library().get(gait_id), self._files.saved_at(gait_id)
         file = self._saved_files.of(gait_id)
         if file is not None:
-            return file.gait, builtin is not None, saved_at
+            return StoredGait(file.gait, file.notice)
+        builtin = library().get(gait_id)
         if builtin is None:
             raise NotFoundError(f"There is no gait “{gait_id}”.", gait_id)
-        return builtin.gait, True, None
+        return StoredGait(builtin.gait)
+
+    def has_file(self, gait_id: str) -> bool:
+        """Whether a gait has a file, readable or not."""
+        return self._files.is_id(gait_id) and self._files.stamp(gait_id) is not None
+
+    def replace_unreadable(self, gait_id: str, gait: Gait) -> None:
+        """Sets a file that cannot be read aside; a gait that does not come with the program gets another.
+
+        Args:
+            gait_id: whose file. One that can be read, or that there is not, stays as it is.
+            gait: what the other file holds.
+
+        Raises:
+            StorageError: the disk does not take it.
+        """
+        try:
+            self._saved_files.of(gait_id)
+        except InputError:
+            is_builtin = gait_id in library()
+            write = (lambda: None) if is_builtin else (lambda: self._files.write(gait_id, gait))
+            self._files.set_aside(gait_id, write)
+        self._saved_files.forget(gait_id)
+        self._stored.pop(gait_id, None)
 
     def put(
         self, open_gait: OpenGait, version: VersionRow | None = None, record: dict[str, Any] | None = None

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from app.documents.gait_json import parse_gait
+from app.documents.stored_gait import stored_gait
 from app.gaits.open_gait import gait_text
 from app.store.edit_history_store import EditHistoryStore
 from app.store.gait_files import GaitFiles
@@ -21,11 +21,13 @@ class SavedFile:
         gait: what counts as saved: what the studio saved last, or the file's document where it saved nothing.
         theirs: the file's document; None where it cannot be read.
         outside: how the file differs from what the studio saved, in a sentence; None where it does not.
+        notice: what of the file is different from how an earlier version kept it, in a sentence, or None.
     """
 
     gait: Gait
     theirs: Gait | None
     outside: str | None
+    notice: str | None = None
 
 
 class SavedFiles:
@@ -63,14 +65,15 @@ class SavedFiles:
         saved = self._edits.last_saved(gait_id)
         mine = _readable(saved[0][1]) if saved else None
         try:
-            theirs = self._files.read(gait_id)
+            found = self._files.stored(gait_id)
         except InputError as error:
             if mine is None:
                 raise
             sentence = f"{error.sentence} It was changed outside the studio, which goes on with its own copy."
             return SavedFile(mine, None, f"{sentence} Mend it and take it over, or keep yours.")
+        theirs = found.gait
         if mine is None or theirs == mine or _was_broken_off(saved, theirs, written):
-            return SavedFile(theirs, theirs, None)
+            return SavedFile(theirs, theirs, None, found.notice)
         return SavedFile(mine, theirs, f"{gait_id}.json was changed outside the studio. {WAYS_OUT}")
 
 
@@ -83,6 +86,6 @@ def _was_broken_off(saved: list[tuple[float, str]], theirs: Gait, written: float
 
 def _readable(text: str) -> Gait | None:
     try:
-        return parse_gait(text)
+        return stored_gait(text).gait
     except FootfallError:  # of an older program, whose bounds were wider
         return None

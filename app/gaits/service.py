@@ -8,14 +8,15 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from app.common.json import Json
-from app.documents.gait_json import parse_gait
+from app.documents.stored_gait import stored_gait
 from app.gaits.approvals import ApprovalRequest, Approvals, approval_record, approved, is_confirmed
 from app.gaits.normalise import normalise, normalise_imported
 from app.gaits.open_gait import OpenGait, gait_text
 from app.gaits.plan_cache import PlanCache, PlanRequest
+from app.gaits.recovery import GaitRecovery, WayOut
 from app.gaits.repository import GaitRepository
 from app.gaits.trash import DeletedGait
-from app.gaits.undo import merged_gait
+from app.gaits.undo import merged_gait, without_unreadable
 from app.gaits.versions import VersionKind, Versions, is_said_already
 from app.gaits.views import require_line
 from app.plans.plan import Plan, Solve, verdict_of
@@ -25,7 +26,7 @@ from app.store.database import Database
 from app.store.edit_history_store import EditHistoryStore, VersionRow
 from app.store.gait_files import GaitFiles
 from app.store.storage_errors import left_undone
-from app.undo.history import Author, UndoResult
+from app.undo.history import Author
 from core.checks.simulation import Simulated
 from core.errors import InputError, NotFoundError, StateError
 from core.findings import Verdict
@@ -65,6 +66,7 @@ class GaitService:
         self.versions = Versions(log, clock)
         self.approvals = Approvals(log)
         self._repository = GaitRepository(files, log)
+        self._recovery = GaitRecovery(self._repository, log, self.versions)
         self._open: dict[str, OpenGait] = {}
 
     def marks(self) -> dict[str, tuple[object, ...]]:
@@ -103,10 +105,45 @@ class GaitService:
 
         Raises:
             NotFoundError: there is none of that id.
+            InputError: it cannot be shown; the sentence names the way out.
         """
         if gait_id not in self._open:
-            self._open[gait_id] = self._repository.gait(gait_id)
+            try:
+                self._open[gait_id] = self._repository.gait(gait_id)
+            except NotFoundError:
+                raise
+            except InputError as error:
+                sentence = f"“{gait_id}” cannot be shown: {error.sentence}"
+                if self._recovery.way_out(gait_id) is not None:
+                    sentence = f"{sentence} Its row in the list of gaits has the way out (POST …/recover)."
+                raise InputError(sentence, error.where) from error
         return self._open[gait_id]
+
+    def way_out(self, gait_id: str) -> WayOut | None:
+        """What can be done about a gait that cannot be shown; None where it can only be deleted."""
+        return self._recovery.way_out(gait_id)
+
+    def recover(self, gait_id: str, author: Author = _SCRIPT) -> OpenGait:
+        """Takes the way out of a gait that cannot be shown (see `GaitRecovery.recover`).
+
+        Raises:
+            StateError: it can be shown, or no state of it can.
+        """
+        if self._can_be_shown(gait_id):
+            raise StateError(f"“{gait_id}” can be shown; Undo and Versions go back.", gait_id)
+        recovered = self._recovery.recover(gait_id, author, self._others(author))
+        self._close(gait_id)
+        self._open[gait_id] = recovered
+        return recovered
+
+    def _can_be_shown(self, gait_id: str) -> bool:
+        try:
+            self.open_gait(gait_id)
+        except NotFoundError:
+            raise
+        except InputError:
+            return False
+        return True
 
     def touched_by(self, page: str) -> tuple[OpenGait, ...]:
         """The gaits in memory that a page edited."""
@@ -175,6 +212,8 @@ class GaitService:
     ) -> OpenGait:
         """Makes a changed document the present one, in memory and in the database.
 
+        The document of a gait that cannot be shown is replaced like any other; it is kept as a version.
+
         Args:
             gait_id: which gait.
             gait: the changed document.
@@ -185,6 +224,9 @@ class GaitService:
         Raises:
             StateError: somebody else changed it since the given revision.
         """
+        if not self._can_be_shown(gait_id) and self._recovery.way_out(gait_id) is not None:
+            self.recover(gait_id, author)
+            revision = None  # nobody can have seen the revision that was there
         open_gait = self.open_gait(gait_id)
         if revision is not None and revision != open_gait.revision:
             raise StateError(
@@ -225,21 +267,35 @@ class GaitService:
     def undo(self, gait_id: str, author: Author = _SCRIPT) -> OpenGait:
         """Takes the author's newest edit back; the edits of others stay.
 
+        A gait that cannot be shown goes back to the last state that can.
+
         Raises:
             StateError: there is none, or somebody changed the same since.
         """
-        open_gait = self.open_gait(gait_id)
-        return self._stepped(open_gait, open_gait.history.undo(author, self._others(author)), author)
+        if not self._can_be_shown(gait_id) and self._recovery.way_out(gait_id) is not None:
+            return self.recover(gait_id, author)
+        return self._stepped(gait_id, author, again=False)
 
     def redo(self, gait_id: str, author: Author = _SCRIPT) -> OpenGait:
         """Does the author's newest undone edit again (see `undo`)."""
-        open_gait = self.open_gait(gait_id)
-        return self._stepped(open_gait, open_gait.history.redo(author, self._others(author)), author)
+        return self._stepped(gait_id, author, again=True)
 
-    def _stepped(self, open_gait: OpenGait, step: UndoResult, author: Author) -> OpenGait:
+    def _stepped(self, gait_id: str, author: Author, *, again: bool) -> OpenGait:
+        """Undoes or redoes; documents on the way that cannot be shown are skipped, and become versions."""
+        open_gait, others = self.open_gait(gait_id), self._others(author)
+        history, skipped = without_unreadable(open_gait.history, others, again=again)
+        try:
+            step = history.redo(author, others) if again else history.undo(author, others)
+        except StateError as error:
+            raise StateError(
+                " ".join((*(state.sentence for state in skipped), error.sentence)), error.where
+            ) from error
         gait = merged_gait(open_gait.gait, step)
-        history = open_gait.history.stepped(step, gait_text(gait), author)
-        return self._put(open_gait.changed(history.pruned(), gait))
+        for state in skipped:
+            self.versions.keep_unreadable(gait_id, state.position, state.document, author)
+        notice = " ".join(state.sentence for state in skipped) or None
+        history = history.stepped(step, gait_text(gait), author)
+        return self._put(open_gait.changed(history.pruned(), gait, notice))
 
     def save(self, gait_id: str, author: Author = _SCRIPT) -> OpenGait:
         """Writes the present document to the data folder."""
@@ -291,7 +347,7 @@ class GaitService:
             NotFoundError: there is none of that number.
         """
         open_gait = self.open_gait(gait_id)
-        gait = parse_gait(self.versions.get(gait_id, number).document, f"version {number}")
+        gait = stored_gait(self.versions.get(gait_id, number).document, f"version {number}").gait
         if is_said_already(gait, open_gait.gait):
             return open_gait
         self.versions.keep(open_gait, VersionKind.BEFORE_RESTORE, author)
@@ -317,14 +373,9 @@ class GaitService:
         Raises:
             StateError: the gait comes with the program and was not saved over.
         """
-        try:
-            open_gait = self.open_gait(gait_id)
-        except NotFoundError:
-            raise
-        except InputError:  # a file that cannot be opened can go all the same
-            self._repository.remove(gait_id)
-            self._close(gait_id)
-            return self.open_gait(gait_id) if gait_id in library() else None
+        if not self._can_be_shown(gait_id):
+            return self._delete_unreadable(gait_id)
+        open_gait = self.open_gait(gait_id)
         if open_gait.saved_at is None:
             raise StateError(
                 f"“{open_gait.gait.name}” comes with the program and cannot be deleted; "
@@ -336,14 +387,30 @@ class GaitService:
         self._close(gait_id)
         return self._return(gait_id, "Delete what was saved") if open_gait.builtin else None
 
+    def _delete_unreadable(self, gait_id: str) -> OpenGait | None:
+        if self._repository.has_file(gait_id):
+            self._repository.remove(gait_id)
+        self._close(gait_id)
+        if gait_id not in library():
+            return None
+        return self.open_gait(gait_id) if self._can_be_shown(gait_id) else self.recover(gait_id)
+
     def deleted(self) -> tuple[DeletedGait, ...]:
         """What `restore` can bring back, the last deleted first."""
         return self._repository.deleted()
 
     def restore(self, gait_id: str) -> OpenGait:
-        """Brings a deleted gait back with its unsaved edits and its history; it needs a new approval."""
+        """Brings a deleted gait back with its unsaved edits and its history; it needs a new approval.
+
+        One that cannot be shown comes back in the last state that can.
+
+        Raises:
+            InputError: it is back, and no state of it can be shown.
+        """
         had_approval = self._repository.restore(gait_id)
         self._close(gait_id)
+        if not self._can_be_shown(gait_id) and self._recovery.way_out(gait_id) is not None:
+            self.recover(gait_id)
         if had_approval:
             revoked = "The gait was deleted and brought back, and its approval is gone."
             self._open[gait_id] = replace(self.open_gait(gait_id), revoked=revoked)

@@ -1,11 +1,14 @@
 """The list of gaits: a line each, made once and again only where its file or its editing changed."""
 
+import logging
 from typing import Any
 
 from app.gaits.service import GaitService
 from app.gaits.views import line_view, problem_view
 from core.errors import FootfallError, NotFoundError
 from core.library.library import library
+
+logger = logging.getLogger(__name__)
 
 Line = dict[str, Any]
 """What the list shows of a gait."""
@@ -62,4 +65,10 @@ class GaitSummaries:
         except NotFoundError:
             return mark, None
         except FootfallError as error:
-            return mark, problem_view(gait_id, error.sentence, gait_id in library())
+            sentence = error.sentence
+        except Exception as error:  # one gait that nobody foresaw must not hide all others
+            logger.exception("The line of %s in the list of gaits cannot be made.", gait_id)
+            sentence = (
+                f"The studio met an error of its own ({type(error).__name__}), which its log describes."
+            )
+        return mark, problem_view(gait_id, sentence, gait_id in library(), self._service.way_out(gait_id))

@@ -3,7 +3,7 @@
 from contextlib import suppress
 from dataclasses import dataclass
 
-from app.documents.gait_json import parse_gait
+from app.documents.stored_gait import stored_gait
 from app.store.edit_history_store import EditHistoryStore
 from app.store.gait_files import GaitFiles
 from core.errors import FootfallError
@@ -44,6 +44,6 @@ def deleted_gaits(files: GaitFiles, log: EditHistoryStore) -> tuple[DeletedGait,
         name = f"{gait_id}.json"
         with suppress(FootfallError):
             text = None if gait_id in library() else log.present_document(gait_id)
-            name = files.deleted(gait_id).name if text is None else parse_gait(text).name
+            name = files.deleted(gait_id).name if text is None else stored_gait(text).gait.name
         found.append(DeletedGait(gait_id, name, files.deleted_at(gait_id)))
     return tuple(sorted(found, key=lambda gait: gait.when, reverse=True))

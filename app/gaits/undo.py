@@ -1,15 +1,56 @@
 """Applies an undo or redo to a gait and keeps what others changed since."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
-from app.documents.gait_json import gait_from_content
+from app.documents.stored_gait import stored_content
 from app.gaits.normalise import asks_anew, normalise, require_locks
-from app.undo.history import UndoResult
+from app.gaits.open_gait import gait_of
+from app.undo.history import History, UndoResult
 from core.errors import FootfallError, StateError
 from core.gait.gait import Gait
 from core.library.sequence import derived
 from core.recorded.recorded_motion import gait_trajectory
 from core.robot.model import load_robot
+
+
+@dataclass(frozen=True)
+class SkippedState:
+    """A document in the history that undo and redo step over.
+
+    Args:
+        position: in the history.
+        document: its text.
+        sentence: why.
+    """
+
+    position: int
+    document: str
+    sentence: str
+
+
+def without_unreadable(
+    history: History, others: frozenset[str], *, again: bool
+) -> tuple[History, tuple[SkippedState, ...]]:
+    """The history whose next undo, or redo, ends at a document that can be shown; and what it skips.
+
+    Args:
+        history: the gait's history.
+        others: the other pages that are connected.
+        again: whether it is about redo.
+    """
+    skipped: list[SkippedState] = []
+    while (action := history.redoable(others) if again else history.undoable(others)) is not None:
+        position = action.position if again else action.position - 1
+        entry, label = history.entries[position], history.label_of(action)
+        try:
+            gait_of(entry)
+            break
+        except FootfallError as error:
+            place = "after" if again else "before"
+            sentence = f"The state {place} “{label}” cannot be shown and is skipped: {error.sentence}"
+            skipped.append(SkippedState(position, entry.document, sentence))
+            history = history.skipping(action, again=again)
+    return history, tuple(skipped)
 
 
 def merged_gait(present: Gait, step: UndoResult) -> Gait:
@@ -19,7 +60,7 @@ def merged_gait(present: Gait, step: UndoResult) -> Gait:
         StateError: it does not.
     """
     try:
-        gait = gait_from_content(step.content)
+        gait = stored_content(step.content).gait
         if not step.exact:
             if gait.sequence:
                 return derived(gait)
@@ -51,7 +92,7 @@ def _require_recorded(present: Gait, gait: Gait, step: UndoResult) -> None:
     if gait.recorded is None:
         return
     gait_trajectory(gait, gait.recorded, load_robot(gait.robot))
-    own = present if present.recorded == gait.recorded else gait_from_content(step.alone)
+    own = present if present.recorded == gait.recorded else stored_content(step.alone).gait
     if asks_anew(own, replace(gait, recorded=own.recorded)):
         raise StateError(
             f"The recorded motion of {gait.recorded.file} is not what the gait would ask for.",

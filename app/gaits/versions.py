@@ -29,6 +29,10 @@ LARGEST_NUMBER = 2**63 - 1
 """The database has no larger integer."""
 
 
+UNREADABLE = ""
+"""Stands in place of the motion's hash in a version whose document cannot be shown."""
+
+
 class VersionKind(StrEnum):
     """Why a version was kept."""
 
@@ -126,6 +130,23 @@ class Versions:
         ):
             return None
         return self._row(open_gait, kind, name, "" if author is None else author.name, newest)
+
+    def unreadable(self, gait_id: str, position: int, document: str, author: Author) -> VersionRow:
+        """The version of a document that cannot be shown, before something else takes its place.
+
+        Args:
+            gait_id: of which gait.
+            position: of the document in the gait's log.
+            document: its text.
+            author: who replaces it.
+        """
+        number = self.newest_number(gait_id) + 1
+        kind = VersionKind.BEFORE_RESTORE.value
+        return VersionRow(number, self._clock(), kind, "", author.name, position, UNREADABLE, document)
+
+    def keep_unreadable(self, gait_id: str, position: int, document: str, author: Author) -> None:
+        """Keeps a document that cannot be shown as a version (see `unreadable`)."""
+        self._log.add_version(gait_id, self.unreadable(gait_id, position, document, author))
 
     def _row(
         self, open_gait: OpenGait, kind: VersionKind, name: str, by: str, newest: VersionRow | None

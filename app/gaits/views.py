@@ -9,6 +9,7 @@ import numpy as np
 from app.common.json import Json, finite
 from app.documents.gait_json import gait_content
 from app.gaits.open_gait import OpenGait
+from app.gaits.recovery import WayOut
 from app.plans.plan import Plan
 from app.plans.provenance import provenance_view
 from app.plans.reach_outline_view import reach_rings
@@ -53,16 +54,18 @@ def line_view(gait_id: str, gait: Gait, builtin: bool, edited: bool, outside: st
         "walks": library()[gait_id].walks if builtin and not edited else None,
         "outside": outside,
         "problem": None,
+        "way_out": None,
     }
 
 
-def problem_view(gait_id: str, sentence: str, builtin: bool = False) -> Json:
-    """The line of a file that cannot be opened.
+def problem_view(gait_id: str, sentence: str, builtin: bool = False, way_out: WayOut | None = None) -> Json:
+    """The line of a gait that cannot be shown.
 
     Args:
         gait_id: its id, or its name where that is no id.
         sentence: what is wrong with it, and what can be done.
         builtin: whether a gait of this id comes with the program.
+        way_out: what can be done about it.
     """
     return {
         "id": gait_id,
@@ -78,6 +81,7 @@ def problem_view(gait_id: str, sentence: str, builtin: bool = False) -> Json:
         "walks": None,
         "outside": None,
         "problem": sentence,
+        "way_out": way_out,
     }
 
 

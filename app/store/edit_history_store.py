@@ -10,9 +10,12 @@ from dataclasses import astuple, dataclass
 from app.common.json import Json
 from app.store.database import Database
 from app.undo.history import Action, Author, History, LogEntry
+from core.errors import InputError
 
 MOST_AUTOMATIC = 200
 """Automatic versions that are kept of a gait; of all others every one is kept."""
+
+_MISSING = "Documents are missing in the history of “{}”."
 
 _VERSION_COLUMNS = "number, made, kind, name, by, position, motion, document"
 
@@ -63,19 +66,35 @@ class EditHistoryStore:
         self._database = database
 
     def editing(self, gait: str) -> EditHistoryRow | None:
-        """A gait's editing state, or None where it was never edited."""
+        """A gait's editing state, or None where it was never edited.
+
+        Raises:
+            InputError: what is kept of it contradicts itself.
+        """
         rows = self._database.rows(
             "SELECT revision, last, done, undone, notice, approval FROM open_gait WHERE gait=?", gait
         )
         if not rows:
             return None
         revision, last, done, undone, notice, approval = rows[0]
-        found = self._database.rows(
+        entries = self.entries(gait)
+        history = History(entries, last, _actions(done, gait), _actions(undone, gait))
+        edits = [action.position for action in (*history.done, *history.undone)]
+        if not {last, *edits, *(position - 1 for position in edits)} <= entries.keys():
+            raise InputError(_MISSING.format(gait), gait)
+        return EditHistoryRow(revision, history, notice, approval)
+
+    def entries(self, gait: str) -> dict[int, LogEntry]:
+        """Every document of a gait's history, by position."""
+        rows = self._database.rows(
             "SELECT position, label, document, page, name FROM history WHERE gait=?", gait
         )
-        entries = {at: LogEntry(label, text, Author(page, name)) for at, label, text, page, name in found}
-        history = History(entries, last, _actions(done), _actions(undone))
-        return EditHistoryRow(revision, history, notice, approval)
+        return {at: LogEntry(label, text, Author(page, name)) for at, label, text, page, name in rows}
+
+    def revision(self, gait: str) -> int:
+        """Revision of a gait's present document; 0 where it was never edited."""
+        rows = self._database.rows("SELECT revision FROM open_gait WHERE gait=?", gait)
+        return rows[0][0] if rows else 0
 
     def ids(self) -> frozenset[str]:
         """Every gait of which anything is kept."""
@@ -83,13 +102,24 @@ class EditHistoryStore:
         return frozenset(row[0] for row in rows)
 
     def present_document(self, gait: str) -> str | None:
-        """A gait's present document as JSON text, or None where it was never edited."""
+        """A gait's present document as JSON text, or None where it was never edited.
+
+        Raises:
+            InputError: what is kept of it contradicts itself.
+        """
         rows = self._database.rows(
-            "SELECT h.document FROM open_gait o JOIN history h ON h.gait = o.gait AND h.position = o.last "
-            "WHERE o.gait=?",
+            "SELECT h.document, o.done, o.undone FROM open_gait o "
+            "LEFT JOIN history h ON h.gait = o.gait AND h.position = o.last WHERE o.gait=?",
             gait,
         )
-        return rows[0][0] if rows else None
+        if not rows:
+            return None
+        document, *stacks = rows[0]
+        for actions in stacks:
+            _actions(actions, gait)
+        if document is None:
+            raise InputError(_MISSING.format(gait), gait)
+        return str(document)
 
     def last_saved(self, gait: str) -> list[tuple[float, str]]:
         """The last two documents that were saved, the newer first: when, s since the epoch, and JSON text."""
@@ -190,8 +220,16 @@ class EditHistoryStore:
             _insert_version(connection, gait, version)
 
 
-def _actions(text: str) -> tuple[Action, ...]:
-    return tuple(Action(*action) for action in json.loads(text))
+def _actions(text: str, gait: str) -> tuple[Action, ...]:
+    """A stack of edits out of its JSON text.
+
+    Raises:
+        InputError: it is none.
+    """
+    try:
+        return tuple(Action(*action) for action in json.loads(text))
+    except (TypeError, ValueError) as error:
+        raise InputError(f"What can be undone of “{gait}” cannot be read: {error}.", gait) from error
 
 
 def _insert_version(connection: sqlite3.Connection, gait: str, version: VersionRow) -> None:

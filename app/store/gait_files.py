@@ -10,7 +10,8 @@ from contextlib import suppress
 from itertools import chain, count
 from pathlib import Path
 
-from app.documents.gait_json import gait_content, parse_gait
+from app.documents.gait_json import gait_content
+from app.documents.stored_gait import StoredGait, stored_gait
 from app.store.plain_file import read_plain_file
 from app.store.storage_errors import file_error
 from core.errors import InputError, StorageError
@@ -187,7 +188,7 @@ class GaitFiles:
         """
         path = self._trash / self._path(gait_id).name
         try:
-            return parse_gait(read_plain_file(path, MOST_FILE_BYTES), path.name)
+            return stored_gait(read_plain_file(path, MOST_FILE_BYTES), path.name).gait
         except FileNotFoundError as error:
             raise InputError(f"There is no deleted gait “{gait_id}”.", gait_id) from error
 
@@ -200,6 +201,10 @@ class GaitFiles:
             return 0.0
 
     def read(self, gait_id: str) -> Gait:
+        """Reads a saved gait (see `stored`)."""
+        return self.stored(gait_id).gait
+
+    def stored(self, gait_id: str) -> StoredGait:
         """Reads a saved gait.
 
         Raises:
@@ -207,7 +212,7 @@ class GaitFiles:
         """
         path = self._path(gait_id)
         try:
-            return parse_gait(read_plain_file(path, MOST_FILE_BYTES), path.name)
+            return stored_gait(read_plain_file(path, MOST_FILE_BYTES), path.name)
         except FileNotFoundError as error:
             raise InputError(f"There is no saved gait “{gait_id}”.", gait_id) from error
 

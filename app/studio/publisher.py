@@ -112,7 +112,7 @@ class Publisher:
         try:
             gait = self._glanced(content["gait"])
             fresh = content["motion"] in (run_motions(gait) if gait.sequence else {asked_hash(gait)})
-        except FootfallError:  # it is gone, or its file is damaged
+        except FootfallError:  # it is gone, or cannot be shown
             fresh = False
         return {**content, "fresh": fresh}
 

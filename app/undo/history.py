@@ -47,8 +47,11 @@ class LogEntry:
 
     @cached_property
     def content(self) -> Any:
-        """The document's JSON content; not to be changed."""
-        return json.loads(self.document)
+        """The document's JSON content, or its text where that is no JSON; not to be changed."""
+        try:
+            return json.loads(self.document)
+        except (RecursionError, ValueError):
+            return self.document
 
 
 @dataclass(frozen=True)
@@ -134,6 +137,32 @@ class History:
         added = self._added(LogEntry(label, document, author))
         done = (*self.done, Action(added.last, added.last, author.page))
         return replace(added, done=done[-MOST_STEPS:], undone=undone)
+
+    def gone_back(self, document: str, label: str, author: Author, to: int | None) -> History:
+        """The log with an earlier document as its newest; edits after that one cannot be undone any more.
+
+        Args:
+            document: the earlier document, JSON text.
+            label: what going back is called.
+            author: who does so.
+            to: position of the earlier document; None where the log does not have it.
+        """
+        done = () if to is None else tuple(action for action in self.done if action.since <= to)
+        return replace(self._added(LogEntry(label, document, author)), done=done, undone=())
+
+    def skipping(self, action: Action, *, again: bool) -> History:
+        """The log without an action whose result cannot be read; the next one steps over that document.
+
+        Args:
+            action: the newest that can be undone, or done again.
+            again: whether it was to be done again.
+        """
+        unread, kept = (
+            (action.position, action.position - 1) if again else (action.position - 1, action.position)
+        )
+        entry = replace(self.entries[unread], document=self.entries[kept].document)
+        done, undone = (_without(actions, action.position) for actions in (self.done, self.undone))
+        return replace(self, entries={**self.entries, unread: entry}, done=done, undone=undone)
 
     def restated(self, document: str) -> History:
         """The log with its newest document said anew: what is no edit, such as a result's provenance."""

@@ -1,6 +1,8 @@
 """Options of a gait: limits and cost for the optimiser, and how the result is sent."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 
@@ -8,24 +10,66 @@ from core.errors import InputError
 from core.motion.heading_profile import HeadingProfile
 from core.problem.motion_problem import Boundary, Cost, Workspace
 
-_OPTION_BOUNDS: dict[str, tuple[float, float, float, str]] = {
-    "clearance": (1000.0, 0.0, 20.0, " mm"),
-    "margin": (1000.0, -50.0, 50.0, " mm"),
-    "body_speed": (1000.0, 0.5, 1000.0, " mm/s"),
-    "plane_height": (1000.0, 30.0, 100.0, " mm"),
-    "end_plane_height": (1000.0, 30.0, 100.0, " mm"),
-    "friction": (1.0, 0.01, 10.0, ""),
-    "motor_speed": (1000.0, 0.5, 1000.0, " mm/s"),
-    "motor_acceleration": (1000.0, 0.5, 10000.0, " mm/s²"),
-    "merge": (1000.0, 0.0, 5.0, " mm"),
-    "stop_bound": (1.0, 0.8, 10.0, " s"),
-}
-"""Factor from SI to what a person reads, least, most, unit."""
+
+@dataclass(frozen=True)
+class OptionBounds:
+    """The values that an option may have.
+
+    Args:
+        least: smallest value, in the unit that a person reads.
+        most: largest value, likewise.
+        factor: from SI to that unit.
+        unit: with the blank before it; empty where there is none.
+    """
+
+    least: float
+    most: float
+    factor: int = 1
+    unit: str = ""
+
+    @property
+    def least_si(self) -> float:
+        """Smallest value, SI."""
+        return self.least if self.factor == 1 else self.least / self.factor
+
+    @property
+    def most_si(self) -> float:
+        """Largest value, SI."""
+        return self.most if self.factor == 1 else self.most / self.factor
+
+    def sentence(self, name: str, value: float) -> str | None:
+        """What is wrong with a value, SI, of the option of that name; None where it is allowed."""
+        shown = value * self.factor
+        if np.isfinite(shown) and self.least <= shown <= self.most:
+            return None
+        words = f"{'number of ' if name.endswith('_knots') else ''}{name.replace('_', ' ')}"
+        number = str(shown) if isinstance(shown, int) else f"{shown:g}"
+        allowed = f"it must lie between {self.least:g} and {self.most:g}{self.unit}"
+        return f"The {words} is {number}{self.unit}; {allowed}."
+
 
 LEAST_PHASE_KNOTS, MOST_PHASE_KNOTS = 2, 50
 """Knots that a stance phase or a swing of a drawn timeline may have."""
 MOST_CLOSING_KNOTS = 100
 """Knots that the closing stance of a drawn timeline may have."""
+
+OPTION_BOUNDS: Mapping[str, OptionBounds] = MappingProxyType(
+    {
+        "clearance": OptionBounds(0.0, 20.0, 1000, " mm"),
+        "margin": OptionBounds(-50.0, 50.0, 1000, " mm"),
+        "body_speed": OptionBounds(0.5, 1000.0, 1000, " mm/s"),
+        "plane_height": OptionBounds(30.0, 100.0, 1000, " mm"),
+        "end_plane_height": OptionBounds(30.0, 100.0, 1000, " mm"),
+        "friction": OptionBounds(0.01, 10.0),
+        "motor_speed": OptionBounds(0.5, 1000.0, 1000, " mm/s"),
+        "motor_acceleration": OptionBounds(0.5, 10000.0, 1000, " mm/s²"),
+        "merge": OptionBounds(0.0, 5.0, 1000, " mm"),
+        "stop_bound": OptionBounds(0.8, 10.0, 1, " s"),
+        "phase_knots": OptionBounds(LEAST_PHASE_KNOTS, MOST_PHASE_KNOTS),
+        "closing_knots": OptionBounds(0, MOST_CLOSING_KNOTS),
+    }
+)
+"""Bounds of every option that is a number, by its name."""
 
 
 @dataclass(frozen=True)
@@ -69,20 +113,8 @@ class GaitOptions:
     stop_bound: float | None = 1.0
 
     def __post_init__(self) -> None:
-        for name, (factor, lower, upper, unit) in _OPTION_BOUNDS.items():
-            if getattr(self, name) is None:
-                continue
-            value = getattr(self, name) * factor
-            if not (np.isfinite(value) and lower <= value <= upper):
-                words = name.replace("_", " ")
-                raise InputError(
-                    f"The {words} is {value:g}{unit}; it must lie between {lower:g} and {upper:g}{unit}.",
-                    name,
-                )
-        _require_knots("phase_knots", self.phase_knots, LEAST_PHASE_KNOTS, MOST_PHASE_KNOTS)
-        _require_knots("closing_knots", self.closing_knots, 0, MOST_CLOSING_KNOTS)
-
-
-def _require_knots(name: str, knots: int, least: int, most: int) -> None:
-    if not least <= knots <= most:
-        raise InputError(f"{name} is {knots}; it must lie between {least} and {most}.", name)
+        for name, bounds in OPTION_BOUNDS.items():
+            value = getattr(self, name)
+            sentence = None if value is None else bounds.sentence(name, value)
+            if sentence is not None:
+                raise InputError(sentence, name)

@@ -55,6 +55,11 @@ def _length(sign: int, rule: int, value: Any) -> Iterator[str]:
         yield f"has {len(value)} items"
 
 
+def _bound(sign: int, rule: float, value: Any) -> Iterator[str]:
+    if isinstance(value, (int, float)) and sign * value < sign * rule:
+        yield f"{value} is beyond {rule}"
+
+
 _JUDGES: dict[str, Callable[[Any, Any], Iterator[str]]] = {
     "type": _type,
     "enum": _one_of,
@@ -62,6 +67,8 @@ _JUDGES: dict[str, Callable[[Any, Any], Iterator[str]]] = {
     "required": _required,
     "minItems": lambda rule, value: _length(1, rule, value),
     "maxItems": lambda rule, value: _length(-1, rule, value),
+    "minimum": lambda rule, value: _bound(1, rule, value),
+    "maximum": lambda rule, value: _bound(-1, rule, value),
 }
 
 

@@ -193,9 +193,15 @@ async def save(gait_id: str, studio: TheStudio, author: TheAuthor) -> Json:
     return await changed(studio, lambda: studio.gaits.save(gait_id, author))
 
 
+@router.post("/{gait_id}/recover")
+async def recover(gait_id: str, studio: TheStudio, author: TheAuthor) -> Json:
+    """Takes the way out of a gait that cannot be shown: its last state that can, or how it came."""
+    return await changed(studio, lambda: studio.gaits.recover(gait_id, author))
+
+
 @router.post("/{gait_id}/restore")
 async def restore(gait_id: str, studio: TheStudio) -> Json:
-    """Brings a deleted gait back; a file that cannot be opened comes back too, and is refused then."""
+    """Brings a deleted gait back; one of which no state can be shown comes back too, and is refused then."""
 
     def restored() -> OpenGait:
         try:

@@ -6,9 +6,10 @@ from fastapi import APIRouter
 from pydantic import Field
 
 from app.common.json import Json
-from app.documents.gait_json import gait_content, motion_hash, parse_gait
+from app.documents.gait_json import gait_content, motion_hash
+from app.documents.stored_gait import stored_gait
 from app.gaits.open_gait import OpenGait
-from app.gaits.versions import MOST_NAME, VersionKind, is_said_already
+from app.gaits.versions import MOST_NAME, UNREADABLE, VersionKind, is_said_already
 from app.store.edit_history_store import VersionRow
 from app.web.dependencies import (
     RequestBody,
@@ -19,10 +20,16 @@ from app.web.dependencies import (
     on_command_thread,
     on_planned,
 )
+from core.errors import FootfallError
 from core.gait.gait import Gait
 from core.gait.gait_difference import gait_difference
 
 router = APIRouter(prefix="/api/gaits/{gait_id}/versions", tags=["versions"])
+
+
+_UNREADABLE = (
+    "This version of the program cannot show the document, so that it cannot be restored. It is kept."
+)
 
 
 class Naming(RequestBody):
@@ -94,7 +101,14 @@ async def restore_version(gait_id: str, number: Revision, studio: TheStudio, aut
 
 
 def _gait(row: VersionRow) -> Gait:
-    return parse_gait(row.document, f"version {row.number}")
+    return stored_gait(row.document, f"version {row.number}").gait
+
+
+def _is_present(row: VersionRow, open_gait: OpenGait) -> bool:
+    try:
+        return is_said_already(_gait(row), open_gait.gait)
+    except FootfallError:
+        return False
 
 
 def _line(row: VersionRow, open_gait: OpenGait, motion: str) -> Json:
@@ -107,6 +121,7 @@ def _line(row: VersionRow, open_gait: OpenGait, motion: str) -> Json:
         "name": row.name,
         "by": row.by,
         "motion": row.motion,
-        "present": same_motion and is_said_already(_gait(row), open_gait.gait),
+        "present": same_motion and _is_present(row, open_gait),
         "same_motion": same_motion,
+        "problem": _UNREADABLE if row.motion == UNREADABLE else None,
     }

@@ -84,6 +84,7 @@ export const api = {
   difference: (id, number, to = null) => request("GET", `${gait(id)}/versions/${number}/difference${to === null ? "" : `?to=${to}`}`),
   restoreVersion: (id, number) => request("POST", `${gait(id)}/versions/${number}/restore`),
   settleFile: (id, keep) => request("POST", `${gait(id)}/file`, { keep }),
+  recover: (id) => request("POST", `${gait(id)}/recover`),
   restore: (id) => request("POST", `${gait(id)}/restore`),
   check: (id) => request("POST", `${gait(id)}/check`),
   approve: (id, by, verdict, seen) => request("POST", `${gait(id)}/approve`, { by, verdict_hash: verdict, accept_warnings: seen }),

@@ -1,6 +1,7 @@
 /** The list of gaits, in groups that fold, and the choice of one. */
 
 import { api } from "../api/gaits.js";
+import { dialogFrame, openDialog } from "../lib/dialogs.js";
 import { byId, h, setAttribute, setText } from "../lib/dom.js";
 import { attempt, clearOfGait, report, toast } from "../lib/toasts.js";
 import { acceptView } from "../state/store.js";
@@ -70,14 +71,33 @@ function item(gait) {
   return { element, button, name, tag, dot };
 }
 
-/** Says why a file cannot be opened; one whose name is an id can be deleted, and brought back. */
-function tellProblem({ id, problem }) {
+const WAYS_OUT = { last: "Go back to the last state that can be shown", original: "Back to how it came" };
+
+/** Says why a gait cannot be shown, and offers its way out; one of a person's own can be deleted, and brought back. */
+function showWaysOut(store, { id, name, problem, way_out: wayOut }) {
+  if (id.endsWith(".json")) {
+    toast(problem, { tone: "bad" });
+    return;
+  }
   const bringBack = attempt(() => api.restore(id));
   const remove = attempt(async () => {
     await api.remove(id);
-    toast(`${id}.json is deleted.`, { action: { label: "Bring it back", act: bringBack } });
+    toast(`${name} is deleted.`, { action: { label: "Bring it back", act: bringBack } });
   });
-  toast(problem, { tone: "bad", action: id.endsWith(".json") ? null : { label: "Delete the file", act: remove } });
+  const recover = attempt(async () => {
+    const view = await api.recover(id);
+    await selectGait(store, id);
+    acceptView(store, view);
+    toast(`${view.name} can be shown again. What could not be is kept under Versions.`);
+  });
+  openDialog((close) => {
+    const then = (act) => () => { close(null); act(); };
+    return dialogFrame(`${name} cannot be shown`, close, then(recover), h("p", { text: problem }),
+      h("div", { class: "buttons" },
+        h("button", { type: "button", text: "Close", on: { click: () => close(null) } }),
+        wayOut === "original" ? null : h("button", { type: "button", text: "Delete", on: { click: then(remove) } }),
+        wayOut && h("button", { type: "submit", class: "primary", text: WAYS_OUT[wayOut] })));
+  });
 }
 
 function showProblem(part, { name, problem }) {
@@ -138,7 +158,7 @@ export function mountGaits(store) {
   list.addEventListener("click", ({ target }) => {
     const id = target.closest("[data-gait]")?.dataset.gait;
     const unreadable = store.state.gaits.find((gait) => gait.id === id && gait.problem);
-    if (unreadable) tellProblem(unreadable);
+    if (unreadable) showWaysOut(store, unreadable);
     else if (id) selectGait(store, id);
   });
   list.addEventListener("dblclick", ({ target }) => {

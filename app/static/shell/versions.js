@@ -15,7 +15,7 @@ const titleOf = (version) => version.name || TEXTS[version.kind];
 
 /** One version in the list. */
 function option(version, choose) {
-  const detail = [version.name ? TEXTS[version.kind].toLowerCase() : null, version.by ? `by ${version.by}` : null, version.present ? "as now" : null].filter(Boolean).join(", ");
+  const detail = [version.name ? TEXTS[version.kind].toLowerCase() : null, version.by ? `by ${version.by}` : null, version.present ? "as now" : null, version.problem ? "cannot be shown" : null].filter(Boolean).join(", ");
   return h("li", { role: "option", id: `version-${version.number}`, "aria-selected": "false", "aria-label": `Version ${version.number}, ${titleOf(version)}, ${clockTime(version.made)}${detail ? `, ${detail}` : ""}`,
     on: { click: () => choose(version.number) } },
     h("span", { class: "version-title" }, h("span", { class: "number quiet", text: String(version.number) }), h("b", { text: titleOf(version) })),
@@ -39,6 +39,11 @@ function panel(store, edits, ui) {
 
   const showDifference = attempt(async () => {
     const isOld = beginDifference();
+    const { problem } = versions.find(({ number }) => number === chosen);
+    if (problem) {
+      ui.difference.replaceChildren(h("p", { text: problem }));
+      return;
+    }
     const to = ui.against.value ? Number(ui.against.value) : null;
     const { groups } = await api.difference(ui.id, chosen, to);
     if (isOld()) return;
@@ -52,7 +57,7 @@ function panel(store, edits, ui) {
     for (const item of ui.list.children) setAttribute(item, "aria-selected", String(item.id === `version-${number}`));
     ui.list.setAttribute("aria-activedescendant", `version-${number}`);
     byId(`version-${number}`)?.scrollIntoView({ block: "nearest" });
-    setAllowed(ui.restore, version.present ? "The gait is as in this version." : null, `Restores version ${number}; Undo takes that back`);
+    setAllowed(ui.restore, version.problem ?? (version.present ? "The gait is as in this version." : null), `Restores version ${number}; Undo takes that back`);
     return showDifference();
   }
 

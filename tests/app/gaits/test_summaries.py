@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from app.bench.page.gait_list import fill
+from app.documents.stored_gait import StoredGait
 from app.gaits.live_plans import LivePlans
 from app.gaits.service import GaitService
 from app.gaits.summaries import GaitSummaries
@@ -20,7 +21,6 @@ from app.store.database import Database
 from app.store.gait_files import GaitFiles
 from app.studio.studio import Studio
 from core.errors import InputError
-from core.gait.gait import Gait
 from core.library.library import library
 from solver_jobs import SolveStatus
 from tests.app.gaits.test_service import WALK, edit
@@ -37,9 +37,9 @@ class CountedFiles(GaitFiles):
         super().__init__(data)
         self.read_ids: list[str] = []
 
-    def read(self, gait_id: str) -> Gait:
+    def stored(self, gait_id: str) -> StoredGait:
         self.read_ids.append(gait_id)
-        return super().read(gait_id)
+        return super().stored(gait_id)
 
 
 @pytest.fixture

@@ -1,0 +1,82 @@
+"""Gait documents that the studio kept itself, also those of its earlier versions, which had other bounds."""
+
+import json
+from dataclasses import dataclass
+from typing import Any
+
+from app.common.json import Json
+from app.documents.gait_json import gait_from_content, parse_gait
+from core.gait.gait import Gait
+from core.gait.options import OPTION_BOUNDS
+
+_KNOTS = ("phase_knots", "closing_knots")
+"""Options without bounds in earlier versions; nothing but a timeline that is drawn anew depends on them."""
+
+
+@dataclass(frozen=True)
+class StoredGait:
+    """A document as it was kept.
+
+    Args:
+        gait: the gait.
+        notice: what of it is different now, in a sentence; None where nothing is.
+    """
+
+    gait: Gait
+    notice: str | None = None
+
+
+def stored_gait(text: str | bytes, where: str = "gait") -> StoredGait:
+    """Reads a document that the studio kept (see `parse_gait`).
+
+    Raises:
+        InputError: it cannot be read.
+    """
+    try:
+        content = json.loads(text)
+    except (RecursionError, ValueError):
+        return StoredGait(parse_gait(text, where))
+    return stored_content(content, where)
+
+
+def stored_content(content: Any, where: str = "gait") -> StoredGait:
+    """Reads a kept document that is already parsed JSON (see `stored_gait`)."""
+    if not isinstance(content, dict):
+        return StoredGait(gait_from_content(content, where))
+    limited, changes = _limited(content)
+    notice = None if not changes else f"Kept by an earlier version with {' and '.join(changes)}. {_SAME}"
+    return StoredGait(gait_from_content(limited, where), notice)
+
+
+_SAME = "The timeline is as it was; drawing it anew takes the new number."
+
+
+def _limited(content: Json) -> tuple[Json, list[str]]:
+    """A document, and the parts of a sequence, with the numbers of knots that are possible now."""
+    changes: list[str] = []
+    options = content.get("options")
+    if isinstance(options, dict):
+        limited = {name: _bounded(name, options[name], changes) for name in _KNOTS if name in options}
+        content = {**content, "options": {**options, **limited}}
+    parts = content.get("sequence")
+    if isinstance(parts, list):
+        content = {**content, "sequence": [_part(part, changes) for part in parts]}
+    return content, changes
+
+
+def _part(part: Any, changes: list[str]) -> Any:
+    if not isinstance(part, dict) or not isinstance(part.get("gait"), dict):
+        return part
+    gait, within = _limited(part["gait"])
+    changes += within
+    return {**part, "gait": gait}
+
+
+def _bounded(name: str, value: Any, changes: list[str]) -> Any:
+    if not isinstance(value, int) or isinstance(value, bool):
+        return value
+    bounds = OPTION_BOUNDS[name]
+    limited = int(min(max(value, bounds.least), bounds.most))
+    if limited != value:
+        changes.append(f"{value} {name.replace('_', ' ')} (now {limited})")
+    return limited

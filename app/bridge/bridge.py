@@ -347,11 +347,12 @@ class RobotBridge:
         while not self._closing:
             began, slept_from = self._clock(), time.monotonic()
             items = self._take()
-            late = time.monotonic() - slept_from - self._tick
             with self._lock:
                 for item in items:
                     self._feed(item)
                 now = self._clock()
+                # Looked at after `now`, so that it counts wherever the worker was kept from running.
+                late = time.monotonic() - slept_from - self._tick
                 if late > LATE:
                     self._machine.monitor.excuse(now - began, now)
                 self._machine.tick(now)

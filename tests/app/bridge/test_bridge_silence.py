@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import pytest
 
-from app.bridge.bridge import RobotBridge
+from app.bridge.bridge import LATE, RobotBridge
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPlan
 from app.bridge.telemetry import IDLE_SILENCE, SILENCE_LIMIT, TelemetryMonitor
 from app.bridge.transport import Transport
@@ -17,10 +17,11 @@ from app.emulator.faults import Fault
 from app.emulator.profiles import ProfileName
 from core.wire.lines import ErrorScan, Execute, Telemetry
 from core.wire.timing import OVERRUN, ramp_time
+from tests.support.studio_process import wait_for
 from tests.support.virtual_robot import VirtualRobot, make_plan
 
 PROMISED = 2.0
-FAST = 20.0
+PATIENCE = 60.0
 
 
 def is_named(snapshot: RobotSnapshot) -> bool:
@@ -107,9 +108,10 @@ def test_the_silence_that_is_allowed_follows_the_move_that_may_be_on() -> None:
 
 
 class TalkingLine(Transport):
-    """A robot that idles, and is mute while `hushed` is set."""
+    """A robot that idles, and is mute while `hushed` is set; time passes as it talks."""
 
     hushed = threading.Event()
+    now = 0.0
 
     def __init__(self, device: str, on_data: Callable[[bytes], None], on_lost: Callable[[str], None]) -> None:
         del on_lost
@@ -123,6 +125,7 @@ class TalkingLine(Transport):
         while not self._ended.wait(0.002):
             if not self.hushed.is_set():
                 on_data(b"new data tf 0\r\n" + reading)
+                TalkingLine.now += 0.01
 
     def write(self, data: bytes) -> None:
         del data
@@ -135,44 +138,43 @@ class TalkingLine(Transport):
 @pytest.fixture
 def bridge() -> Iterator[RobotBridge]:
     TalkingLine.hushed.clear()
-    bridge = RobotBridge(clock=lambda: FAST * time.monotonic(), tick=0.005, opener=TalkingLine)
+    bridge = RobotBridge(clock=lambda: TalkingLine.now, tick=0.005, opener=TalkingLine)
     bridge.connect("talking")
-    until(bridge, LinkState.READY)
+    wait_for(lambda: bridge.snapshot.link is LinkState.READY, "the robot answers")
     yield bridge
     bridge.close()
 
 
-def until(bridge: RobotBridge, link: LinkState) -> None:
-    deadline = time.monotonic() + 20.0
-    while bridge.snapshot.link is not link:
-        assert time.monotonic() < deadline, bridge.snapshot
-        time.sleep(0.005)
-
-
+@pytest.mark.parametrize("place", ["_take", "_feed"])
 def test_a_program_that_was_kept_from_running_does_not_call_that_the_robots_silence(
-    bridge: RobotBridge, monkeypatch: pytest.MonkeyPatch
+    bridge: RobotBridge, monkeypatch: pytest.MonkeyPatch, place: str
 ) -> None:
-    take, held = bridge._take, threading.Event()
+    run, tick, looked = getattr(bridge, place), bridge._machine.tick, threading.Event()
 
-    def take_late() -> list[object]:
-        items: list[object] = []
-        if held.is_set():
-            return [*take()]
-        TalkingLine.hushed.set()
-        time.sleep(0.4)  # 8 s of the bridge's clock
-        items.extend(take())
-        TalkingLine.hushed.clear()
-        held.set()
-        return items
+    def run_late(*arguments: object) -> object:
+        if not TalkingLine.hushed.is_set():
+            TalkingLine.hushed.set()
+            TalkingLine.now += 2 * SILENCE_LIMIT
+            time.sleep(2 * LATE)
+        return run(*arguments)
 
-    monkeypatch.setattr(bridge, "_take", take_late)
-    assert held.wait(20.0)
-    for _ in range(20):
-        assert bridge.snapshot.link is LinkState.READY
-        time.sleep(0.005)
+    def look(now: float) -> None:
+        tick(now)
+        if TalkingLine.hushed.is_set():
+            looked.set()
+
+    monkeypatch.setattr(bridge._machine, "tick", look)
+    monkeypatch.setattr(bridge, place, run_late)
+    assert looked.wait(PATIENCE)
+    assert bridge.snapshot.link is LinkState.READY
 
 
 def test_a_robot_that_is_silent_while_the_program_runs_is_lost(bridge: RobotBridge) -> None:
     TalkingLine.hushed.set()
-    until(bridge, LinkState.LOST)
+
+    def is_lost() -> bool:
+        TalkingLine.now += 0.05
+        return bridge.snapshot.link is LinkState.LOST
+
+    wait_for(is_lost, "the robot is lost")
     assert "silent" in bridge.snapshot.sentence

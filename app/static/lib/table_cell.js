@@ -3,7 +3,7 @@
  * writes exported files (`app/common/table_cell.py`).
  */
 
-const NUMBER = /^\s*[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?\s*$/i;
+const NUMBER = /^ *[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?\s*$/i;
 const FORMULA = /^'*([\t\r\n]|\s*[=+\-@＝＋－＠])/;
 
 /**

@@ -1,10 +1,11 @@
-"""Runs the tests, the browser tests included: `python -m tests [--all] [PYTEST ARGUMENTS]`.
+"""Runs the tests, the browser tests included: `python -m tests [--all | --soak] [PYTEST ARGUMENTS]`.
 
-Without `--all` it is every test but those marked `heavy`, two files at a time; properties are tried with few
-examples, the same each time. `--all` runs what that leaves out: the heavy tests (soaks, kill storms, the
-benchmarks' own, cameras, 3D scenes, most of the page), and every property with many examples, other ones each
-time; one file at a time. `pytest FILE` runs all that a
-file has.
+Without a size it is every test that is neither `heavy` nor `soak`, two files at a time; properties are tried
+with few examples, the same each time. `--all` runs what that leaves out: the heavy tests (cameras, 3D scenes,
+most of the page, the benchmarks' own, a tenth of each soak), and every property with many examples, the same
+each time. `--soak` runs the soaks at full length (fuzz, storms of kills, floods, the oldest versions), and
+every property with other examples each time; it takes long, and a quiet machine. docs/tests.md says when to
+run which.
 
 Where Chromium is absent it is installed on Debian and Ubuntu by their package manager, as root; elsewhere it
 says what to install.
@@ -16,16 +17,51 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
+from types import MappingProxyType
 
 from tests.support.chromium import SHELL, chromium_path
+from tests.support.soak import VARIABLE as SOAK
 
 PROJECT = Path(__file__).resolve().parents[1]
 
 LANES = ("-n", "2", "--dist", "loadfile", "--no-loadscope-reorder")
 """Two files at a time, in the order of `conftest.py`; the tests of one file share its studio and its page."""
-USUAL = ("-m", "not heavy")
-REST = ("-m", "heavy or property", "--hypothesis-profile", "explore")
+
+NOTHING_CHOSEN = 5
+"""Status of pytest where no test is of a run's marks."""
+
+
+@dataclass(frozen=True)
+class Size:
+    """One of the three sizes of checks.
+
+    Args:
+        runs: the runs of pytest that it has, as arguments, one after the other.
+        environment: what is set besides.
+    """
+
+    runs: tuple[tuple[str, ...], ...]
+    environment: Mapping[str, str] = field(default_factory=dict)
+
+
+_MANY, _EXPLORE = (("--hypothesis-profile", name) for name in ("many", "explore"))
+SIZES: Mapping[str, Size] = MappingProxyType(
+    {
+        "": Size(((*LANES, "-m", "not heavy and not soak"),)),
+        "--all": Size(
+            (
+                (*LANES, "-m", "(heavy or property) and not alone", *_MANY),
+                # What loads the machine by itself, or keeps to the clock as a camera does: a file at a time.
+                ("-m", "alone", *_MANY),
+            )
+        ),
+        "--soak": Size((("-m", "soak or property", *_EXPLORE),), {SOAK: "1"}),
+    }
+)
+"""By the word on the command line."""
 
 
 def main(words: list[str]) -> int:
@@ -42,12 +78,15 @@ def main(words: list[str]) -> int:
             "FOOTFALL_CHROMIUM. Then run this again.\n"
         )
         return 2
-    # The heavy ones load the machine, or keep to the clock as a camera does: one file at a time.
-    chosen, lanes = (REST, ()) if "--all" in words else (USUAL, LANES)
-    more = [word for word in words if word != "--all"]
-    return subprocess.call(
-        [sys.executable, "-m", "pytest", *lanes, *chosen, *more], cwd=PROJECT, env=environment()
-    )
+    chosen = next((word for word in words if word in SIZES), "")
+    size, more = SIZES[chosen], [word for word in words if word not in SIZES]
+    given = environment() | dict(size.environment)
+    codes = [
+        subprocess.call([sys.executable, "-m", "pytest", *run, *more], cwd=PROJECT, env=given)
+        for run in size.runs
+    ]
+    failed = [code for code in codes if code not in (0, NOTHING_CHOSEN)]
+    return failed[0] if failed else min(codes)
 
 
 def environment() -> dict[str, str]:

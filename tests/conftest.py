@@ -15,13 +15,16 @@ from tests.support.chromium import LONG_MS, WORDS, chromium_path
 from tests.support.studio_process import StudioProcess, running_studio, said_by_studios
 from tests.support.timeout import harden_timer
 
-# A slow machine is no failure, and one commit gives one answer; `python -m tests --all` looks further.
+# A slow machine is no failure, and one commit gives one answer: only a soak draws other examples each time.
 SLOW = [HealthCheck.too_slow]
 settings.register_profile(
     "same", deadline=None, derandomize=True, max_examples=25, suppress_health_check=SLOW
 )
 settings.register_profile(
-    "explore", deadline=None, max_examples=100, print_blob=True, suppress_health_check=SLOW
+    "many", deadline=None, derandomize=True, max_examples=100, suppress_health_check=SLOW
+)
+settings.register_profile(
+    "explore", deadline=None, max_examples=300, print_blob=True, suppress_health_check=SLOW
 )
 settings.load_profile("same")
 

@@ -10,7 +10,7 @@ import pytest
 from app.bench.page.film import draw_film, stepping_feet
 from app.vision.tracking import track_video
 
-pytestmark = pytest.mark.heavy
+pytestmark = [pytest.mark.heavy, pytest.mark.alone]
 
 
 def test_the_feet_of_the_film_are_found_where_they_were_drawn(tmp_path: Path) -> None:

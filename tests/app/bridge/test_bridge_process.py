@@ -28,6 +28,7 @@ def test_a_stopped_robot_stands_still_within_its_bound(bound: float, profile: Pr
 
 
 @pytest.mark.heavy
+@pytest.mark.alone
 def test_a_kill_in_mid_run_ends_the_messages_and_the_run_is_shown_as_interrupted() -> None:
     for killed in kill_rounds(2, random.Random(5)):
         assert killed.written == 0
@@ -75,6 +76,7 @@ def test_the_command_tells_what_has_spoilt_the_robots_memory() -> None:
 
 
 @pytest.mark.heavy
+@pytest.mark.alone
 def test_telemetry_is_kept_to_the_last_line_and_a_page_hears_of_it_all_the_time() -> None:
     (row,) = bench_telemetry(10.0, 5.0)
     assert row["lines"] > 10.0 * LINES_A_SECOND * 0.9

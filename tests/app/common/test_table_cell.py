@@ -10,7 +10,21 @@ from hypothesis import strategies as st
 
 from app.common.table_cell import safe_header, table_cell
 
-DANGEROUS = ["=1+1", "+cmd", "-cmd|x!A0", "@SUM(A1)", "\t=1", "\t1", "\r1", "\tx", "\rx", "\nx", " =1", "＝1", "-", "'=1"]
+DANGEROUS = [
+    "=1+1",
+    "+cmd",
+    "-cmd|x!A0",
+    "@SUM(A1)",
+    "\t1",
+    "\r1",
+    "\tx",
+    "\rx",
+    "\nx",
+    " =1",
+    "＝1",
+    "-",
+    "'=1",
+]
 
 
 @pytest.mark.parametrize("text", DANGEROUS)

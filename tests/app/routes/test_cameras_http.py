@@ -17,7 +17,7 @@ from tests.support.studio_process import StudioProcess, running_studio, wait_for
 from tests.support.trials.rendered import SIZE, write_video
 from tests.support.trials.tracks import RATE
 
-pytestmark = pytest.mark.heavy
+pytestmark = [pytest.mark.heavy, pytest.mark.alone]
 
 SLOW = 120.0
 """Longest wait on a machine that has much else to do, s."""

@@ -13,7 +13,7 @@ from app.scene import Scenes
 from tests.support.page.preview_page import preview_application, walk
 from tests.support.page.serving import serving, stop_under_clients
 
-pytestmark = pytest.mark.heavy
+pytestmark = [pytest.mark.heavy, pytest.mark.alone]
 
 START_MS = 60_000
 

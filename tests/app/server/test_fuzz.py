@@ -23,9 +23,10 @@ from tests.support.fuzz.report import report, tracebacks
 from tests.support.fuzz.requests import Asked, Requests
 from tests.support.fuzz.stock import film, stocked
 from tests.support.fuzz.values import Pairs, Raw, encoded, mutated
+from tests.support.soak import soaked
 from tests.support.studio_process import PROGRAM, StudioProcess, running_studio
 
-REQUESTS = int(os.environ.get("FOOTFALL_FUZZ_REQUESTS", "20000"))
+REQUESTS = soaked(20000, "FOOTFALL_FUZZ_REQUESTS")
 PARTS = 8
 """In which they are sent, each within the time that a test may take on a busy machine."""
 
@@ -68,6 +69,8 @@ def attack(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Attack]:
 
 
 @pytest.mark.heavy
+@pytest.mark.alone
+@pytest.mark.soak
 @pytest.mark.parametrize("part", range(PARTS))
 def test_no_request_makes_an_error_or_a_long_wait(attack: Attack, part: int) -> None:
     outcome = attack.campaign.run(REQUESTS // PARTS)
@@ -77,6 +80,8 @@ def test_no_request_makes_an_error_or_a_long_wait(attack: Attack, part: int) -> 
 
 
 @pytest.mark.heavy
+@pytest.mark.alone
+@pytest.mark.soak
 def test_after_all_that_the_memory_is_flat_and_the_studio_as_good_as_new(attack: Attack) -> None:
     words = attack.words(together(attack.campaign.parts))
     sys.stdout.write(words)

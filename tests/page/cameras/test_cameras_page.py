@@ -18,7 +18,7 @@ from tests.support.studio_process import StudioProcess, running_studio
 from tests.support.trials.rendered import SIZE, write_video
 from tests.support.trials.tracks import RATE
 
-pytestmark = pytest.mark.heavy
+pytestmark = [pytest.mark.heavy, pytest.mark.alone]
 
 SPEED = 3.0
 """Of the robot: its walk lasts long enough for a track, and no longer."""

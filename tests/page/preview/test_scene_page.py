@@ -12,7 +12,7 @@ from core.robot.model import load_robot
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess
 
-pytestmark = pytest.mark.heavy
+pytestmark = [pytest.mark.heavy, pytest.mark.alone]
 
 INSIDE = "document.querySelector('#viser').contentWindow?.__viserMutable"
 

@@ -10,8 +10,9 @@ import pytest
 from hypothesis import HealthCheck, is_hypothesis_test, settings
 from playwright.sync_api import Browser, expect, sync_playwright
 
-from app.emulator.emulated_robot import EmulatedRobot, start_emulator
+from app.emulator.emulated_robot import EmulatedRobot
 from tests.support.chromium import LONG_MS, WORDS, chromium_path
+from tests.support.patience import patient_robot
 from tests.support.studio_process import StudioProcess, running_studio, said_by_studios
 from tests.support.timeout import harden_timer
 
@@ -79,9 +80,8 @@ def pytest_runtest_teardown(item: pytest.Item) -> None:
 @pytest.fixture(scope="module")
 def robot(request: pytest.FixtureRequest) -> Iterator[EmulatedRobot]:
     """An emulated robot, as fast as the file's `SPEED` says: its seconds in one of ours."""
-    emulated = start_emulator("nominal", request.module.SPEED)
-    yield emulated
-    emulated.close()
+    with patient_robot(request.module.SPEED) as emulated:
+        yield emulated
 
 
 @pytest.fixture(scope="session")

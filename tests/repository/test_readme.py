@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from app.cli import main
-from app.emulator.emulated_robot import start_emulator
+from tests.support.patience import patient_robot
 from tests.support.studio_process import PROJECT
 
 BLOCKS = re.findall(r"^```sh\n(.*?)^```", (PROJECT / "README.md").read_text(), re.S | re.M)
@@ -29,16 +29,13 @@ def test_the_commands_without_a_browser_work_one_after_the_other(
     block = next(block for block in BLOCKS if "footfall manual" in block)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
-    robot = start_emulator("nominal", 20.0, booted=True)
-    try:
+    with patient_robot(20.0, booted=True) as robot:
         for line in block.strip().split("\n"):
             words = shlex.split(line)
             assert words[0] == ".venv/bin/footfall"
             # The robot of the test is the same emulated one, only faster.
             arguments = [robot.device if word == "emulator" else word for word in words[1:]]
             assert main(arguments) == 0, (line, capsys.readouterr().err)
-    finally:
-        robot.close()
     assert {path.name for path in tmp_path.glob("*.csv")} == {"walk0.csv", "walk.csv", "walk_way.csv"}
 
 

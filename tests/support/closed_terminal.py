@@ -10,11 +10,11 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from tests.support.studio_process import PROJECT
+from tests.support.studio_process import PATIENT, PROJECT
 
 _IN_TERMINAL = (
     "import fcntl, os, sys, termios; os.setsid(); fcntl.ioctl(0, termios.TIOCSCTTY, 0); "
-    "os.execv(sys.executable, [sys.executable, '-m', 'app', *sys.argv[1:]])"
+    f"os.execv(sys.executable, [sys.executable, '-m', '{PATIENT}', *sys.argv[1:]])"
 )
 """Makes the terminal on standard input the process's own, then becomes the program."""
 

@@ -3,6 +3,7 @@
 import json
 import threading
 import time
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -11,10 +12,10 @@ from app.bridge.bridge import RobotBridge
 from app.bridge.devices import SerialDevice, found_again
 from app.bridge.states import LinkState, RobotSnapshot
 from app.bridge.transport import serial_devices
-from app.emulator.emulated_robot import start_emulator
 from app.emulator.faults import Fault
 from app.emulator.ports import PtyPort, TcpPort
 from app.robot.ports import RobotPorts
+from tests.support.patience import patient_robot
 from tests.support.virtual_robot import VirtualRobot
 
 PATIENCE = 60.0
@@ -124,22 +125,18 @@ def test_a_board_that_comes_back_under_another_name_is_found_and_answers(tmp_pat
     first, second = tmp_path / "ttyACM0", tmp_path / "ttyACM1"
     present: list[SerialDevice] = []
     ports = RobotPorts(tmp_path / "robot.json", lambda: tuple(present))
-    bridge = RobotBridge()
-    robots = []
-    for name in (first, second):
-        robots.append(start_emulator("nominal", 20.0, booted=True))
-        name.symlink_to(robots[-1].device)
-        present[:] = [SerialDevice(str(name), "Feather M0", "F00D")]
-        device = str(name) if name is first else ports.view(is_lost=True)["again"]["device"]
-        bridge.connect(device)
-        ports.connected(device)
-        assert until_link(bridge, LinkState.READY).device == str(name)
-        robots[-1].inject(Fault.UNPLUG)
-        until_link(bridge, LinkState.LOST)
-        name.unlink()
-    bridge.close()
-    for robot in robots:
-        robot.close()
+    with closing(RobotBridge()) as bridge:
+        for name in (first, second):
+            with patient_robot(20.0, booted=True) as robot:
+                name.symlink_to(robot.device)
+                present[:] = [SerialDevice(str(name), "Feather M0", "F00D")]
+                device = str(name) if name is first else ports.view(is_lost=True)["again"]["device"]
+                bridge.connect(device)
+                ports.connected(device)
+                assert until_link(bridge, LinkState.READY).device == str(name)
+                robot.inject(Fault.UNPLUG)
+                until_link(bridge, LinkState.LOST)
+                name.unlink()
 
 
 @pytest.mark.parametrize("port", [PtyPort, TcpPort])

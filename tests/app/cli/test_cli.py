@@ -14,13 +14,13 @@ import pytest
 
 from app.common.version import VERSION
 from app.documents.gait_json import gait_content
-from app.emulator.emulated_robot import start_emulator
 from app.export.trajectory_files import read_trajectory
 from core.library.library import library
 from core.wire.timing import OVERRUN
 from core.wire.trajectory_csv import parse_trajectory_csv
 from core.wire.waypoints import parse_waypoint_csv
 from tests.support.command import run, run_json
+from tests.support.patience import patient_robot
 from tests.support.reference import reference_path
 from tests.support.studio_process import PROJECT
 
@@ -48,12 +48,9 @@ def test_the_defaults_of_each_command_suit_the_next(
     assert run(capsys, "optimise", "walk", "-o", str(trajectory))[0] == 0
     assert run(capsys, "check", str(trajectory))[0] == 0
     assert run(capsys, "waypoints", str(trajectory), "-o", str(waypoints))[0] == 0
-    robot = start_emulator("nominal", 20.0, booted=True)
-    try:
+    with patient_robot(20.0, booted=True) as robot:
         words = ("--robot", robot.device, "--yes", "--data", str(tmp_path))
         status, answer = run_json(capsys, "send", str(waypoints), *words)
-    finally:
-        robot.close()
     assert (status, answer["state"], answer["reached"]) == (0, "done", 45)
 
 

@@ -15,24 +15,29 @@ from pathlib import Path
 import pytest
 
 from app.cli.output import write
-from app.emulator.emulated_robot import EmulatedRobot, start_emulator
+from app.emulator.emulated_robot import EmulatedRobot
 from tests.support.closed_terminal import in_terminal
-from tests.support.studio_process import PROJECT, StudioProcess, wait_for
+from tests.support.patience import patient_robot
+from tests.support.studio_process import PATIENT, PROJECT, StudioProcess, wait_for
 
 COUNT = 12
+SOME, MANY = 60, 1200
+"""Waypoints of a run that lasts for seconds, and of one that is broken off, which would last for a minute."""
 
 
 @pytest.fixture
 def robot() -> Iterator[EmulatedRobot]:
-    emulated = start_emulator("nominal", 10.0, booted=True)
-    yield emulated
-    emulated.close()
+    with patient_robot(10.0, booted=True) as emulated:
+        yield emulated
 
 
 @pytest.fixture
 def way(tmp_path: Path) -> Path:
-    rows = ["0.4," + ",".join([f"{h}.0000"] * 12) for h in (5, 8) * (COUNT // 2)]
-    path = tmp_path / "way.csv"
+    return write_way(tmp_path / "way.csv", MANY)
+
+
+def write_way(path: Path, count: int) -> Path:
+    rows = ["0.4," + ",".join([f"{h}.0000"] * 12) for h in (5, 8) * (count // 2)]
     path.write_text("\n".join(["duration_s," + ",".join(f"h{i}" for i in range(1, 13)), *rows]) + "\n")
     return path
 
@@ -59,7 +64,7 @@ def test_a_terminal_that_is_closed_in_a_send_stops_the_robot(way: Path, robot: E
 @pytest.mark.heavy
 def test_several_hang_ups_at_once_stop_the_robot_too(way: Path, robot: EmulatedRobot) -> None:
     """A shell and the system each send one when a terminal is closed."""
-    command = [sys.executable, "-m", "app", *send_words(way, robot)]
+    command = [sys.executable, "-m", PATIENT, *send_words(way, robot)]
     with subprocess.Popen(command, cwd=PROJECT, stderr=subprocess.DEVNULL) as sending:
         wait_for(lambda: len(robot.firmware.messages) > 4, "the run has begun")
         for _ in range(3):
@@ -73,7 +78,7 @@ def test_several_hang_ups_at_once_stop_the_robot_too(way: Path, robot: EmulatedR
 def test_nobody_who_reads_the_progress_is_no_reason_to_break_a_run_off(
     way: Path, robot: EmulatedRobot
 ) -> None:
-    command = [sys.executable, "-m", "app", *send_words(way, robot)]
+    command = [sys.executable, "-m", PATIENT, *send_words(write_way(way, COUNT), robot)]
     with subprocess.Popen(command, cwd=PROJECT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as sending:
         assert sending.stderr is not None
         sending.stderr.readline()
@@ -85,7 +90,8 @@ def test_nobody_who_reads_the_progress_is_no_reason_to_break_a_run_off(
 @pytest.mark.heavy
 @pytest.mark.parametrize("shell", ["", "nohup"])
 def test_a_send_under_nohup_goes_on(way: Path, robot: EmulatedRobot, shell: str) -> None:
-    command = [*shell.split(), sys.executable, "-m", "app", *send_words(way, robot)]
+    words = send_words(write_way(way, SOME) if shell else way, robot)
+    command = [*shell.split(), sys.executable, "-m", PATIENT, *words]
     with subprocess.Popen(
         command, cwd=PROJECT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     ) as sending:

@@ -12,32 +12,37 @@ from typing import Any
 
 import pytest
 
-from app.emulator.emulated_robot import EmulatedRobot, start_emulator
+from app.emulator.emulated_robot import EmulatedRobot
 from app.runs.service import RunService
 from app.store.database import Database
 from app.store.run_store import RunFilter
 from tests.support.command import run, run_json
-from tests.support.studio_process import PROJECT, wait_for
+from tests.support.patience import patient_robot
+from tests.support.studio_process import PATIENT, PROJECT, wait_for
 
 SPEED = 10.0
 COUNT = 12
+MANY = 1200
+"""Waypoints of a run that is broken off: it would last for more than a minute."""
 
 
 @pytest.fixture
 def way(tmp_path: Path) -> Path:
     """Every motor goes to and fro."""
-    rows = ["0.4," + ",".join([f"{h}.0000"] * 12) for h in (5, 8) * (COUNT // 2)]
+    return write_way(tmp_path / "way.csv", COUNT)
+
+
+def write_way(path: Path, count: int) -> Path:
+    rows = ["0.4," + ",".join([f"{h}.0000"] * 12) for h in (5, 8) * (count // 2)]
     header = "duration_s," + ",".join(f"h{i}" for i in range(1, 13))
-    path = tmp_path / "way.csv"
     path.write_text("\n".join([header, *rows]) + "\n")
     return path
 
 
 @pytest.fixture
 def robot() -> Iterator[EmulatedRobot]:
-    emulated = start_emulator("nominal", SPEED, booted=True)
-    yield emulated
-    emulated.close()
+    with patient_robot(SPEED, booted=True) as emulated:
+        yield emulated
 
 
 @pytest.fixture
@@ -78,8 +83,9 @@ def test_a_run_of_a_file_is_kept_where_the_studio_lists_it(
 def test_ctrl_c_stops_the_robot_says_what_happened_and_the_next_run_goes_to_its_end(
     way: Path, robot: EmulatedRobot, service: RunService
 ) -> None:
-    command = [sys.executable, "-m", "app", *words(way, robot.device), "--json"]
+    command = [sys.executable, "-m", PATIENT, *words(way, robot.device), "--json"]
     pipe = subprocess.PIPE
+    write_way(way, MANY)
     with subprocess.Popen(command, cwd=PROJECT, stdout=pipe, stderr=pipe, text=True) as first:
         wait_for(lambda: len(robot.firmware.messages) > 4, "the run has begun")
         assert newest(service)["state"] == "running"
@@ -87,7 +93,7 @@ def test_ctrl_c_stops_the_robot_says_what_happened_and_the_next_run_goes_to_its_
         out, _ = first.communicate(timeout=60)
     answer = json.loads(out)
     assert (first.returncode, answer["state"]) == (130, "stopped")
-    assert answer["error"].startswith(f"Interrupted: {answer['reached']} of {COUNT} waypoints were reached.")
+    assert answer["error"].startswith(f"Interrupted: {answer['reached']} of {MANY} waypoints were reached.")
     assert robot.firmware.messages[-1].payload == "s,1"
     assert (newest(service)["state"], newest(service)["reached"]) == ("stopped", answer["reached"])
     refused = subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, timeout=60)
@@ -96,6 +102,7 @@ def test_ctrl_c_stops_the_robot_says_what_happened_and_the_next_run_goes_to_its_
     assert "--clear-stop" in answer["error"]
     assert "s,0" not in [message.payload for message in robot.firmware.messages]
     command.append("--clear-stop")
+    write_way(way, COUNT)
     second = subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, timeout=60)
     assert second.returncode == 0, second.stderr
     assert json.loads(second.stdout)["reached"] == COUNT
@@ -104,7 +111,8 @@ def test_ctrl_c_stops_the_robot_says_what_happened_and_the_next_run_goes_to_its_
 def test_a_send_that_is_killed_leaves_its_run_interrupted_with_what_had_passed(
     way: Path, robot: EmulatedRobot, service: RunService
 ) -> None:
-    command = [sys.executable, "-m", "app", *words(way, robot.device)]
+    command = [sys.executable, "-m", PATIENT, *words(way, robot.device)]
+    write_way(way, MANY)
     with subprocess.Popen(command, cwd=PROJECT, stderr=subprocess.PIPE) as sending:
         wait_for(lambda: len(robot.firmware.messages) > 5, "the run is on")
         sending.kill()

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from app.bridge import bridge
 from app.emulator.ports import PtyPort
 from app.robot import service
 from app.robot.ports import RobotPorts
@@ -21,6 +21,21 @@ from tests.support.studio_process import running_studio, wait_for
 
 ADA = Author("page-a", "Ada")
 GRACE = Author("page-g", "Grace")
+
+
+class Clock:
+    """The bridge's clock: stands still until it runs, which is after every deadline that it was asked for."""
+
+    def __init__(self) -> None:
+        self.runs = threading.Event()
+
+    def __call__(self) -> float:
+        return 100.0 * time.monotonic() if self.runs.is_set() else 0.0
+
+
+@pytest.fixture
+def clock() -> Clock:
+    return Clock()
 
 
 @pytest.fixture
@@ -39,12 +54,17 @@ def views() -> list[dict[str, Any]]:
 
 @pytest.fixture
 def robot(
-    database: Database, tmp_path: Path, views: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch
+    database: Database,
+    tmp_path: Path,
+    views: list[dict[str, Any]],
+    clock: Clock,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> Iterator[RobotService]:
     monkeypatch.setattr(service, "DISCONNECT_SECONDS", 0.1)
-    monkeypatch.setattr(bridge, "STOP_LIMIT", 1.0)
     opened = RobotService(database, "emulator", views.append, RobotPorts(tmp_path / "robot.json"))
+    monkeypatch.setattr(opened.bridge, "_clock", clock)
     yield opened
+    clock.runs.set()
     opened.close()
 
 
@@ -56,7 +76,10 @@ def stopping(robot: RobotService, port: PtyPort) -> RobotService:
     return robot
 
 
-def test_leaving_a_robot_without_a_stop_is_done_at_once(robot: RobotService, port: PtyPort) -> None:
+def test_leaving_a_robot_without_a_stop_is_done_at_once(
+    robot: RobotService, port: PtyPort, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(service, "DISCONNECT_SECONDS", 60.0)
     robot.connect(port.device)
     assert robot.disconnect(ADA)
     assert (robot.view()["link"], robot.view()["disconnecting"]) == ("disconnected", False)
@@ -64,13 +87,14 @@ def test_leaving_a_robot_without_a_stop_is_done_at_once(robot: RobotService, por
 
 
 def test_what_takes_longer_is_told_of_and_goes_on_by_itself(
-    robot: RobotService, port: PtyPort, views: list[dict[str, Any]]
+    robot: RobotService, port: PtyPort, views: list[dict[str, Any]], clock: Clock
 ) -> None:
     stopping(robot, port)
     assert not robot.disconnect(ADA)
     shown = robot.view()
     assert (shown["link"], shown["disconnecting"], shown["lease"]["name"]) == ("connecting", True, "Ada")
     assert shown["allowed"]["disconnect"] in shown["sentence"]
+    clock.runs.set()
     wait_for(lambda: robot.view()["link"] == "disconnected", "the line is closed")
     wait_for(lambda: robot.view()["lease"]["page"] is None, "nobody holds the robot")
     wait_for(lambda: (views[-1]["link"], views[-1]["disconnecting"]) == ("disconnected", False), "pages know")
@@ -79,7 +103,7 @@ def test_what_takes_longer_is_told_of_and_goes_on_by_itself(
 
 
 def test_who_disconnects_meanwhile_waits_for_the_same_and_nobody_connects(
-    robot: RobotService, port: PtyPort, monkeypatch: pytest.MonkeyPatch
+    robot: RobotService, port: PtyPort, clock: Clock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(service, "CONNECT_PATIENCE", 0.0)
     stopping(robot, port)
@@ -88,6 +112,7 @@ def test_who_disconnects_meanwhile_waits_for_the_same_and_nobody_connects(
     with pytest.raises(StateError, match="being opened or closed"):
         robot.connect(port.device)
     monkeypatch.setattr(service, "DISCONNECT_SECONDS", 60.0)
+    clock.runs.set()
     assert robot.disconnect(ADA)
     assert robot.view()["link"] == "disconnected"
     causes = [one["cause"] for one in robot.transitions()]
@@ -134,5 +159,6 @@ def test_over_http_the_answer_comes_before_the_end(tmp_path: Path, port: PtyPort
         assert studio.ask("POST", "/api/robot/stop").status == 200
         answer = studio.ask("POST", "/api/robot/disconnect")
         assert (answer.status, answer.content["disconnecting"]) == (202, True)
+        port.close()  # nothing is left to wait for
         wait_for(lambda: studio.robot()["link"] == "disconnected", "the line is closed")
         assert not studio.robot()["disconnecting"]

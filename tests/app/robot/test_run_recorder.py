@@ -6,12 +6,12 @@ import fcntl
 import sqlite3
 import threading
 from collections.abc import Iterator, Sequence
+from contextlib import closing
 from pathlib import Path
 
 import pytest
 
 from app.bridge.states import Direction, LinkState, RobotState, Transition
-from app.emulator.emulated_robot import start_emulator
 from app.robot import run_recorder
 from app.robot.recorded_bridge import RecordedBridge, RecordedRun
 from app.robot.run_recorder import RunRecorder
@@ -23,6 +23,7 @@ from app.store.run_journal import Entry, EntryKind, RunJournal
 from app.store.run_store import RunFilter, RunStore
 from app.store.run_writer import RunWriter
 from core.errors import StateError
+from tests.support.patience import patient_robot
 from tests.support.studio_process import wait_for
 from tests.support.virtual_robot import make_plan
 
@@ -122,11 +123,11 @@ def test_another_programs_long_write_costs_the_record_nothing(database: Database
     other.execute("BEGIN IMMEDIATE")
     log_some(recorder)
     recorder.end(RECORD | {"state": "done"})
-    closing = threading.Thread(target=recorder.close)
-    closing.start()
+    end = threading.Thread(target=recorder.close)
+    end.start()
     other.execute("COMMIT")
     other.close()
-    closing.join()
+    end.join()
     assert len(RunStore(database).bytes_of("r")) == 5
     assert database.runs()[0]["state"] == "done"
 
@@ -147,10 +148,9 @@ def test_the_end_of_the_program_does_not_wait_for_ever(
 
 
 def test_a_run_whose_record_cannot_be_begun_is_not_sent(database: Database) -> None:
-    robot, kept = start_emulator(speed=20.0, booted=True), RecordedBridge(database)
     plan = make_plan([[5.0] * 12])
     origin = RunOrigin("r", "walk", "Walk", plan.waypoints, plan.waypoints.durations)
-    try:
+    with patient_robot(20.0, booted=True) as robot, closing(RecordedBridge(database)) as kept:
         kept.bridge.connect(robot.device)
         wait_for(lambda: kept.bridge.snapshot.robot is RobotState.DISARMED, "the robot is up")
         kept.bridge.arm("Ada")
@@ -160,9 +160,6 @@ def test_a_run_whose_record_cannot_be_begun_is_not_sent(database: Database) -> N
             kept.send(plan, RecordedRun(origin, {"robot": "deltawalker"}), "Ada")
         assert kept.bridge.snapshot.robot is RobotState.ARMED
         assert database.runs() == []
-    finally:
-        kept.close()
-        robot.close()
 
 
 def journals(database: Database) -> list[str]:

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.emulator.emulated_robot import start_emulator
 from app.emulator.profiles import ProfileName
 from app.vision.video_io import read_picture
 from tests.app.routes.test_videos_http import FILMED, SETUP
+from tests.support.patience import patient_robot
 from tests.support.studio_process import StudioProcess, running_studio, wait_for
 from tests.support.trials.rendered import SIZE, write_video
 from tests.support.trials.tracks import RATE
@@ -35,13 +35,10 @@ def film(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def studio(tmp_path_factory: pytest.TempPathFactory, film: Path) -> Iterator[StudioProcess]:
-    robot = start_emulator(ProfileName.PUBLISHED, SPEED)
-    words = ("--robot", robot.device, "--camera", f"Under the glass={film}", "--camera", f"Side={film}")
-    try:
+    with patient_robot(SPEED, profile=ProfileName.PUBLISHED) as robot:
+        words = ("--robot", robot.device, "--camera", f"Under the glass={film}", "--camera", f"Side={film}")
         with running_studio(tmp_path_factory.mktemp("data"), *words) as running:
             yield running
-    finally:
-        robot.close()
 
 
 def camera(studio: StudioProcess, name: str = "under-the-glass") -> dict[str, Any]:

@@ -11,7 +11,8 @@ from typing import Any
 import pytest
 
 from app.bridge.delivery import ARRIVAL_MM
-from app.emulator.emulated_robot import EmulatedRobot, start_emulator
+from app.emulator.emulated_robot import EmulatedRobot
+from tests.support.patience import patient_robot
 from tests.support.studio_process import StudioProcess, footfall, running_studio, wait_for
 
 SPEED = 15.0
@@ -177,8 +178,10 @@ def test_a_gait_without_a_standing_foot_leaves_the_page_alive(studio: StudioProc
 
 @pytest.mark.heavy
 def test_the_end_of_the_studio_stops_a_run_first(tmp_path: Path) -> None:
-    robot = start_emulator("nominal", 4.0, booted=True)
-    with running_studio(tmp_path, "--robot", robot.device) as studio:
+    with (
+        patient_robot(4.0, booted=True) as robot,
+        running_studio(tmp_path, "--robot", robot.device) as studio,
+    ):
         optimised(studio, "walk")
         studio.ask("POST", "/api/gaits/walk/check")
         studio.ask("POST", "/api/gaits/walk/approve", {"by": "Ada", "accept_warnings": True})
@@ -188,7 +191,6 @@ def test_the_end_of_the_studio_stops_a_run_first(tmp_path: Path) -> None:
         studio.ask("POST", "/api/robot/send", {"gait": "walk"})
         wait_for(lambda: (studio.robot()["run"] or {}).get("sent", 0) > 2, "some waypoints are out")
     assert robot.firmware.messages[-1].payload == "s,1"
-    robot.close()
     database = sqlite3.connect(tmp_path / "studio.sqlite3")
     first = database.execute(
         "SELECT data FROM run_bytes WHERE direction='to robot' ORDER BY number"

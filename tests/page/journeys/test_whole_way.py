@@ -10,8 +10,9 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from app.bridge.delivery import ARRIVAL_MM
-from app.emulator.emulated_robot import EmulatedRobot, start_emulator
+from app.emulator.emulated_robot import EmulatedRobot
 from tests.support.page.opened import look, opened_page
+from tests.support.patience import patient_robot
 from tests.support.studio_process import StudioProcess, running_studio, wait_for
 
 SPEED = 5.0
@@ -20,9 +21,8 @@ SPEED = 5.0
 
 @pytest.fixture
 def robot() -> Iterator[EmulatedRobot]:
-    emulated = start_emulator("nominal", SPEED)
-    yield emulated
-    emulated.close()
+    with patient_robot(SPEED) as emulated:
+        yield emulated
 
 
 @pytest.fixture

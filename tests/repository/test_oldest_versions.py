@@ -17,7 +17,7 @@ PYTHONS = ("python3.11", "python3.12")
 OLDEST = PROJECT / "lowest-versions.txt"
 INSTALL_SECONDS, TEST_SECONDS = 900, 1800
 """Deadlines for loaded machines, which no test waits out."""
-pytestmark = [pytest.mark.heavy, pytest.mark.timeout(3 * INSTALL_SECONDS + TEST_SECONDS)]
+pytestmark = pytest.mark.timeout(3 * INSTALL_SECONDS + TEST_SECONDS)
 PACKAGES = ("app", "core", "robot_description", "solver_jobs")
 LOAD_ALL = f"""
 import importlib, pkgutil
@@ -87,13 +87,23 @@ def python(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     shutil.rmtree(folder / "environment")
 
 
+@pytest.mark.heavy
+@pytest.mark.alone
 def test_every_module_loads_with_the_oldest_versions(python: Path) -> None:
     loaded = run(python, "-c", LOAD_ALL, seconds=TEST_SECONDS)
     assert loaded.returncode == 0, loaded.stderr[-4000:]
 
 
+@pytest.mark.heavy
+@pytest.mark.alone
 def test_what_rests_on_each_package_works_with_its_oldest_version(python: Path) -> None:
     files = [file for tests in SEAMS.values() for file in tests]
-    quietly = ("-q", "--tb=short", "-p", "no:cacheprovider", "-m", "not heavy and not property")
+    quietly = ("-q", "--tb=short", "-p", "no:cacheprovider", "-m", "not heavy and not soak and not property")
     done = run(python, "-m", "pytest", *quietly, *files, seconds=TEST_SECONDS)
+    assert done.returncode == 0, done.stdout[-20000:] + done.stderr[-2000:]
+
+
+@pytest.mark.soak
+def test_every_default_test_passes_with_the_oldest_versions(python: Path) -> None:
+    done = run(python, "-m", "tests", "-q", "--tb=short", "-p", "no:cacheprovider", seconds=TEST_SECONDS)
     assert done.returncode == 0, done.stdout[-20000:] + done.stderr[-2000:]

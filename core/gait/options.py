@@ -4,8 +4,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-import numpy as np
-
 from core.errors import InputError
 from core.motion.heading_profile import HeadingProfile
 from core.problem.motion_problem import Boundary, Cost, Workspace
@@ -40,10 +38,10 @@ class OptionBounds:
     def sentence(self, name: str, value: float) -> str | None:
         """What is wrong with a value, SI, of the option of that name; None where it is allowed."""
         shown = value * self.factor
-        if np.isfinite(shown) and self.least <= shown <= self.most:
+        if self.least <= shown <= self.most:  # which no number that is not finite is
             return None
         words = f"{'number of ' if name.endswith('_knots') else ''}{name.replace('_', ' ')}"
-        number = str(shown) if isinstance(shown, int) else f"{shown:g}"
+        number = f"{shown:d}" if isinstance(shown, int) else f"{shown:g}"
         allowed = f"it must lie between {self.least:g} and {self.most:g}{self.unit}"
         return f"The {words} is {number}{self.unit}; {allowed}."
 

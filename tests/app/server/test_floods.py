@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import resource
 import socket
+import time
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -14,10 +15,14 @@ import pytest
 from websockets.sync.client import connect
 
 from app.bench.robot.floods import Attack, Flood, attacked, loopback_addresses
-from tests.support.studio_process import StudioProcess, running_studio, wait_for
+from app.server.listener import DEFERRED_SECONDS
+from tests.support.bounded_server import all_of, head
+from tests.support.studio_process import ANSWER_SECONDS, StudioProcess, running_studio, wait_for
 
 TOKEN = "the-token-of-the-test"
 SHOWN = {"Authorization": f"Bearer {TOKEN}"}
+REQUEST = f"Authorization: Bearer {TOKEN}\r\nConnection: close\r\n"
+OK = b"HTTP/1.1 200 OK"
 DESCRIPTORS = 1024
 """What most systems allow a program."""
 
@@ -49,8 +54,25 @@ class Flooded:
         parts = urlsplit(self.studio.url)
         return parts.hostname or "", parts.port or 0
 
-    def stop(self) -> int:
-        return self.studio.ask("POST", "/api/robot/stop", headers=SHOWN).status
+    def ask(self, words: str) -> bytes:
+        """The answer to a request on a connection of its own.
+
+        Where this process gets no turn between connecting and asking, its connection is one of those that ask
+        nothing, and loses its place among them as it should. Then it comes again.
+        """
+        while True:
+            begun = time.monotonic()
+            with socket.create_connection(self.address, ANSWER_SECONDS) as line:
+                with contextlib.suppress(ConnectionError):
+                    line.sendall(head(words, REQUEST).encode())
+                is_late = time.monotonic() - begun > DEFERRED_SECONDS / 2
+                answer = all_of(line)
+            if answer or not is_late:
+                return answer
+
+    def stop(self) -> bytes:
+        """The status line of the answer to a Stop."""
+        return self.ask("POST /api/robot/stop").partition(b"\r\n")[0]
 
 
 @pytest.fixture(scope="module")
@@ -79,8 +101,8 @@ def test_stop_is_answered_beside_more_half_requests_than_there_are_descriptors(f
     with enough_descriptors() as count, contextlib.ExitStack() as lines:
         for _ in range(count):
             lines.enter_context(socket.create_connection(flooded.address, 60)).sendall(half)
-        assert [flooded.stop() for _ in range(10)] == [200] * 10
-        assert flooded.studio.ask("GET", "/api/gaits", headers=SHOWN).content["gaits"]
+        assert [flooded.stop() for _ in range(10)] == [OK] * 10
+        assert b'"gaits"' in flooded.ask("GET /api/gaits")
     assert flooded.log.stat().st_size - begin < MOST_LOG
 
 
@@ -99,8 +121,8 @@ def test_a_flood_leaves_stop_and_the_others_alone(
     ):
         assert opened() >= CONNECTIONS
         for _ in range(20):
-            assert flooded.stop() == 200
-            assert flooded.studio.ask("GET", "/api/robot", headers=SHOWN).status == 200
+            assert flooded.stop() == OK
+            assert flooded.ask("GET /api/robot").startswith(OK)
             page.ping().wait(60)
     assert flooded.log.stat().st_size - begin < MOST_LOG
 
@@ -112,6 +134,6 @@ def test_the_flood_that_is_over_leaves_nothing_open(flooded: Flooded) -> None:
         pytest.skip("this system does not tell a process's descriptors")
     before = len(list(folder.iterdir()))
     with attacked(flooded.address, Attack(tuple(Flood), CONNECTIONS, loopback_addresses(64))):
-        assert flooded.stop() == 200
+        assert flooded.stop() == OK
         assert len(list(folder.iterdir())) < DESCRIPTORS
     wait_for(lambda: len(list(folder.iterdir())) <= before + 8, "the connections are closed")

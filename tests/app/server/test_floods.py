@@ -95,6 +95,7 @@ def enough_descriptors() -> Iterator[int]:
 
 
 @pytest.mark.heavy
+@pytest.mark.alone
 def test_stop_is_answered_beside_more_half_requests_than_there_are_descriptors(flooded: Flooded) -> None:
     begin = flooded.log.stat().st_size
     half = b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n"
@@ -107,6 +108,7 @@ def test_stop_is_answered_beside_more_half_requests_than_there_are_descriptors(f
 
 
 @pytest.mark.heavy
+@pytest.mark.alone
 @pytest.mark.parametrize("sources", [("127.0.0.1",), loopback_addresses(64)], ids=["one address", "many"])
 @pytest.mark.parametrize("kinds", [*((kind,) for kind in Flood), tuple(Flood)], ids=lambda kinds: kinds[-1])
 def test_a_flood_leaves_stop_and_the_others_alone(
@@ -128,6 +130,7 @@ def test_a_flood_leaves_stop_and_the_others_alone(
 
 
 @pytest.mark.heavy
+@pytest.mark.alone
 def test_the_flood_that_is_over_leaves_nothing_open(flooded: Flooded) -> None:
     folder = Path(f"/proc/{flooded.studio.process.pid}/fd")
     if not folder.exists():

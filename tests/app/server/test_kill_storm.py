@@ -13,15 +13,18 @@ from collections.abc import Iterator
 import pytest
 
 from app.emulator.emulated_robot import EmulatedRobot
+from tests.support.soak import soaked
 from tests.support.storm.storm import Storm
 
-pytestmark = pytest.mark.heavy
+pytestmark = [pytest.mark.heavy, pytest.mark.alone, pytest.mark.soak]
 
 SPEED = 10.0
 """Seconds of the emulated robot in a second."""
-KILLS = int(os.environ.get("FOOTFALL_STORM_KILLS", "200"))
+KILLS = soaked(200, "FOOTFALL_STORM_KILLS")
 PARTS = 5
 """In which they come, each within the time that a test may take on a busy machine."""
+ENOUGH = 100
+"""So many kills come upon actions of every kind."""
 EACH = ("edit", "save", "approval", "job start", "run under way")
 """Kinds of action that some kill must have come upon."""
 
@@ -48,5 +51,6 @@ def test_kills_came_upon_actions_of_every_kind(storm: Storm) -> None:
     storm.finish()
     report = storm.report
     assert report.there > 0
-    assert report.not_there > 0
-    assert [kind for kind in EACH if not report.in_flight[kind]] == []
+    assert report.kills < ENOUGH or report.not_there > 0
+    missed = [kind for kind in EACH if not report.in_flight[kind]]
+    assert report.kills < ENOUGH or missed == []

@@ -13,6 +13,7 @@ from app.bench.physics.learning import bench_learning
 from app.bench.physics.tables import bench_physics
 from app.bench.robot.all import bench_bridge
 from app.bench.robot.flooded_stop import bench_floods
+from app.bench.robot.law import bench_law
 from app.bench.robot.telemetry import bench_telemetry
 from app.bench.solvers.edits import bench_edits
 from app.bench.solvers.exact import bench_exact, bench_growth
@@ -41,6 +42,7 @@ BENCHMARKS: dict[str, Benchmark] = {
     "physics": bench_physics,
     "learning": bench_learning,
     "bridge": bench_bridge,
+    "law": bench_law,
     "telemetry": bench_telemetry,
     "floods": bench_floods,
     "video": bench_video,

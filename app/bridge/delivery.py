@@ -19,7 +19,7 @@ from core.wire.lines import (
     numbers_equal,
 )
 from core.wire.messages import QUANTUM_MM, THRESHOLD_MM, name_motor, payload_of
-from core.wire.timing import ramp_time
+from core.wire.robot_time import ramp_time
 
 COAST_MM = 0.1
 """A motor within the threshold coasts on at 3 mm/s for at most two readings before it is released."""

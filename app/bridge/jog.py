@@ -9,7 +9,7 @@ from app.bridge.states import JogProgress
 from core.arrays import Floats
 from core.errors import InputError, StateError
 from core.wire.messages import encode_waypoint, strokes_to_mm
-from core.wire.timing import ramp_time
+from core.wire.robot_time import ramp_time
 
 MOVED_MM = 0.5
 """A motor that stands further from where a jog was worked out was moved since, mm; half of what the firmware

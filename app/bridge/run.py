@@ -10,7 +10,7 @@ from app.bridge.messages import displaced_sentence
 from app.bridge.states import RunPhase, RunPlan, RunProgress
 from core.errors import StateError
 from core.wire.messages import HIGHEST_MM, LOWEST_MM, THRESHOLD_MM, encode_waypoint, strokes_to_mm
-from core.wire.timing import START_MOVE, longest_start_move, ramp_time
+from core.wire.robot_time import START_MOVE, longest_start_move, ramp_time
 
 
 @dataclass(frozen=True)

@@ -140,7 +140,7 @@ class RobotSnapshot:
         unknown_lines: lines that fit no kind, since connecting.
         device: what is or was connected.
         last_error: sentence of the last fault or loss.
-        measured_scan: longest error scan seen since connecting, s (see `core.wire.timing.stop_time`).
+        measured_scan: longest error scan seen since connecting, s (see `core.wire.robot_time.stop_time`).
         number: counts the snapshots of a bridge, so that who gets two knows the later one.
         jog: the steps by hand that are under way.
     """

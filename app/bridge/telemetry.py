@@ -16,7 +16,7 @@ from core.wire.lines import (
     UnknownLine,
 )
 from core.wire.messages import HIGHEST_MM, LOWEST_MM
-from core.wire.timing import OVERRUN, ramp_time
+from core.wire.robot_time import OVERRUN, ramp_time
 
 STILL_MM = 0.05
 """Readings that differ less are of a motor that stands: four counts of the converter."""

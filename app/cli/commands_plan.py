@@ -22,9 +22,8 @@ from core.library.sequence import chain_runs, part_name, require_own, run_of
 from core.motion.trajectory import Trajectory
 from core.recorded.recorded_motion import gait_trajectory
 from core.robot.model import RobotModel, load_robot
-from core.wire.timing import stop_time
+from core.wire.robot_time import estimate_seconds, stop_time
 from core.wire.waypoint_merging import plan_waypoints
-from core.wire.waypoint_path import estimate_seconds
 from core.wire.waypoints import format_waypoint_csv
 from solver_jobs import SolveStatus, solve_live
 

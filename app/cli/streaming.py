@@ -25,7 +25,7 @@ from app.store.database import Database
 from app.store.gait_files import require_folder
 from core.errors import RobotError, StateError
 from core.robot.model import RobotModel
-from core.wire.waypoint_path import move_estimates
+from core.wire.robot_time import move_estimates
 
 READY_SECONDS = 20.0
 """The board needs about 8 s; later than this nothing will come."""

@@ -48,7 +48,7 @@ class Controller:
 
 
 def ramp_durations(distances_mm: Sequence[float], acceleration_mm: float) -> list[float]:
-    """Duration of each motor's own ramp at full speed, s (see `core.wire.timing.ramp_time`)."""
+    """Duration of each motor's own ramp at full speed, s (see `core.wire.robot_time.ramp_time`)."""
     rise = SPEED_MM / acceleration_mm
     return [2 * _least(abs(d) / SPEED_MM, rise) + _most(0.0, abs(d) / SPEED_MM - rise) for d in distances_mm]
 

@@ -12,8 +12,7 @@ from core.errors import FootfallError, NotFoundError, StateError
 from core.findings import Approval, Verdict, approve
 from core.gait.gait import Gait
 from core.gait.gait_difference import DifferenceGroup, gait_difference
-from core.wire.timing import stop_time
-from core.wire.waypoint_path import estimate_seconds
+from core.wire.robot_time import estimate_seconds, stop_time
 
 _UNITS = {"m": (1000.0, "mm"), "m/s": (1000.0, "mm/s"), "m/s²": (1000.0, "mm/s²")}
 

@@ -25,9 +25,8 @@ from core.motion.speeds import foot_speeds, motor_speeds
 from core.motion.trajectory import Trajectory
 from core.problem.motion_problem import MotionLimits
 from core.robot.model import RobotModel, load_robot
-from core.wire.timing import stop_time
+from core.wire.robot_time import estimate_seconds, stop_time
 from core.wire.waypoint_merging import WaypointPlan
-from core.wire.waypoint_path import estimate_seconds
 
 
 def line_view(gait_id: str, gait: Gait, builtin: bool, edited: bool, outside: str | None = None) -> Json:

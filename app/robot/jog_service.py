@@ -20,8 +20,7 @@ from core.jog.steps import Axis, JogPart, JogStep, jog_range, jog_strokes
 from core.motion.trajectory import Trajectory
 from core.robot.coupled_strokes import real_strokes
 from core.robot.model import RobotModel
-from core.wire.timing import ARRIVAL_THRESHOLD
-from core.wire.waypoint_path import move_seconds
+from core.wire.robot_time import ARRIVAL_THRESHOLD, PUBLISHED, far_motors
 
 STANDING_STROKE = 0.008
 """Every motor's stroke where steps begin on a robot that tells none, m."""
@@ -87,7 +86,7 @@ class JogService:
             "heights_mm": _mm(answer.feet[:, 2] - answer.feet[:, 2].min()),
             "margin_mm": None if answer.margin is None else round(answer.margin * 1000, 2),
             "moves": len(answer.way) if wish.model.wired else 0,
-            "seconds": sum(move_seconds(move) for move in _moves(answer)),
+            "seconds": _seconds(answer),
             "stop_seconds": jog_stop_seconds(answer.largest_move, snapshot),
             "findings": [_finding(finding) for finding in answer.findings],
             "reason": _hindrance(wish, begin, answer, snapshot),
@@ -217,10 +216,11 @@ def _require_seen(answer: JogCheck, seen_mm: Sequence[float] | None) -> None:
         )
 
 
-def _moves(answer: JogCheck) -> list[float]:
-    """Largest distance of a motor in each move, m."""
-    places = [answer.start, *answer.way]
-    return [float(np.abs(b - a).max()) for a, b in pairwise(places)]
+def _seconds(answer: JogCheck) -> float:
+    """Expected seconds of all moves."""
+    pairs = pairwise([answer.start, *answer.way])
+    moves = [np.abs(there - here).ravel() for here, there in pairs]
+    return sum(PUBLISHED.move_seconds(float(move.max()), float(far_motors(move))) for move in moves)
 
 
 def _handles(wish: JogRequest, look: JogLook, answer: JogCheck) -> list[Json]:

@@ -9,9 +9,8 @@ from app.common.json import Json
 from app.plans.plan import Plan
 from app.robot.views import stop_seconds
 from core.errors import StateError
-from core.wire.timing import largest_moves, longest_start_move, stop_time
+from core.wire.robot_time import estimate_seconds, largest_moves, longest_start_move, stop_time
 from core.wire.waypoint_merging import WaypointPlan
-from core.wire.waypoint_path import estimate_seconds
 from core.wire.waypoints import Waypoints
 
 

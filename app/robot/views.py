@@ -9,8 +9,8 @@ from app.bridge.stop_confirmation import STOP_LIMIT
 from app.common.json import Json
 from app.emulator.motors import TRAVEL_MM
 from core.arrays import Floats
+from core.wire import robot_time
 from core.wire.messages import RESET_MM
-from core.wire.timing import ARRIVAL_THRESHOLD, LONGEST_SCAN, OVERRUN, ramp_time, stop_time
 from core.wire.waypoints import Waypoints
 
 EMULATOR = "emulator"
@@ -74,7 +74,7 @@ def robot_view(
 
 def stop_seconds(waypoints: Waypoints, snapshot: RobotSnapshot, approved: Waypoints | None = None) -> float:
     """Longest time until a stop takes effect, s, by the measured scan where there is one (`stop_time`)."""
-    return stop_time(waypoints, snapshot.measured_scan or LONGEST_SCAN, approved)
+    return robot_time.stop_time(waypoints, _scan(snapshot), approved)
 
 
 def jog_stop_seconds(largest_move: float, snapshot: RobotSnapshot) -> float:
@@ -84,8 +84,12 @@ def jog_stop_seconds(largest_move: float, snapshot: RobotSnapshot) -> float:
         largest_move: largest distance of a motor in one of its moves, m.
         snapshot: of the robot.
     """
-    scan = snapshot.measured_scan or LONGEST_SCAN
-    return scan + ramp_time(largest_move + ARRIVAL_THRESHOLD) + OVERRUN
+    return robot_time.stop_seconds(largest_move, _scan(snapshot))
+
+
+def _scan(snapshot: RobotSnapshot) -> float:
+    """The robot's error scan, s: measured, or the longest that was seen."""
+    return snapshot.measured_scan or robot_time.LONGEST_SCAN
 
 
 def _stop_seconds(shown: RobotSnapshot, origin: RunOrigin | None) -> float | None:
@@ -93,7 +97,7 @@ def _stop_seconds(shown: RobotSnapshot, origin: RunOrigin | None) -> float | Non
     if shown.jog is not None:
         return jog_stop_seconds(shown.jog.largest_move, shown)
     if shown.run is None and shown.robot in RUNNING:
-        return (shown.measured_scan or LONGEST_SCAN) + ramp_time(RESET_DISTANCE) + OVERRUN
+        return robot_time.stop_seconds(RESET_DISTANCE, _scan(shown), off=0.0)
     return None if origin is None else stop_seconds(origin.waypoints, shown)
 
 

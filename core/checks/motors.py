@@ -11,7 +11,7 @@ from core.findings import TOLERANCE, Outcome, RuleMargin, Severity, found
 from core.motion.speeds import motor_accelerations, motor_speeds
 from core.robot.model import RobotModel
 from core.wire.messages import LONGEST_DURATION, SHORTEST_DURATION
-from core.wire.timing import ARRIVAL_THRESHOLD, deafness, largest_moves
+from core.wire.robot_time import ARRIVAL_THRESHOLD, deafness, largest_moves
 from core.wire.waypoints import Waypoints
 
 DEAF_LIMIT = 2.5

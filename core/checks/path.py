@@ -10,9 +10,8 @@ from core.findings import Outcome, RuleMargin, SendCost, Severity, found
 from core.motion.trajectory import Trajectory
 from core.robot.model import RobotModel
 from core.wire.executed_path import ExecutedPath, executed_path
-from core.wire.timing import ARRIVAL_THRESHOLD, stop_time
+from core.wire.robot_time import ARRIVAL_THRESHOLD, estimate_seconds, stop_time
 from core.wire.waypoint_merging import WaypointPlan, cut_plan, plan_of_knots
-from core.wire.waypoint_path import estimate_seconds
 
 BALANCE_SLACK = 0.0001
 """How far the centre of mass may be outside the standing feet on the path, m; the ramps' own share."""

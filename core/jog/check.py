@@ -15,7 +15,7 @@ from core.motion.support_polygon import stability_margins
 from core.robot.coupled_strokes import heights_over_standing, real_strokes
 from core.robot.kinematics import BodyPose, walker_feet
 from core.robot.model import RobotModel
-from core.wire.timing import ARRIVAL_THRESHOLD
+from core.wire.robot_time import ARRIVAL_THRESHOLD
 
 DOWN_DEPTH = STANDING_DEPTH + ARRIVAL_THRESHOLD
 """Feet within this of the deepest one are taken to stand: measured strokes are that uncertain, m."""

@@ -14,7 +14,7 @@ from core.arrays import Floats
 from core.errors import InputError
 from core.robot.leg import foot_from_strokes, strokes_from_foot
 from core.robot.model import RobotModel
-from core.wire.timing import START_MOVE
+from core.wire.robot_time import START_MOVE
 
 LONGEST_STEP = 0.02
 """Longest single step, the travel of a motor, m."""

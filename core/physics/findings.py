@@ -8,7 +8,7 @@ from core.arrays import Floats, stretches
 from core.findings import TOLERANCE, Outcome, RuleMargin, Severity, found
 from core.physics.problem import SimulationProblem
 from core.physics.report import SimulationReport
-from core.wire.timing import ARRIVAL_THRESHOLD
+from core.wire.robot_time import ARRIVAL_THRESHOLD
 
 TILT_LIMIT = float(np.radians(2.0))
 """A body that leans further rocks onto a foot that should be in the air, rad."""

@@ -6,7 +6,7 @@ from core.arrays import Floats
 from core.errors import InputError
 from core.physics.parameters import PhysicsSet
 from core.robot.model import RobotModel
-from core.wire.timing import RAMP_SPEED
+from core.wire.robot_time import RAMP_SPEED
 
 LEAST_SHARE = 0.05
 """Smallest share of its speed with which a motor is still one that moves."""

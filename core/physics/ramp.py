@@ -7,8 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.arrays import Floats
-from core.wire.timing import ARRIVAL_THRESHOLD, ramp_time
-from core.wire.waypoint_path import MESSAGE_SECONDS, SHORT_MOVE, TYPICAL_SCAN
+from core.wire.robot_time import ARRIVAL_THRESHOLD, PUBLISHED, far_motors, ramp_time
 from core.wire.waypoints import Waypoints
 
 TURN = 0.01
@@ -38,9 +37,11 @@ class MotorTrajectory:
 def motor_trajectory(waypoints: Waypoints, speeds: Floats) -> MotorTrajectory:
     """The motors' way over all waypoints, from the first one, where they stand.
 
-    Each waypoint costs a message and an error scan. Where a motor is further than the firmware's threshold
-    away, a ramp and another scan follow, again until all are within it; a move shorter than `SHORT_MOVE`
-    takes a second small ramp. Nearer waypoints are called reached without motion.
+    The robot's published law of time (`core.wire.robot_time`), without its chance. Each waypoint costs a
+    message and an error scan. Where a motor is further than the firmware's threshold away, a ramp and another
+    scan follow, again until all are within it. The law's shares of second ramps add up along the way, and a
+    move takes one where their sum rises above another half. Nearer waypoints are called reached without
+    motion.
 
     Args:
         waypoints: exactly what is sent.
@@ -66,30 +67,36 @@ class _Builder:
     def __init__(self, start: Floats, speeds: Floats) -> None:
         self.targets, self.strokes = [start[None]], [start[None]]
         self.last_row = 0
+        self._second_ramps_due = 0.0
         self._speeds = speeds
 
     def move_to(self, waypoint: Floats) -> None:
         """What the firmware does about one message."""
-        self._hold(TYPICAL_SCAN + MESSAGE_SECONDS)
-        distance = self._distance(waypoint)
+        self._hold(PUBLISHED.arrived)
+        moves = np.abs(waypoint - self.strokes[-1][-1])
+        distance = float(moves.max())
         if distance <= ARRIVAL_THRESHOLD:
             return
-        self._ramp_and_scan(waypoint, ramp_time(distance))
-        if distance < SHORT_MOVE:
-            self._ramp_and_scan(waypoint, ramp_time(max(self._distance(waypoint), ARRIVAL_THRESHOLD)))
-        while (rest := self._distance(waypoint)) > ARRIVAL_THRESHOLD:
-            self._ramp_and_scan(waypoint, ramp_time(rest))
+        self._ramp(waypoint, ramp_time(distance))
+        self._hold(PUBLISHED.message - PUBLISHED.arrived)
+        self._second_ramps_due += float(PUBLISHED.second_share(distance, far_motors(moves)))
+        if self._second_ramps_due > 0.5:
+            self._second_ramps_due -= 1.0
+            self._ramp_again(waypoint)
+        while self._distance(waypoint) > ARRIVAL_THRESHOLD:
+            self._ramp_again(waypoint)
 
     def _distance(self, waypoint: Floats) -> float:
         return float(np.abs(waypoint - self.strokes[-1][-1]).max())
 
     def _hold(self, seconds: float) -> None:
-        count = math.ceil(seconds / TURN - 1e-9)
+        count = round(seconds / TURN)
         self._append(np.repeat(self.targets[-1][-1:], count, 0), np.repeat(self.strokes[-1][-1:], count, 0))
 
-    def _ramp_and_scan(self, waypoint: Floats, seconds: float) -> None:
-        self._ramp(waypoint, seconds)
-        self._hold(TYPICAL_SCAN)
+    def _ramp_again(self, waypoint: Floats) -> None:
+        """A small ramp, which the firmware begins just outside the threshold at least, and its scan."""
+        self._ramp(waypoint, ramp_time(max(self._distance(waypoint), ARRIVAL_THRESHOLD)))
+        self._hold(PUBLISHED.second_ramp - ramp_time(ARRIVAL_THRESHOLD))
 
     def _ramp(self, waypoint: Floats, seconds: float) -> None:
         """All motors along a straight line in motor space, each as fast as it can."""

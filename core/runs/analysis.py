@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from core.arrays import Floats
 from core.runs.pose import RanPlan, measured_motion, planned_feet
 from core.runs.reading import START, RunSeries, SentWaypoint
-from core.wire.waypoint_path import estimate_seconds
+from core.wire.robot_time import estimate_seconds
 from core.wire.waypoints import Waypoints
 
 PATH_PIECES = 16

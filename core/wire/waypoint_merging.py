@@ -17,12 +17,14 @@ from core.motion.trajectory import Trajectory
 from core.robot.coupled_strokes import heights_over_standing
 from core.robot.leg import foot_from_strokes
 from core.robot.model import RobotModel
-from core.wire.timing import ARRIVAL_THRESHOLD, ramp_time
-from core.wire.waypoint_path import SHORT_MOVE, cut_parts, move_seconds, stays_near, waypoints_from_trajectory
+from core.wire.robot_time import ARRIVAL_THRESHOLD, PUBLISHED, far_motors
+from core.wire.waypoint_path import cut_parts, stays_near, waypoints_from_trajectory
 from core.wire.waypoints import Waypoints
 
 ON_GROUND = 0.00025
 """A foot no higher than this over the standing feet is on the ground, whatever its sample is called, m."""
+JUST_MOVES = math.nextafter(ARRIVAL_THRESHOLD, 1.0)
+"""Shortest distance to which the firmware moves, m."""
 WIDEST_REACH = 120
 """Knots that one move replaces at most; a bound on the search."""
 
@@ -220,9 +222,16 @@ def _is_same(rows: Floats, first: int, last: int, tolerance: float) -> bool:
     return farthest <= min(tolerance, ARRIVAL_THRESHOLD)
 
 
-def _cost(distance: float) -> float:
-    """What a move costs, s; one within the threshold is only put off and costs its share of a ramp."""
-    return move_seconds(distance) + ramp_time(SHORT_MOVE) * min(distance / ARRIVAL_THRESHOLD, 1.0)
+def _costs(moves: Floats) -> Floats:
+    """(n,) what moves cost, s; one within the threshold is only put off and costs its share of a real one.
+
+    Args:
+        moves: (n, motors) distances, m.
+    """
+    distances = moves.max(axis=1)
+    seconds = PUBLISHED.move_seconds(np.maximum(distances, JUST_MOVES), far_motors(moves))
+    shares = np.minimum(distances / JUST_MOVES, 1.0)
+    return np.asarray(PUBLISHED.arrived + shares * (seconds - PUBLISHED.arrived))
 
 
 def _quickest(rows: Floats, first: int, last: int, tolerance: float) -> list[int]:
@@ -231,10 +240,13 @@ def _quickest(rows: Floats, first: int, last: int, tolerance: float) -> list[int
     best = [0.0] + [math.inf] * (count - 1)
     come_from = [0] * count
     for start in range(count - 1):
-        for end in range(start + 1, min(count, start + 1 + WIDEST_REACH)):
-            if end > start + 1 and not stays_near(rows, first + start, first + end, tolerance):
-                break
-            seconds = best[start] + _cost(float(np.abs(rows[first + end] - rows[first + start]).max()))
+        beyond = start + 2
+        while beyond < min(count, start + 1 + WIDEST_REACH) and stays_near(
+            rows, first + start, first + beyond, tolerance
+        ):
+            beyond += 1
+        moves = np.abs(rows[first + start + 1 : first + beyond] - rows[first + start])
+        for end, seconds in enumerate(best[start] + _costs(moves), start + 1):
             if seconds < best[end] - 1e-9:
                 best[end], come_from[end] = seconds, start
     way = [count - 1]

@@ -13,15 +13,8 @@ from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.robot.coupled_strokes import real_strokes
 from core.robot.model import RobotModel
-from core.wire.timing import ARRIVAL_THRESHOLD, LONGEST_SCAN, largest_moves, ramp_distance, ramp_time
+from core.wire.robot_time import largest_moves, least_stop_bound, longest_move
 from core.wire.waypoints import Waypoints
-
-TYPICAL_SCAN = 0.27
-"""Time of the firmware's error scan in the profile that matches the published 30 s an iteration."""
-MESSAGE_SECONDS = 0.03
-"""Parsing, printing and telemetry around a scan."""
-SHORT_MOVE = 0.006
-"""Shorter moves take two ramps (docs/firmware.md, Times), m."""
 
 
 def waypoints_from_trajectory(model: RobotModel, trajectory: Trajectory) -> Waypoints:
@@ -52,11 +45,6 @@ def stays_near(rows: Floats, first: int, last: int, tolerance: float) -> bool:
     return in_order and float(np.abs(inner - fractions[:, None] * way).max()) <= tolerance
 
 
-def least_stop_bound() -> float:
-    """Shortest deafness that can be kept, s: below it a part of a cut move would be within the threshold."""
-    return LONGEST_SCAN + ramp_time(3 * ARRIVAL_THRESHOLD)
-
-
 def cut_parts(waypoints: Waypoints, bound: float) -> NDArray[np.int64]:
     """(count,) into how many equal parts the move to each waypoint is cut, so that a bound is kept.
 
@@ -77,42 +65,5 @@ def cut_parts(waypoints: Waypoints, bound: float) -> NDArray[np.int64]:
             "are too short for the firmware to carry out.",
             "--stop-bound",
         )
-    longest = ramp_distance(bound - LONGEST_SCAN) - ARRIVAL_THRESHOLD
     moves = np.concatenate([[0.0], largest_moves(waypoints)])
-    return np.maximum(1, np.ceil(moves / longest - 1e-9).astype(np.int64))
-
-
-def move_seconds(distance: float) -> float:
-    """About how long the robot takes over one waypoint, s.
-
-    A scan; where a motor is more than the firmware's threshold away, a ramp and another scan, and below
-    SHORT_MOVE a second small ramp with its scan.
-
-    Args:
-        distance: largest distance of any motor, m.
-    """
-    seconds = TYPICAL_SCAN + MESSAGE_SECONDS
-    if distance <= ARRIVAL_THRESHOLD:
-        return seconds
-    seconds += TYPICAL_SCAN + ramp_time(distance)
-    return seconds + (TYPICAL_SCAN + ramp_time(ARRIVAL_THRESHOLD) if distance < SHORT_MOVE else 0.0)
-
-
-def estimate_seconds(waypoints: Waypoints) -> float:
-    """About how long the robot takes over all waypoints, s, from where it stands at the first.
-
-    Within 12 % of the emulated board for merged and unmerged gaits.
-    """
-    return float(move_estimates(waypoints).sum())
-
-
-def move_estimates(waypoints: Waypoints) -> Floats:
-    """(count,) about how long the robot takes over each waypoint, s, from where it stands at the first."""
-    here = waypoints.strokes[0]
-    seconds = np.zeros(waypoints.count)
-    for number, there in enumerate(waypoints.strokes):
-        distance = float(np.abs(there - here).max())
-        seconds[number] = move_seconds(distance)
-        if distance > ARRIVAL_THRESHOLD:
-            here = there
-    return seconds
+    return np.maximum(1, np.ceil(moves / longest_move(bound) - 1e-9).astype(np.int64))

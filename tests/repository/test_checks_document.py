@@ -16,7 +16,7 @@ from core.checks import path as path_check
 from core.physics import findings as physics
 from core.robot.model import load_robot
 from core.wire.messages import LONGEST_DURATION, SHORTEST_DURATION
-from core.wire.timing import ARRIVAL_THRESHOLD
+from core.wire.robot_time import ARRIVAL_THRESHOLD
 from tests.support.studio_process import PROJECT
 
 TEXT = (PROJECT / "docs" / "checks.md").read_text()

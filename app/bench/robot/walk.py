@@ -1,6 +1,6 @@
 """How long the robot walks: waypoints merged and cut, one a knot, and a walk made for the firmware's law."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from app.bench.common.measure import Row
-from app.emulator.firmware import Firmware
-from app.emulator.profiles import PROFILES, ProfileName
+from app.bench.robot.timed_board import TimedBoard
 from app.export.trajectory_files import read_trajectory
 from core.arrays import Floats
 from core.checks.checked_plan import CheckedPlan
@@ -21,8 +20,8 @@ from core.motion.contact_timeline import ContactTimeline
 from core.motion.trajectory import Trajectory
 from core.robot.kinematics import free_strokes
 from core.robot.model import RobotModel, load_robot
-from core.wire.messages import HIGHEST_MM, LOWEST_MM, encode_waypoint
-from core.wire.timing import stop_time
+from core.wire.messages import HIGHEST_MM, LOWEST_MM
+from core.wire.robot_time import stop_time
 from core.wire.waypoint_merging import WaypointPlan, plan_of_knots, plan_waypoints, robot_feet
 from core.wire.waypoints import Waypoints
 from solver_jobs import SolveStatus, solve_live
@@ -73,7 +72,7 @@ def bench_walk(ways: Sequence[tuple[float, float | None]] = WAYS) -> list[Row]:
     else:
         rows.append({"walk": "published", "note": f"skipped: {PUBLISHED} is not there"})
     for name, gait in (("ours, as built in", ordinary), ("ours, for the firmware", firmware_walk(ordinary))):
-        motion = _motion(model, gait)
+        motion = live_motion(model, gait)
         for way in ways:
             plan = plan_waypoints(model, motion, *way)
             rows.append(_row(name, model, plan, published, _judged(model, gait, motion, plan)))
@@ -104,28 +103,13 @@ def firmware_walk(gait: Gait) -> Gait:
 def walked(model: RobotModel, plan: WaypointPlan) -> Walked:
     """Sends a plan to the emulated firmware, each waypoint after the end line of the one before."""
     waypoints = plan.waypoints
-    robot = Firmware(PROFILES[ProfileName.PUBLISHED], tuple(waypoints.strokes_mm[0]))
-    program = robot.run()
-    while not robot.completions:
-        next(program)
-    # The start moves the motors; the run begins where they stand at the first waypoint.
-    _carry_out(robot, program, waypoints, 0)
-    began, reached = robot.now, []
-    for index in range(waypoints.count):
-        _carry_out(robot, program, waypoints, index)
-        motors = robot.board.motors
-        reached.append([motors.stroke_mm(motor, robot.board.now_us) / 1000.0 for motor in range(12)])
-    strokes = np.array(reached).reshape(waypoints.strokes.shape)
-    worst = float(np.abs(strokes - waypoints.strokes).max())
-    return Walked(robot.now - began, worst, _least_rise(robot_feet(model, strokes), plan))
-
-
-def _carry_out(robot: Firmware, program: Iterator[None], waypoints: Waypoints, index: int) -> None:
-    done = len(robot.completions)
-    robot.board.inbox += encode_waypoint(waypoints.strokes[index], float(waypoints.durations[index]))
-    while len(robot.completions) == done:
-        next(program)
-        robot.board.take_sent()
+    board, seconds, reached = TimedBoard(waypoints.strokes[0]), 0.0, []
+    for strokes, duration in zip(waypoints.strokes, waypoints.durations, strict=True):
+        seconds += board.send(strokes, float(duration))[0]
+        reached.append(board.strokes)
+    stood = np.array(reached)
+    worst = float(np.abs(stood - waypoints.strokes).max())
+    return Walked(seconds, worst, _least_rise(robot_feet(model, stood), plan))
 
 
 def _least_rise(feet: Floats, plan: WaypointPlan) -> float:
@@ -145,7 +129,12 @@ def _as_published(model: RobotModel, motion: Trajectory) -> Waypoints:
     return Waypoints(kept, np.full(motion.knot_count, float(motion.times[1] - motion.times[0])))
 
 
-def _motion(model: RobotModel, gait: Gait) -> Trajectory:
+def live_motion(model: RobotModel, gait: Gait) -> Trajectory:
+    """The live tier's motion of a gait.
+
+    Raises:
+        CheckError: there is none.
+    """
     result = solve_live(motion_problem(gait, model))
     if result.status is not SolveStatus.SOLVED:
         raise CheckError(f"The live tier finds no motion for “{gait.name}”: {result.status.value}.", "walk")

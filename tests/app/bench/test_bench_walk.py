@@ -8,7 +8,7 @@ import pytest
 
 from app.bench.common.measure import Row
 from app.bench.robot.walk import PUBLISHED, bench_walk
-from core.wire.timing import OVERRUN
+from core.wire.robot_time import OVERRUN
 
 pytestmark = [pytest.mark.heavy, pytest.mark.alone]
 

@@ -16,7 +16,7 @@ from app.bridge.transport import Transport
 from app.emulator.faults import Fault
 from app.emulator.profiles import ProfileName
 from core.wire.lines import ErrorScan, Execute, Telemetry
-from core.wire.timing import OVERRUN, ramp_time
+from core.wire.robot_time import OVERRUN, ramp_time
 from tests.support.studio_process import wait_for
 from tests.support.virtual_robot import VirtualRobot, make_plan
 

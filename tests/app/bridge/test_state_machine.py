@@ -13,7 +13,7 @@ from app.bridge.states import LinkState, RobotState, RunPhase
 from app.emulator.profiles import ProfileName
 from core.errors import InputError, StateError
 from core.wire.messages import encode_flush, encode_waypoint
-from core.wire.timing import START_MOVE, deafness, longest_start_move
+from core.wire.robot_time import START_MOVE, deafness, longest_start_move
 from core.wire.waypoint_path import cut_parts
 from core.wire.waypoints import Waypoints
 from tests.support.virtual_robot import VirtualRobot, make_plan, random_plan

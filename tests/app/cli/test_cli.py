@@ -16,7 +16,7 @@ from app.common.version import VERSION
 from app.documents.gait_json import gait_content
 from app.export.trajectory_files import read_trajectory
 from core.library.library import library
-from core.wire.timing import OVERRUN
+from core.wire.robot_time import OVERRUN
 from core.wire.trajectory_csv import parse_trajectory_csv
 from core.wire.waypoints import parse_waypoint_csv
 from tests.support.command import run, run_json

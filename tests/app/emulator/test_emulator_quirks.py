@@ -10,7 +10,7 @@ from app.emulator.faults import Fault
 from app.emulator.firmware import Firmware
 from app.emulator.ports import PtyPort
 from app.emulator.profiles import PROFILES, ProfileName
-from core.wire.timing import LONGEST_SCAN
+from core.wire.robot_time import LONGEST_SCAN
 
 
 class Bench:

@@ -12,7 +12,7 @@ from app.bridge.states import JogProgress, LinkState, RobotSnapshot, RobotState,
 from app.emulator.profiles import ProfileName
 from app.robot.run_summary import sent_waypoints
 from app.robot.views import RunOrigin, robot_view, run_end, stop_seconds
-from core.wire.timing import LONGEST_SCAN, OVERRUN, ramp_time
+from core.wire.robot_time import LONGEST_SCAN, OVERRUN, ramp_time
 from tests.support.virtual_robot import VirtualRobot, make_plan
 
 RUN = RunProgress("r", "Ada", RunPhase.STREAMING, 3, 3, 3, 9.0)

@@ -17,7 +17,7 @@ from core.gait.manual_motion import manual_motion
 from core.library.library import library
 from core.motion.trajectory import Trajectory
 from core.robot.model import load_robot
-from core.wire.timing import OVERRUN
+from core.wire.robot_time import OVERRUN
 from core.wire.waypoint_merging import WaypointPlan, cut_plan, plan_of_knots, plan_waypoints
 from core.wire.waypoint_path import waypoints_from_trajectory
 from core.wire.waypoints import Waypoints

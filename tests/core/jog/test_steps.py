@@ -18,7 +18,7 @@ from core.jog.check import JogCheck, check_jog, feet_in_robot
 from core.jog.steps import Axis, JogPart, JogStep, jog_range, jog_strokes, within_range
 from core.robot.leg import strokes_from_foot
 from core.robot.model import ROBOT_NAMES, load_robot
-from core.wire.timing import ARRIVAL_THRESHOLD, START_MOVE
+from core.wire.robot_time import ARRIVAL_THRESHOLD, START_MOVE
 
 WALKER = load_robot("deltawalker")
 LOWER, UPPER = WALKER.stroke.lower, WALKER.stroke.upper

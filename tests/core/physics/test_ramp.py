@@ -15,8 +15,7 @@ from core.physics.parameters import PhysicsSet, physics_set
 from core.physics.ramp import TURN, MotorTrajectory, motor_trajectory, ramp_shares
 from core.physics.variations import variations
 from core.robot.model import load_robot
-from core.wire.timing import ARRIVAL_THRESHOLD, RAMP_SPEED, ramp_time
-from core.wire.waypoint_path import MESSAGE_SECONDS, TYPICAL_SCAN, move_seconds
+from core.wire.robot_time import ARRIVAL_THRESHOLD, PUBLISHED, RAMP_SPEED, ramp_time
 from core.wire.waypoints import Waypoints
 
 MODEL = load_robot("deltawalker")
@@ -33,10 +32,13 @@ def weak(**changes: object) -> PhysicsSet:
     return replace(physics_set(), **changes)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("distance_mm", [2.0, 5.0, 7.0, 14.0, 18.0])
-def test_a_move_takes_what_the_firmware_takes(distance_mm: float) -> None:
+@pytest.mark.parametrize(("distance_mm", "second"), [(1.05, 0), (3.0, 1), (5.0, 1), (7.0, 0), (14.0, 0)])
+def test_a_move_takes_the_time_of_the_law_and_its_second_ramp_as_usual(
+    distance_mm: float, second: int
+) -> None:
     made = course(1.0, 1.0 + distance_mm)
-    assert made.duration == pytest.approx(move_seconds(distance_mm / 1000), abs=0.05)
+    expected = PUBLISHED.message + ramp_time(distance_mm / 1000) + second * PUBLISHED.second_ramp
+    assert made.duration == pytest.approx(expected, abs=2 * TURN)
     np.testing.assert_allclose(made.strokes[-1], (1.0 + distance_mm) / 1000, atol=1e-12)
 
 
@@ -44,7 +46,7 @@ def test_a_waypoint_within_the_threshold_moves_nothing_and_is_caught_up_later() 
     made = course(5.0, 5.9, 6.8)
     still = made.strokes[: made.arrivals[1] + 1]
     assert (still == still[0]).all()
-    assert made.arrivals[1] * TURN == pytest.approx(TYPICAL_SCAN + MESSAGE_SECONDS, abs=TURN)
+    assert made.arrivals[1] * TURN == pytest.approx(PUBLISHED.arrived, abs=TURN)
     np.testing.assert_allclose(made.strokes[-1], 0.0068, atol=1e-12)
 
 

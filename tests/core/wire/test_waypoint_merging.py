@@ -17,7 +17,13 @@ from core.gait.manual_motion import manual_motion
 from core.library.library import library
 from core.motion.trajectory import Trajectory
 from core.robot.model import load_robot
-from core.wire.timing import ARRIVAL_THRESHOLD, deafness, largest_moves
+from core.wire.robot_time import (
+    ARRIVAL_THRESHOLD,
+    deafness,
+    estimate_seconds,
+    largest_moves,
+    least_stop_bound,
+)
 from core.wire.waypoint_merging import (
     WaypointPlan,
     kept_knots,
@@ -26,7 +32,6 @@ from core.wire.waypoint_merging import (
     plan_waypoints,
     robot_feet,
 )
-from core.wire.waypoint_path import estimate_seconds, least_stop_bound
 from core.wire.waypoints import Waypoints
 
 MODEL = load_robot("deltawalker")

@@ -16,7 +16,8 @@ from core.gait.manual_motion import manual_motion
 from core.library.library import library
 from core.robot.model import load_robot
 from core.wire.messages import encode_waypoint
-from core.wire.waypoint_path import estimate_seconds, waypoints_from_trajectory
+from core.wire.robot_time import estimate_seconds
+from core.wire.waypoint_path import waypoints_from_trajectory
 from core.wire.waypoints import Waypoints, format_waypoint_csv, parse_waypoint_csv
 
 strokes = st.integers(1, 12).flatmap(
@@ -56,7 +57,7 @@ def test_the_estimate_is_near_what_the_emulated_board_takes() -> None:
         while len(board.completions) < index:
             next(program)
             board.board.take_sent()
-    assert estimate_seconds(waypoints) == pytest.approx(board.now - start, rel=0.12)
+    assert estimate_seconds(waypoints) == pytest.approx(board.now - start, rel=0.1)
 
 
 HEADER = "duration_s," + ",".join(f"h{i}" for i in range(1, 13))

@@ -15,7 +15,7 @@ from core.physics.metrics import FALL_TILT, report
 from core.physics.problem import Rig, SimulationProblem
 from core.physics.ramp import TURN
 from core.physics.variations import variations, varied_problem
-from core.wire.timing import RAMP_SPEED, ramp_time
+from core.wire.robot_time import RAMP_SPEED, ramp_time
 from core.wire.waypoint_merging import robot_feet
 from core.wire.waypoints import Waypoints
 from solver_jobs import simulate, simulate_variations

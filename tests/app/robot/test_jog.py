@@ -58,7 +58,8 @@ def made(jog: Jog, studio: StudioProcess, *steps: dict[str, Any]) -> dict[str, A
 
     wait_for(accepted, "the robot stands still", LONG)
     assert answers[-1].status == 200, answers[-1].content
-    assert answers[-1].content["jog"]["by"] == "Ada"
+    jogged = answers[-1].content["jog"]
+    assert jogged is None or jogged["by"] == "Ada"  # it may be over by the time of the answer
     wait_for(lambda: normalise(studio), "the jog is done", LONG)
     return studio.robot()
 

@@ -1,7 +1,7 @@
 """Every rule that a plan must keep before a person may approve it, in one list.
 
-The rules, by kind: `motors`, `balance`, `ground`, `document`, `coupling`, `path` for the way between
-waypoints, and `simulation` for what the physics finds.
+The rules, by kind: `motors`, `balance`, `ground`, `shoes`, `document`, `coupling`, `path` for the way
+between waypoints, and `simulation` for what the physics finds.
 """
 
 from collections.abc import Sequence
@@ -23,6 +23,7 @@ from core.checks.motors import (
     still_note,
 )
 from core.checks.path import SLACK_NOTE, check_path, send_costs
+from core.checks.shoes import check_shoes, check_shoes_of_waypoints
 from core.checks.simulation import Simulated, check_simulation, simulation_note
 from core.findings import Finding, Outcome, Severity, Verdict
 from core.robot.model import RobotModel
@@ -45,6 +46,7 @@ def check_plan(plan: CheckedPlan, simulated: Simulated | None = None) -> Verdict
         check_contact(plan),
         check_clearance(plan),
         check_slip(plan),
+        *check_shoes(plan),
         check_motor_speed(plan),
         *check_motor_acceleration(plan),
         check_move_size(plan),
@@ -66,12 +68,13 @@ def check_plan(plan: CheckedPlan, simulated: Simulated | None = None) -> Verdict
 
 
 def check_waypoints(model: RobotModel, waypoints: Waypoints) -> Verdict:
-    """What waypoints alone can show: range, durations, deafness, and balance by forward kinematics."""
+    """What waypoints alone can show: range, durations, deafness; by forward kinematics balance and shoes."""
     outcomes = [
         check_strokes(model, waypoints),
         check_deafness(waypoints),
         check_durations(waypoints),
         check_standing_balance(model, waypoints),
+        *check_shoes_of_waypoints(model, waypoints),
     ]
     findings = [finding for outcome in outcomes for finding in outcome.findings]
     return _verdict(model, waypoints, findings, outcomes)

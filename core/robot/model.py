@@ -67,7 +67,10 @@ class FootEnd(StrEnum):
 
 @dataclass(frozen=True)
 class BodyShape:
-    """Sizes that only pictures need, m; heights are of undersides above the actuator plane."""
+    """Sizes for pictures, m; heights are of undersides above the actuator plane.
+
+    Of these a plan depends on the shoes alone (`RobotModel.shoe_diameter`).
+    """
 
     plate_across: float
     plate_thickness: float
@@ -105,7 +108,7 @@ class RobotModel:
         coupling: (motors, actuators) C of h = C·u, motors in wire order; the identity where none is shared.
         masses: point masses of the optimisation's model.
         mass_sets: every named set of masses as it stands in the file, kg.
-        shape: sizes for pictures.
+        shape: sizes for pictures, and the shoes.
         colours: a colour a foot, `#rrggbb`.
     """
 
@@ -150,11 +153,17 @@ class RobotModel:
         return self.masses.body + self.leg_count * self.masses.foot
 
     @property
+    def shoe_diameter(self) -> float | None:
+        """How wide a shoe is, m; None where the feet wear none."""
+        return self.shape.sole_diameter if self.shape.foot_end is FootEnd.SHOE else None
+
+    @property
     def parameters_hash(self) -> str:
-        """SHA-256 of everything that a plan or a verdict depends on: all but title, sizes and colours."""
+        """SHA-256 of everything that a plan or a verdict depends on: all but title, looks and colours."""
         looks = {"title", "shape", "colours"}
         values = {field.name: getattr(self, field.name) for field in fields(self) if field.name not in looks}
         content = {name: _plain(value) for name, value in values.items()}
+        content["shoe_diameter"] = self.shoe_diameter
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
     @property

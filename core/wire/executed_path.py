@@ -37,6 +37,22 @@ class ExecutedPath:
     propped_margins: Floats
 
 
+def moving_feet(model: RobotModel, strokes: Floats) -> tuple[NDArray[np.int64], Floats]:
+    """The feet along each move between waypoints, in the robot's frame.
+
+    Args:
+        model: a robot whose motors are free of each other.
+        strokes: (count, legs, 3) of each waypoint, m.
+
+    Returns:
+        (m,) waypoint to which the robot is under way, and (m, legs, 3) the feet there, m; `STEPS` a move.
+    """
+    shares = np.arange(1, STEPS + 1) / STEPS
+    ways = strokes[:-1, None] + shares[:, None, None] * (strokes[1:] - strokes[:-1])[:, None]
+    moves = np.repeat(np.arange(1, len(strokes)), STEPS)
+    return moves, robot_feet(model, ways.reshape(-1, *strokes.shape[1:]))
+
+
 def executed_path(model: RobotModel, plan: WaypointPlan) -> ExecutedPath:
     """Follows the moves of a plan by forward kinematics.
 
@@ -49,12 +65,8 @@ def executed_path(model: RobotModel, plan: WaypointPlan) -> ExecutedPath:
         model: a robot whose motors are free of each other.
         plan: at least two waypoints.
     """
-    strokes = plan.waypoints.strokes
-    shares = np.arange(1, STEPS + 1) / STEPS
-    ways = strokes[:-1, None] + shares[:, None, None] * (strokes[1:] - strokes[:-1])[:, None]
-    feet = robot_feet(model, ways.reshape(-1, *strokes.shape[1:]))
-    moves = np.repeat(np.arange(1, plan.waypoints.count), STEPS)
-    at_end = np.tile(shares == 1.0, plan.waypoints.count - 1)
+    moves, feet = moving_feet(model, plan.waypoints.strokes)
+    at_end = np.arange(1, len(moves) + 1) % STEPS == 0
     standing = np.asarray(np.where(at_end[:, None], plan.contact[moves], plan.standing[moves]))
     middle = np.zeros((len(moves), 2))
     heights = heights_over_standing(feet, standing)

@@ -13,8 +13,10 @@ from core.checks import document as document_check
 from core.checks import ground as ground_check
 from core.checks import motors as motor_check
 from core.checks import path as path_check
+from core.checks import shoes as shoe_check
 from core.physics import findings as physics
 from core.robot.model import load_robot
+from core.robot.shoes import SHOE_GAP
 from core.wire.messages import LONGEST_DURATION, SHORTEST_DURATION
 from core.wire.robot_time import ARRIVAL_THRESHOLD
 from tests.support.studio_process import PROJECT
@@ -22,6 +24,7 @@ from tests.support.studio_process import PROJECT
 TEXT = (PROJECT / "docs" / "checks.md").read_text()
 ROWS = re.findall(r"^\| `(\w+)` \| (.*?) \| (.*?) \| (.*?) \| (.*?) \|$", TEXT, re.MULTILINE)
 STROKE = load_robot("deltawalker").stroke
+SHOE = load_robot("deltawalker").shoe_diameter or 0.0
 MODULES = (
     balance_check,
     coupling_check,
@@ -29,6 +32,7 @@ MODULES = (
     ground_check,
     motor_check,
     path_check,
+    shoe_check,
     physics,
 )
 
@@ -59,6 +63,10 @@ def test_every_rule_that_the_code_names_stands_in_the_table_and_no_other() -> No
         ("contact", [f"{ground_check.CONTACT_LIMIT * 1000:.2f} mm"]),
         ("slip", [f"{ground_check.SLIP_LIMIT * 1000:.1f} mm"]),
         ("clearance", [f"{ground_check.CLEARANCE_LIMIT * 1000:.1f} mm"]),
+        (
+            "shoe_distance",
+            [f"the shoes' diameter, {SHOE * 1000:.1f} mm", f"{SHOE_GAP * 1000:.1f} mm"],
+        ),
         ("start_pose", [f"{document_check.START_FEET} feet", "none"]),
         ("travel", [f"{document_check.TRAVEL_LIMIT * 1000:.1f} mm"]),
         ("turn", [f"{np.degrees(document_check.TURN_LIMIT):.0f}°"]),

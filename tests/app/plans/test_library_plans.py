@@ -10,8 +10,11 @@ from app.gaits.open_gait import fresh_gait
 from app.gaits.views import gait_view, verdict_view
 from app.plans.plan import PlanSource, verdict_of
 from app.plans.sequence_plan import plan_of
+from core.checks.checked_plan import CheckedPlan
+from core.checks.shoes import check_shoes
 from core.errors import CheckError
 from core.library.library import Group, library
+from core.robot.shoes import foot_distances, least_distance
 from solver_jobs import solve_live
 
 SOURCES = {
@@ -25,6 +28,18 @@ SOURCES = {
 
 OTHERS = {"textbook-crawl": PlanSource.LIVE, "hexapod-front-up": PlanSource.DRAFT}
 """Gaits that differ from their group: a crawl balances, four neighbouring feet of a ring of six do not."""
+
+
+@pytest.mark.parametrize("gait_id", list(library()))
+def test_no_gait_of_the_library_brings_two_shoes_together(gait_id: str) -> None:
+    plan = plan_of(library()[gait_id].gait, lambda motion: None, lambda gait: solve_live)
+    assert plan.trajectory is not None
+    needed = least_distance(plan.model)
+    assert needed is not None
+    assert foot_distances(plan.trajectory.feet_world).min() > needed
+    if plan.way is not None:
+        (judged,) = check_shoes(CheckedPlan(plan.model, plan.trajectory, plan.way.waypoints, way=plan.way))
+        assert judged.findings == ()
 
 
 @pytest.mark.parametrize("gait_id", list(library()))

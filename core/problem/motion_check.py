@@ -18,6 +18,7 @@ from core.motion.trajectory import Trajectory
 from core.problem.motion_problem import CYLINDER, Boundary, MotionProblem, Workspace
 from core.robot.kinematics import actuator_plane_pose, feet_in_modules
 from core.robot.leg import strokes_from_foot
+from core.robot.shoes import foot_distances, least_distance
 
 TOLERANCE = 1e-6
 """Largest violation of a motion that counts as confirmed, SI."""
@@ -171,6 +172,7 @@ def _asked(problem: MotionProblem) -> list[str]:
         "friction": limits.friction,
         "motor_speed": limits.motor_speed,
         "motor_acceleration": limits.motor_acceleration,
+        "shoe_distance": least_distance(problem.model),
     }
     return [name for name, limit in asked.items() if limit is not None]
 
@@ -302,6 +304,11 @@ def _motor_acceleration(m: _Motion) -> float:
     return float(np.abs(change).max() - (m.problem.limits.motor_acceleration or 0.0))
 
 
+def _shoe_distance(m: _Motion) -> float:
+    """Every two feet p, q: |p_xy − q_xy| ≥ d, so that there is room between their shoes."""
+    return (least_distance(m.problem.model) or 0.0) - float(foot_distances(m.feet).min())
+
+
 FAMILIES: dict[str, Callable[[_Motion], float]] = {
     "dynamics": _dynamics,
     "body_height": _body_height,
@@ -323,5 +330,6 @@ OPTIONAL_FAMILIES: dict[str, Callable[[_Motion], float]] = {
     "friction": _friction,
     "motor_speed": _motor_speed,
     "motor_acceleration": _motor_acceleration,
+    "shoe_distance": _shoe_distance,
 }
-"""Families that count only where the problem asks for them."""
+"""Families that count only where the problem, or for shoes the robot, asks for them."""

@@ -1,6 +1,7 @@
 """The live tier's quadratic program: linearisation, rows and cost.
 
-`quadratic_program` stacks the rows of `_rows`; `solve.py` adds motor limits, `elastic.py` slack.
+`quadratic_program` stacks the rows of `_rows`; `solve.py` adds motor limits and room between shoes,
+`elastic.py` slack.
 """
 
 import numpy as np

@@ -9,6 +9,7 @@ from core.arrays import Bools, Floats
 from core.gait.held_feet import feet_words
 from core.problem.initial_guess import Indices, closed_contact, problem_swings
 from core.problem.motion_problem import MotionProblem
+from core.robot.shoes import least_distance
 from solver_jobs.live.linearisation import MM, Linearisation
 from solver_jobs.live.rows import NOBODY, Rows
 from solver_jobs.nlp.constraint import Family
@@ -119,6 +120,8 @@ def _sentence(problem: MotionProblem, contact: Bools, lack: Lack) -> str:
         Family.MOTOR_SPEED: f"A motor of {whose} would have to be {size} mm/s faster than allowed {where}.",
         Family.MOTOR_ACCELERATION: f"A motor of {whose} would have to change its speed by {size} mm/s more "
         f"from knot to knot than allowed {where}.",
+        Family.SHOE_DISTANCE: f"Room for shoes lacks {size} mm {where}: feet {' and '.join(map(str, ends))} "
+        f"come nearer to each other than {(least_distance(problem.model) or 0.0) * MM:g} mm.",
     }
     return words[Family(lack.family)]
 

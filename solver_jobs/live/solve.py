@@ -23,6 +23,7 @@ from solver_jobs.live.motion import motion_cost, trajectory_of
 from solver_jobs.live.motors import motor_rows
 from solver_jobs.live.qp import QpResult, QuadraticProgram, Solver
 from solver_jobs.live.rows import Rows
+from solver_jobs.live.shoes import shoe_rows, shoes_meet
 from solver_jobs.nlp.assembly import box_of
 from solver_jobs.nlp.constraint import situation_of
 from solver_jobs.nlp.presolve import presolve
@@ -38,7 +39,7 @@ LEVELS = (0.0550, 0.0575, 0.0530, 0.0605)
 """Heights of the actuator plane that are tried between start and goal where nothing else works, m."""
 
 ROUNDS = 5
-"""How often motor limits are made linear anew."""
+"""How often motor limits, and the room between shoes, are made linear anew."""
 
 AT_THE_EDGE = (
     "This lies at the edge of what the model allows: no motion was found, though less than 0.005 mm is "
@@ -125,13 +126,19 @@ def _attempt(search: _Search, linearisation: Linearisation, sides: int) -> Traje
     rows = inner_rows(linearisation, sides)
     motion = _motion(search, linearisation, rows)
     limits = search.problem.limits
-    if motion is None or (limits.motor_speed is None and limits.motor_acceleration is None):
+    is_curved = limits.motor_speed is not None or limits.motor_acceleration is not None
+    if motion is None or not (is_curved or shoes_meet(search.problem, motion)):
         return motion
     for _ in range(ROUNDS):
-        motion = _motion(search, linearisation, rows + motor_rows(linearisation, motion))
+        motion = _motion(search, linearisation, rows + _curved_rows(linearisation, motion))
         if motion is None or check_motion(search.problem, motion).confirmed:
             return motion
     return None
+
+
+def _curved_rows(linearisation: Linearisation, about: Trajectory) -> list[Rows]:
+    """Limits that are linear about a motion only: those of motors, and the room between shoes."""
+    return motor_rows(linearisation, about) + shoe_rows(linearisation, about)
 
 
 def _motion(search: _Search, linearisation: Linearisation, rows: list[Rows]) -> Trajectory | None:
@@ -164,8 +171,8 @@ def _unsolved(search: _Search, natural: Linearisation) -> MotionResult:
     motion = trajectory_of(natural, found.x)
     lacks = lacks_of(natural, rows, found.misses, found.x)
     if not lacks:
-        motors = motor_rows(natural, motion)
-        lacks = lacks_of(natural, motors, [np.maximum(one.excess(found.x), 0.0) for one in motors], found.x)
+        curved = _curved_rows(natural, motion)
+        lacks = lacks_of(natural, curved, [np.maximum(one.excess(found.x), 0.0) for one in curved], found.x)
     result = _result(SolveStatus.INFEASIBLE, motion, search.seconds, (AT_THE_EDGE,), evidence)
     return replace(result, lacks=lacks)
 

@@ -2,6 +2,7 @@
 
 from core.problem.motion_problem import Boundary as Ends
 from core.problem.motion_problem import MotionProblem, Workspace
+from core.robot.shoes import least_distance
 from solver_jobs.nlp.bounds import (
     BodyHeight,
     Boundary,
@@ -18,6 +19,7 @@ from solver_jobs.nlp.rows_forces import BodyTorque, Friction
 from solver_jobs.nlp.rows_motion import BodySpeed, ClosedCycle, FootSpeed, ForceBalance, Integration
 from solver_jobs.nlp.rows_motors import MotorAcceleration, MotorSpeed
 from solver_jobs.nlp.rows_reach import CylinderDisc, CylinderHeight, StabilityMargin, StrokeLower, StrokeUpper
+from solver_jobs.nlp.rows_shoes import ShoeDistance
 
 BOUND_CONSTRAINTS: tuple[BoundConstraint, ...] = (
     Boundary(),
@@ -50,6 +52,7 @@ OPTIONAL_ROWS: tuple[RowConstraint, ...] = (
     Friction(),
     MotorSpeed(),
     MotorAcceleration(),
+    ShoeDistance(),
 )
 """Rows that are there only where a problem asks for their family."""
 
@@ -63,6 +66,7 @@ ELASTIC_FAMILIES = frozenset(
         Family.FRICTION,
         Family.MOTOR_SPEED,
         Family.MOTOR_ACCELERATION,
+        Family.SHOE_DISTANCE,
     }
 )
 """What the search for the nearest motion may miss. It keeps everything else, which a robot without limits
@@ -88,6 +92,7 @@ def asked_families(problem: MotionProblem) -> frozenset[Family]:
         Family.FRICTION: limits.friction is not None,
         Family.MOTOR_SPEED: limits.motor_speed is not None,
         Family.MOTOR_ACCELERATION: limits.motor_acceleration is not None,
+        Family.SHOE_DISTANCE: least_distance(problem.model) is not None,
     }
     return frozenset(family for family, wanted in asked.items() if wanted)
 

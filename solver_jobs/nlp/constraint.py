@@ -42,6 +42,7 @@ class Family(StrEnum):
     FRICTION = "friction"
     MOTOR_SPEED = "motor_speed"
     MOTOR_ACCELERATION = "motor_acceleration"
+    SHOE_DISTANCE = "shoe_distance"
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.arrays import Floats
+from core.robot.shoes import neighbour_pairs
 from solver_jobs.nlp.compiled_problem import CompiledProblem
 from solver_jobs.nlp.constraint import Family, RowConstraint, Situation
 from solver_jobs.nlp.messages import FAMILY_WORDS, REMEDIES
@@ -26,7 +27,8 @@ class Shortfall:
         unit: mm, mm/s, mm/s² or N, or for friction the share of a foot's load.
         knots: 0-based knots where at least half the largest violation remains.
         worst: the knot of the largest violation.
-        feet: the foot there, or both feet of the support polygon's edge, 0-based; empty for the body.
+        feet: the foot there, or both feet of the support polygon's edge or of two shoes, 0-based; empty for
+            the body.
     """
 
     family: Family
@@ -39,7 +41,8 @@ class Shortfall:
     @property
     def phrase(self) -> str:
         """Such as “0.9 mm in reach of foot 3 at knots 15–19, 35–39”."""
-        words = f"{FAMILY_WORDS[self.family]}{_of_feet(self.feet)}"
+        feet = _of_shoes(self.feet) if self.family is Family.SHOE_DISTANCE else _of_feet(self.feet)
+        words = f"{FAMILY_WORDS[self.family]}{feet}"
         return f"{self.amount:.3g} {self.unit} in {words} at {knot_ranges(self.knots)}"
 
     @property
@@ -51,6 +54,10 @@ class Shortfall:
         while last + 1 in self.knots:
             last += 1
         return first, last
+
+
+def _of_shoes(feet: tuple[int, ...]) -> str:
+    return f" of feet {' and '.join(str(foot + 1) for foot in sorted(feet))}"
 
 
 def _of_feet(feet: tuple[int, ...]) -> str:
@@ -86,6 +93,9 @@ def shortfalls(
 
 
 def _feet_of_row(constraint: RowConstraint, situation: Situation, knot: int, row: int) -> tuple[int, ...]:
+    if constraint.family is Family.SHOE_DISTANCE:
+        first, second = neighbour_pairs(situation.problem.model.leg_count)[row]
+        return (int(first), int(second))
     if constraint.rows_per_foot == 0:
         return ()
     foot = row // constraint.rows_per_foot

@@ -20,6 +20,7 @@ FAMILY_WORDS = {
     Family.FRICTION: "friction",
     Family.MOTOR_SPEED: "motor speed",
     Family.MOTOR_ACCELERATION: "motor acceleration",
+    Family.SHOE_DISTANCE: "room between shoes",
 }
 """Names in sentences."""
 
@@ -43,5 +44,6 @@ REMEDIES = {
     Family.FRICTION: "Lengthen the phases or use feet with more grip.",
     Family.MOTOR_SPEED: _SHORTER,
     Family.MOTOR_ACCELERATION: "Lengthen the phases, shorten the step, or lower the clearance.",
+    Family.SHOE_DISTANCE: "Shorten the step, or move the footholds apart.",
 }
 """What to do about each."""

@@ -20,6 +20,7 @@ from core.problem.motion_problem import (
 from core.problem.swing_height import is_held, rest_heights
 from core.robot.kinematics import actuator_plane_pose, feet_in_modules
 from core.robot.leg import strokes_from_foot
+from core.robot.shoes import foot_distances, foot_pairs, least_distance
 from solver_jobs.nlp.constraint import Box, Situation
 from solver_jobs.nlp.diagnosis import knot_ranges
 from solver_jobs.nlp.messages import FAMILY_WORDS, REMEDIES
@@ -43,6 +44,7 @@ def presolve(situation: Situation, box: Box) -> tuple[str, ...]:
         presolve_held_feet(situation.problem),
         _far_feet(situation),
         _far_body(situation),
+        _near_shoes(situation.problem),
     )
     return tuple(sentence for look in looks for sentence in look)
 
@@ -141,6 +143,21 @@ def _far_body(situation: Situation) -> list[str]:
         f"The body has to travel {way * MM:.1f} mm but {problem.knot_count} knots allow {reach * MM:.1f} mm "
         f"at {problem.limits.body_speed * MM:.0f} mm/s. Lengthen the gait or shorten the step."
     ]
+
+
+def _near_shoes(problem: MotionProblem) -> Iterator[str]:
+    """Feet that are given nearer to each other at the start or the goal than their shoes need."""
+    least = least_distance(problem.model)
+    if least is None or problem.boundary is Boundary.PERIODIC:
+        return
+    for place, pose in (("start", problem.start), ("goal", problem.goal)):
+        distances = foot_distances(pose.feet_world)
+        for pair in np.nonzero(distances < least - LEAST_NAMED)[0]:
+            first, second = foot_pairs(problem.model.leg_count)[pair] + 1
+            yield (
+                f"Feet {first} and {second} are given {distances[pair] * MM:.1f} mm apart at the {place}, "
+                f"and their shoes need {least * MM:.1f} mm. Move their footholds apart."
+            )
 
 
 def _acting_times(problem: MotionProblem) -> Floats:

@@ -53,7 +53,8 @@ class Lack:
         unit: mm, mm/s or N; of the foot's load where it is friction.
         first: first knot of the phase concerned, 0-based.
         last: last knot of that phase, included.
-        feet: the foot concerned, or both feet of the support polygon's edge, 0-based; empty for the body.
+        feet: the foot concerned, or both feet of the support polygon's edge or of two shoes, 0-based; empty
+            for the body.
         sentence: all of this in words.
     """
 

@@ -12,6 +12,7 @@ const TEXTS = {
 const FAMILIES = {
   body_torque: "Balance", margin: "Margin", workspace: "Reach", foot_speed: "Speed", body_speed: "Body speed", clearance: "Clearance",
   body_height: "Body height", boundary: "Start and goal", motor_speed: "Motor speed", motor_acceleration: "Acceleration", friction: "Friction",
+  shoe_distance: "Shoes",
 };
 const SHOWN_MISSING = 3;
 const ROUNDING_M = 1e-6;

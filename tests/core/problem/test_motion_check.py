@@ -17,7 +17,7 @@ from core.motion.support_polygon import GRAVITY
 from core.motion.trajectory import Trajectory
 from core.problem.motion_check import FAMILIES, OPTIONAL_FAMILIES, check_motion
 from core.problem.motion_problem import Boundary, MotionLimits, MotionProblem, Workspace
-from core.robot.model import load_robot
+from core.robot.model import FootEnd, load_robot
 from core.wire.trajectory_csv import parse_trajectory_csv
 from tests.support.reference import reference_path
 
@@ -163,6 +163,18 @@ def test_an_optional_family_counts_only_where_it_is_asked_for(
     assert check_motion(asked, broken).violations[family] == pytest.approx(size, rel=1e-6)
 
 
+@pytest.mark.parametrize("feet_of_pair", [(0, 1), (3, 0), (0, 2)])
+def test_shoes_that_are_too_near_are_found_for_any_two_feet(feet_of_pair: tuple[int, int]) -> None:
+    problem = standing_problem()
+    first, second = feet_of_pair
+    places = standing(problem).feet_world.copy()
+    places[2, first] = places[2, second] + [0.012, -0.016, 0.004]
+    near = standing(problem, feet_world=places)
+    assert check_motion(problem, near).violations["shoe_distance"] == pytest.approx(0.008)
+    bare = replace(MODEL, shape=replace(MODEL.shape, foot_end=FootEnd.BARE))
+    assert "shoe_distance" not in check_motion(replace(problem, model=bare), near).violations
+
+
 def test_motor_speed_is_seen_from_the_turning_body() -> None:
     problem = standing_problem()
     turning = np.linspace(0.0, 0.5, KNOTS)
@@ -233,7 +245,7 @@ def test_a_cycle_may_pass_its_ends_at_speed_and_with_other_feet() -> None:
 def test_every_family_has_a_hand_made_violation() -> None:
     covered = {family for family, _, _ in HAND_MADE} | {"body_speed", "clearance", "floating_force"}
     assert covered == set(FAMILIES)
-    assert {family for family, *_ in OPTIONAL} == set(OPTIONAL_FAMILIES)
+    assert {family for family, *_ in OPTIONAL} | {"shoe_distance"} == set(OPTIONAL_FAMILIES)
 
 
 def test_the_published_walk_starts_below_the_body_height_bound() -> None:

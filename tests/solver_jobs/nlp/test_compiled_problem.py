@@ -173,7 +173,7 @@ def test_slopes_are_undone_by_forces() -> None:
 def test_the_form_without_roots_is_the_stroke_limit_of_inverse_kinematics() -> None:
     turned = replace(PROBLEM, heading_profile=np.linspace(0.0, 0.3, PROBLEM.knot_count))
     compiled = compile_problem(turned.model, shape_of(turned))
-    upper, lower = compiled.blocks[-2:]
+    upper, lower = (block for block in compiled.blocks if block.constraint.family is Family.WORKSPACE)
     parameters = parameter_values(turned, situation_of(turned).successor)
     motion = initial_guess(turned)
     n, legs = PROBLEM.knot_count, PROBLEM.model.leg_count

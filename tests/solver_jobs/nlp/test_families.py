@@ -18,6 +18,7 @@ from core.problem.motion_problem import Boundary, MotionProblem, Workspace
 from core.robot.model import load_robot
 from solver_jobs import Evidence, MotionResult, SolveStatus
 from solver_jobs.nlp.motion_nlp import solve_motion
+from tests.support.solvers.cases import BARE
 
 
 def asked(
@@ -147,7 +148,7 @@ def test_a_lack_names_feet_and_knots_of_the_gaits_own_direction() -> None:
 
 
 def test_a_swing_too_slow_for_its_height_and_way_is_explained() -> None:
-    result = solve_motion(asked(step=0.030))
+    result = solve_motion(replace(asked(step=0.030), model=BARE))
     assert result.status is SolveStatus.INFEASIBLE
     assert result.evidence is Evidence.DIAGNOSED
     assert "foot speed" in result.explanation[0]

@@ -16,7 +16,7 @@ from solver_jobs import Iterate, SolveStatus
 from solver_jobs.nlp.motion_nlp import solve_motion
 from solver_jobs.nlp.timing import TimingResult, fastest_timing, phase_spans, rounded_timeline
 from solver_jobs.tiers.timing_use import made_usable
-from tests.support.solvers.cases import gait_problem
+from tests.support.solvers.cases import BARE, gait_problem
 
 
 def limited_walk() -> MotionProblem:
@@ -66,7 +66,7 @@ def test_the_same_motion_hurried_by_a_tenth_breaks_a_limit() -> None:
 
 
 def test_a_step_too_long_for_the_drawn_phases_gets_longer_ones() -> None:
-    problem = gait_problem("walk", 0.032, Workspace.STROKE)
+    problem = replace(gait_problem("walk", 0.032, Workspace.STROKE), model=BARE)
     assert solve_motion(problem).status is SolveStatus.INFEASIBLE
     timing = fastest_timing(problem)
     assert timing.status is SolveStatus.SOLVED
@@ -74,7 +74,7 @@ def test_a_step_too_long_for_the_drawn_phases_gets_longer_ones() -> None:
 
 
 def test_what_no_timing_makes_possible_is_explained() -> None:
-    timing = fastest_timing(gait_problem("walk", 0.060, Workspace.STROKE))
+    timing = fastest_timing(replace(gait_problem("walk", 0.060, Workspace.STROKE), model=BARE))
     assert timing.status is SolveStatus.INFEASIBLE
     assert "4 times as long" in timing.explanation[0]
     assert "reach" in timing.explanation[1]

@@ -14,6 +14,7 @@ from core.problem.motion_check import FAMILIES, OPTIONAL_FAMILIES, check_motion
 from core.problem.motion_problem import Workspace
 from core.robot.model import load_robot
 from solver_jobs import FrontierSearch, SolveStatus, solve_motion
+from tests.support.solvers.cases import BARE
 
 MODEL = load_robot("deltawalker")
 
@@ -36,11 +37,18 @@ def test_the_exact_tier_confirms_the_frontier_and_finds_nothing_a_millimetre_abo
 
 
 def test_what_limits_the_step_is_named_as_in_the_contract() -> None:
-    found = FrontierSearch(gait_with("walk"), MODEL, exact=False).run()
+    found = FrontierSearch(gait_with("walk"), BARE, exact=False).run()
     assert found.limited_by == ("foot_speed",)
     assert set(found.limited_by) <= set(FAMILIES) | set(OPTIONAL_FAMILIES)
     assert "faster than 15 mm/s" in found.explanation[0]
     assert not found.confirmed
+
+
+def test_shoes_end_the_walk_s_step_where_a_foot_comes_up_to_its_neighbour() -> None:
+    found = FrontierSearch(gait_with("walk"), MODEL, exact=False).run()
+    assert found.limited_by == ("shoe_distance",)
+    assert found.reach == pytest.approx(0.04 * np.sqrt(2) - 0.028, abs=1e-4)
+    assert "Room for shoes lacks" in found.explanation[0]
 
 
 def test_a_margin_and_the_cylinder_shorten_the_step() -> None:
@@ -67,8 +75,8 @@ def test_free_heights_get_at_least_as_far_as_the_given_one() -> None:
 
 @pytest.mark.heavy
 def test_longer_phases_get_further_where_foot_speed_is_the_limit() -> None:
-    found = FrontierSearch(gait_with("walk"), MODEL, free_phases=True, exact=False).run()
-    fixed = FrontierSearch(gait_with("walk"), MODEL, exact=False).run()
+    found = FrontierSearch(gait_with("walk"), BARE, free_phases=True, exact=False).run()
+    fixed = FrontierSearch(gait_with("walk"), BARE, exact=False).run()
     assert found.reach > fixed.reach + 0.005
     assert found.gait.options.phase_knots > 5
     assert found.gait.timeline == drawn_timeline(found.gait)

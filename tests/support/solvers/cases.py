@@ -8,9 +8,13 @@ from core.gait.gait import heading_step, motion_problem
 from core.gait.options import GaitOptions
 from core.library.library import Group, group_ids, library
 from core.problem.motion_problem import Cost, MotionProblem, Workspace
-from core.robot.model import load_robot
+from core.robot.model import FootEnd, load_robot
 
 GAITS = group_ids(Group.OPTIMISED)
+
+_DELTAWALKER = load_robot("deltawalker")
+BARE = replace(_DELTAWALKER, shape=replace(_DELTAWALKER.shape, foot_end=FootEnd.BARE))
+"""Without shoes, which would meet in steps of more than 28.5 mm."""
 
 
 def gait_problem(gait: str, step: float, workspace: Workspace, *, cost: Cost = Cost.GOAL) -> MotionProblem:

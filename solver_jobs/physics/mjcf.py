@@ -20,6 +20,7 @@ from core.robot.closed_chain import BODY, foot_joints, foot_link, knee_link, mot
 from core.robot.kinematics import BodyPose
 from core.robot.leg import foot_from_strokes, vertex_directions
 from core.robot.model import RobotModel
+from core.robot.shoes import neighbour_pairs
 
 REFLECTED_MASS = 0.1
 """Of a motor's rotor, seen at its knee, kg: inertia without weight. A real 63:1 gear with its screw has more;
@@ -75,8 +76,10 @@ def mjcf_text(model: RobotModel, physics: PhysicsSet, rig: Rig, pose: BodyPose, 
     for leg in range(model.leg_count):
         _add_leg(body, model, physics, leg)
     _add_chains(root, model)
+    contact = ElementTree.SubElement(root, "contact")
     if rig is Rig.WALKING:
-        _add_contacts(root, model, physics)
+        _add_ground_contacts(contact, model, physics)
+    _add_shoe_contacts(contact, model)
     _add_motors(root, model, physics)
     _add_sensors(root, model)
     return ElementTree.tostring(root, encoding="unicode")
@@ -98,6 +101,11 @@ def rest_height(model: RobotModel) -> float:
 def arm_name(leg: int, motor: int) -> str:
     """Name of the constraint that keeps an arm's length (both 0-based; names count from 1)."""
     return f"leg{leg + 1}_arm{motor + 1}"
+
+
+def shoe_name(leg: int) -> str:
+    """Name of the shape of a foot's shoe (0-based; names count from 1)."""
+    return f"leg{leg + 1}_shoe"
 
 
 def ground_sensor(leg: int) -> str:
@@ -149,6 +157,18 @@ def _add_leg(body: Element, model: RobotModel, physics: PhysicsSet, leg: int) ->
         ElementTree.SubElement(foot, "site", name=f"{foot_link(leg)}{motor + 1}", pos=_numbers(vertex))
     bottom = (0.0, 0.0, SOLE_RADIUS - model.sole_depth)
     _touchless(foot, foot_link(leg), type="sphere", size=repr(SOLE_RADIUS), pos=_numbers(bottom))
+    if model.shoe_diameter is not None:
+        _add_shoe(foot, model, leg, model.shoe_diameter)
+
+
+def _add_shoe(foot: Element, model: RobotModel, leg: int, diameter: float) -> None:
+    """An upright capsule whose straight part is the shoe: it touches other shoes with its side alone.
+
+    Feet keep upright and rise by less than the shoe's height, so that the round ends meet nothing.
+    """
+    half = model.sole_depth / 2
+    size, middle = _numbers((diameter / 2, half)), _numbers((0.0, 0.0, -half))
+    _touchless(foot, shoe_name(leg), type="capsule", size=size, pos=middle)
 
 
 def _touchless(parent: Element, name: str, **attributes: str) -> None:
@@ -185,8 +205,7 @@ def _add_chains(root: Element, model: RobotModel) -> None:
         ElementTree.SubElement(constraints, "tendon", tendon1=name, solref=CHAIN_SOLREF, solimp=HARDNESS)
 
 
-def _add_contacts(root: Element, model: RobotModel, physics: PhysicsSet) -> None:
-    contact = ElementTree.SubElement(root, "contact")
+def _add_ground_contacts(contact: Element, model: RobotModel, physics: PhysicsSet) -> None:
     friction = (physics.friction, physics.friction, physics.friction * TWIST_RADIUS, 1e-4, 1e-4)
     for leg in range(model.leg_count):
         ElementTree.SubElement(
@@ -196,6 +215,21 @@ def _add_contacts(root: Element, model: RobotModel, physics: PhysicsSet) -> None
             geom2=foot_link(leg),
             condim="4",
             friction=_numbers(friction),
+            solref=CONTACT_SOLREF,
+            solimp=HARDNESS,
+        )
+
+
+def _add_shoe_contacts(contact: Element, model: RobotModel) -> None:
+    """Shoes of neighbouring feet push against each other, without friction."""
+    pairs = neighbour_pairs(model.leg_count).tolist() if model.shoe_diameter is not None else []
+    for first, second in pairs:
+        ElementTree.SubElement(
+            contact,
+            "pair",
+            geom1=shoe_name(first),
+            geom2=shoe_name(second),
+            condim="1",
             solref=CONTACT_SOLREF,
             solimp=HARDNESS,
         )

@@ -13,6 +13,7 @@ from core.physics.variations import VariedRun
 from core.problem.motion_problem import MotionProblem
 from solver_jobs.nlp.timing import TimingResult, fastest_timing
 from solver_jobs.results.motion import Evidence, Iterate, Lack, MotionResult, SolveStatus
+from solver_jobs.results.pose import PoseProgress, PoseResult
 from solver_jobs.tiers.frontier import Frontier, FrontierSearch
 from solver_jobs.tiers.remedies import Remedy, RemedySearch
 from solver_jobs.workers.batch_simulation_service import BatchSimulation, BatchSimulator
@@ -20,6 +21,7 @@ from solver_jobs.workers.job import OPEN_STATES, Job, JobKind, JobState, result_
 from solver_jobs.workers.job_queue import JobQueue
 from solver_jobs.workers.live_service import LiveSolver
 from solver_jobs.workers.pattern_service import PatternSearch, PatternSolver
+from solver_jobs.workers.pose_service import PoseGaitSolver, PoseSearch
 from solver_jobs.workers.signals import interrupts_held
 from solver_jobs.workers.simulation_service import Simulation, Simulator
 from solver_jobs.workers.simulation_worker import Simulated
@@ -46,6 +48,10 @@ __all__ = [
     "MotionResult",
     "PatternSearch",
     "PatternSolver",
+    "PoseGaitSolver",
+    "PoseProgress",
+    "PoseResult",
+    "PoseSearch",
     "Remedy",
     "RemedySearch",
     "Report",

@@ -58,6 +58,11 @@ def words_of(kind: type[StrEnum]) -> str:
     return "{" + ",".join(kind) + "}"
 
 
+def free_or(convert: Callable[[str], float]) -> Callable[[str], float | None]:
+    """An argument type: a number, or `free`, which is None."""
+    return lambda text: None if text == "free" else convert(text)
+
+
 def rule_number(text: str) -> int | None:
     """An argument type: a rule's whole number, or off."""
     return None if text == "off" else whole(0, MOST_SAMPLES)(text)

@@ -9,10 +9,11 @@ from app.cli.commands_gait import optimise
 from app.cli.output import NOT_FIT, note, show, verdict_lines, write
 from app.documents.gait_json import parse_gait
 from app.export.trajectory_files import read_text, read_trajectory, write_waypoints
+from app.export.way_files import is_way_file, read_way_file
 from app.gaits.views import verdict_view
 from app.plans.sequence_plan import steps_between
 from core.checks.checked_plan import CheckedPlan, checked_plan
-from core.checks.rules import check_plan
+from core.checks.rules import check_plan, check_waypoints
 from core.errors import CheckError, FootfallError, InfeasibleError
 from core.findings import Verdict
 from core.gait.gait import Gait, SequencePart
@@ -23,7 +24,7 @@ from core.motion.trajectory import Trajectory
 from core.recorded.recorded_motion import gait_trajectory
 from core.robot.model import RobotModel, load_robot
 from core.wire.robot_time import estimate_seconds, stop_time
-from core.wire.waypoint_merging import plan_waypoints
+from core.wire.waypoint_merging import plan_of_knots, plan_waypoints
 from core.wire.waypoints import format_waypoint_csv
 from solver_jobs import SolveStatus, solve_live
 
@@ -59,9 +60,11 @@ def run_waypoints(options: Namespace) -> int:
 
 
 def run_check(options: Namespace) -> int:
-    """The verdict on a trajectory or gait file."""
+    """The verdict on a trajectory, waypoint or gait file."""
     path: Path = options.file
-    if path.suffix == ".json":
+    if is_way_file(path):
+        verdict = _way_verdict(path, options.robot)
+    elif path.suffix == ".json":
         gait = parse_gait(read_text(path), path.name)
         if options.robot is not None:
             gait = with_robot(gait, load_robot(options.robot))
@@ -73,6 +76,21 @@ def run_check(options: Namespace) -> int:
         verdict = _verdict(load_robot(options.robot or ROBOT), read.trajectory, None)
     show(options, verdict_view(verdict), verdict_lines(verdict))
     return 0 if verdict.passed else NOT_FIT
+
+
+def _way_verdict(path: Path, robot: str | None) -> Verdict:
+    """The verdict on a waypoint file: by every rule where its companion has the motion."""
+    way = read_way_file(path, robot)
+    for assumption in way.assumptions:
+        note(assumption)
+    if way.motion is None:
+        note(
+            f"{path.name} has no companion with its motion: only what waypoints alone can show is checked "
+            "(range, durations, deafness, balance, distance of shoes). Footholds, swings and slip are not."
+        )
+        return check_waypoints(way.model, way.waypoints)
+    sent = plan_of_knots(way.model, way.motion, way.waypoints)
+    return check_plan(CheckedPlan(way.model, way.motion, sent.waypoints, way=sent))
 
 
 def _verdict(model: RobotModel, trajectory: Trajectory, gait: Gait | None) -> Verdict:

@@ -13,6 +13,7 @@ from app.cli.commands_plan import ROBOT, trajectory_of
 from app.cli.output import NOT_FIT, Interrupted, end_on_signals, note, show, tally
 from app.documents.gait_json import parse_gait
 from app.export.trajectory_files import read_text, read_trajectory
+from app.export.way_files import is_way_file, read_way_file
 from app.learning.parameter_sets import ParameterSets
 from app.simulation.problem import report_figures, way_problem
 from app.simulation.view import variations_content
@@ -32,6 +33,7 @@ from core.physics.parameters import PhysicsSet, physics_sets
 from core.physics.problem import Rig, SimulationProblem
 from core.physics.report import SimulationReport
 from core.physics.variations import VariedRun
+from core.recorded.waypoint_motion import motion_of_waypoints
 from core.robot.model import RobotModel, load_robot
 from core.wire.waypoint_merging import plan_waypoints
 from solver_jobs import simulate, simulate_variations
@@ -106,8 +108,10 @@ def _physics(options: Namespace, model: RobotModel) -> PhysicsSet:
 
 
 def _input(options: Namespace) -> tuple[RobotModel, Trajectory, Gait | None]:
-    """Robot, motion and document of a trajectory or gait file; a trajectory has no document."""
+    """Robot, motion and document of a trajectory, waypoint or gait file; only a gait file has a document."""
     path: Path = options.file
+    if is_way_file(path):
+        return *_motion_of_waypoints(path, options.robot), None
     if path.suffix != ".json":
         read = read_trajectory(path)
         for assumption in read.assumptions:
@@ -117,6 +121,19 @@ def _input(options: Namespace) -> tuple[RobotModel, Trajectory, Gait | None]:
     if options.robot is not None:
         gait = with_robot(gait, load_robot(options.robot))
     return load_robot(gait.robot), trajectory_of(gait), gait
+
+
+def _motion_of_waypoints(path: Path, robot: str | None) -> tuple[RobotModel, Trajectory]:
+    """Robot and motion of a waypoint file: its companion's, else what forward kinematics finds."""
+    way = read_way_file(path, robot)
+    for assumption in way.assumptions:
+        note(assumption)
+    if way.motion is not None:
+        return way.model, way.motion
+    found = motion_of_waypoints(way.model, way.waypoints)
+    for assumption in found.assumptions:
+        note(assumption)
+    return way.model, found.trajectory
 
 
 def _progress(what: str) -> Callable[[float], bool]:

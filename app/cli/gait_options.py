@@ -61,13 +61,13 @@ def asked_gait(options: Namespace) -> Gait:
     Raises:
         InputError: there is no such gait, it is made by hand, or what is asked does not fit together.
     """
-    gait = _named_gait(options.gait)
+    gait = named_gait(options.gait)
     if options.robot is not None:
         gait = with_robot(gait, load_robot(options.robot), options.order)
     return _with_options(gait, options)
 
 
-def _named_gait(name: str) -> Gait:
+def named_gait(name: str) -> Gait:
     """A built-in gait with the command's own defaults, or one from a file with its options."""
     path = Path(name)
     if name in library() or (path.suffix != ".json" and not path.exists()):

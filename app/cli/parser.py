@@ -10,6 +10,7 @@ from app.bench.solvers.edits import COUNT as EDITS
 from app.bench.solvers.edits import SEED
 from app.cli import (
     commands_bench,
+    commands_fastest,
     commands_files,
     commands_frontier,
     commands_gait,
@@ -23,6 +24,7 @@ from app.cli import (
 from app.cli.argument_types import (
     add_robot,
     foot_order,
+    free_or,
     number,
     one_of,
     pair,
@@ -42,6 +44,7 @@ from core.patterns.problem import LEAST_SAMPLES, MOST_LEGS, MOST_SAMPLES, Patter
 from core.physics.parameters import physics_sets
 from core.physics.problem import Rig
 from core.physics.variations import MOST_VARIATIONS
+from core.pose_gaits.pose_problem import MOST_CYCLES, POSE_BOUNDS, PoseBounds
 from core.problem.motion_problem import Boundary, Cost, Workspace
 
 PATTERN_RULES = {
@@ -85,13 +88,15 @@ def make_parser() -> argparse.ArgumentParser:
     _optimise_options(command("optimise", commands_gait.run_optimise, "Optimised trajectory of a gait."))
     text = "Largest step of a gait, and what limits it; --step and --goal say only which way."
     _frontier_options(command("frontier", commands_frontier.run_frontier, text))
+    text = "The walk with the most millimetres a second of the robot's own time, as waypoints."
+    _fastest_options(command("fastest", commands_fastest.run_fastest, text))
     text = "The best footfall pattern: a transition between two states, or a periodic gait."
     _pattern_options(command("pattern", commands_pattern.run_pattern, text))
     _waypoint_options(command("waypoints", commands_plan.run_waypoints, "Motor waypoints of a trajectory."))
-    check = command("check", commands_plan.run_check, "Check a trajectory or a gait by every rule.")
-    check.add_argument("file", type=Path, help="TRAJ.csv or GAIT.json")
+    check = command("check", commands_plan.run_check, "Check a trajectory, waypoints or a gait.")
+    check.add_argument("file", type=Path, help="TRAJ.csv, WAY.csv or GAIT.json")
     add_robot(check, "default the gait's own, else deltawalker")
-    text = "Run the waypoints of a trajectory or a gait in a physics model."
+    text = "Run waypoints, or those of a trajectory or a gait, in a physics model."
     _simulate_options(command("simulate", commands_simulate.run_simulate, text))
     text = "Write a gait or a recorded motion in another form."
     _export_options(command("export", commands_files.run_export, text))
@@ -215,6 +220,36 @@ def _limit_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _fastest_options(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    text = "walk (default), amble, s-gait, c-gait, or a gait file: foot order and direction"
+    add("gait", nargs="?", default=None, help=text)
+    add("--order", type=foot_order, default=None, help="feet such as 3,2,4,1, instead of the gait's own")
+    step = "m a cycle, or free for the fastest (default free)"
+    add("--step", type=free_or(number(0.0005, 0.2, "m")), default=None, metavar="M|free", help=step)
+    text = "from the standard stance to rest (default 1)"
+    add("--cycles", type=whole(1, MOST_CYCLES), default=1, metavar="N", help=text)
+    bounds = PoseBounds()
+    for name, (factor, unit, text) in _POSE_LIMITS.items():
+        least, most = POSE_BOUNDS[name]
+        words = f"{text} (default {getattr(bounds, name):g})"
+        option = f"--{name.replace('_', '-')}"
+        add(option, type=number(least, most, unit), default=getattr(bounds, name), metavar=factor, help=words)
+    add("--direction", type=whole(1, 4), default=None, help="1 to 4 (default the gait's own)")
+    add_robot(parser, "default the gait's own; with other legs in one of its orders")
+    add("-o", "--output", type=Path, default=None, help="waypoint CSV to write, with a companion")
+
+
+_POSE_LIMITS = {
+    "margin": ("M", "m", "m that the body stays inside the support polygon, everywhere"),
+    "clearance": ("M", "m", "m that a foot rises above the plane of the standing ones"),
+    "stop_bound": ("S", "s", "s for which the robot hears no Stop at most"),
+    "slip": ("M", "m", "m that a standing foot may leave its foothold within a move"),
+    "shoe_distance": ("M", "m", "m between the middles of two feet at least"),
+}
+"""Limits of a pose gait: how each is written, its unit, and what it means."""
+
+
 def _pattern_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--legs", type=whole(2, MOST_LEGS), required=True, metavar="N")
@@ -256,7 +291,7 @@ def _way_options(parser: argparse.ArgumentParser) -> None:
 
 def _simulate_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("file", type=Path, help="TRAJ.csv or GAIT.json")
+    add("file", type=Path, help="TRAJ.csv, WAY.csv or GAIT.json")
     add_robot(parser, "default the gait's own, else deltawalker")
     _way_options(parser)
     text = f"parameters: {', '.join(physics_sets())}, or a learned set (default the robot's usual one)"

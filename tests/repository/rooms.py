@@ -23,6 +23,7 @@ ORDER: dict[str, tuple[str, ...]] = {
         "core/problem",
         "core/segments",
         "core/wire",
+        "core/pose_gaits",
         "core/gait",
         "core/physics",
         "core/checks",
@@ -39,6 +40,7 @@ ORDER: dict[str, tuple[str, ...]] = {
     "solver_jobs": (
         "solver_jobs/results",
         "solver_jobs/nlp",
+        "solver_jobs/pose_gaits",
         "solver_jobs/live",
         "solver_jobs/tiers",
         "solver_jobs/patterns",

@@ -1,0 +1,222 @@
+"""`fastest`."""
+
+import sys
+from argparse import Namespace
+from collections.abc import Callable
+from contextlib import closing, suppress
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.cli.gait_options import named_gait
+from app.cli.output import INFEASIBLE, NOT_FIT, end_on_signals, note, show
+from app.common.json import Json
+from app.export.way_files import write_pose_gait
+from core.errors import InputError
+from core.gait.gait import heading_angle
+from core.library.library import Group, library
+from core.library.new_gait import with_robot
+from core.pose_gaits.pose_gait import PoseGait
+from core.pose_gaits.pose_problem import PoseBounds, PoseProblem
+from core.robot.model import load_robot
+from solver_jobs import PoseGaitSolver, PoseProgress, PoseResult, SolveStatus
+
+FREE = "free"
+TICK_SECONDS = 0.1
+"""Between looks for Ctrl-C."""
+
+
+@dataclass(frozen=True, eq=False)
+class FastestWalk:
+    """A gait in mid-walk and from the standard stance to rest.
+
+    Args:
+        name: of the gait that gave foot order and direction.
+        cycle: one cycle in mid-walk.
+        walk: all cycles, from the standard stance to rest.
+    """
+
+    name: str
+    cycle: PoseResult
+    walk: PoseResult
+
+    @property
+    def status(self) -> SolveStatus:
+        """Solved where both are; else how the first one that is not ended."""
+        results = (self.cycle, self.walk)
+        return next((one.status for one in results if one.gait is None), SolveStatus.SOLVED)
+
+    @property
+    def explanation(self) -> tuple[str, ...]:
+        """Why it is not solved."""
+        return next((one.explanation for one in (self.cycle, self.walk) if one.gait is None), ())
+
+
+def run_fastest(options: Namespace) -> int:
+    """Finds the walk with the most millimetres a robot second, and writes its waypoints."""
+    end_on_signals()
+    name, problem = fastest_problem(options)
+    if options.output is not None and options.output.suffix != ".csv":
+        raise InputError(f"{options.output} is no waypoint file; end its name in .csv.", "-o")
+    with closing(PoseGaitSolver(niceness=0)) as solver:
+        walk = _solved(solver, name, problem)
+    written = None
+    if options.output is not None and walk.walk.gait is not None and walk.status is SolveStatus.SOLVED:
+        write_pose_gait(options.output, walk.walk.gait, _origin(walk))
+        written = str(options.output)
+    if not problem.model.wired:
+        note(
+            f"{problem.model.title} has no firmware of its own here; the DeltaWalker's law of time stands in."
+        )
+    show(options, _content(walk, problem, written), _lines(walk, written))
+    return {SolveStatus.SOLVED: 0, SolveStatus.INFEASIBLE: INFEASIBLE}.get(walk.status, NOT_FIT)
+
+
+def fastest_problem(options: Namespace) -> tuple[str, PoseProblem]:
+    """The walk that the options ask for, from the standard stance to rest, and the name of its gait.
+
+    Raises:
+        InputError: there is no such gait, or what is asked does not fit together.
+    """
+    name = options.gait or _named_by(options.order)
+    gait = named_gait(name)
+    if gait.sequence or gait.step[2] != 0.0:
+        raise InputError(
+            f"{name} is no straight walk. Choose walk, amble, s-gait or c-gait, or give the foot order with "
+            "--order.",
+            "GAIT",
+        )
+    if options.robot is not None:
+        gait = with_robot(gait, load_robot(options.robot), options.order)
+    model = load_robot(gait.robot)
+    if model.leg_count == 3:
+        raise InputError("With three legs none can be lifted; choose a robot with at least four.", "--robot")
+    order = gait.order if options.order is None else options.order
+    direction = options.direction or gait.direction
+    legs = model.leg_count
+    _require_order(order, legs)
+    return name, PoseProblem(
+        model=model,
+        order=tuple((foot - 1 + (direction - 1) * legs // 4) % legs + 1 for foot in order),
+        heading=heading_angle(gait.orientation) + (direction - 1) * np.pi / 2,
+        step=None if options.step is None else options.step,
+        cycles=options.cycles,
+        bounds=PoseBounds(
+            margin=options.margin,
+            clearance=options.clearance,
+            slip=options.slip,
+            shoe_distance=options.shoe_distance,
+            stop_bound=options.stop_bound,
+        ),
+    )
+
+
+def _require_order(order: tuple[int, ...], legs: int) -> None:
+    if sorted(order) != list(range(1, legs + 1)):
+        raise InputError(
+            f"--order is {','.join(map(str, order))}; it must name each foot 1 to {legs} once.", "--order"
+        )
+
+
+def _named_by(order: tuple[int, ...] | None) -> str:
+    """The optimised gait whose feet step in this order, wherever it begins; else the walk."""
+    for entry in library().values():
+        if order is None or entry.group is not Group.OPTIMISED or entry.gait.step[2] != 0.0:
+            continue
+        own = entry.gait.order
+        if order in [own[first:] + own[:first] for first in range(len(own))]:
+            return entry.id
+    return "walk"
+
+
+def _solved(solver: PoseGaitSolver, name: str, problem: PoseProblem) -> FastestWalk:
+    cycle = _waited(solver, replace(problem, cycles=None), "In mid-walk")
+    if cycle.gait is None:
+        return FastestWalk(name, cycle, cycle)
+    return FastestWalk(name, cycle, _waited(solver, problem, "From stance to rest"))
+
+
+def _waited(solver: PoseGaitSolver, problem: PoseProblem, what: str) -> PoseResult:
+    """The result of one search; Ctrl-C and SIGTERM are heard meanwhile and end it."""
+    search = solver.submit(problem, _progress(what))
+    while True:
+        with suppress(TimeoutError):
+            return search.result(TICK_SECONDS)
+
+
+def _progress(what: str) -> Callable[[PoseProgress], None]:
+    """Shows the stages to a person at a terminal."""
+    if not sys.stderr.isatty():
+        return lambda known: None
+
+    def tell(known: PoseProgress) -> None:
+        speed = "" if known.speed is None else f", {known.speed * 1000:.2f} mm/s so far"
+        sys.stderr.write(f"\r\033[K{what}: {known.stage}{speed}")
+        sys.stderr.flush()
+
+    return tell
+
+
+def _content(walk: FastestWalk, problem: PoseProblem, written: str | None) -> Json:
+    cycle, whole = walk.cycle.gait, walk.walk.gait
+    checks = [result.check for result in (walk.cycle, walk.walk) if result.check is not None]
+    solved = cycle is not None and whole is not None
+    return {
+        "status": walk.status.value,
+        "optimal": walk.cycle.optimal and walk.walk.optimal,
+        "gait": walk.name,
+        "order": list(problem.order),
+        "robot": problem.model.name,
+        "step": None if cycle is None else cycle.step,
+        "cycles": problem.all_cycles,
+        "moves": problem.moves_a_cycle if cycle is None else cycle.problem.move_count,
+        "robot_seconds": None if cycle is None else cycle.seconds,
+        "speed": None if cycle is None else cycle.speed,
+        "total_seconds": None if whole is None else whole.seconds,
+        "total_distance": None if whole is None else whole.distance,
+        "total_speed": None if whole is None else whole.speed,
+        "margin": min(check.figures.margin for check in checks) if solved else None,
+        "shoe_distance": min(check.figures.shoe_distance for check in checks) if solved else None,
+        "stop_seconds": max(check.figures.stop_seconds for check in checks) if solved else None,
+        "solve_seconds": walk.cycle.solve_seconds + (0.0 if whole is None else walk.walk.solve_seconds),
+        "explanation": list(walk.explanation),
+        "waypoints": written,
+    }
+
+
+def _lines(walk: FastestWalk, written: str | None) -> list[str]:
+    cycle, whole, check = walk.cycle.gait, walk.walk.gait, walk.walk.check
+    if cycle is None or whole is None or check is None or walk.status is not SolveStatus.SOLVED:
+        return [f"No walk ({walk.status.value}).", *walk.explanation]
+    lines = [
+        f"{walk.name}, feet {'-'.join(map(str, cycle.problem.order))}: {cycle.speed * 1000:.2f} mm/s in "
+        f"mid-walk, {cycle.step * 1000:.1f} mm in {cycle.problem.move_count} moves and "
+        f"{cycle.seconds:.1f} robot seconds a cycle.",
+        f"From the standard stance to rest, {whole.problem.all_cycles} "
+        f"{'cycle' if whole.problem.all_cycles == 1 else 'cycles'}: {whole.distance * 1000:.1f} mm in "
+        f"{whole.seconds:.1f} s, {whole.speed * 1000:.2f} mm/s.",
+        f"Checked along every move: margin {check.figures.margin * 1000:.1f} mm, feet at least "
+        f"{check.figures.shoe_distance * 1000:.1f} mm apart, standing feet within "
+        f"{check.figures.slip * 1000:.2f} mm; Stop takes effect within {check.figures.stop_seconds:.1f} s.",
+    ]
+    return lines if written is None else [*lines, f"Wrote {written}."]
+
+
+def _origin(walk: FastestWalk) -> Json:
+    gait = walk.walk.gait
+    return {} if gait is None else {"made": "fastest", "gait": walk.name, **origin_of(gait)}
+
+
+def origin_of(gait: PoseGait) -> Json:
+    """What a pose gait was asked for, as JSON content, SI."""
+    problem, bounds = gait.problem, gait.problem.bounds
+    return {
+        "order": list(problem.order),
+        "heading": problem.heading,
+        "step": gait.step,
+        "cycles": problem.cycles,
+        "margin": bounds.margin,
+        "clearance": bounds.clearance,
+        "slip": bounds.slip,
+        "shoe_distance": bounds.shoe_distance,
+    }

@@ -1,0 +1,88 @@
+"""A pose gait: poses, the strokes that they ask for, and how long the robot takes from one to the next."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from core.arrays import Floats, frozen_floats
+from core.motion.trajectory import Trajectory
+from core.pose_gaits.pose_problem import PoseProblem
+from core.wire.robot_time import far_motors
+from core.wire.waypoints import Waypoints
+
+FIRST_SECONDS = 1.0
+"""Duration that a waypoint file gives its first pose, s; the firmware ignores durations."""
+
+
+@dataclass(frozen=True, eq=False)
+class PoseGait:
+    """Poses of a robot, as a solver has found them.
+
+    Args:
+        problem: that they answer.
+        step: travel of the body a cycle, m.
+        bodies: (poses, 3) point of the body axis in the actuator plane, m; z above standing feet's platforms.
+        headings: (poses,) turn of the body, rad.
+        feet: (poses, legs, 3) platform centres, m.
+        strokes: (poses, legs, 3) motor strokes, m.
+    """
+
+    problem: PoseProblem
+    step: float
+    bodies: Floats
+    headings: Floats
+    feet: Floats
+    strokes: Floats
+
+    def __post_init__(self) -> None:
+        poses, legs = self.problem.airborne.shape
+        for name, shape in (
+            ("bodies", (poses, 3)),
+            ("headings", (poses,)),
+            ("feet", (poses, legs, 3)),
+            ("strokes", (poses, legs, 3)),
+        ):
+            object.__setattr__(self, name, frozen_floats(getattr(self, name), shape, name))
+
+    @cached_property
+    def moves(self) -> Floats:
+        """(moves,) largest move of any motor, m."""
+        return np.asarray(self._changes.max(axis=1))
+
+    @cached_property
+    def _changes(self) -> Floats:
+        """(moves, motors) how far each motor goes, m."""
+        return np.asarray(np.abs(np.diff(self.strokes.reshape(len(self.strokes), -1), axis=0)))
+
+    @cached_property
+    def move_seconds(self) -> Floats:
+        """(moves,) seconds of the robot's time, by the problem's law."""
+        return np.asarray(self.problem.law.move_seconds(self.moves, far_motors(self._changes)))
+
+    @property
+    def seconds(self) -> float:
+        """Robot seconds of all moves."""
+        return float(self.move_seconds.sum())
+
+    @property
+    def distance(self) -> float:
+        """How far the body goes from the first pose to the last, m."""
+        return float(np.linalg.norm(self.bodies[-1, :2] - self.bodies[0, :2]))
+
+    @property
+    def speed(self) -> float:
+        """Travel a robot second, m/s."""
+        return self.distance / self.seconds
+
+    @cached_property
+    def waypoints(self) -> Waypoints:
+        """The poses as they are sent."""
+        return Waypoints(self.strokes, np.append(FIRST_SECONDS, self.move_seconds))
+
+    @cached_property
+    def trajectory(self) -> Trajectory:
+        """The poses over the robot's time."""
+        body = self.bodies + np.array([0.0, 0.0, self.problem.model.com_height])
+        times = np.append(0.0, np.cumsum(self.move_seconds))
+        return Trajectory(times, body, self.headings, self.feet, ~self.problem.airborne)

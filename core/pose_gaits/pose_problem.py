@@ -1,0 +1,239 @@
+"""What is asked of a pose gait: the problem that a solver is given and that the checker holds its answer to.
+
+Every message of the firmware is one pose of all motors, to which they ramp together. So a fast gait has few
+poses, and between two of them every motor moves along a straight line.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from types import MappingProxyType
+
+import numpy as np
+
+from core.arrays import Bools, Floats
+from core.errors import InputError
+from core.motion.support_polygon import support_polygon
+from core.robot.model import RobotModel
+from core.wire.robot_time import PUBLISHED, TimeLaw, longest_move
+
+FRACTIONS = (0.15, 0.3, 0.5, 0.7, 0.85)
+"""Places within each move at which a solver holds its rows."""
+SWING_SHARE = 0.8
+"""Of the height that a straight rise between two poses would have, this much is asked within a move."""
+PLANE_HEIGHTS = (0.053, 0.0605)
+"""Lowest and highest actuator plane of a pose above the standing feet, m (thesis 3.8)."""
+REST_HEIGHT = 0.0535
+"""Actuator plane in the standard stance, m: feet centred, every motor at 5.5 mm on the DeltaWalker."""
+SHORTEST_MOVE = 0.007
+"""Shorter moves take no less time: a second ramp makes up for what the first one saves, m."""
+GRID = 81
+"""Places of the body along x and along y that are tried for one that is balanced without two feet in turn."""
+LONGEST_RAMP = 0.015
+"""Up to here a ramp of d lasts 2 d / v, m (docs/firmware.md)."""
+WHOLE_MOVE = 0.0048
+"""Where moves may be this long, dividing them makes no gait faster, m."""
+LEAST_CLEARANCE = 0.0005
+"""A swing that is lower drags, m."""
+POSE_BOUNDS: Mapping[str, tuple[float, float]] = MappingProxyType(
+    {
+        "margin": (0.0, 0.05),
+        "clearance": (LEAST_CLEARANCE, 0.015),
+        "slip": (0.00005, 0.005),
+        "shoe_distance": (0.0, 0.06),
+        "stop_bound": (0.8, 10.0),
+    }
+)
+"""Least and most of each limit of `PoseBounds` that is one number, SI."""
+MOST_CYCLES = 20
+MOST_PARTS = 4
+
+
+@dataclass(frozen=True)
+class PoseBounds:
+    """Limits of a pose gait, SI.
+
+    Args:
+        margin: static stability margin that holds at every place of every move, m.
+        clearance: height of a swinging foot at its pose in the air, above the plane of the standing ones, m.
+        slip: how far a standing foot may be off its foothold within a move, in x and y; half of it in z, m.
+        shoe_distance: least distance between the middles of two feet, m.
+        stop_bound: longest time until the robot hears a stop, s.
+        plane_height: lowest and highest actuator plane of a pose, m.
+    """
+
+    margin: float = 0.006
+    clearance: float = 0.003
+    slip: float = 0.0005
+    shoe_distance: float = 0.028
+    stop_bound: float = 1.5
+    plane_height: tuple[float, float] = PLANE_HEIGHTS
+
+    def __post_init__(self) -> None:
+        for name, (least, most) in POSE_BOUNDS.items():
+            value, unit = getattr(self, name), "s" if name == "stop_bound" else "m"
+            if not least <= value <= most:
+                option = f"--{name.replace('_', '-')}"
+                raise InputError(
+                    f"{option} is {value:g} {unit}; it must lie between {least:g} and {most:g} {unit}.",
+                    option,
+                )
+
+
+@dataclass(frozen=True, eq=False)
+class PoseProblem:
+    """A pose gait that is wanted.
+
+    Args:
+        model: the robot.
+        order: every foot once, in the order of their steps, counted from 1.
+        heading: which way the body travels at the beginning, rad from x.
+        step: travel of the body a cycle, m; None for the step of the fastest walk.
+        turn: of the body a cycle, even over its moves, rad.
+        cycles: from the standard stance to rest; None for one cycle in mid-walk, which repeats itself.
+        parts: moves into which each lift, each lowering and each move of the body alone is divided; None for
+            the number with which the gait is fastest.
+        bounds: the limits.
+        law: the robot's time.
+    """
+
+    model: RobotModel
+    order: tuple[int, ...]
+    heading: float
+    step: float | None = None
+    turn: float = 0.0
+    cycles: int | None = None
+    parts: int | None = None
+    bounds: PoseBounds = field(default_factory=PoseBounds)
+    law: TimeLaw = PUBLISHED
+
+    def __post_init__(self) -> None:
+        legs = self.model.leg_count
+        if sorted(self.order) != list(range(1, legs + 1)):
+            raise InputError(
+                f"--order is {','.join(map(str, self.order))}; it must name each foot 1 to {legs} once.",
+                "--order",
+            )
+        if self.step is not None and not (math.isfinite(self.step) and 0.0 < self.step <= 0.2):
+            raise InputError(
+                f"--step is {self.step * 1000:g} mm; it must lie above 0 and up to 200 mm, or be “free”.",
+                "--step",
+            )
+        if self.cycles is not None and not 1 <= self.cycles <= MOST_CYCLES:
+            raise InputError(
+                f"--cycles is {self.cycles}; it must lie between 1 and {MOST_CYCLES}.", "--cycles"
+            )
+        if self.parts is not None and not 1 <= self.parts <= MOST_PARTS:
+            raise InputError(f"parts is {self.parts}; it must lie between 1 and {MOST_PARTS}.", "parts")
+
+    @property
+    def largest_move(self) -> float:
+        """Largest move of a motor that keeps the stop bound and has a ramp without even speed, m."""
+        return min(longest_move(self.bounds.stop_bound), LONGEST_RAMP)
+
+    @property
+    def parts_to_try(self) -> tuple[int, ...]:
+        """Numbers of parts that may be fastest; more than one where the stop bound leaves short moves."""
+        if self.parts is not None:
+            return (self.parts,)
+        return (1,) if self.largest_move >= WHOLE_MOVE else (1, 2)
+
+    @property
+    def all_cycles(self) -> int:
+        """Cycles that the poses go through."""
+        return 1 if self.cycles is None else self.cycles
+
+    @cached_property
+    def airborne(self) -> Bools:
+        """(poses, legs) true where a foot is in the air at a pose (see `airborne_feet`)."""
+        return airborne_feet(self)
+
+    @property
+    def move_count(self) -> int:
+        """Number of moves: one fewer than poses."""
+        return len(self.airborne) - 1
+
+    @property
+    def moves_a_cycle(self) -> int:
+        """Moves of one cycle in mid-walk."""
+        return len(airborne_feet(self, in_mid_walk=True)) - 1
+
+    @cached_property
+    def moving(self) -> Bools:
+        """(moves, legs) true where a foot is in the air at an end of a move; the others stand throughout."""
+        return np.asarray(self.airborne[:-1] | self.airborne[1:])
+
+    @cached_property
+    def floor(self) -> Floats:
+        """(poses, legs) least height of each foot, m: 0 on the ground, the clearance in mid-swing."""
+        return self.bounds.clearance * swing_shares(self.airborne)
+
+    def required_height(self, move: int, foot: int, share: float) -> float:
+        """Least height of a swinging foot at a share of a move, above the plane of the standing feet, m."""
+        return SWING_SHARE * float((1 - share) * self.floor[move, foot] + share * self.floor[move + 1, foot])
+
+    def travel_direction(self, turn_share: float = 0.5) -> Floats:
+        """(2,) unit vector along which a cycle travels: its heading after a share of its turn."""
+        angle = self.heading + self.turn * turn_share
+        return np.array([math.cos(angle), math.sin(angle)])
+
+
+def swing_shares(airborne: Bools) -> Floats:
+    """(poses, legs) share of the clearance that is due at each pose.
+
+    1 in the middle of a swing, less before and after where a swing has several poses in the air: of three of
+    them 1/2, 1, 1/2.
+    """
+    shares = np.zeros(airborne.shape)
+    for pose, foot in zip(*np.nonzero(airborne), strict=True):
+        before = next(k for k in range(pose, -1, -1) if not airborne[k, foot])
+        after = next(k for k in range(pose, len(airborne)) if not airborne[k, foot])
+        shares[pose, foot] = min(pose - before, after - pose) / math.ceil((after - before - 1) / 2)
+    return shares
+
+
+def airborne_feet(problem: PoseProblem, *, in_mid_walk: bool = False) -> Bools:
+    """(poses, legs) which feet are in the air at each pose.
+
+    A foot takes two moves, one that lifts it and one that lowers it; the body goes on in both. Where the body
+    cannot be balanced for two feet in turn at the same place, a move of the body alone stands between them;
+    so it does at the beginning of a walk from the standard stance, and at its end unless the last pose of a
+    cycle is such a place already.
+
+    Args:
+        problem: what is asked.
+        in_mid_walk: one cycle that repeats itself, whatever the problem's cycles.
+    """
+    order, parts, legs = problem.order, problem.parts or 1, problem.model.leg_count
+    cycle: list[int | None] = []
+    for here, following in zip(order, order[1:] + order[:1], strict=True):
+        cycle += [here] * (2 * parts - 1) + [None]
+        needs_shift = not _shares_balance(problem.model, here, following, problem.bounds.margin)
+        cycle += [None] * parts if needs_shift else []
+    if in_mid_walk or problem.cycles is None:
+        poses = [None, *cycle]
+    else:
+        needs_shift = not _shares_balance(problem.model, order[-1], order[0], problem.bounds.margin)
+        poses = [None] * (1 + parts) + cycle * problem.cycles + ([] if needs_shift else [None] * parts)
+    airborne = np.zeros((len(poses), legs), dtype=np.bool_)
+    for pose, foot in enumerate(poses):
+        if foot is not None:
+            airborne[pose, foot - 1] = True
+    return airborne
+
+
+def _shares_balance(model: RobotModel, first: int, second: int, margin: float) -> bool:
+    """Whether one place of the body is balanced without either foot, in the standard stance."""
+    feet = model.module_centres_robot[:, :2]
+    axis = np.linspace(-model.radius, model.radius, GRID)
+    places = np.stack(np.meshgrid(axis, axis), axis=-1).reshape(-1, 2)
+    least = np.full(len(places), np.inf)
+    for foot in (first, second):
+        polygon = support_polygon(np.delete(feet, foot - 1, axis=0))
+        if len(polygon) < 3:
+            return False
+        edges = np.roll(polygon, -1, axis=0) - polygon
+        inward = np.stack([-edges[:, 1], edges[:, 0]], axis=-1) / np.linalg.norm(edges, axis=1, keepdims=True)
+        least = np.minimum(least, (places @ inward.T - (inward * polygon).sum(axis=1)).min(axis=1))
+    return bool(least.max() > max(margin, 0.001))

@@ -1,0 +1,1 @@
+"""The search for the fastest pose gait, a nonlinear program for IPOPT."""

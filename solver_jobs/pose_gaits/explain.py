@@ -1,0 +1,111 @@
+"""Why no pose gait was found: the largest step that works, or the limits that would have to give way."""
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from core.pose_gaits.pose_problem import LEAST_CLEARANCE, PoseProblem
+from core.wire.robot_time import deaf_seconds
+from solver_jobs.pose_gaits.pose_program import MM, SLACKS, PoseProgram, Weights
+from solver_jobs.pose_gaits.program import Attempt, Row
+
+FARTHEST = Weights(time=1e-3, reach=1.0)
+LOOSEST = Weights(time=1e-3, slack=10.0)
+NOTICED = 0.01
+"""Slack below this is what rounding leaves, mm."""
+PRESSURE = 1e-3
+"""Multipliers below this hold nothing back."""
+LONGER_MOVES = 12.0
+"""Moves are made longer by at most this to see whether that helps, mm."""
+
+_OPTIONS = {
+    "margin": "the margin (--margin)",
+    "clearance": "the clearance (--clearance)",
+    "shoe distance": "the distance of shoes (--shoe-distance)",
+    "stop bound": "the stop bound (--stop-bound)",
+    "stroke": "the motors' range",
+    "slip": "the slip of standing feet (--slip)",
+    "coupling": "motors that share an actuator",
+}
+
+NOT_PROVEN = "This was found by a search and is no proof."
+
+Run = Callable[..., Attempt]
+"""Calls IPOPT (see `solve_poses`)."""
+
+
+def explained(problem: PoseProblem, program: PoseProgram, run: Run) -> tuple[str, ...]:
+    """Sentences for a problem for which no start led to a gait.
+
+    Args:
+        problem: what was asked.
+        program: of the problem, whose search begins with a short step.
+        run: calls IPOPT.
+    """
+    if problem.step is not None:
+        farthest = run(program.program.start, FARTHEST)
+        step = float(farthest.values[program.step_place])
+        if farthest.converged and step < problem.step * MM:
+            sentence = (
+                f"A step of {problem.step * MM:.4g} mm a cycle (--step) is too long: with these limits the "
+                f"longest that was found is {np.floor(step * 10) / 10:.1f} mm. It is held back by "
+                f"{_holding_back(program, farthest)}."
+            )
+            return (sentence, NOT_PROVEN)
+    sentences = tuple(_helpful(problem, program, run))
+    if not sentences:
+        return ("No gait was found, nor a single limit whose loosening would help.", NOT_PROVEN)
+    return (*sentences, NOT_PROVEN)
+
+
+def _helpful(problem: PoseProblem, program: PoseProgram, run: Run) -> Iterator[str]:
+    """For each limit by itself how far it would have to give way."""
+    bounds = problem.bounds
+    step = None if problem.step is None else (problem.step * MM, problem.step * MM)
+    most = {
+        "margin": bounds.margin * MM,
+        "clearance": (bounds.clearance - LEAST_CLEARANCE) * MM,
+        "shoe distance": bounds.shoe_distance * MM,
+        "stop bound": LONGER_MOVES,
+    }
+    for name, room in most.items():
+        loosest = run(program.program.start, LOOSEST, step=step, slack={name: room})
+        slack = float(loosest.values[SLACKS.index(name)])
+        if loosest.converged and slack > NOTICED:
+            yield f"{_loosened(problem, name, slack)} It is tight for {_holding_back(program, loosest)}."
+
+
+def _loosened(problem: PoseProblem, name: str, slack: float) -> str:
+    """What would help: a limit that gives way by some millimetres."""
+    bounds = problem.bounds
+    given = {"margin": bounds.margin, "clearance": bounds.clearance, "shoe distance": bounds.shoe_distance}
+    if name in given:
+        asked = given[name] * MM
+        possible = np.floor((asked - slack) * 10) / 10
+        words = _OPTIONS[name]
+        return (
+            f"{words[0].upper()}{words[1:]} is {asked:.4g} mm, {slack:.1f} mm too much; with "
+            f"{possible:.1f} mm a gait was found."
+        )
+    longest = (problem.largest_move * MM + slack) / MM
+    return (
+        f"The stop bound is {bounds.stop_bound:g} s (--stop-bound), which allows moves of "
+        f"{problem.largest_move * MM:.1f} mm; with {np.ceil(deaf_seconds(longest) * 100) / 100:.2f} s, which "
+        f"allows {longest * MM:.1f} mm, a gait was found."
+    )
+
+
+def _holding_back(program: PoseProgram, attempt: Attempt) -> str:
+    """The limits with the largest multipliers, each with the foot and the move where it presses most."""
+    strongest: dict[str, tuple[float, Row]] = {}
+    for row, pressure in zip(program.program.rows, np.abs(attempt.pressures), strict=True):
+        if row.limit and pressure > max(PRESSURE, strongest.get(row.limit, (0.0, row))[0]):
+            strongest[row.limit] = (float(pressure), row)
+    ordered = sorted(strongest.items(), key=lambda item: -item[1][0])[:3]
+    return ", ".join(_place(limit, row) for limit, (_, row) in ordered) or "no single limit"
+
+
+def _place(limit: str, row: Row) -> str:
+    where = [] if row.foot is None else [f"foot {row.foot + 1}"]
+    where += [] if row.move is None else [f"move {row.move + 1}"]
+    return _OPTIONS.get(limit, limit) + (f" ({', '.join(where)})" if where else "")

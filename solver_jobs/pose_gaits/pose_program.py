@@ -1,0 +1,417 @@
+"""The program of a pose gait: its unknowns and rows, in mm.
+
+Unknowns are the body and the swinging feet at every pose, the footholds, the length of every move, the step,
+and body and feet at fractions of every move. A move is straight in motor space: at a fraction m of it the
+strokes are (1 − m) h_k + m h_{k+1}, and what body and feet do there has to be found. Standing feet may leave
+their footholds a little within a move, since motors that go straight do not keep them exactly.
+"""
+
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+from casadi import DM, SX, Function, fmax, horzcat, sqrt, sum1, sumsqr, vertcat
+
+from core.arrays import Floats
+from core.pose_gaits.pose_gait import PoseGait
+from core.pose_gaits.pose_problem import FRACTIONS, REST_HEIGHT, SHORTEST_MOVE, PoseProblem
+from core.wire.robot_time import RAMP_SPEED
+from solver_jobs.nlp.leg_equations import motor_arms, squared_offsets
+from solver_jobs.pose_gaits.program import Program, Row
+
+MM = 1000.0
+STROKE_ROOM = 0.001
+"""Strokes stay this much within their range, so that a rounded file does, mm."""
+SHOE_ROOM = 0.05
+"""Feet stay this much farther apart at the fractions, so that they do between them, mm."""
+START_HEIGHT = 56.0
+"""Actuator plane at the start of the search, mm."""
+HIGHEST_FOOT = 20.0
+FAR = 3000.0
+"""No unknown is farther than this, mm."""
+LEAST_DEPTH = 5.0
+"""A rod's depth that the equations do not go below while IPOPT looks around, mm."""
+SLACKS = ("margin", "clearance", "shoe distance", "stop bound", "stroke")
+"""Limits that an explanation may loosen."""
+
+
+@dataclass(frozen=True)
+class Weights:
+    """What the cost consists of.
+
+    Args:
+        time: of the robot's time, a second.
+        pace: of the robot's time for each 30 mm of travel; in place of `time` where the step is free.
+        slip: of squared deviations of standing feet, mm².
+        sway: of squared differences from an even travel of the body, mm².
+        reach: taken off for each mm of the step.
+        slack: of each mm by which a limit is loosened.
+    """
+
+    time: float = 0.0
+    pace: float = 0.0
+    slip: float = 0.0
+    sway: float = 0.0
+    reach: float = 0.0
+    slack: float = 0.0
+
+    @property
+    def values(self) -> Floats:
+        """(6,) as the program's parameters."""
+        return np.array([self.time, self.pace, self.slip, self.sway, self.reach, self.slack])
+
+
+class PoseProgram:
+    """The compiled program of a problem.
+
+    Args:
+        problem: what is asked.
+        step_guess: step a cycle from which the search starts, m.
+    """
+
+    def __init__(self, problem: PoseProblem, step_guess: float) -> None:
+        self.problem = problem
+        self.program = Program()
+        self._model = problem.model
+        self._bounds = problem.bounds
+        self._guess = StartMotion(problem, step_guess * MM)
+        self._longest = problem.largest_move * MM
+        self._shortest = min(SHORTEST_MOVE * MM, self._longest)
+        self._deviations: list[SX] = []
+        self._slack_symbols = {
+            name: self.program.variable(f"slack {name}", [0.0], [0.0], [0.0]) for name in SLACKS
+        }
+        self.step = self.program.variable("step", [1.0], [200.0], [step_guess * MM])
+        count = problem.move_count
+        self.lengths = self.program.variable(
+            "lengths",
+            [self._shortest] * count,
+            [self._longest + 40.0] * count,
+            [min(8.0, self._longest)] * count,
+        )
+        self.program.bound(
+            self.lengths - self._slack_symbols["stop bound"], -np.inf, self._longest, Row("stop bound")
+        )
+        self._add_poses()
+        self._add_moves()
+        self._add_fractions()
+        self._compile()
+
+    # Poses
+
+    def _add_poses(self) -> None:
+        problem = self.problem
+        low, high = (height * MM for height in self._bounds.plane_height)
+        first = self.program.variable_count
+        self.bodies = [
+            self.program.variable(f"body {pose}", [-FAR, -FAR, low], [FAR, FAR, high], start.tolist())
+            for pose, start in enumerate(self._guess.bodies)
+        ]
+        self.body_places = tuple(range(first, self.program.variable_count, 3))
+        self.headings = list(self._guess.headings)
+        self._add_ends()
+        self.feet = self._pose_feet()
+        self.strokes = [
+            vertcat(*(self._strokes(foot, leg, body, heading) for leg, foot in enumerate(feet)))
+            for feet, body, heading in zip(self.feet, self.bodies, self.headings, strict=True)
+        ]
+        for pose in range(problem.move_count + 1):
+            self._bound_strokes(pose)
+            self._keep_apart(self.feet[pose], None)
+            if not problem.airborne[pose].any():
+                self._balance(self.bodies[pose], self.feet[pose], list(range(self._model.leg_count)), None)
+
+    def _add_ends(self) -> None:
+        """The last place of the body, and for a walk from rest to rest the height of both ends."""
+        problem, first, last = self.problem, self.bodies[0], self.bodies[-1]
+        travel = self._travel()
+        self.program.bound(first[:2], 0.0, 0.0)
+        self.program.bound(last[:2] - travel, 0.0, 0.0)
+        self.program.bound(last[2] - first[2], 0.0, 0.0)
+        if problem.cycles is not None:
+            self.program.bound(first[2], REST_HEIGHT * MM, REST_HEIGHT * MM)
+
+    def _travel(self) -> SX:
+        """From the first place of the body to the last."""
+        problem = self.problem
+        directions = [problem.travel_direction(cycle + 0.5) for cycle in range(problem.all_cycles)]
+        return self.step * DM(np.sum(directions, axis=0))
+
+    def _pose_feet(self) -> list[list[SX]]:
+        """Each foot at each pose: its foothold, the same for as long as it stands, or a place in the air."""
+        problem, legs = self.problem, self._model.leg_count
+        feet: list[list[SX]] = [[] for _ in range(problem.move_count + 1)]
+        for leg in range(legs):
+            first = self._first_foothold(leg)
+            last = self._last_foothold(leg, first)
+            foothold: SX | None = first
+            for pose in range(problem.move_count + 1):
+                start = list(self._guess.feet[pose][leg])
+                if problem.airborne[pose, leg]:
+                    lowest = problem.floor[pose, leg] * MM
+                    foot = self.program.variable(
+                        f"air {pose} {leg}", [-FAR, -FAR, -1.0], [FAR, FAR, HIGHEST_FOOT], start
+                    )
+                    self.program.bound(
+                        foot[2] + self._slack_symbols["clearance"],
+                        lowest,
+                        row=Row("clearance", min(pose, problem.move_count - 1), leg),
+                    )
+                    foothold = None
+                else:
+                    if foothold is None:
+                        is_last = not problem.airborne[pose:, leg].any()
+                        foothold = last if is_last else self._foothold(pose, leg, start)
+                    foot = vertcat(foothold, 0.0)
+                feet[pose].append(foot)
+        return feet
+
+    def _foothold(self, pose: int, leg: int, start: list[float]) -> SX:
+        return self.program.variable(f"foothold {pose} {leg}", [-FAR] * 2, [FAR] * 2, start[:2])
+
+    def _first_foothold(self, leg: int) -> SX:
+        home = self._model.module_centres_robot[leg, :2] * MM
+        if self.problem.cycles is not None:
+            return SX(DM(home))
+        return self._foothold(0, leg, list(self._guess.feet[0][leg]))
+
+    def _last_foothold(self, leg: int, first: SX) -> SX:
+        """Where a foot ends: where it began, moved on with the body."""
+        turn = self.problem.turn * self.problem.all_cycles
+        away = first - self.bodies[0][:2]
+        return self.bodies[-1][:2] + DM(_rotation(turn)) @ away
+
+    def _strokes(self, foot: SX, leg: int, body: SX, heading: float) -> SX:
+        """(3,) inverse kinematics of a leg."""
+        model = self._model
+        robot = DM(_rotation(-heading)) @ (foot[:2] - body[:2])
+        rotation = model.R_robot_from_module[leg][:2, :2].T
+        module = DM(rotation) @ (robot - DM(model.module_centres_robot[leg, :2] * MM))
+        arms = motor_arms(model.leg.reach_radius * MM, (module[0], module[1], SX(0)))
+        depths = [
+            sqrt(fmax((model.leg.link_length * MM) ** 2 - d, LEAST_DEPTH**2)) for d in squared_offsets(arms)
+        ]
+        return vertcat(*(body[2] - foot[2] - depth for depth in depths))
+
+    def _bound_strokes(self, pose: int) -> None:
+        stroke, slack = self._model.stroke, self._slack_symbols["stroke"]
+        for leg in range(self._model.leg_count):
+            row = Row("stroke", min(pose, self.problem.move_count - 1), leg)
+            strokes = self.strokes[pose][3 * leg : 3 * leg + 3]
+            self.program.bound(strokes + slack, stroke.lower * MM + STROKE_ROOM, row=row)
+            self.program.bound(strokes - slack, -np.inf, stroke.upper * MM - STROKE_ROOM, row)
+        coupling = self._model.coupling
+        for column in coupling.T:
+            shared = np.nonzero(column)[0]
+            for motor in shared[1:]:
+                difference = self.strokes[pose][int(motor)] - self.strokes[pose][int(shared[0])]
+                self.program.bound(difference, 0.0, 0.0, Row("coupling", None, int(motor) // 3))
+
+    # Moves
+
+    def _add_moves(self) -> None:
+        """No motor goes farther than its move is long; standing feet balance the body at both ends."""
+        self.changes: list[slice] = []
+        for move in range(self.problem.move_count):
+            change = self.strokes[move + 1] - self.strokes[move]
+            self.program.bound(self.lengths[move] - change, 0.0)
+            self.program.bound(self.lengths[move] + change, 0.0)
+            self.changes.append(self.program.bound(change, -np.inf))
+            standing = self._standing(move)
+            if len(standing) < self._model.leg_count:
+                for pose in (move, move + 1):
+                    self._balance(self.bodies[pose], self.feet[pose], standing, move)
+
+    def _standing(self, move: int) -> list[int]:
+        return [int(leg) for leg in np.nonzero(~self.problem.moving[move])[0]]
+
+    def _balance(self, body: SX, feet: list[SX], standing: list[int], move: int | None) -> None:
+        """The body's point keeps the margin inside every edge between standing neighbours."""
+        slack = self._slack_symbols["margin"]
+        for first, second in zip(standing, standing[1:] + standing[:1], strict=True):
+            edge = feet[second][:2] - feet[first][:2]
+            area = edge[0] * (body[1] - feet[first][1]) - edge[1] * (body[0] - feet[first][0])
+            inside = area / sqrt(sumsqr(edge))
+            self.program.bound(inside + slack, self._bounds.margin * MM, row=Row("margin", move, first))
+
+    def _keep_apart(self, feet: list[SX], move: int | None) -> None:
+        """Shoes that can meet keep their distance: those of neighbours, and on four legs of any two."""
+        least, legs = self._bounds.shoe_distance * MM, self._model.leg_count
+        if least <= 0.0:
+            return
+        least += SHOE_ROOM
+        slack = self._slack_symbols["shoe distance"]
+        for first, second in combinations(range(legs), 2):
+            if min(second - first, first + legs - second) > 2:
+                continue
+            squared = sumsqr(feet[first][:2] - feet[second][:2]) / least
+            self.program.bound(squared + slack, least, row=Row("shoe distance", move, first))
+
+    # Within moves
+
+    def _add_fractions(self) -> None:
+        problem, legs = self.problem, self._model.leg_count
+        slip = self._bounds.slip * MM
+        for move in range(problem.move_count):
+            standing = self._standing(move)
+            for share in FRACTIONS:
+                start_body, start_feet, heading = self._guess.within(move, share)
+                name = f"{move} {share}"
+                body = self.program.variable(
+                    f"body {name}", [-FAR, -FAR, 40.0], [FAR, FAR, 70.0], start_body.tolist()
+                )
+                feet = [
+                    self.program.variable(
+                        f"foot {name} {leg}", [-FAR, -FAR, -20.0], [FAR, FAR, 30.0], start_feet[leg].tolist()
+                    )
+                    for leg in range(legs)
+                ]
+                mixed = (1 - share) * self.strokes[move] + share * self.strokes[move + 1]
+                for leg in range(legs):
+                    asked = mixed[3 * leg : 3 * leg + 3]
+                    self.program.bound(self._strokes(feet[leg], leg, body, heading) - asked, 0.0, 0.0)
+                    if leg in standing:
+                        away = feet[leg] - self.feet[move][leg]
+                        row = Row("slip", move, leg)
+                        self.program.bound(away[:2], -slip, slip, row)
+                        self.program.bound(away[2], -slip / 2, slip / 2, row)
+                        self._deviations.append(away)
+                    else:
+                        height = feet[leg][2] - _plane_height(feet[leg], [feet[i] for i in standing])
+                        asked_height = problem.required_height(move, leg, share) * MM
+                        row = Row("clearance", move, leg)
+                        self.program.bound(height + self._slack_symbols["clearance"], asked_height, row=row)
+                self._balance(body, feet, standing, move)
+                self._keep_apart(feet, move)
+
+    # The cost, and what comes of it
+
+    def _compile(self) -> None:
+        weights = SX.sym("weights", 6)
+        count = self.problem.move_count
+        # A ramp of d mm lasts 2 d / v: moves are shorter than 15 mm.
+        seconds = count * self.problem.law.message + 2.0 / (RAMP_SPEED * MM) * sum1(self.lengths)
+        self.seconds_row = self.program.bound(seconds, -np.inf)
+        even = np.diff(self._guess.bodies, axis=0)[:, :2]
+        sways = [sumsqr(self.bodies[k + 1][:2] - self.bodies[k][:2] - DM(even[k])) for k in range(count)]
+        cost = (
+            weights[0] * seconds
+            + weights[1] * seconds * 30.0 / (self.step * self.problem.all_cycles)
+            + weights[2] * sum(sumsqr(away) for away in self._deviations)
+            + weights[3] * sum(sways)
+            - weights[4] * self.step
+            + weights[5] * sum(self._slack_symbols.values())
+        )
+        self.program.compile(cost, weights)
+        self._values = Function(
+            "values",
+            [self.program.unknowns],
+            [
+                self.step,
+                horzcat(*self.bodies).T,
+                horzcat(*(vertcat(*feet) for feet in self.feet)).T,
+                horzcat(*self.strokes).T,
+                seconds,
+            ],
+        )
+
+    @property
+    def step_place(self) -> int:
+        """Where the step stands among the unknowns."""
+        return len(SLACKS)
+
+    def seconds(self, values: Floats) -> float:
+        """Robot seconds of a solution as the program counts them: every move at least `SHORTEST_MOVE`."""
+        return float(self._values(values)[4])
+
+    def gait(self, values: Floats) -> PoseGait:
+        """A solution as a gait, SI."""
+        step, bodies, feet, strokes, _ = (np.array(value) for value in self._values(values))
+        poses, legs = self.problem.airborne.shape
+        return PoseGait(
+            self.problem,
+            step.item() / MM,
+            bodies / MM,
+            np.array(self.headings),
+            feet.reshape(poses, legs, 3) / MM,
+            strokes.reshape(poses, legs, 3) / MM,
+        )
+
+
+class StartMotion:
+    """Where the search starts: the body goes on evenly, each foot in its own moves, about its home.
+
+    Args:
+        problem: what is asked.
+        step: travel a cycle, mm.
+    """
+
+    def __init__(self, problem: PoseProblem, step: float) -> None:
+        self._problem = problem
+        self._homes = problem.model.module_centres_robot[:, :2] * MM
+        self._travel = step * problem.all_cycles
+        self._turn = problem.turn * problem.all_cycles
+        done = np.vstack([np.zeros(problem.model.leg_count), np.cumsum(problem.moving, axis=0)])
+        self._progress = done / np.maximum(done[-1], 1)
+        self._shares = np.linspace(0.0, 1.0, problem.move_count + 1)
+        self._offset = (
+            self._progress.mean(axis=0) - 0.5 if problem.cycles is None else np.zeros(len(self._homes))
+        )
+        poses = range(problem.move_count + 1)
+        self.bodies = np.array([self._body(self._shares[pose]) for pose in poses])
+        self.headings = [self._turn * self._shares[pose] for pose in poses]
+        self.feet = [self._feet(self._progress[pose], problem.floor[pose]) for pose in poses]
+
+    def _along(self, share: float) -> Floats:
+        angle = self._problem.heading + self._turn * share / 2
+        return np.asarray(self._travel * share * np.array([np.cos(angle), np.sin(angle)]))
+
+    def _body(self, share: float) -> Floats:
+        return np.append(self._along(share), START_HEIGHT)
+
+    def _feet(self, progress: Floats, heights: Floats) -> Floats:
+        """(legs, 3) mm."""
+        shares = progress - self._offset
+        return np.array(
+            [
+                [*(_rotation(self._turn * share) @ home + self._along(share)), height * MM]
+                for share, home, height in zip(shares, self._homes, heights, strict=True)
+            ]
+        )
+
+    def within(self, move: int, share: float) -> tuple[Floats, Floats, float]:
+        """Body, feet and heading at a share of a move, mm and rad."""
+        place = (1 - share) * self._shares[move] + share * self._shares[move + 1]
+        progress = (1 - share) * self._progress[move] + share * self._progress[move + 1]
+        heights = (1 - share) * self._problem.floor[move] + share * self._problem.floor[move + 1]
+        return self._body(place), self._feet(progress, heights), float(self._turn * place)
+
+
+def _rotation(angle: float) -> Floats:
+    """(2, 2) turn of horizontal vectors."""
+    return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+
+
+def _plane_height(foot: SX, standing: list[SX]) -> SX:
+    """Height at a foot of the plane that fits the standing feet best; three of them lie on it.
+
+    With places relative to the foot it is the intercept of the least-squares plane, by Cramer's rule.
+    """
+    xs, ys = ([point[axis] - foot[axis] for point in standing] for axis in (0, 1))
+    zs = [point[2] for point in standing]
+    sums = {
+        (i, j): sum(a * b for a, b in zip(u, v, strict=True))
+        for i, u in enumerate((xs, ys, [SX(1)] * len(xs)))
+        for j, v in enumerate((xs, ys, [SX(1)] * len(xs), zs))
+    }
+
+    def determinant(columns: tuple[int, int, int]) -> SX:
+        a, b, c = columns
+        return SX(
+            sums[0, a] * (sums[1, b] * sums[2, c] - sums[1, c] * sums[2, b])
+            - sums[0, b] * (sums[1, a] * sums[2, c] - sums[1, c] * sums[2, a])
+            + sums[0, c] * (sums[1, a] * sums[2, b] - sums[1, b] * sums[2, a])
+        )
+
+    height: SX = determinant((0, 1, 3)) / determinant((0, 1, 2))
+    return height

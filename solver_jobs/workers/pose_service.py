@@ -1,0 +1,47 @@
+"""Looks for pose gaits, in a process of their own."""
+
+from collections.abc import Callable
+
+from core.pose_gaits.pose_problem import PoseProblem
+from solver_jobs.results.motion import SolveStatus
+from solver_jobs.results.pose import PoseProgress, PoseResult
+from solver_jobs.workers.pose_worker import run_pose_worker
+from solver_jobs.workers.spawning import NICENESS
+from solver_jobs.workers.task_service import SILENCE_SECONDS, Task, TaskService
+
+
+class PoseSearch(Task[PoseProblem, PoseProgress, PoseResult]):
+    """A search that was submitted; a cancelled one has no gait."""
+
+    def unanswered(self, seconds: float) -> PoseResult:
+        """The result of a search that was cancelled, or whose process was silent for too long."""
+        status, sentence = SolveStatus.CANCELLED, "The search was cancelled."
+        if not self.is_ending:
+            status = SolveStatus.FAILED
+            sentence = (
+                f"The search gave no sign for {SILENCE_SECONDS:.0f} s and was ended. Try again when the "
+                "computer has less to do."
+            )
+        return PoseResult(status, None, None, False, (sentence,), 0.0, seconds)
+
+
+class PoseGaitSolver(TaskService[PoseSearch]):
+    """Searches in a process of their own, one after the other; it is started anew where it ends.
+
+    Args:
+        niceness: of the process; 0 where somebody waits for nothing else.
+    """
+
+    def __init__(self, niceness: int = NICENESS) -> None:
+        super().__init__("pose gait solver", run_pose_worker, None, niceness)
+
+    def submit(
+        self, problem: PoseProblem, progress: Callable[[PoseProgress], object] = lambda known: None
+    ) -> PoseSearch:
+        """Begins a search, after those that were submitted before.
+
+        Args:
+            problem: what is asked.
+            progress: called with what is known, from a thread of the service's.
+        """
+        return self.ask(PoseSearch(problem, progress))

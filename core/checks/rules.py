@@ -1,12 +1,13 @@
 """Every rule that a plan must keep before a person may approve it, in one list.
 
-The rules, by kind: `motors`, `balance`, `ground`, `shoes`, `document`, `coupling`, `path` for the way
-between waypoints, and `simulation` for what the physics finds.
+The rules, by kind: `motors`, `balance`, `ground`, `shoes`, `arms`, `document`, `coupling`, `path`
+for the way between waypoints, and `simulation` for what the physics finds.
 """
 
 from collections.abc import Sequence
 from dataclasses import replace
 
+from core.checks.arms import check_arms, check_arms_of_waypoints
 from core.checks.balance import check_balance, check_standing_balance
 from core.checks.checked_plan import CheckedPlan
 from core.checks.coupling import check_coupling
@@ -47,6 +48,7 @@ def check_plan(plan: CheckedPlan, simulated: Simulated | None = None) -> Verdict
         check_clearance(plan),
         check_slip(plan),
         *check_shoes(plan),
+        *check_arms(plan),
         check_motor_speed(plan),
         *check_motor_acceleration(plan),
         check_move_size(plan),
@@ -68,13 +70,14 @@ def check_plan(plan: CheckedPlan, simulated: Simulated | None = None) -> Verdict
 
 
 def check_waypoints(model: RobotModel, waypoints: Waypoints) -> Verdict:
-    """What waypoints alone can show: range, durations, deafness; by forward kinematics balance and shoes."""
+    """What waypoints alone can show: range, durations, deafness; by kinematics balance, shoes, arms."""
     outcomes = [
         check_strokes(model, waypoints),
         check_deafness(waypoints),
         check_durations(waypoints),
         check_standing_balance(model, waypoints),
         *check_shoes_of_waypoints(model, waypoints),
+        *check_arms_of_waypoints(model, waypoints),
     ]
     findings = [finding for outcome in outcomes for finding in outcome.findings]
     return _verdict(model, waypoints, findings, outcomes)

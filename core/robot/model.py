@@ -69,7 +69,7 @@ class FootEnd(StrEnum):
 class BodyShape:
     """Sizes for pictures, m; heights are of undersides above the actuator plane.
 
-    Of these a plan depends on the shoes alone (`RobotModel.shoe_diameter`).
+    Of these a plan depends on `RobotModel.shoe_diameter`, `rod_diameter` and `rod_spacing` alone.
     """
 
     plate_across: float
@@ -108,7 +108,7 @@ class RobotModel:
         coupling: (motors, actuators) C of h = C·u, motors in wire order; the identity where none is shared.
         masses: point masses of the optimisation's model.
         mass_sets: every named set of masses as it stands in the file, kg.
-        shape: sizes for pictures, and the shoes.
+        shape: sizes for pictures, and those of shoes and arms.
         colours: a colour a foot, `#rrggbb`.
     """
 
@@ -164,6 +164,7 @@ class RobotModel:
         values = {field.name: getattr(self, field.name) for field in fields(self) if field.name not in looks}
         content = {name: _plain(value) for name, value in values.items()}
         content["shoe_diameter"] = self.shoe_diameter
+        content["arms"] = [self.shape.rod_diameter, self.shape.rod_spacing]
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
     @property

@@ -7,6 +7,7 @@ import re
 import numpy as np
 import pytest
 
+from core.checks import arms as arm_check
 from core.checks import balance as balance_check
 from core.checks import coupling as coupling_check
 from core.checks import document as document_check
@@ -26,6 +27,7 @@ ROWS = re.findall(r"^\| `(\w+)` \| (.*?) \| (.*?) \| (.*?) \| (.*?) \|$", TEXT, 
 STROKE = load_robot("deltawalker").stroke
 SHOE = load_robot("deltawalker").shoe_diameter or 0.0
 MODULES = (
+    arm_check,
     balance_check,
     coupling_check,
     document_check,
@@ -67,6 +69,7 @@ def test_every_rule_that_the_code_names_stands_in_the_table_and_no_other() -> No
             "shoe_distance",
             [f"the shoes' diameter, {SHOE * 1000:.1f} mm", f"{SHOE_GAP * 1000:.1f} mm"],
         ),
+        ("arm_distance", ["0 mm", f"{arm_check.ARM_GAP * 1000:.1f} mm"]),
         ("start_pose", [f"{document_check.START_FEET} feet", "none"]),
         ("travel", [f"{document_check.TRAVEL_LIMIT * 1000:.1f} mm"]),
         ("turn", [f"{np.degrees(document_check.TURN_LIMIT):.0f}°"]),

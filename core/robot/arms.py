@@ -1,10 +1,8 @@
-"""How near the arms of neighbouring legs come to each other.
+"""The arms of a leg as bars, and the room between those of neighbouring legs.
 
-An arm is a parallelogram: two rods, the knee's bar above and the platform's bar below, all `rod_diameter`
-thick, their ends `rod_spacing` apart across the arm (docs/checks.md).
+An arm is a parallelogram of four bars, `rod_diameter` thick: two rods whose ends are `rod_spacing` apart
+across the arm, the knee's bar above and the platform's bar below.
 """
-
-from __future__ import annotations
 
 import numpy as np
 
@@ -12,18 +10,22 @@ from core.arrays import Floats
 from core.robot.leg import foot_from_strokes, vertex_directions
 from core.robot.model import RobotModel
 from core.robot.shoes import neighbour_pairs
-from core.wire.executed_path import STEPS
 
 TOGETHER = 400
 """Poses that are looked at together, so that memory stays small."""
+PARALLEL = 1e-15
+"""Squared area between two segments, m⁴, below which they count as parallel."""
 
 
 def arm_bars(model: RobotModel, strokes: Floats) -> Floats:
-    """(n, legs, 3, 4, 2, 3) ends of the bars of every arm in the robot's frame, m: rods first.
+    """The middle lines of every bar, in the robot's frame.
 
     Args:
         model: the robot.
         strokes: (n, legs, 3) m.
+
+    Returns:
+        (n, legs, 3, 4, 2, 3) both ends of two rods, knee's bar and platform's bar of each arm, m.
     """
     directions = vertex_directions()
     outwards = np.column_stack([directions, np.zeros(3)])
@@ -39,15 +41,25 @@ def arm_bars(model: RobotModel, strokes: Floats) -> Floats:
 
 
 def segment_distances(first: Floats, second: Floats) -> Floats:
-    """(...) distance of segments, each (..., 2 ends, 3), m."""
+    """Least distance of two segments p + s·a and q + t·b with s, t in 0 to 1.
+
+    The lines' nearest points are taken, and each share is clipped with the other one's best answer.
+
+    Args:
+        first: (..., 2, 3) both ends, m.
+        second: likewise.
+
+    Returns:
+        (...) m.
+    """
     a, b = first[..., 1, :] - first[..., 0, :], second[..., 1, :] - second[..., 0, :]
     between = first[..., 0, :] - second[..., 0, :]
     aa, bb, ab = ((x * y).sum(axis=-1) for x, y in ((a, a), (b, b), (a, b)))
     to_a, to_b = (a * between).sum(axis=-1), (b * between).sum(axis=-1)
     slant = aa * bb - ab**2
-    share = np.clip(
-        np.where(slant > 1e-15, (ab * to_b - to_a * bb) / np.maximum(slant, 1e-15), 0.0), 0.0, 1.0
-    )
+    # Parallel segments have many nearest points; any share of the first will do.
+    share = (ab * to_b - to_a * bb) / np.where(slant > PARALLEL, slant, np.inf)
+    share = np.clip(share, 0.0, 1.0)
     other = np.clip((ab * share + to_b) / bb, 0.0, 1.0)
     share = np.clip((ab * other - to_a) / aa, 0.0, 1.0)
     apart = between + share[..., None] * a - other[..., None] * b
@@ -55,21 +67,24 @@ def segment_distances(first: Floats, second: Floats) -> Floats:
 
 
 def arm_gaps(model: RobotModel, strokes: Floats) -> Floats:
-    """(n, pairs) least room between the arms of neighbouring legs, m; below 0 they are in one another."""
-    found = []
+    """Least room between the arms of neighbouring legs.
+
+    Args:
+        model: the robot.
+        strokes: (n, legs, 3) m.
+
+    Returns:
+        (n, pairs) m, in the order of `neighbour_pairs`; below 0 arms are in one another, nan where a leg has
+        no pose.
+    """
+    pairs = neighbour_pairs(model.leg_count)
+    found = [np.zeros((0, len(pairs)))]
     for begin in range(0, len(strokes), TOGETHER):
         bars = arm_bars(model, strokes[begin : begin + TOGETHER])
         flat = bars.reshape(*bars.shape[:2], -1, 2, 3)
-        pairs = [
+        distances = [
             segment_distances(flat[:, one, :, None], flat[:, other, None]).min(axis=(1, 2))
-            for one, other in neighbour_pairs(model.leg_count)
+            for one, other in pairs
         ]
-        found.append(np.stack(pairs, axis=-1))
+        found.append(np.stack(distances, axis=-1))
     return np.concatenate(found) - model.shape.rod_diameter
-
-
-def strokes_on_way(strokes: Floats) -> Floats:
-    """(m, legs, 3) strokes at the first waypoint and along every move, straight in motor space, m."""
-    shares = np.arange(1, STEPS + 1)[:, None, None] / STEPS
-    ways = strokes[:-1, None] + shares * np.diff(strokes, axis=0)[:, None]
-    return np.concatenate([strokes[:1], ways.reshape(-1, *strokes.shape[1:])])

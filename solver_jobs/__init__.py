@@ -10,6 +10,7 @@ from core.patterns.problem import PatternProblem, PatternProgress, PatternResult
 from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
 from core.physics.variations import VariedRun
+from core.pose_gaits.pose_problem import PoseProblem
 from core.problem.motion_problem import MotionProblem
 from solver_jobs.nlp.timing import TimingResult, fastest_timing
 from solver_jobs.results.motion import Evidence, Iterate, Lack, MotionResult, SolveStatus
@@ -74,6 +75,7 @@ __all__ = [
     "solve_live",
     "solve_motion",
     "solve_pattern",
+    "solve_poses",
 ]
 
 
@@ -148,6 +150,21 @@ def shortest_problem(problem: PatternProblem) -> PatternProblem:
     from solver_jobs.patterns.shortest import shortest_problem as shorten
 
     return shorten(problem)
+
+
+def solve_poses(
+    problem: PoseProblem, report: Callable[[PoseProgress], bool] = lambda progress: True
+) -> PoseResult:
+    """Looks for the fastest pose gait of a problem in this process (see `solver_jobs.pose_gaits.solve`).
+
+    Args:
+        problem: what is asked.
+        report: told what is known; false ends the search.
+    """
+    with interrupts_held():
+        from solver_jobs.pose_gaits.solve import solve_poses as solve
+
+    return solve(problem, report)
 
 
 def simulate(

@@ -9,6 +9,7 @@ from app.bench.page.scene import bench_scene
 from app.bench.page.video import bench_video
 from app.bench.patterns.search import bench_patterns
 from app.bench.patterns.transitions import bench_transitions
+from app.bench.physics.fastest import bench_fastest
 from app.bench.physics.learning import bench_learning
 from app.bench.physics.tables import bench_physics
 from app.bench.robot.all import bench_bridge
@@ -43,6 +44,7 @@ BENCHMARKS: dict[str, Benchmark] = {
     "learning": bench_learning,
     "bridge": bench_bridge,
     "law": bench_law,
+    "fastest": bench_fastest,
     "telemetry": bench_telemetry,
     "floods": bench_floods,
     "video": bench_video,

@@ -21,7 +21,6 @@ from core.pose_gaits.pose_problem import PoseBounds, PoseProblem
 from core.robot.model import load_robot
 from solver_jobs import PoseGaitSolver, PoseProgress, PoseResult, SolveStatus
 
-FREE = "free"
 TICK_SECONDS = 0.1
 """Between looks for Ctrl-C."""
 
@@ -99,7 +98,7 @@ def fastest_problem(options: Namespace) -> tuple[str, PoseProblem]:
         model=model,
         order=tuple((foot - 1 + (direction - 1) * legs // 4) % legs + 1 for foot in order),
         heading=heading_angle(gait.orientation) + (direction - 1) * np.pi / 2,
-        step=None if options.step is None else options.step,
+        step=options.step,
         cycles=options.cycles,
         bounds=PoseBounds(
             margin=options.margin,
@@ -139,9 +138,13 @@ def _solved(solver: PoseGaitSolver, name: str, problem: PoseProblem) -> FastestW
 def _waited(solver: PoseGaitSolver, problem: PoseProblem, what: str) -> PoseResult:
     """The result of one search; Ctrl-C and SIGTERM are heard meanwhile and end it."""
     search = solver.submit(problem, _progress(what))
-    while True:
-        with suppress(TimeoutError):
-            return search.result(TICK_SECONDS)
+    try:
+        while True:
+            with suppress(TimeoutError):
+                return search.result(TICK_SECONDS)
+    finally:
+        if sys.stderr.isatty():
+            sys.stderr.write("\r\033[K")
 
 
 def _progress(what: str) -> Callable[[PoseProgress], None]:

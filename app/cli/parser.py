@@ -224,7 +224,12 @@ def _fastest_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     text = "walk (default), amble, s-gait, c-gait, or a gait file: foot order and direction"
     add("gait", nargs="?", default=None, help=text)
-    add("--order", type=foot_order, default=None, help="feet such as 3,2,4,1, instead of the gait's own")
+    add(
+        "--order",
+        type=foot_order,
+        default=None,
+        help="feet such as 3,2,4,1 at direction 1, instead of the gait's own",
+    )
     step = "m a cycle, or free for the fastest (default free)"
     add("--step", type=free_or(number(0.0005, 0.2, "m")), default=None, metavar="M|free", help=step)
     text = "from the standard stance to rest (default 1)"

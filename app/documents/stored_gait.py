@@ -44,7 +44,11 @@ def stored_content(content: Any, where: str = "gait") -> StoredGait:
     if not isinstance(content, dict):
         return StoredGait(gait_from_content(content, where))
     limited, changes = _limited(content)
-    notice = None if not changes else f"Kept by an earlier version with {' and '.join(changes)}. {_SAME}"
+    notice = (
+        None
+        if not changes
+        else f"Kept by an earlier version with {' and '.join(dict.fromkeys(changes))}. {_SAME}"
+    )
     return StoredGait(gait_from_content(limited, where), notice)
 
 

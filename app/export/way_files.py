@@ -6,6 +6,7 @@ from pathlib import Path
 from app.common.json import Json
 from app.export.trajectory_files import companion_path, read_text
 from app.store.gait_files import write_atomically
+from core.errors import InputError
 from core.motion.trajectory import Trajectory
 from core.pose_gaits.pose_gait import PoseGait
 from core.robot.model import RobotModel, load_robot
@@ -15,7 +16,13 @@ from core.wire.waypoint_companion import (
     parse_waypoint_companion,
     require_same_strokes,
 )
-from core.wire.waypoints import Waypoints, format_waypoint_csv, is_waypoint_text, parse_waypoint_csv
+from core.wire.waypoints import (
+    Waypoints,
+    format_waypoint_csv,
+    is_waypoint_text,
+    parse_waypoint_csv,
+    waypoint_legs,
+)
 
 ROBOT = "deltawalker"
 
@@ -53,17 +60,24 @@ def read_way_file(path: Path, robot: str | None = None) -> WayFile:
         InputError: it is malformed, or its companion contradicts it.
     """
     text = read_text(path)
-    waypoints = parse_waypoint_csv(text, name=path.name)
+    waypoints = parse_waypoint_csv(text, waypoint_legs(text, path.name), path.name)
     companion: WaypointCompanion | str | None = None
     if companion_path(path).exists():
         companion = parse_waypoint_companion(read_text(companion_path(path)), text, path.name)
+    said = companion.robot if isinstance(companion, WaypointCompanion) else None
+    model = load_robot(robot or said or ROBOT)
+    if waypoints.strokes.shape[1] != model.leg_count:
+        raise InputError(
+            f"{path.name} has the strokes of {waypoints.strokes.shape[1]} feet; {model.title} has "
+            f"{model.leg_count}. Name its robot with --robot.",
+            path.name,
+        )
     if isinstance(companion, WaypointCompanion):
-        model = load_robot(robot or companion.robot)
         if companion.motion is not None:
             require_same_strokes(model, companion.motion, waypoints, path.name)
         return WayFile(model, waypoints, companion.motion)
     assumptions = () if companion is None else (companion,)
-    return WayFile(load_robot(robot or ROBOT), waypoints, None, assumptions)
+    return WayFile(model, waypoints, None, assumptions)
 
 
 def write_pose_gait(path: Path, gait: PoseGait, origin: Json) -> None:

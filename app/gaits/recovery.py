@@ -13,7 +13,7 @@ from app.gaits.open_gait import OpenGait, gait_of, gait_text
 from app.gaits.repository import GaitRepository
 from app.gaits.versions import Versions
 from app.store.edit_history_store import EditHistoryRow, EditHistoryStore
-from app.undo.history import Author, History, LogEntry
+from app.undo.history import Author, History, LogEntry, fresh_history
 from core.errors import FootfallError, InputError, StateError
 from core.gait.gait import Gait
 from core.library.library import library
@@ -80,15 +80,16 @@ class GaitRecovery:
         shown = self._last_shown(gait_id)
         if shown is None:
             raise StateError(f"No state of “{gait_id}” can be shown. Delete it; its file is kept.", gait_id)
-        history = self._history(gait_id)
+        history, revision = self._history(gait_id), self._edits.revision(gait_id)
+        if history is None and revision > 0:  # all of it is lost
+            history = fresh_history(gait_text(shown.gait))
         if history is not None:
             version = None
             if not _is_readable(history.present):
                 document = history.present.document
                 version = self._versions.unreadable(gait_id, history.last, document, author)
             recovered = self._recovered(gait_id, history, shown, author, others)
-            row = EditHistoryRow(self._edits.revision(gait_id) + 1, recovered, None, None)
-            self._edits.put(gait_id, row, None, version)
+            self._edits.put(gait_id, EditHistoryRow(revision + 1, recovered, None, None), None, version)
         self._gaits.replace_unreadable(gait_id, shown.gait)
         return self._gaits.gait(gait_id)
 

@@ -115,7 +115,8 @@ class GaitService:
             except InputError as error:
                 sentence = f"“{gait_id}” cannot be shown: {error.sentence}"
                 if self._recovery.way_out(gait_id) is not None:
-                    sentence = f"{sentence} Its row in the list of gaits has the way out (POST …/recover)."
+                    way = f"Choose it in the list of gaits, or call POST /api/gaits/{gait_id}/recover."
+                    sentence = f"{sentence} {way}"
                 raise InputError(sentence, error.where) from error
         return self._open[gait_id]
 
@@ -135,6 +136,10 @@ class GaitService:
         self._close(gait_id)
         self._open[gait_id] = recovered
         return recovered
+
+    def _is_recoverable(self, gait_id: str) -> bool:
+        """Whether a gait cannot be shown and has a way out."""
+        return not self._can_be_shown(gait_id) and self.way_out(gait_id) is not None
 
     def _can_be_shown(self, gait_id: str) -> bool:
         try:
@@ -224,7 +229,8 @@ class GaitService:
         Raises:
             StateError: somebody else changed it since the given revision.
         """
-        if not self._can_be_shown(gait_id) and self._recovery.way_out(gait_id) is not None:
+        require_line(gait)
+        if self._is_recoverable(gait_id):
             self.recover(gait_id, author)
             revision = None  # nobody can have seen the revision that was there
         open_gait = self.open_gait(gait_id)
@@ -272,7 +278,7 @@ class GaitService:
         Raises:
             StateError: there is none, or somebody changed the same since.
         """
-        if not self._can_be_shown(gait_id) and self._recovery.way_out(gait_id) is not None:
+        if self._is_recoverable(gait_id):
             return self.recover(gait_id, author)
         return self._stepped(gait_id, author, again=False)
 
@@ -409,7 +415,7 @@ class GaitService:
         """
         had_approval = self._repository.restore(gait_id)
         self._close(gait_id)
-        if not self._can_be_shown(gait_id) and self._recovery.way_out(gait_id) is not None:
+        if self._is_recoverable(gait_id):
             self.recover(gait_id)
         if had_approval:
             revoked = "The gait was deleted and brought back, and its approval is gone."

@@ -3,6 +3,7 @@
 import logging
 from typing import Any
 
+from app.gaits.recovery import WayOut
 from app.gaits.service import GaitService
 from app.gaits.views import line_view, problem_view
 from core.errors import FootfallError, NotFoundError
@@ -71,4 +72,12 @@ class GaitSummaries:
             sentence = (
                 f"The studio met an error of its own ({type(error).__name__}), which its log describes."
             )
-        return mark, problem_view(gait_id, sentence, gait_id in library(), self._service.way_out(gait_id))
+        return mark, problem_view(gait_id, sentence, gait_id in library(), self._way_out(gait_id))
+
+    def _way_out(self, gait_id: str) -> WayOut | None:
+        """The way out of a gait that cannot be shown; None where that cannot be found out either."""
+        try:
+            return self._service.way_out(gait_id)
+        except Exception:  # the row must stand all the same
+            logger.exception("The way out of %s cannot be found.", gait_id)
+            return None

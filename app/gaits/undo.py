@@ -37,6 +37,9 @@ def without_unreadable(
         history: the gait's history.
         others: the other pages that are connected.
         again: whether it is about redo.
+
+    Raises:
+        StateError: other edits stand in between, so that nothing can be skipped.
     """
     skipped: list[SkippedState] = []
     while (action := history.redoable(others) if again else history.undoable(others)) is not None:
@@ -47,8 +50,17 @@ def without_unreadable(
             break
         except FootfallError as error:
             place = "after" if again else "before"
-            sentence = f"The state {place} “{label}” cannot be shown and is skipped: {error.sentence}"
-            skipped.append(SkippedState(position, entry.document, sentence))
+            state = f"The state {place} “{label}” cannot be shown"
+            if not history.can_skip(action, others, again=again):
+                verb = "done again" if again else "undone"
+                raise StateError(
+                    f"{state}, so that “{label}” cannot be {verb}: {error.sentence} "
+                    "Restore an earlier version.",
+                    "history",
+                ) from error
+            skipped.append(
+                SkippedState(position, entry.document, f"{state} and is skipped: {error.sentence}")
+            )
             history = history.skipping(action, again=again)
     return history, tuple(skipped)
 

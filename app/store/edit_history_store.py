@@ -227,7 +227,10 @@ def _actions(text: str, gait: str) -> tuple[Action, ...]:
         InputError: it is none.
     """
     try:
-        return tuple(Action(*action) for action in json.loads(text))
+        actions = tuple(Action(*action) for action in json.loads(text))
+        if not all(isinstance(at, int) for action in actions for at in (action.position, action.since)):
+            raise TypeError("a position is no number")
+        return actions
     except (TypeError, ValueError) as error:
         raise InputError(f"What can be undone of “{gait}” cannot be read: {error}.", gait) from error
 

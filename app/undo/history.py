@@ -150,6 +150,22 @@ class History:
         done = () if to is None else tuple(action for action in self.done if action.since <= to)
         return replace(self._added(LogEntry(label, document, author)), done=done, undone=())
 
+    def can_skip(self, action: Action, others: frozenset[str], *, again: bool) -> bool:
+        """Whether the action after this one is the very next in the log, so that it can step over a document.
+
+        Args:
+            action: the newest that can be undone, or done again.
+            others: the other pages that are connected.
+            again: whether it was to be done again.
+        """
+        without = self.skipping(action, again=again)
+        following = without.redoable(others) if again else without.undoable(others)
+        if following is None:
+            return True
+        step = 1 if again else -1
+        untouched = again or (action.since == action.position and following.since == following.position)
+        return untouched and following.position == action.position + step
+
     def skipping(self, action: Action, *, again: bool) -> History:
         """The log without an action whose result cannot be read; the next one steps over that document.
 

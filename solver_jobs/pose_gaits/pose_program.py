@@ -18,20 +18,18 @@ from core.pose_gaits.pose_problem import FRACTIONS, REST_HEIGHT, SHORTEST_MOVE, 
 from core.wire.robot_time import RAMP_SPEED
 from solver_jobs.nlp.leg_equations import motor_arms, squared_offsets
 from solver_jobs.pose_gaits.program import Program, Row
+from solver_jobs.pose_gaits.start_motion import MM, StartMotion, rotation_about_z
 
-MM = 1000.0
 STROKE_ROOM = 0.001
 """Strokes stay this much within their range, so that a rounded file does, mm."""
 SHOE_ROOM = 0.05
 """Feet stay this much farther apart at the fractions, so that they do between them, mm."""
-START_HEIGHT = 56.0
-"""Actuator plane at the start of the search, mm."""
 HIGHEST_FOOT = 20.0
 FAR = 3000.0
 """No unknown is farther than this, mm."""
 LEAST_DEPTH = 5.0
 """A rod's depth that the equations do not go below while IPOPT looks around, mm."""
-SLACKS = ("margin", "clearance", "shoe distance", "stop bound", "stroke")
+SLACKS = ("margin", "clearance", "shoe distance", "stop bound")
 """Limits that an explanation may loosen."""
 
 
@@ -179,12 +177,12 @@ class PoseProgram:
         """Where a foot ends: where it began, moved on with the body."""
         turn = self.problem.turn * self.problem.all_cycles
         away = first - self.bodies[0][:2]
-        return self.bodies[-1][:2] + DM(_rotation(turn)) @ away
+        return self.bodies[-1][:2] + DM(rotation_about_z(turn)) @ away
 
     def _strokes(self, foot: SX, leg: int, body: SX, heading: float) -> SX:
         """(3,) inverse kinematics of a leg."""
         model = self._model
-        robot = DM(_rotation(-heading)) @ (foot[:2] - body[:2])
+        robot = DM(rotation_about_z(-heading)) @ (foot[:2] - body[:2])
         rotation = model.R_robot_from_module[leg][:2, :2].T
         module = DM(rotation) @ (robot - DM(model.module_centres_robot[leg, :2] * MM))
         arms = motor_arms(model.leg.reach_radius * MM, (module[0], module[1], SX(0)))
@@ -194,12 +192,11 @@ class PoseProgram:
         return vertcat(*(body[2] - foot[2] - depth for depth in depths))
 
     def _bound_strokes(self, pose: int) -> None:
-        stroke, slack = self._model.stroke, self._slack_symbols["stroke"]
+        stroke = self._model.stroke
         for leg in range(self._model.leg_count):
             row = Row("stroke", min(pose, self.problem.move_count - 1), leg)
             strokes = self.strokes[pose][3 * leg : 3 * leg + 3]
-            self.program.bound(strokes + slack, stroke.lower * MM + STROKE_ROOM, row=row)
-            self.program.bound(strokes - slack, -np.inf, stroke.upper * MM - STROKE_ROOM, row)
+            self.program.bound(strokes, stroke.lower * MM + STROKE_ROOM, stroke.upper * MM - STROKE_ROOM, row)
         coupling = self._model.coupling
         for column in coupling.T:
             shared = np.nonzero(column)[0]
@@ -336,60 +333,6 @@ class PoseProgram:
             feet.reshape(poses, legs, 3) / MM,
             strokes.reshape(poses, legs, 3) / MM,
         )
-
-
-class StartMotion:
-    """Where the search starts: the body goes on evenly, each foot in its own moves, about its home.
-
-    Args:
-        problem: what is asked.
-        step: travel a cycle, mm.
-    """
-
-    def __init__(self, problem: PoseProblem, step: float) -> None:
-        self._problem = problem
-        self._homes = problem.model.module_centres_robot[:, :2] * MM
-        self._travel = step * problem.all_cycles
-        self._turn = problem.turn * problem.all_cycles
-        done = np.vstack([np.zeros(problem.model.leg_count), np.cumsum(problem.moving, axis=0)])
-        self._progress = done / np.maximum(done[-1], 1)
-        self._shares = np.linspace(0.0, 1.0, problem.move_count + 1)
-        self._offset = (
-            self._progress.mean(axis=0) - 0.5 if problem.cycles is None else np.zeros(len(self._homes))
-        )
-        poses = range(problem.move_count + 1)
-        self.bodies = np.array([self._body(self._shares[pose]) for pose in poses])
-        self.headings = [self._turn * self._shares[pose] for pose in poses]
-        self.feet = [self._feet(self._progress[pose], problem.floor[pose]) for pose in poses]
-
-    def _along(self, share: float) -> Floats:
-        angle = self._problem.heading + self._turn * share / 2
-        return np.asarray(self._travel * share * np.array([np.cos(angle), np.sin(angle)]))
-
-    def _body(self, share: float) -> Floats:
-        return np.append(self._along(share), START_HEIGHT)
-
-    def _feet(self, progress: Floats, heights: Floats) -> Floats:
-        """(legs, 3) mm."""
-        shares = progress - self._offset
-        return np.array(
-            [
-                [*(_rotation(self._turn * share) @ home + self._along(share)), height * MM]
-                for share, home, height in zip(shares, self._homes, heights, strict=True)
-            ]
-        )
-
-    def within(self, move: int, share: float) -> tuple[Floats, Floats, float]:
-        """Body, feet and heading at a share of a move, mm and rad."""
-        place = (1 - share) * self._shares[move] + share * self._shares[move + 1]
-        progress = (1 - share) * self._progress[move] + share * self._progress[move + 1]
-        heights = (1 - share) * self._problem.floor[move] + share * self._problem.floor[move + 1]
-        return self._body(place), self._feet(progress, heights), float(self._turn * place)
-
-
-def _rotation(angle: float) -> Floats:
-    """(2, 2) turn of horizontal vectors."""
-    return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
 
 
 def _plane_height(foot: SX, standing: list[SX]) -> SX:

@@ -10,8 +10,9 @@ from core.arrays import Floats
 from core.pose_gaits.pose_check import check_poses
 from core.pose_gaits.pose_problem import SHORTEST_MOVE, PoseProblem
 from solver_jobs.pose_gaits.explain import explained
-from solver_jobs.pose_gaits.pose_program import MM, SLACKS, PoseProgram, Weights
+from solver_jobs.pose_gaits.pose_program import SLACKS, PoseProgram, Weights
 from solver_jobs.pose_gaits.program import Attempt
+from solver_jobs.pose_gaits.start_motion import MM
 from solver_jobs.results.motion import SolveStatus
 from solver_jobs.results.pose import PoseProgress, PoseResult
 
@@ -27,6 +28,8 @@ GENTLE = Weights(time=1e-3, slip=10.0, sway=1e-3)
 """Least slip; among equals least sway."""
 SAME_TIME = 1e-4
 """Share of the robot's time that a gentler gait may take more."""
+CONVERGED = "Solve_Succeeded"
+"""IPOPT's word for an optimum within its tolerance."""
 MOST_SECONDS = 30.0
 """For one run of IPOPT."""
 MORE_SECONDS = 2.0
@@ -86,6 +89,8 @@ class _Search:
         self._report = report
         self._begin = time.perf_counter()
         self._solve_seconds = 0.0
+        self._ran_out = False
+        self._forced: Forced = ()
         self._progress = PoseProgress("Building the program", 0.0, None)
 
     def result(self) -> PoseResult:
@@ -95,6 +100,12 @@ class _Search:
         if best is None:
             self._tell("Looking for the reason", 0.8)
             short = program if self.problem.step is None else PoseProgram(self.problem, STEP_GUESS)
+            if self._ran_out:
+                sentence = (
+                    f"The search took longer than {MOST_SECONDS:.0f} s for one start. Choose fewer --cycles, "
+                    "or try again when the computer has less to do."
+                )
+                return self.ended(SolveStatus.FAILED, (sentence,))
             sentences = explained(self.problem, short, self._run(short))
             return self.ended(SolveStatus.INFEASIBLE, sentences)
         best = self._lengthened(program, best)
@@ -106,7 +117,8 @@ class _Search:
             if kinder_check.confirmed or not check.confirmed:
                 gait, check = kinder, kinder_check
         if check.confirmed:
-            return replace(self.ended(SolveStatus.SOLVED, ()), gait=gait, check=check, optimal=True)
+            ended, optimal = self.ended(SolveStatus.SOLVED, ()), best.status == CONVERGED
+            return replace(ended, gait=gait, check=check, optimal=optimal)
         sentences = tuple(finding.sentence for finding in check.findings[:5])
         explanation = ("The independent check does not confirm the gait that was found.", *sentences)
         return self.ended(SolveStatus.FAILED, explanation)
@@ -156,6 +168,7 @@ class _Search:
             self._solve_seconds += attempt.seconds
             if attempt.status == "User_Requested_Stop" and not self._report(self._progress):
                 raise _Cancelled
+            self._ran_out = self._ran_out or attempt.status == "User_Requested_Stop"
             return attempt
 
         return run
@@ -209,8 +222,6 @@ class _Search:
                 return best
             best, self._forced = attempt, forced
         return best
-
-    _forced: "Forced" = ()
 
     def _gentle(self, program: PoseProgram, best: Attempt) -> Attempt | None:
         """Among gaits of the same step and time the one whose standing feet slip least."""

@@ -30,7 +30,7 @@ class PoseResult:
         status: `solved` only where the independent check has confirmed the gait.
         gait: the gait, or None.
         check: of the gait, or None.
-        optimal: whether IPOPT ended at a local optimum of the robot's time in every stage.
+        optimal: whether IPOPT ended at a local optimum of the robot's time within its tolerance.
         explanation: sentences where it is not solved.
         solve_seconds: time in IPOPT.
         seconds: of the whole search.

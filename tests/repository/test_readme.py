@@ -36,7 +36,8 @@ def test_the_commands_without_a_browser_work_one_after_the_other(
             # The robot of the test is the same emulated one, only faster.
             arguments = [robot.device if word == "emulator" else word for word in words[1:]]
             assert main(arguments) == 0, (line, capsys.readouterr().err)
-    assert {path.name for path in tmp_path.glob("*.csv")} == {"walk0.csv", "walk.csv", "walk_way.csv"}
+    written = {"walk0.csv", "walk.csv", "walk_way.csv", "fast_way.csv"}
+    assert {path.name for path in tmp_path.glob("*.csv")} == written
 
 
 def test_pictures_that_readme_shows_exist() -> None:

@@ -88,7 +88,7 @@ function showWaysOut(store, { id, name, problem, way_out: wayOut }) {
     const view = await api.recover(id);
     await selectGait(store, id);
     acceptView(store, view);
-    toast(`${view.name} can be shown again. What could not be is kept under Versions.`);
+    toast(`${view.name} can be shown again. Its unreadable document is kept under Versions; an unreadable file is in the folder set-aside.`);
   });
   openDialog((close) => {
     const then = (act) => () => { close(null); act(); };

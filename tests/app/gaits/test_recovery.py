@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from app.documents.gait_json import gait_content
-from app.gaits.recovery import LAST_LABEL, ORIGINAL_LABEL
+from app.gaits.recovery import LAST_LABEL, ORIGINAL_LABEL, WayOut
 from app.gaits.service import GaitService
 from app.gaits.summaries import GaitSummaries
 from app.store.database import Database
@@ -220,7 +220,10 @@ def test_where_nothing_before_can_be_shown_undo_says_so(
     assert service.open_gait(gait_id).gait.notes == "two"
 
 
-@pytest.mark.parametrize(("column", "text"), [("done", "{"), ("undone", "[[1]]"), ("last", 77)])
+@pytest.mark.parametrize(
+    ("column", "text"),
+    [("done", "{"), ("undone", "[[1]]"), ("done", '[["a", "b", "c"]]'), ("last", 77)],
+)
 def test_a_history_that_contradicts_itself_has_the_same_way_out(
     column: str, text: str | int, gait_id: str, tmp_path: Path, database: Database
 ) -> None:
@@ -230,6 +233,34 @@ def test_a_history_that_contradicts_itself_has_the_same_way_out(
     assert service.recover(gait_id).gait.notes == "two"
     assert noted(service, gait_id, "three").notes == "three"
     assert reopened(tmp_path, database).undo(gait_id).gait.notes == "two"
+
+
+@pytest.mark.parametrize("is_builtin", [True, False])
+def test_a_history_that_is_lost_has_the_same_way_out(
+    is_builtin: bool, gait_id: str, tmp_path: Path, database: Database
+) -> None:
+    lost = WALK if is_builtin else gait_id
+    noted(reopened(tmp_path, database), lost, "three")
+    with database.writing() as connection:
+        connection.execute("DELETE FROM history")
+    service = reopened(tmp_path, database)
+    assert line(service, lost)["way_out"] == ("original" if is_builtin else "last")
+    assert service.recover(lost).gait.notes == ""
+    assert reopened(tmp_path, database).open_gait(lost).gait.notes == ""
+
+
+def test_undo_skips_nothing_where_another_edit_stands_in_between(
+    gait_id: str, tmp_path: Path, database: Database
+) -> None:
+    service = reopened(tmp_path, database)
+    noted(service, gait_id, "three")
+    service.undo(gait_id)
+    noted(service, gait_id, "four")
+    spoil(database, gait_id, 4, UNSHOWN["another robot"])
+    again = reopened(tmp_path, database)
+    with pytest.raises(StateError, match="Restore an earlier version"):
+        again.undo(gait_id)
+    assert again.open_gait(gait_id).gait.notes == "four"
 
 
 def test_knots_beyond_todays_bounds_are_limited_and_said(
@@ -259,12 +290,16 @@ def test_a_line_that_fails_for_any_reason_hides_no_other(
     gait_id: str, tmp_path: Path, database: Database, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     service = reopened(tmp_path, database)
-    glance = service.glance
+    glance, way_out = service.glance, service.way_out
 
     def failing(wanted: str) -> tuple[Gait, bool, bool]:
         return 1 // 0 if wanted == gait_id else glance(wanted)  # type: ignore[return-value]
 
+    def without(wanted: str) -> WayOut | None:
+        return 1 // 0 if wanted == gait_id else way_out(wanted)  # type: ignore[return-value]
+
     monkeypatch.setattr(service, "glance", failing)
+    monkeypatch.setattr(service, "way_out", without)
     assert "ZeroDivisionError" in line(service, gait_id)["problem"]
     assert line(service, WALK)["problem"] is None
 

@@ -1,0 +1,162 @@
+"""The fastest walks: their speed by the law, on the emulated board and in physics."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from app.bench.common.measure import Row
+from app.bench.robot.timed_board import timed_moves
+from app.emulator.profiles import ProfileName
+from app.simulation.problem import way_problem
+from core.arrays import Floats
+from core.gait.gait import heading_angle
+from core.library.library import library
+from core.motion.trajectory import Trajectory
+from core.physics.masses import default_physics
+from core.physics.metrics import report
+from core.physics.problem import SimulationProblem
+from core.pose_gaits.pose_gait import PoseGait
+from core.pose_gaits.pose_problem import PoseBounds, PoseProblem
+from core.robot.model import load_robot
+from core.wire.waypoint_merging import plan_of_knots
+from core.wire.waypoints import Waypoints
+from solver_jobs import PoseResult, simulate, simulate_variations, solve_poses
+
+BOARD_CYCLES = 4
+"""Cycles in mid-walk whose mean is the speed on the board; one more runs before."""
+PHYSICS_CYCLES = 2
+"""Cycles in mid-walk that physics walks."""
+VARIATIONS = 64
+MM, MM_S = 1000.0, 1000.0
+
+
+@dataclass(frozen=True)
+class FastCase:
+    """A walk that is measured.
+
+    Args:
+        gait: of the library: foot order and direction.
+        cycles: from the standard stance to rest; None in mid-walk.
+        step: m a cycle; None where it is free.
+        bounds: the limits.
+        varied: whether it runs under variations too.
+    """
+
+    gait: str
+    cycles: int | None = None
+    step: float | None = None
+    bounds: PoseBounds = field(default_factory=PoseBounds)
+    varied: bool = False
+
+
+_GAITS = ("c-gait", "walk")
+CASES = (
+    *(FastCase(gait) for gait in ("c-gait", "walk", "amble", "s-gait")),
+    *(FastCase(gait, bounds=PoseBounds(stop_bound=bound)) for bound in (1.3, 1.0) for gait in _GAITS),
+    *(FastCase(gait, cycles, varied=cycles == 3) for cycles in (3, 5) for gait in _GAITS),
+    FastCase("c-gait", 1, 0.010, PoseBounds(margin=0.003)),
+    FastCase("walk", 1, 0.010, PoseBounds(margin=0.003)),
+    FastCase("c-gait", 1, 0.010, PoseBounds(margin=0.001, clearance=0.0015, stop_bound=2.5)),
+    FastCase("walk", 1, 0.010, PoseBounds(margin=0.001, clearance=0.0015, stop_bound=2.5)),
+)
+"""Every walk that is measured, the mid-walk ones first."""
+
+
+def bench_fastest(cases: tuple[FastCase, ...] = CASES, variations: int = VARIATIONS) -> list[Row]:
+    """Finds each walk, lets the emulated board time it, and walks it in physics.
+
+    Args:
+        cases: the walks.
+        variations: seeded variations of the parameters that those marked for them run under.
+    """
+    return [_row(case, solve_poses(_problem(case)), variations) for case in cases]
+
+
+def _problem(case: FastCase) -> PoseProblem:
+    gait = library()[case.gait].gait
+    heading = heading_angle(gait.orientation)
+    model = load_robot(gait.robot)
+    return PoseProblem(model, gait.order, heading, case.step, cycles=case.cycles, bounds=case.bounds)
+
+
+def _row(case: FastCase, result: PoseResult, variations: int) -> Row:
+    bounds = case.bounds
+    row: Row = {
+        "gait": case.gait,
+        "order": "-".join(map(str, library()[case.gait].gait.order)),
+        "cycles": "mid-walk" if case.cycles is None else str(case.cycles),
+        "margin_mm": bounds.margin * MM,
+        "clearance_mm": bounds.clearance * MM,
+        "stop_bound_s": bounds.stop_bound,
+        "status": result.status.value,
+        "solve_s": round(result.solve_seconds, 2),
+    }
+    gait = result.gait
+    if gait is None:
+        return row
+    row |= {
+        "moves": gait.problem.move_count,
+        "way_mm": round(gait.distance * MM, 1),
+        "law_s": round(gait.seconds, 2),
+        "law_mm_s": round(gait.speed * MM_S, 2),
+    }
+    for profile in ProfileName:
+        row[f"{profile.value}_s"] = round(board_seconds(gait, profile), 2)
+    row["board_mm_s"] = round(gait.distance / row["published_s"] * MM_S, 2)
+    return row | _physics(gait, variations if case.varied else 0)
+
+
+def board_seconds(gait: PoseGait, profile: ProfileName) -> float:
+    """Seconds that the emulated board takes: of a cycle in mid-walk the mean of four, else of all cycles."""
+    if gait.problem.cycles is not None:
+        return float(timed_moves(profile, gait.strokes).seconds.sum())
+    moves = gait.problem.move_count
+    strokes = np.concatenate([gait.strokes[:1], *[gait.strokes[1:]] * (BOARD_CYCLES + 1)])
+    return float(timed_moves(profile, strokes).seconds[moves:].sum() / BOARD_CYCLES)
+
+
+def _physics(gait: PoseGait, variations: int) -> Row:
+    problem = simulation_of(gait)
+    figures = report(problem, simulate(problem))
+    row: Row = {
+        "physics_way_%": round(100.0 * figures.distance / figures.planned_distance, 1),
+        "physics_heading_deg": round(float(np.degrees(figures.heading)), 2),
+        "physics_tilt_deg": round(float(np.degrees(figures.max_tilt)), 2),
+        "physics_swing_load": round(float(figures.swing_load.max()), 3),
+        "slip_in_a_move_mm": round(float(figures.slip_samples.max()) * MM, 2),
+        "physics_fell": figures.fell,
+    }
+    if variations:
+        runs = simulate_variations(problem, variations)
+        row["variations"] = f"{sum(run.walks for run in runs)} of {variations} walk"
+    return row
+
+
+def simulation_of(gait: PoseGait) -> SimulationProblem:
+    """What physics is asked of a gait: of one in mid-walk, two cycles."""
+    times = PHYSICS_CYCLES if gait.problem.cycles is None else 1
+    trajectory, waypoints = repeated(gait, times)
+    model = gait.problem.model
+    way = plan_of_knots(model, trajectory, waypoints)
+    return way_problem(model, trajectory, way, default_physics(model))
+
+
+def repeated(gait: PoseGait, times: int) -> tuple[Trajectory, Waypoints]:
+    """A gait in mid-walk run through several times: its motion, and its waypoints."""
+    motion = gait.trajectory
+    travel = gait.bodies[-1] - gait.bodies[0]
+
+    def joined(rows: Floats, offset: Floats | float = 0.0) -> Floats:
+        parts = [rows[1:] + number * offset for number in range(times)]
+        return np.concatenate([rows[:1], *parts])
+
+    strokes = joined(gait.strokes)
+    seconds = np.append(gait.waypoints.durations[:1], np.tile(gait.waypoints.durations[1:], times))
+    trajectory = Trajectory(
+        joined(motion.times, float(motion.times[-1])),
+        joined(motion.body_world, travel),
+        joined(motion.heading, float(motion.heading[-1] - motion.heading[0])),
+        joined(motion.feet_world, travel),
+        np.concatenate([motion.contact[:1], *[motion.contact[1:]] * times]),
+    )
+    return trajectory, Waypoints(strokes, seconds)

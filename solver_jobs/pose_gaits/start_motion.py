@@ -1,0 +1,64 @@
+"""Where the search for a pose gait starts, in mm."""
+
+import numpy as np
+
+from core.arrays import Floats
+from core.pose_gaits.pose_problem import PoseProblem
+
+MM = 1000.0
+START_HEIGHT = 56.0
+"""Actuator plane at the start of the search, mm."""
+
+
+class StartMotion:
+    """Where the search starts: the body goes on evenly, each foot in its own moves, about its home.
+
+    Args:
+        problem: what is asked.
+        step: travel a cycle, mm.
+    """
+
+    def __init__(self, problem: PoseProblem, step: float) -> None:
+        self._problem = problem
+        self._homes = problem.model.module_centres_robot[:, :2] * MM
+        self._travel = step * problem.all_cycles
+        self._turn = problem.turn * problem.all_cycles
+        done = np.vstack([np.zeros(problem.model.leg_count), np.cumsum(problem.moving, axis=0)])
+        self._progress = done / np.maximum(done[-1], 1)
+        self._shares = np.linspace(0.0, 1.0, problem.move_count + 1)
+        self._offset = (
+            self._progress.mean(axis=0) - 0.5 if problem.cycles is None else np.zeros(len(self._homes))
+        )
+        poses = range(problem.move_count + 1)
+        self.bodies = np.array([self._body(self._shares[pose]) for pose in poses])
+        self.headings = [self._turn * self._shares[pose] for pose in poses]
+        self.feet = [self._feet(self._progress[pose], problem.floor[pose]) for pose in poses]
+
+    def _along(self, share: float) -> Floats:
+        angle = self._problem.heading + self._turn * share / 2
+        return np.asarray(self._travel * share * np.array([np.cos(angle), np.sin(angle)]))
+
+    def _body(self, share: float) -> Floats:
+        return np.append(self._along(share), START_HEIGHT)
+
+    def _feet(self, progress: Floats, heights: Floats) -> Floats:
+        """(legs, 3) mm."""
+        shares = progress - self._offset
+        return np.array(
+            [
+                [*(rotation_about_z(self._turn * share) @ home + self._along(share)), height * MM]
+                for share, home, height in zip(shares, self._homes, heights, strict=True)
+            ]
+        )
+
+    def within(self, move: int, share: float) -> tuple[Floats, Floats, float]:
+        """Body, feet and heading at a share of a move, mm and rad."""
+        place = (1 - share) * self._shares[move] + share * self._shares[move + 1]
+        progress = (1 - share) * self._progress[move] + share * self._progress[move + 1]
+        heights = (1 - share) * self._problem.floor[move] + share * self._problem.floor[move + 1]
+        return self._body(place), self._feet(progress, heights), float(self._turn * place)
+
+
+def rotation_about_z(angle: float) -> Floats:
+    """(2, 2) turn of horizontal vectors."""
+    return np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])

@@ -1,0 +1,40 @@
+"""The benchmark of the fastest walks: a row has board and physics, and a mid-walk cycle repeats itself."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from app.bench.physics.fastest import FastCase, bench_fastest, repeated
+from core.pose_gaits.pose_problem import PoseProblem
+from core.robot.model import load_robot
+from solver_jobs import solve_poses
+
+pytestmark = [pytest.mark.heavy, pytest.mark.alone]
+
+
+def test_a_row_in_mid_walk_and_one_from_rest() -> None:
+    cases = (FastCase("c-gait"), FastCase("c-gait", 1, 0.010, varied=True))
+    middle, rest = bench_fastest(cases, variations=2)
+    assert (middle["status"], middle["cycles"], middle["moves"]) == ("solved", "mid-walk", 8)
+    assert middle["board_mm_s"] == pytest.approx(middle["law_mm_s"], rel=0.06)
+    assert middle["board_mm_s"] >= 2.9
+    assert middle["physics_way_%"] > 97.0
+    assert middle["nominal_s"] < middle["published_s"] < middle["slow_s"]
+    assert rest["way_mm"] == pytest.approx(10.0)
+    assert rest["variations"] == "2 of 2 walk"
+
+
+def test_a_case_without_a_walk_has_its_status_alone() -> None:
+    (row,) = bench_fastest((FastCase("c-gait", step=0.15),))
+    assert row["status"] == "infeasible"
+    assert "law_s" not in row
+
+
+def test_a_cycle_that_is_repeated_goes_on_where_it_ended() -> None:
+    gait = solve_poses(PoseProblem(load_robot("deltawalker"), (1, 2, 3, 4), 0.0, step=0.02)).gait
+    assert gait is not None
+    trajectory, waypoints = repeated(gait, 3)
+    assert waypoints.count == 3 * gait.problem.move_count + 1
+    assert trajectory.body_world[-1, 0] - trajectory.body_world[0, 0] == pytest.approx(0.06)
+    assert np.abs(trajectory.strokes(gait.problem.model) - waypoints.strokes).max() < 1e-6

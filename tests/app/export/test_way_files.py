@@ -1,0 +1,78 @@
+"""Waypoint files with companions: robots of any number of legs, and companions that do not fit."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.export.trajectory_files import companion_path
+from app.export.way_files import is_way_file, read_way_file
+from app.store.gait_files import write_atomically
+from core.errors import InputError
+from core.motion.trajectory import Trajectory
+from core.problem.motion_problem import standing_pose
+from core.robot.model import load_robot
+from core.wire.waypoint_companion import WaypointCompanion, format_waypoint_companion
+from core.wire.waypoints import Waypoints, format_waypoint_csv
+
+
+def written(folder: Path, robot: str) -> Path:
+    """A file of a robot that rises by 2 mm, with its companion."""
+    model = load_robot(robot)
+    low, high = (standing_pose(model, height, (0.0, 0.0)) for height in (0.0535, 0.0555))
+    motion = Trajectory(
+        np.array([0.0, 1.0]),
+        np.array([low.body_world, high.body_world]),
+        np.zeros(2),
+        np.array([low.feet_world, high.feet_world]),
+        np.ones((2, model.leg_count), dtype=np.bool_),
+    )
+    text = format_waypoint_csv(Waypoints(motion.strokes(model), np.array([1.0, 1.0])))
+    path = folder / "way.csv"
+    write_atomically(path, text)
+    companion = WaypointCompanion(robot, 1.5, {"made": "test"}, motion)
+    write_atomically(companion_path(path), format_waypoint_companion(companion, text))
+    return path
+
+
+@pytest.mark.parametrize("robot", ["deltawalker", "hexapod", "dodecapod"])
+def test_robot_and_motion_come_from_the_companion(robot: str, tmp_path: Path) -> None:
+    path = written(tmp_path, robot)
+    assert is_way_file(path)
+    way = read_way_file(path)
+    assert way.model.name == robot
+    assert way.motion is not None
+    assert np.allclose(way.motion.strokes(way.model), way.waypoints.strokes, atol=1e-6)
+    companion_path(path).unlink()
+    assert read_way_file(path, robot).motion is None
+
+
+def test_a_file_of_another_number_of_feet_names_the_remedy(tmp_path: Path) -> None:
+    path = written(tmp_path, "hexapod")
+    companion_path(path).unlink()
+    with pytest.raises(InputError, match=r"strokes of 6 feet; .* has 4. Name its robot with --robot"):
+        read_way_file(path)
+
+
+def test_a_companion_that_does_not_fit_is_left_aside_or_refused(tmp_path: Path) -> None:
+    path = written(tmp_path, "deltawalker")
+    beside = companion_path(path)
+    content = json.loads(beside.read_text())
+    for text, words in (("{", "no JSON"), (json.dumps({**content, "version": 2}), "unknown format")):
+        beside.write_text(text)
+        way = read_way_file(path)
+        assert way.motion is None
+        assert words in way.assumptions[0]
+    beside.write_text(json.dumps({**content, "csv_sha256": "0"}))
+    assert "another version" in read_way_file(path).assumptions[0]
+    beside.write_text(json.dumps({**content, "motion": {"times": [0]}}))
+    with pytest.raises(InputError, match="damaged"):
+        read_way_file(path)
+    feet = np.array(content["motion"]["feet"])
+    feet[1, 0, 0] += 0.001
+    beside.write_text(json.dumps({**content, "motion": {**content["motion"], "feet": feet.tolist()}}))
+    with pytest.raises(InputError, match="differ by"):
+        read_way_file(path)

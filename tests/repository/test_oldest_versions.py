@@ -88,14 +88,13 @@ def python(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
 
 
 @pytest.mark.heavy
-@pytest.mark.alone
+@pytest.mark.soak
 def test_every_module_loads_with_the_oldest_versions(python: Path) -> None:
     loaded = run(python, "-c", LOAD_ALL, seconds=TEST_SECONDS)
     assert loaded.returncode == 0, loaded.stderr[-4000:]
 
 
-@pytest.mark.heavy
-@pytest.mark.alone
+@pytest.mark.soak
 def test_what_rests_on_each_package_works_with_its_oldest_version(python: Path) -> None:
     files = [file for tests in SEAMS.values() for file in tests]
     quietly = ("-q", "--tb=short", "-p", "no:cacheprovider", "-m", "not heavy and not soak and not property")

@@ -22,7 +22,7 @@ from core.problem.motion_problem import Workspace
 from core.robot.model import load_robot
 from tests.support.command import run, run_json
 
-pytestmark = [pytest.mark.heavy, pytest.mark.alone]
+pytestmark = pytest.mark.heavy
 
 
 def case(name: str, workspace: str = "stroke", closing: int = 5) -> Case:

@@ -10,7 +10,7 @@ from core.pose_gaits.pose_problem import PoseProblem
 from core.robot.model import load_robot
 from solver_jobs import solve_poses
 
-pytestmark = [pytest.mark.heavy, pytest.mark.alone]
+pytestmark = pytest.mark.heavy
 
 
 def test_a_row_in_mid_walk_and_one_from_rest() -> None:
@@ -23,12 +23,6 @@ def test_a_row_in_mid_walk_and_one_from_rest() -> None:
     assert middle["nominal_s"] < middle["published_s"] < middle["slow_s"]
     assert rest["way_mm"] == pytest.approx(10.0)
     assert rest["variations"] == "2 of 2 walk"
-
-
-def test_a_case_without_a_walk_has_its_status_alone() -> None:
-    (row,) = bench_fastest((FastCase("c-gait", step=0.15),))
-    assert row["status"] == "infeasible"
-    assert "law_s" not in row
 
 
 def test_a_cycle_that_is_repeated_goes_on_where_it_ended() -> None:

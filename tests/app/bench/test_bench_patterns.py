@@ -13,7 +13,7 @@ from app.bench.patterns.search import bench_patterns
 from core.patterns.problem import FREE, PatternProblem, PatternResult
 from solver_jobs import PatternSolver
 
-pytestmark = [pytest.mark.heavy, pytest.mark.alone]
+pytestmark = pytest.mark.heavy
 
 
 def test_every_size_and_kind_is_measured(monkeypatch: pytest.MonkeyPatch) -> None:

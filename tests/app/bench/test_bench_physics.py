@@ -22,7 +22,7 @@ from core.physics.parameters import physics_set
 from core.physics.problem import SimulationProblem
 from tests.support.simulated_walk import BEHIND, followed
 
-pytestmark = [pytest.mark.heavy, pytest.mark.alone]
+pytestmark = pytest.mark.heavy
 
 
 @pytest.fixture(autouse=True)

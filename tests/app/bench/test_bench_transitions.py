@@ -19,7 +19,7 @@ from app.bench.patterns.transitions import (
 from core.library.library import library
 from core.patterns.problem import FREE
 
-pytestmark = [pytest.mark.heavy, pytest.mark.alone]
+pytestmark = pytest.mark.heavy
 
 
 @pytest.fixture(scope="module")

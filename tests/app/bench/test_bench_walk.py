@@ -10,7 +10,7 @@ from app.bench.common.measure import Row
 from app.bench.robot.walk import PUBLISHED, bench_walk
 from core.wire.robot_time import OVERRUN
 
-pytestmark = [pytest.mark.heavy, pytest.mark.alone]
+pytestmark = pytest.mark.heavy
 
 
 @cache

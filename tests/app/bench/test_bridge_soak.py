@@ -14,7 +14,7 @@ from app.emulator.faults import Cable, Delayer, Dropper, Fault, Garbler, Splitte
 from core.wire.lines import Telemetry
 from tests.support.virtual_robot import VirtualRobot, random_plan
 
-pytestmark = [pytest.mark.heavy, pytest.mark.alone]
+pytestmark = pytest.mark.heavy
 
 
 @pytest.mark.parametrize("fault", list(Fault))

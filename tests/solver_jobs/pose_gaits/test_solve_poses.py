@@ -18,6 +18,7 @@ from core.wire.waypoint_merging import plan_of_knots
 from solver_jobs import SolveStatus
 from solver_jobs.pose_gaits.solve import solve_poses
 from solver_jobs.results.pose import PoseProgress, PoseResult
+from tests.support.soak import soaked
 
 WALK, C_GAIT = (3, 2, 4, 1), (1, 2, 3, 4)
 
@@ -115,7 +116,7 @@ def test_a_step_that_is_too_long_is_explained_by_the_longest_that_works() -> Non
     assert "no proof" in result.explanation[-1]
 
 
-@pytest.mark.heavy
+@pytest.mark.soak
 def test_a_margin_that_is_too_wide_is_explained_by_the_widest_that_works() -> None:
     result = solved(bounds=PoseBounds(margin=0.025))
     assert result.status is SolveStatus.INFEASIBLE
@@ -141,10 +142,11 @@ def test_a_robot_with_six_legs_walks_too() -> None:
 
 
 @pytest.mark.heavy
+@pytest.mark.soak
 def test_what_is_called_solved_is_confirmed_whatever_is_asked() -> None:
     random = np.random.default_rng(20261123)
     statuses = []
-    for _ in range(12):
+    for _ in range(soaked(40)):
         order = tuple(int(foot) for foot in random.permutation(4) + 1)
         bounds = PoseBounds(
             margin=float(random.uniform(0.0, 0.012)),

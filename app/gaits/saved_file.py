@@ -1,6 +1,7 @@
 """A gait's file beside what the studio saved there last: anybody may have changed it since."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 from app.documents.stored_gait import stored_gait
 from app.gaits.open_gait import gait_text
@@ -78,10 +79,15 @@ class SavedFiles:
 
 
 def _was_broken_off(saved: list[tuple[float, str]], theirs: Gait, written: float) -> bool:
-    """Whether the studio ended between keeping the last saved document and writing it into the file."""
-    if len(saved) < 2 or written > saved[0][0]:
-        return False
-    return gait_text(theirs) == saved[1][1] or theirs == _readable(saved[1][1])
+    """Whether the studio ended between keeping a saved document and writing its file, once or repeatedly.
+
+    The file is then older than the documents that were kept after it, and holds the one before them.
+    """
+    text = gait_text(theirs)
+    return any(
+        written <= newer[0] and (text == older[1] or theirs == _readable(older[1]))
+        for newer, older in pairwise(saved)
+    )
 
 
 def _readable(text: str) -> Gait | None:

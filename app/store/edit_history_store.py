@@ -15,6 +15,9 @@ from core.errors import InputError
 MOST_AUTOMATIC = 200
 """Automatic versions that are kept of a gait; of all others every one is kept."""
 
+MOST_SAVED = 10
+"""Saved documents that a gait's file is compared with."""
+
 _MISSING = "Documents are missing in the history of “{}”."
 
 _VERSION_COLUMNS = "number, made, kind, name, by, position, motion, document"
@@ -122,10 +125,11 @@ class EditHistoryStore:
         return str(document)
 
     def last_saved(self, gait: str) -> list[tuple[float, str]]:
-        """The last two documents that were saved, the newer first: when, s since the epoch, and JSON text."""
+        """The last documents that were saved, the newest first: when, s since the epoch, and JSON text."""
         rows = self._database.rows(
-            "SELECT made, document FROM version WHERE gait=? AND kind='saved' ORDER BY number DESC LIMIT 2",
+            "SELECT made, document FROM version WHERE gait=? AND kind='saved' ORDER BY number DESC LIMIT ?",
             gait,
+            MOST_SAVED,
         )
         return [(made, document) for made, document in rows]
 

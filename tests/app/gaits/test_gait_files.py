@@ -203,17 +203,20 @@ def test_a_file_over_a_gait_of_the_program_is_not_overwritten_unseen(
     assert service.outside("walk") is None
 
 
+@pytest.mark.parametrize("times", [1, 3])
 def test_a_save_that_was_broken_off_before_its_file_was_written_is_no_change_of_others(
-    service: GaitService, data: Path, database: Database
+    times: int, service: GaitService, data: Path, database: Database
 ) -> None:
     made = service.create(named("Mine"))
     path = path_of(data, made.id)
     before = path.read_bytes(), path.stat().st_mtime_ns
-    service.edit(made.id, replace(made.gait, notes="newer"), "Notes", None)
-    service.save(made.id)
-    path.write_bytes(before[0])
-    os.utime(path, ns=(before[1], before[1]))
-    again = restarted(data, database)
+    again = service
+    for notes in ("new", "more", "newer")[-times:]:
+        again.edit(made.id, replace(made.gait, notes=notes), "Notes", None)
+        again.save(made.id)
+        path.write_bytes(before[0])
+        os.utime(path, ns=(before[1], before[1]))
+        again = restarted(data, database)
     assert again.outside(made.id) is None
     assert again.open_gait(made.id).gait.notes == "newer"
     again.save(made.id)

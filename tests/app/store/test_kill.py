@@ -89,6 +89,7 @@ def one_round(worker: subprocess.Popen[str], folder: Path, dice: random.Random, 
     wanted, done, child = dice.randrange(MOST_DEEDS + 1), 0, 0
     while done < wanted or child == 0:
         action, gait, number = next(told)
+        assert action != "ended", "the child ended by itself; its error is on standard error"
         if action == "child":
             child = int(gait)
         else:

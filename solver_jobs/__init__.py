@@ -10,6 +10,7 @@ from core.patterns.problem import PatternProblem, PatternProgress, PatternResult
 from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
 from core.physics.variations import VariedRun
+from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseProblem
 from core.problem.motion_problem import MotionProblem
 from solver_jobs.nlp.timing import TimingResult, fastest_timing
@@ -153,18 +154,21 @@ def shortest_problem(problem: PatternProblem) -> PatternProblem:
 
 
 def solve_poses(
-    problem: PoseProblem, report: Callable[[PoseProgress], bool] = lambda progress: True
+    problem: PoseProblem,
+    report: Callable[[PoseProgress], bool] = lambda progress: True,
+    near: PoseGait | None = None,
 ) -> PoseResult:
     """Looks for the fastest pose gait of a problem in this process (see `solver_jobs.pose_gaits.solve`).
 
     Args:
         problem: what is asked.
         report: told what is known; false ends the search.
+        near: poses to begin with; None for several starts.
     """
     with interrupts_held():
         from solver_jobs.pose_gaits.solve import solve_poses as solve
 
-    return solve(problem, report)
+    return solve(problem, report, near)
 
 
 def simulate(

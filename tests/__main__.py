@@ -54,7 +54,7 @@ SIZES: Mapping[str, Size] = MappingProxyType(
         "--all": Size(
             (
                 (*LANES, "-m", "(heavy or property) and not alone", *_MANY),
-                # What loads the machine by itself, or keeps to the clock as a camera does: a file at a time.
+                # What keeps to the clock as a camera does: a file at a time.
                 ("-m", "alone", *_MANY),
             )
         ),

@@ -1,23 +1,26 @@
 """`fastest`."""
 
+import json
 import sys
 from argparse import Namespace
 from collections.abc import Callable
 from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from app.cli.gait_options import named_gait
 from app.cli.output import INFEASIBLE, NOT_FIT, end_on_signals, note, show
 from app.common.json import Json
+from app.documents.gait_json import gait_content
 from app.export.way_files import write_pose_gait
+from app.store.gait_files import write_atomically
 from core.errors import InputError
-from core.gait.gait import heading_angle
+from core.gait.gait import Gait, heading_step
+from core.gait.poses import Poses
 from core.library.library import Group, library
 from core.library.new_gait import with_robot
+from core.pose_gaits.gait_poses import USUAL_STEP, new_pose_gait, pose_problem, with_poses
 from core.pose_gaits.pose_gait import PoseGait
-from core.pose_gaits.pose_problem import PoseBounds, PoseProblem
+from core.pose_gaits.pose_problem import PoseProblem
 from core.robot.model import load_robot
 from solver_jobs import PoseGaitSolver, PoseProgress, PoseResult, SolveStatus
 
@@ -54,14 +57,22 @@ class FastestWalk:
 def run_fastest(options: Namespace) -> int:
     """Finds the walk with the most millimetres a robot second, and writes its waypoints."""
     end_on_signals()
-    name, problem = fastest_problem(options)
-    if options.output is not None and options.output.suffix != ".csv":
-        raise InputError(f"{options.output} is no waypoint file; end its name in .csv.", "-o")
+    name, document = fastest_document(options)
+    problem = pose_problem(document, load_robot(document.robot))
+    if options.output is not None and options.output.suffix not in (".csv", ".json"):
+        raise InputError(
+            f"{options.output} is neither a waypoint file nor a gait file; end its name in .csv or .json.",
+            "-o",
+        )
     with closing(PoseGaitSolver(niceness=0)) as solver:
         walk = _solved(solver, name, problem)
     written = None
     if options.output is not None and walk.walk.gait is not None and walk.status is SolveStatus.SOLVED:
-        write_pose_gait(options.output, walk.walk.gait, _origin(walk))
+        if options.output.suffix == ".json":
+            content = gait_content(with_poses(document, walk.walk.gait))
+            write_atomically(options.output, json.dumps(content, ensure_ascii=False) + "\n")
+        else:
+            write_pose_gait(options.output, walk.walk.gait, _origin(walk))
         written = str(options.output)
     if not problem.model.wired:
         note(
@@ -71,8 +82,8 @@ def run_fastest(options: Namespace) -> int:
     return {SolveStatus.SOLVED: 0, SolveStatus.INFEASIBLE: INFEASIBLE}.get(walk.status, NOT_FIT)
 
 
-def fastest_problem(options: Namespace) -> tuple[str, PoseProblem]:
-    """The walk that the options ask for, from the standard stance to rest, and the name of its gait.
+def fastest_document(options: Namespace) -> tuple[str, Gait]:
+    """The document of the walk that the options ask for, without poses yet, and the name of its gait.
 
     Raises:
         InputError: there is no such gait, or what is asked does not fit together.
@@ -88,26 +99,18 @@ def fastest_problem(options: Namespace) -> tuple[str, PoseProblem]:
     if options.robot is not None:
         gait = with_robot(gait, load_robot(options.robot), options.order)
     model = load_robot(gait.robot)
-    if model.leg_count == 3:
-        raise InputError("With three legs none can be lifted; choose a robot with at least four.", "--robot")
     order = gait.order if options.order is None else options.order
-    direction = options.direction or gait.direction
-    legs = model.leg_count
-    _require_order(order, legs)
-    return name, PoseProblem(
-        model=model,
-        order=tuple((foot - 1 + (direction - 1) * legs // 4) % legs + 1 for foot in order),
-        heading=heading_angle(gait.orientation) + (direction - 1) * np.pi / 2,
-        step=options.step,
-        cycles=options.cycles,
-        bounds=PoseBounds(
-            margin=options.margin,
-            clearance=options.clearance,
-            slip=options.slip,
-            shoe_distance=options.shoe_distance,
-            stop_bound=options.stop_bound,
-        ),
-    )
+    _require_order(order, model.leg_count)
+    step = USUAL_STEP if options.step is None else options.step
+    asked = replace(
+        gait,
+        order=order,
+        direction=options.direction or gait.direction,
+        step=heading_step(gait.orientation, step),
+        iterations=options.cycles,
+    ).with_options(margin=options.margin, clearance=options.clearance, stop_bound=options.stop_bound)
+    poses = Poses(options.step is None, options.slip, options.shoe_distance, options.arm_distance)
+    return name, new_pose_gait(f"{gait.name}, fastest", asked, poses, model)
 
 
 def _require_order(order: tuple[int, ...], legs: int) -> None:
@@ -180,6 +183,7 @@ def _content(walk: FastestWalk, problem: PoseProblem, written: str | None) -> Js
         "total_speed": None if whole is None else whole.speed,
         "margin": min(check.figures.margin for check in checks) if solved else None,
         "shoe_distance": min(check.figures.shoe_distance for check in checks) if solved else None,
+        "arm_distance": min(check.figures.arm_distance for check in checks) if solved else None,
         "stop_seconds": max(check.figures.stop_seconds for check in checks) if solved else None,
         "solve_seconds": walk.cycle.solve_seconds + (0.0 if whole is None else walk.walk.solve_seconds),
         "explanation": list(walk.explanation),
@@ -199,7 +203,8 @@ def _lines(walk: FastestWalk, written: str | None) -> list[str]:
         f"{'cycle' if whole.problem.all_cycles == 1 else 'cycles'}: {whole.distance * 1000:.1f} mm in "
         f"{whole.seconds:.1f} s, {whole.speed * 1000:.2f} mm/s.",
         f"Checked along every move: margin {check.figures.margin * 1000:.1f} mm, feet at least "
-        f"{check.figures.shoe_distance * 1000:.1f} mm apart, standing feet within "
+        f"{check.figures.shoe_distance * 1000:.1f} mm and arms "
+        f"{check.figures.arm_distance * 1000:.1f} mm apart, standing feet within "
         f"{check.figures.slip * 1000:.2f} mm; Stop takes effect within {check.figures.stop_seconds:.1f} s.",
     ]
     return lines if written is None else [*lines, f"Wrote {written}."]
@@ -222,4 +227,5 @@ def origin_of(gait: PoseGait) -> Json:
         "clearance": bounds.clearance,
         "slip": bounds.slip,
         "shoe_distance": bounds.shoe_distance,
+        "arm_distance": bounds.arm_distance,
     }

@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 
 from app.cli.commands_gait import optimise
+from app.cli.commands_plan import poses_of
 from app.cli.gait_options import Method
 from app.cli.output import end_on_signals, note, show, write
 from app.documents.gait_json import gait_content, parse_gait
@@ -21,6 +22,7 @@ from app.store.gait_files import GaitFiles, default_data_folder, write_atomicall
 from core.errors import InputError
 from core.gait.gait import Gait
 from core.library.library import library
+from core.pose_gaits.gait_poses import with_poses
 from core.recorded.recorded_gait import DescribedGait
 from solver_jobs import SolveStatus, solve_live
 
@@ -104,7 +106,9 @@ def _planned(stem: str, gait: Gait, method: Method) -> Exportable:
 
 def _plan(gait: Gait, method: Method) -> Plan:
     result = None
-    if gait.segment_table is None and gait.recorded is None and method is Method.NLP:
+    if gait.poses is not None:
+        gait = with_poses(gait, poses_of(gait))
+    elif gait.segment_table is None and gait.recorded is None and method is Method.NLP:
         verified = optimise(gait)
         if verified.status is SolveStatus.SOLVED:
             result = {**verified.content, "trajectory": trajectory_content(verified.trajectory)}

@@ -10,16 +10,19 @@ from pathlib import Path
 from app.cli.gait_options import SOLVERS, Method, asked_gait
 from app.cli.output import end_on_signals, note, show
 from app.common.json import Json
-from app.documents.gait_json import gait_schema
+from app.documents.gait_json import gait_schema, sent_hash
 from app.export.trajectory_files import write_trajectory
+from app.gaits.views import times_view
 from app.plans.verified_result import VerifiedResult, verify
 from app.store.gait_files import GaitFiles, default_data_folder
+from app.store.times_store import read_times
 from core.errors import InputError
 from core.gait.gait import Gait, heading_step, motion_problem
 from core.gait.manual_motion import manual_motion
 from core.gait.motion_source import motion_source
 from core.library.library import library, manual_entry
 from core.library.new_gait import with_robot
+from core.library.robot_times import RobotTimes, library_times
 from core.robot.model import load_robot
 from solver_jobs import SolveStatus
 
@@ -40,12 +43,17 @@ def run_gaits(options: Namespace) -> int:
         schema = gait_schema()
         show(options, schema, [json.dumps(schema, indent=2, ensure_ascii=False)])
         return 0
+    data: Path = options.data or default_data_folder()
     content = [
-        _listed(entry.id, entry.gait, "built-in") | {"group": entry.group.value}
+        _listed(entry.id, entry.gait, "built-in", library_times().get(entry.id), entry.group.value)
         for entry in library().values()
     ]
-    saved = _saved(options.data or default_data_folder())
-    content += [_listed(gait_id, gait, "saved") | {"group": SAVED_GROUP} for gait_id, gait in saved]
+    known = read_times(data)
+    for gait_id, gait in _saved(data):
+        sent, times = known.get(gait_id, (None, None))
+        content.append(
+            _listed(gait_id, gait, "saved", times if sent == sent_hash(gait) else None, SAVED_GROUP)
+        )
     lines: list[str] = []
     for group, listed in groupby(content, key=itemgetter("group")):
         lines += [f"{group}:", *(_line(gait) for gait in listed)]
@@ -53,7 +61,7 @@ def run_gaits(options: Namespace) -> int:
     return 0
 
 
-def _listed(gait_id: str, gait: Gait, kind: str) -> Json:
+def _listed(gait_id: str, gait: Gait, kind: str, times: RobotTimes | None, group: str) -> Json:
     return {
         "id": gait_id,
         "name": gait.name,
@@ -62,14 +70,19 @@ def _listed(gait_id: str, gait: Gait, kind: str) -> Json:
         "order": list(gait.order),
         "kind": kind,
         "made": motion_source(gait).value,
+        **times_view(times),
+        "group": group,
     }
 
 
 def _line(listed: Json) -> str:
     order = "-".join(map(str, listed["order"]))
+    seconds, speed = listed["robot_seconds"], listed["speed"]
+    lasts = "" if seconds is None else f"{seconds:.1f} s"
+    goes = f"{speed * 1000:.2f} mm/s" if speed else ""
     return (
         f"  {listed['id']:<18} {listed['name']:<28} {listed['robot']:<12} {listed['orientation']:<4} "
-        f"{listed['made']:<10} {listed['kind']:<9} {order}"
+        f"{listed['made']:<10} {listed['kind']:<9} {lasts:>8} {goes:>10}  {order}"
     )
 
 

@@ -21,12 +21,15 @@ from core.gait.manual_motion import manual_motion
 from core.library.new_gait import with_robot
 from core.library.sequence import chain_runs, part_name, require_own, run_of
 from core.motion.trajectory import Trajectory
+from core.pose_gaits.gait_poses import found_gait, pose_problem
+from core.pose_gaits.pose_check import check_poses
+from core.pose_gaits.pose_gait import PoseGait
 from core.recorded.recorded_motion import gait_trajectory
 from core.robot.model import RobotModel, load_robot
 from core.wire.robot_time import estimate_seconds, stop_time
 from core.wire.waypoint_merging import plan_of_knots, plan_waypoints
 from core.wire.waypoints import format_waypoint_csv
-from solver_jobs import SolveStatus, solve_live
+from solver_jobs import SolveStatus, solve_live, solve_poses
 
 ROBOT = "deltawalker"
 
@@ -97,8 +100,13 @@ def _verdict(model: RobotModel, trajectory: Trajectory, gait: Gait | None) -> Ve
     if gait is None:
         way = plan_waypoints(model, trajectory)
         return check_plan(CheckedPlan(model, trajectory, way.waypoints, way=way))
-    way = plan_waypoints(model, trajectory, gait.options.merge, gait.options.stop_bound)
+    way = plan_waypoints(model, trajectory, *sending_of(gait))
     return check_plan(checked_plan(gait, model, trajectory, way))
+
+
+def sending_of(gait: Gait) -> tuple[float, float | None]:
+    """Tolerance, m, and stop bound, s, by which waypoints are merged and cut; poses stay as they are."""
+    return (0.0, None) if gait.poses is not None else (gait.options.merge, gait.options.stop_bound)
 
 
 def trajectory_of(gait: Gait) -> Trajectory:
@@ -114,6 +122,8 @@ def trajectory_of(gait: Gait) -> Trajectory:
         whole = chain_runs(gait, load_robot(gait.robot), motions, partial(steps_between, solve_live))
         require_own(gait, whole)
         return whole.trajectory
+    if gait.poses is not None:
+        return poses_of(gait).trajectory
     if gait.recorded is not None:
         return gait_trajectory(gait, gait.recorded, load_robot(gait.robot))
     if gait.segment_table is not None:
@@ -125,6 +135,26 @@ def trajectory_of(gait: Gait) -> Trajectory:
     if verified.status is SolveStatus.INFEASIBLE:
         raise InfeasibleError(sentence, gait.name)
     raise CheckError(sentence, gait.name)
+
+
+def poses_of(gait: Gait) -> PoseGait:
+    """The poses that the document has for what it asks; where it has none they are looked for now.
+
+    Raises:
+        InfeasibleError: none were found.
+        CheckError: the search gave no poses that the checker confirms.
+    """
+    model = load_robot(gait.robot)
+    found = found_gait(gait, model)
+    if found is not None and check_poses(found).confirmed:
+        return found
+    note(f"The poses of “{gait.name}” were found for something else; they are looked for anew.")
+    result = solve_poses(pose_problem(gait, model))
+    if result.gait is not None:
+        return result.gait
+    sentence = " ".join(result.explanation)
+    kind = InfeasibleError if result.status is SolveStatus.INFEASIBLE else CheckError
+    raise kind(sentence, gait.name)
 
 
 def _part_trajectory(index: int, part: SequencePart) -> Trajectory:

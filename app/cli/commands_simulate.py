@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from app.cli.commands_plan import ROBOT, trajectory_of
+from app.cli.commands_plan import ROBOT, sending_of, trajectory_of
 from app.cli.output import NOT_FIT, Interrupted, end_on_signals, note, show, tally
 from app.documents.gait_json import parse_gait
 from app.export.trajectory_files import read_text, read_trajectory
@@ -81,7 +81,7 @@ def _simulated(problem: SimulationProblem) -> SimulatedMotion:
 
 def _problem(options: Namespace) -> SimulationProblem:
     model, trajectory, gait = _input(options)
-    merge, bound = (0.0, None) if gait is None else (gait.options.merge, gait.options.stop_bound)
+    merge, bound = (0.0, None) if gait is None else sending_of(gait)
     merge = merge if options.merge is None else options.merge
     bound = bound if options.stop_bound is None else options.stop_bound
     way = plan_waypoints(model, trajectory, merge, bound)

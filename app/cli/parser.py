@@ -242,7 +242,7 @@ def _fastest_options(parser: argparse.ArgumentParser) -> None:
         add(option, type=number(least, most, unit), default=getattr(bounds, name), metavar=factor, help=words)
     add("--direction", type=whole(1, 4), default=None, help="1 to 4 (default the gait's own)")
     add_robot(parser, "default the gait's own; with other legs in one of its orders")
-    add("-o", "--output", type=Path, default=None, help="waypoint CSV to write, with a companion")
+    add("-o", "--output", type=Path, default=None, help="WAY.csv with a companion, or GAIT.json")
 
 
 _POSE_LIMITS = {
@@ -251,6 +251,7 @@ _POSE_LIMITS = {
     "stop_bound": ("S", "s", "s for which the robot hears no Stop at most"),
     "slip": ("M", "m", "m that a standing foot may leave its foothold within a move"),
     "shoe_distance": ("M", "m", "m between the middles of two feet at least"),
+    "arm_distance": ("M", "m", "m between the arms of neighbouring legs at least; 0 where they may touch"),
 }
 """Limits of a pose gait: how each is written, its unit, and what it means."""
 

@@ -13,6 +13,7 @@ from app.common.json import Json
 from app.documents.gait_schema import (
     GaitDocument,
     OptionsModel,
+    PosesModel,
     ProvenanceModel,
     RecordingModel,
     SegmentTableModel,
@@ -24,6 +25,7 @@ from core.errors import InputError
 from core.gait.gait import Gait, SequencePart
 from core.gait.held_feet import HeldFeet
 from core.gait.options import GaitOptions
+from core.gait.poses import POSE_LIMITS, FoundPoses, Poses
 from core.gait.provenance import Provenance
 from core.gait.recording import Recording
 from core.motion.contact_timeline import ContactTimeline, bits_from_rows, rows_from_bits
@@ -127,6 +129,7 @@ def _to_gait(document: SingleGaitModel, parts: tuple[SequencePart, ...] = ()) ->
         provenance=None if document.provenance is None else Provenance(**document.provenance.model_dump()),
         sequence=parts,
         held=HeldFeet(tuple(document.held.start), tuple(document.held.end)),
+        poses=_to_poses(document.poses, feet),
     )
 
 
@@ -151,6 +154,16 @@ def _to_table(model: SegmentTableModel | None, robot: RobotModel) -> SegmentTabl
     vocabulary = SegmentVocabulary(model.definitions.xy, model.definitions.z, segments)
     rows, link = (tuple(tuple(row) for row in rows) for rows in (model.feet, model.link))
     return SegmentTable(rows, model.samples_per_segment, model.repeat_from, vocabulary, model.repeat_to, link)
+
+
+def _to_poses(model: PosesModel | None, feet: int) -> Poses | None:
+    if model is None:
+        return None
+    found = model.found
+    if found is not None and any(len(pose) != feet for pose in found.feet):
+        raise InputError(f"poses.found.feet needs {feet} feet at each pose.", "poses.found.feet")
+    kept = None if found is None else FoundPoses(**found.model_dump())
+    return Poses(model.free_step, model.slip, model.shoe_distance, model.arm_distance, kept)
 
 
 def _to_recording(model: RecordingModel | None) -> Recording | None:
@@ -195,12 +208,30 @@ def gait_content(gait: Gait) -> Json:
     }
     if gait.held.any:
         content["held"] = {"start": list(gait.held.start), "end": list(gait.held.end)}
+    if gait.poses is not None:
+        content["poses"] = _poses_content(gait.poses)
     if gait.sequence:
         content["sequence"] = [
             {"gait": gait_content(part.gait), "times": part.times, "source": part.source}
             for part in gait.sequence
         ]
     return content
+
+
+def _poses_content(poses: Poses) -> Json:
+    found = poses.found
+    content = {name: getattr(poses, name) for name in ("free_step", *POSE_LIMITS)}
+    return content | {"found": None if found is None else found_content(found)}
+
+
+def found_content(found: FoundPoses) -> Json:
+    """Poses that were found, as JSON content."""
+    return {
+        "answers": found.answers,
+        "step": found.step,
+        "bodies": found.bodies.tolist(),
+        "feet": found.feet.tolist(),
+    }
 
 
 def _recording_content(recording: Recording) -> Json:
@@ -241,16 +272,29 @@ _SENDING = ("merge", "stop_bound")
 def motion_hash(gait: Gait) -> str:
     """SHA-256 of everything in the document that a motion depends on: all but name, notes and provenance."""
     content = {key: value for key, value in gait_content(gait).items() if key not in _WORDS_ALONE}
-    content["options"] = {key: value for key, value in content["options"].items() if key not in _SENDING}
+    if gait.poses is None:  # poses are made for a stop bound
+        content["options"] = {key: value for key, value in content["options"].items() if key not in _SENDING}
     # A gait without a recorded motion keeps the hash under which earlier results of it are kept.
     recording = content.pop("recorded")
     if gait.recorded is not None:
         content["recorded"] = {"form": recording["form"], "sha256": recording["sha256"]}
         content["recorded"]["companion"] = gait.recorded.companion_sha256
+    if gait.poses is not None:
+        content = _asked_poses(content, gait.poses)
     if gait.sequence:
         parts = [{"motion": motion_hash(part.gait), "times": part.times} for part in gait.sequence]
         content["sequence"] = parts
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+
+def _asked_poses(content: Json, poses: Poses) -> Json:
+    """What a gait with poses asks; the poses that were found, a free step and the timeline follow from it."""
+    asked = {key: value for key, value in content.items() if key != "timeline"}
+    asked["poses"] = {key: value for key, value in content["poses"].items() if key != "found"}
+    if poses.free_step:
+        length = float(np.hypot(*content["step"][:2])) or 1.0
+        asked["step"] = [round(value / length, 9) for value in content["step"]]
+    return asked
 
 
 def sent_hash(gait: Gait) -> str:

@@ -6,6 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from core.gait.gait import Orientation
 from core.gait.options import OPTION_BOUNDS, GaitOptions
+from core.gait.poses import POSE_LIMITS, Poses
 from core.gait.recording import RecordingForm
 from core.motion.heading_profile import HeadingProfile
 from core.problem.motion_problem import Boundary, Cost, Workspace
@@ -24,6 +25,13 @@ def _option(name: str, description: str) -> Any:
     return Field(description=description, default=getattr(GaitOptions, name), json_schema_extra=limits)
 
 
+def _pose_limit(name: str, description: str) -> Any:
+    """A limit that only gaits with poses have, with its default and its bounds."""
+    least, most = POSE_LIMITS[name]
+    limits: dict[str, Any] = {"minimum": least, "maximum": most}
+    return Field(description=description, default=getattr(Poses, name), json_schema_extra=limits)
+
+
 def _title(name: str, info: object) -> str:
     del info
     return name.replace("_", " ").capitalize()
@@ -31,6 +39,10 @@ def _title(name: str, info: object) -> str:
 
 class _Model(BaseModel):
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False, field_title_generator=_title)
+
+
+Metres = Annotated[float, Field(description="m")]
+Radians = Annotated[float, Field(description="rad")]
 
 
 class TimelineModel(_Model):
@@ -119,6 +131,29 @@ class RecordingModel(_Model):
     assumed: list[str] = _field("what reading the file assumed, a sentence each", default_factory=list)
 
 
+class FoundPosesModel(_Model):
+    """Poses as a solver has found them; the motors go straight from one to the next."""
+
+    answers: str = _field("SHA-256 of what was asked; poses for anything else are solved again")
+    step: float = _field("travel of the body a cycle, m")
+    bodies: list[tuple[Metres, Metres, Metres]] = _field(
+        "point of the body axis in the actuator plane at each pose, m; z above the standing feet's platforms"
+    )
+    feet: list[list[tuple[Metres, Metres, Metres]]] = _field("platform centre of each foot at each pose, m")
+
+
+class PosesModel(_Model):
+    """What a gait for the robot's clock asks beside options, order, step and iterations."""
+
+    free_step: bool = _field("whether the step is that of the fastest walk", default=Poses.free_step)
+    slip: float = _pose_limit("slip", "how far a standing foot may be off its foothold within a move, m")
+    shoe_distance: float = _pose_limit("shoe_distance", "least distance between the middles of two feet, m")
+    arm_distance: float = _pose_limit(
+        "arm_distance", "least room between the arms of neighbouring legs, m; 0: they may touch"
+    )
+    found: FoundPosesModel | None = _field("the poses; null: none were found yet", default=None)
+
+
 class ProvenanceModel(_Model):
     """Where the last computed result came from; it is of this document while `motion` matches it."""
 
@@ -130,10 +165,6 @@ class ProvenanceModel(_Model):
     seconds: float = _field("time in the solver, s")
     made: str = _field("when, ISO 8601 with its offset from UTC")
     program: str = _field("version of the program")
-
-
-Metres = Annotated[float, Field(description="m")]
-Radians = Annotated[float, Field(description="rad")]
 
 
 class SingleGaitModel(_Model):
@@ -168,6 +199,10 @@ class SingleGaitModel(_Model):
         "feet that rest in the air at an end, under their module, as high as swings rise and at least 3 mm; "
         "every other foot stands there. Left out where none is",
         default_factory=HeldModel,
+    )
+    poses: PosesModel | None = _field(
+        "of a gait for the robot's clock, whose samples are poses; left out for every other gait",
+        default=None,
     )
 
 

@@ -7,8 +7,9 @@ from itertools import groupby
 import numpy as np
 
 from app.export.drawing import INK, QUIET, SHEET, Anchor, Box, Dot, Drawing, Rule, Shape, Words, hatching
-from core.arrays import Bools
+from core.arrays import Bools, Floats
 from core.gait.gait import Gait
+from core.pose_gaits.gait_poses import found_gait
 from core.robot.model import RobotModel
 
 GRID, STANCE, LOCKED = "#d5dae2", "#eceef2", "#8b5cf6"
@@ -25,28 +26,46 @@ _TICK_STEPS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500
 
 @dataclass(frozen=True)
 class PlotArea:
-    """Where the rows lie on the sheet, px, and how long they last, s."""
+    """Where the rows lie on the sheet, px, and where their samples begin and end, s."""
 
     left: float
     width: float
     top: float
     bottom: float
-    seconds: float
+    edges: Floats
+
+    @property
+    def seconds(self) -> float:
+        """How long the rows last."""
+        return float(self.edges[-1])
 
     def x(self, time: float) -> float:
         """Place of a time."""
         return self.left + self.width * time / self.seconds
 
 
-def plot_area(gait: Gait, is_headed: bool = True) -> PlotArea:
-    """Where the rows of a gait's diagram lie; a sample lasts until the next one."""
+def sample_edges(gait: Gait, model: RobotModel) -> Floats:
+    """(samples + 1,) where each sample begins and the last one ends, s.
+
+    A sample lasts until the next one; of a gait for the robot's clock it lasts from half way before its pose
+    to half way after it, in the robot's own seconds.
+    """
+    found = None if gait.poses is None else found_gait(gait, model)
+    if found is None:
+        return np.asarray(gait.timeline.sample_time * np.arange(gait.timeline.sample_count + 1), float)
+    times = np.concatenate([[0.0], np.cumsum(found.move_seconds)])
+    return np.concatenate([times[:1], (times[1:] + times[:-1]) / 2, times[-1:]])
+
+
+def plot_area(gait: Gait, model: RobotModel, is_headed: bool = True) -> PlotArea:
+    """Where the rows of a gait's diagram lie."""
     rows, top = gait.timeline.leg_count, TOP if is_headed else BARE_TOP
     return PlotArea(
         left=LEFT,
         width=WIDTH - LEFT - RIGHT,
         top=top,
         bottom=top + rows * (ROW + GAP) - GAP,
-        seconds=gait.timeline.sample_count * gait.timeline.sample_time,
+        edges=sample_edges(gait, model),
     )
 
 
@@ -58,8 +77,8 @@ def gait_diagram(gait: Gait, model: RobotModel, is_headed: bool = True) -> Drawi
         model: its robot, for the feet's colours.
         is_headed: whether its name and facts stand above.
     """
-    area = plot_area(gait, is_headed)
-    head = _head(gait) if is_headed else ()
+    area = plot_area(gait, model, is_headed)
+    head = _head(gait, area) if is_headed else ()
     shapes: list[Shape] = [*head, *_grid(area)]
     for foot in range(gait.timeline.leg_count):
         shapes += _row(gait, foot, model.colours[foot], area)
@@ -68,38 +87,44 @@ def gait_diagram(gait: Gait, model: RobotModel, is_headed: bool = True) -> Drawi
         width=WIDTH,
         height=area.bottom + 80,
         title=f"Gait diagram of {gait.name}",
-        description=_in_words(gait),
+        description=_in_words(gait, area),
         background=SHEET,
         shapes=tuple(shapes),
     )
 
 
-def _in_words(gait: Gait) -> str:
+def _in_words(gait: Gait, area: PlotArea) -> str:
     sentences = []
     for foot, row in enumerate(gait.timeline.stance):
-        spans = [f"{a:g} to {b:g} s" for a, b in _runs(~row, gait.timeline.sample_time)]
+        spans = [f"{a:.4g} to {b:.4g} s" for a, b in _runs(~row, area.edges)]
         swings = " and ".join(spans) if spans else "never"
         role = f" ({gait.roles[foot]})" if gait.roles[foot] else ""
         sentences.append(f"Foot {foot + 1}{role} swings {swings}.")
     return " ".join(sentences)
 
 
-def _runs(row: Bools, sample_time: float) -> Iterator[tuple[float, float]]:
+def _runs(row: Bools, edges: Floats) -> Iterator[tuple[float, float]]:
     """Times from and to which a row is true."""
     first = 0
     for value, run in groupby(row.tolist()):
         after = first + len(list(run))
         if value:
-            yield first * sample_time, after * sample_time
+            yield float(edges[first]), float(edges[after])
         first = after
 
 
-def facts(gait: Gait) -> str:
-    """A line on what the gait asks."""
+def facts(gait: Gait, edges: Floats) -> str:
+    """A line on what the gait asks, with the samples that begin and end at these times."""
     dx, dy, yaw = gait.step
     turn = f", turn {np.degrees(yaw):.1f}°" if yaw else ""
     way = f"{np.hypot(dx, dy) * 1000:.1f} mm{turn}"
-    samples = f"{gait.timeline.sample_count} samples of {gait.timeline.sample_time:g} s"
+    count = gait.timeline.sample_count
+    samples = f"{count} samples of {gait.timeline.sample_time:g} s"
+    if gait.poses is not None:
+        is_even = np.allclose(np.diff(edges), gait.timeline.sample_time)
+        samples = f"{count} poses" + (
+            ", not solved yet" if is_even else f" in {edges[-1]:.1f} s on the robot"
+        )
     if gait.sequence:
         return f"{_parts(gait)}  ·  {way}  ·  {samples}"
     iterations = f"{gait.iterations} iteration{'' if gait.iterations == 1 else 's'}"
@@ -120,9 +145,9 @@ def _parts(gait: Gait) -> str:
     return _shortened(", ".join(shown)) + (f" and {left} more" if left else "")
 
 
-def _head(gait: Gait) -> Iterator[Shape]:
+def _head(gait: Gait, area: PlotArea) -> Iterator[Shape]:
     yield Words(LEFT - 84, 36, _shortened(gait.name), 20, INK, bold=True)
-    yield Words(LEFT - 84, 58, facts(gait), 13, QUIET)
+    yield Words(LEFT - 84, 58, facts(gait, area.edges), 13, QUIET)
 
 
 def _shortened(name: str) -> str:
@@ -139,7 +164,6 @@ def _grid(area: PlotArea) -> Iterator[Shape]:
 
 def _row(gait: Gait, foot: int, colour: str, area: PlotArea) -> Iterator[Shape]:
     stance, locked = gait.timeline.stance[foot], gait.timeline.locked[foot]
-    sample_time = gait.timeline.sample_time
     y = area.top + foot * (ROW + GAP)
     baseline = y + ROW / 2 + 5
     yield Dot(LEFT - 76, y + ROW / 2, 6, colour)
@@ -147,17 +171,18 @@ def _row(gait: Gait, foot: int, colour: str, area: PlotArea) -> Iterator[Shape]:
     if gait.roles[foot] != str(foot + 1):
         yield Words(LEFT - 42, baseline, gait.roles[foot], 13, QUIET)
     yield Box(area.left, y, area.width, ROW, STANCE, 3)
-    for first, after in _runs(~stance, sample_time):
+    for first, after in _runs(~stance, area.edges):
         x, width = area.x(first), area.x(after) - area.x(first)
         yield Box(x, y, width, ROW, colour, min(3.0, width / 2))
         if width > 46:
             yield Words(
                 x + width / 2, baseline, f"{after - first:.2f} s", 12, SHEET, Anchor.MIDDLE, bold=True
             )
-    for first, after in _runs(locked, sample_time):
+    for first, after in _runs(locked, area.edges):
         span = Box(area.x(first), y, area.x(after) - area.x(first), ROW, LOCKED)
         yield from hatching(span, LOCKED)
-    yield Words(WIDTH - 20, baseline, f"{stance.mean() * 100:.0f} %", 14, INK, Anchor.END)
+    share = float(np.diff(area.edges) @ stance) / area.seconds
+    yield Words(WIDTH - 20, baseline, f"{share * 100:.0f} %", 14, INK, Anchor.END)
 
 
 def _ticks(seconds: float) -> list[float]:

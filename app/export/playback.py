@@ -7,9 +7,10 @@ from importlib import resources
 import numpy as np
 
 from app.common.json import Json, finite
-from app.export.gait_diagram import facts, gait_diagram, plot_area
+from app.export.gait_diagram import PlotArea, facts, gait_diagram, plot_area, sample_edges
 from app.export.source import Motion
 from app.export.svg import svg
+from core.arrays import Floats
 from core.gait.gait import Gait
 from core.motion.support_polygon import stability_margins
 from core.robot.coupled_strokes import real_feet
@@ -32,7 +33,7 @@ def playback_page(gait: Gait, motion: Motion) -> str:
     script = "\n".join(_part(name) for name in _SCRIPTS)
     parts = {
         "NAME": escape(gait.name),
-        "FACTS": escape(facts(gait)),
+        "FACTS": escape(facts(gait, sample_edges(gait, motion.model))),
         "NOTE": escape(motion.note),
         "STYLE": _part("page.css"),
         "DIAGRAM": svg(diagram),
@@ -53,7 +54,7 @@ def _part(name: str) -> str:
 
 def _content(gait: Gait, motion: Motion) -> Json:
     """What the page plays: SI, a row a knot."""
-    t, area = motion.trajectory, plot_area(gait, is_headed=False)
+    t, area = motion.trajectory, plot_area(gait, motion.model, is_headed=False)
     return {
         "times": t.times.tolist(),
         "body": t.pose(motion.model).position_world.tolist(),
@@ -70,10 +71,18 @@ def _content(gait: Gait, motion: Motion) -> Json:
             "width": area.width,
             "top": area.top,
             "bottom": area.bottom,
-            "samples": gait.timeline.sample_count,
-            "seconds": area.seconds,
+            "places": _places(gait, motion, area).tolist(),
         },
     }
+
+
+def _places(gait: Gait, motion: Motion, area: PlotArea) -> Floats:
+    """(knots,) where each knot lies on the diagram, px; of evenly spaced ones in the middle of its sample."""
+    times = motion.trajectory.times - motion.trajectory.times[0]
+    if gait.poses is None:
+        samples = gait.timeline.sample_count
+        times = area.seconds * np.minimum((np.arange(len(times)) + 0.5) / samples, 1.0)
+    return np.asarray(area.left + area.width * times / area.seconds)
 
 
 def _shape(model: RobotModel) -> Json:

@@ -101,7 +101,7 @@ def exportable_plan(stem: str, gait: Gait, plan: Plan) -> Exportable:
 
 
 def _motion_of(plan: Plan) -> Motion | FootfallError:
-    if plan.trajectory is None or plan.source is PlanSource.DRAFT:
+    if plan.trajectory is None or plan.is_draft:
         reason = plan.note if plan.refusal is None else plan.refusal.sentence
         return InputError(f"This gait has no motion to export: {reason}", "plan")
     waypoints = plan.waypoints or plan.refusal or InputError("There are no waypoints.", "plan")

@@ -11,9 +11,14 @@ from core.errors import StateError
 from core.gait.gait import Gait, with_iterations
 from core.gait.held_feet import HeldFeet, feet_words
 from core.gait.held_rules import require_swinging, standing_of
+from core.gait.poses import Poses
 from core.motion.contact_timeline import ContactTimeline
+from core.pose_gaits.gait_poses import found_gait, with_pose_timeline
+from core.robot.model import load_robot
 from core.segments.from_timeline_edit import carried
 
+SAME_STEP = 1e-9
+"""Steps that differ by less are the same, m."""
 SET_ASIDE = "The recorded motion of {file} was set aside; the motion is computed now. Undo brings it back."
 
 
@@ -33,10 +38,48 @@ def normalise(before: Gait, after: Gait) -> tuple[Gait, str | None]:
     """
     if before.sequence or after.sequence:
         return normalise_sequence(before, after), None
+    if after.poses is not None:
+        return normalise_poses(before, after, after.poses), None
     require_locks(before, after)
     tabled = normalise_table(before, normalise_drawing(before, after))
     changed, notice = normalise_held_feet(*tabled, is_said=before.held != after.held)
     return normalise_results(before, changed, notice)
+
+
+def normalise_poses(before: Gait, after: Gait, poses: Poses) -> Gait:
+    """Normalises a gait for the robot's clock: the timeline follows, and a step that was set is kept.
+
+    Args:
+        before: the document as it was.
+        after: the document as it was changed.
+        poses: of the changed document.
+
+    Raises:
+        InputError: it asks for what such a gait cannot have.
+        StateError: the timeline was drawn on.
+    """
+    model, known = load_robot(after.robot), before.poses
+    if known is not None:
+        is_free = poses.free_step and not (known.free_step and _is_step_set(before, after, poses))
+        poses = replace(poses, free_step=is_free)
+        # A page that has not seen new poses yet must not bring the old ones back.
+        if found_gait(replace(after, poses=poses), model) is None:
+            poses = replace(poses, found=known.found or poses.found)
+    followed = with_pose_timeline(replace(after, poses=poses), model)
+    is_drawn_on = known is not None and after.timeline not in (before.timeline, followed.timeline)
+    if is_drawn_on and asked_hash(before) == asked_hash(after):
+        raise StateError(
+            "The timeline of a gait for the robot's clock follows from foot order and number of cycles; "
+            "change those.",
+            "timeline",
+        )
+    return followed
+
+
+def _is_step_set(before: Gait, after: Gait, poses: Poses) -> bool:
+    """Whether somebody set the step, which is not the one of the poses that the page knows."""
+    own = poses.found is not None and abs(np.hypot(*after.step[:2]) - poses.found.step) < SAME_STEP
+    return after.step != before.step and not own
 
 
 def require_locks(before: Gait, after: Gait) -> None:
@@ -93,6 +136,8 @@ def normalise_imported(gait: Gait) -> tuple[Gait, str | None]:
     Raises:
         InputError: its iterations cannot follow one another, or a foot is held up that stands.
     """
+    if gait.poses is not None:
+        return with_pose_timeline(gait, load_robot(gait.robot)), None
     if gait.segment_table is None:
         require_swinging(gait.timeline, gait.held)
         return gait, None

@@ -10,6 +10,7 @@ from dataclasses import replace
 from app.common.json import Json
 from app.documents.stored_gait import stored_gait
 from app.gaits.approvals import ApprovalRequest, Approvals, approval_record, approved, is_confirmed
+from app.gaits.known_times import KnownTimes
 from app.gaits.normalise import normalise, normalise_imported
 from app.gaits.open_gait import OpenGait, gait_text
 from app.gaits.plan_cache import PlanCache, PlanRequest
@@ -26,6 +27,7 @@ from app.store.database import Database
 from app.store.edit_history_store import EditHistoryStore, VersionRow
 from app.store.gait_files import GaitFiles
 from app.store.storage_errors import left_undone
+from app.store.times_store import TimesStore
 from app.undo.history import Author
 from core.checks.simulation import Simulated
 from core.errors import InputError, NotFoundError, StateError
@@ -65,6 +67,7 @@ class GaitService:
         log = EditHistoryStore(database)
         self.versions = Versions(log, clock)
         self.approvals = Approvals(log)
+        self.times = KnownTimes(TimesStore(database))
         self._repository = GaitRepository(files, log)
         self._recovery = GaitRecovery(self._repository, log, self.versions)
         self._open: dict[str, OpenGait] = {}
@@ -73,11 +76,14 @@ class GaitService:
         """Built-in gaits first, then saved ones; each with what changes whenever its line in a list may."""
         stamps = self._repository.stamps()
         ids = dict.fromkeys((*stamps, *self._open))
+        return {gait_id: (stamps.get(gait_id), self._mark_of(gait_id)) for gait_id in ids}
+
+    def _mark_of(self, gait_id: str) -> tuple[object, ...] | None:
+        there = self._open.get(gait_id)
+        if there is None:
+            return None
         # A result's provenance is saved with the gait and is no edit, so that it makes no revision.
-        return {
-            gait_id: (stamps.get(gait_id), (there.revision, there.gait.provenance) if there else None)
-            for gait_id, there in ((gait_id, self._open.get(gait_id)) for gait_id in ids)
-        }
+        return there.revision, there.gait.provenance, self.times.last(gait_id)
 
     def glance(self, gait_id: str) -> tuple[Gait, bool, bool]:
         """A gait's present document, whether it is built in, and whether it is edited; not its history."""
@@ -178,6 +184,9 @@ class GaitService:
         People can look at a gait even if the disk takes nothing: what stays there lapses anew at each start.
         """
         self._open[now.id] = now
+        plan = self._plans.known(now)
+        if plan is not None:
+            self.times.keep(now.id, now.gait, plan)
         if (before.approval or before.kept_approval) and not (now.approval or now.kept_approval):
             with left_undone(f"The lapsed approval of {now.id} is still in the database"):
                 self._put(now)
@@ -267,7 +276,8 @@ class GaitService:
         open_gait = self.open_gait(gait_id)
         options = replace(open_gait.gait.options, phase_knots=phase_knots, closing_knots=closing_knots)
         changed = replace(open_gait.gait, order=order, options=options)
-        changed = replace(changed, timeline=drawn_timeline(changed))
+        if changed.poses is None:
+            changed = replace(changed, timeline=drawn_timeline(changed))
         return self.edit(gait_id, changed, f"Draw order {'-'.join(map(str, order))}", None, author)
 
     def undo(self, gait_id: str, author: Author = _SCRIPT) -> OpenGait:

@@ -62,7 +62,9 @@ class GaitSummaries:
             return kept
         try:
             outside = self._service.outside(gait_id)
-            return mark, line_view(gait_id, *self._service.glance(gait_id), outside)
+            gait, builtin, edited = self._service.glance(gait_id)
+            times = self._service.times.of(gait_id, gait, is_original=builtin and not edited)
+            return mark, line_view(gait_id, gait, builtin, edited, outside, times)
         except NotFoundError:
             return mark, None
         except FootfallError as error:

@@ -1,7 +1,7 @@
 """Views of gaits, plans and verdicts: JSON content for pages and scripts."""
 
 import time
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from datetime import UTC, datetime
 
 import numpy as np
@@ -10,9 +10,10 @@ from app.common.json import Json, finite
 from app.documents.gait_json import gait_content
 from app.gaits.open_gait import OpenGait
 from app.gaits.recovery import WayOut
-from app.plans.plan import Plan
+from app.plans.plan import Plan, PlanSource
 from app.plans.provenance import provenance_view
 from app.plans.reach_outline_view import reach_rings
+from app.plans.robot_times import robot_times
 from app.plans.verified_result import VerifiedResult
 from core.arrays import Floats
 from core.checks.coupling import real_heights
@@ -21,15 +22,24 @@ from core.gait.gait import Gait
 from core.gait.mirroring import mirror_of
 from core.gait.motion_source import motion_source
 from core.library.library import library
+from core.library.robot_times import RobotTimes
 from core.motion.speeds import foot_speeds, motor_speeds
 from core.motion.trajectory import Trajectory
+from core.pose_gaits.pose_gait import heard_times
 from core.problem.motion_problem import MotionLimits
 from core.robot.model import RobotModel, load_robot
-from core.wire.robot_time import estimate_seconds, stop_time
+from core.wire.robot_time import estimate_seconds, move_estimates, stop_time
 from core.wire.waypoint_merging import WaypointPlan
 
 
-def line_view(gait_id: str, gait: Gait, builtin: bool, edited: bool, outside: str | None = None) -> Json:
+def line_view(
+    gait_id: str,
+    gait: Gait,
+    builtin: bool,
+    edited: bool,
+    outside: str | None = None,
+    times: RobotTimes | None = None,
+) -> Json:
     """A line of the list of gaits.
 
     Args:
@@ -38,6 +48,7 @@ def line_view(gait_id: str, gait: Gait, builtin: bool, edited: bool, outside: st
         builtin: whether a gait of this id comes with the program.
         edited: whether the document differs from what is saved.
         outside: how its file was changed outside the studio, in a sentence; None where it was not.
+        times: how long it lasts; None where no plan of it was made.
     """
     return {
         "id": gait_id,
@@ -52,6 +63,7 @@ def line_view(gait_id: str, gait: Gait, builtin: bool, edited: bool, outside: st
         "edited": edited,
         "walks": library()[gait_id].walks if builtin and not edited else None,
         "outside": outside,
+        **times_view(times),
         "problem": None,
         "way_out": None,
     }
@@ -79,9 +91,16 @@ def problem_view(gait_id: str, sentence: str, builtin: bool = False, way_out: Wa
         "edited": False,
         "walks": None,
         "outside": None,
+        **times_view(None),
         "problem": sentence,
         "way_out": way_out,
     }
+
+
+def times_view(times: RobotTimes | None) -> Json:
+    """How long a gait lasts, s, and its speed on the robot, m/s; null where that is not known."""
+    values = dict.fromkeys(f.name for f in fields(RobotTimes)) if times is None else asdict(times)
+    return dict(values)
 
 
 def require_line(gait: Gait) -> None:
@@ -112,8 +131,9 @@ def gait_view(open_gait: OpenGait, plan: Plan, pages: frozenset[str] = frozenset
     """
     gait = open_gait.gait
     saved_at = open_gait.saved_at
+    times = None if plan.is_draft else robot_times(plan)
     return {
-        **line_view(open_gait.id, gait, open_gait.builtin, open_gait.edited),
+        **line_view(open_gait.id, gait, open_gait.builtin, open_gait.edited, times=times),
         "revision": open_gait.revision,
         "stamp": time.time_ns() // 1000,  # orders answers and events, which may overtake each other
         "saved_at": None if saved_at is None else datetime.fromtimestamp(saved_at, UTC).isoformat(),
@@ -158,10 +178,13 @@ def plan_view(plan: Plan) -> Json:
         "waypoints_hash": None,
         "waypoint_count": 0,
         "robot_seconds": None,
+        "speed_mm_s": None,
+        "poses": None,
         "every_knot_seconds": None,
         "stop_seconds": None,
         "waypoint_strokes_mm": [],
         "waypoint_times": [],
+        "waypoint_seconds": [],
         "duration": 0.0,
         "live": None if plan.live is None else live_view(plan.live),
         "parts": [asdict(part) for part in plan.parts],
@@ -186,11 +209,30 @@ def plan_view(plan: Plan) -> Json:
             content["strokes_mm"] = finite(np.round(plan.free_strokes * 1000, 4).tolist())
     if plan.way is not None:
         content |= _way_view(plan.way)
+    times = robot_times(plan)
+    if times is not None:
+        content["speed_mm_s"] = round(times.speed * 1000, 3)
+    if plan.poses is not None:
+        content["poses"] = _poses_view(plan)
     return content
 
 
+def _poses_view(plan: Plan) -> Json:
+    """What a gait for the robot's clock has beside its motion.
+
+    `heard` has a time in each move, s: the robot hears a Stop from then on, since its first ramp has ended.
+    """
+    heard = np.zeros(0) if plan.poses is None else heard_times(plan.poses)
+    return {
+        "solved": plan.source is PlanSource.POSES,
+        "explanation": list(plan.infeasible),
+        "heard": np.round(heard, 3).tolist(),
+    }
+
+
 def _way_view(way: WaypointPlan) -> Json:
-    """The waypoints of a plan as sent, with their times."""
+    """The waypoints of a plan as sent, with their times as planned and on the robot."""
+    seconds = move_estimates(way.waypoints)
     return {
         "strokes_mm": way.knots.strokes_mm.tolist(),
         "waypoints_hash": way.waypoints.content_hash,
@@ -200,6 +242,7 @@ def _way_view(way: WaypointPlan) -> Json:
         "stop_seconds": round(stop_time(way.waypoints), 2),
         "waypoint_strokes_mm": way.waypoints.strokes_mm.tolist(),
         "waypoint_times": np.round(way.times, 4).tolist(),
+        "waypoint_seconds": np.round(np.cumsum(seconds) - seconds[0], 3).tolist(),
     }
 
 

@@ -20,7 +20,7 @@ from app.plans.verified_result import VerifiedResult, verify
 from core.errors import InputError, StateError, StorageError
 from core.gait.gait import Gait, motion_problem
 from core.gait.provenance import Provenance
-from core.library.library import library
+from core.library.library import optimised_entry
 from core.motion.trajectory import Trajectory
 from core.problem.motion_problem import MotionProblem
 from core.robot.model import RobotModel, load_robot
@@ -203,5 +203,5 @@ def _iterate_content(iterate: Any) -> Json:
 
 def likely_problem() -> MotionProblem:
     """The problem that is likely to be asked first, for workers to warm up with."""
-    gait = next(iter(library().values())).gait
+    gait = optimised_entry("walk").gait
     return motion_problem(gait, load_robot(gait.robot))

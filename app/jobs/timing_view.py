@@ -4,10 +4,12 @@ from dataclasses import replace
 
 from app.common.json import Json, finite
 from app.documents.gait_json import gait_content
-from core.errors import StateError
+from core.errors import FootfallError, StateError
 from core.gait.gait import Gait
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import MotionProblem
+from core.wire.robot_time import estimate_seconds
+from core.wire.waypoint_merging import plan_waypoints
 from solver_jobs import SolveStatus, TimingResult
 
 
@@ -41,6 +43,20 @@ def timed_gait(gait: Gait, result: TimingResult) -> Gait | None:
     return replace(gait, timeline=result.usable_timeline, options=options)
 
 
+def _robot_seconds(timed: Gait, result: TimingResult) -> float | None:
+    """What the robot takes for the usable motion as it is sent, s; None where it cannot be sent."""
+    if result.usable is None:
+        return None
+    options = timed.options
+    try:
+        way = plan_waypoints(
+            result.problem.model, result.usable.trajectory, options.merge, options.stop_bound
+        )
+    except FootfallError:
+        return None
+    return round(estimate_seconds(way.waypoints), 1)
+
+
 def timing_content(gait: Gait, result: TimingResult) -> Json:
     """A timing as JSON content, with the gait's document in these timings where they can be used.
 
@@ -53,6 +69,7 @@ def timing_content(gait: Gait, result: TimingResult) -> Json:
     if (timed := timed_gait(gait, result)) is not None:
         usable = {
             "seconds": float(timed.timeline.times[-1]),
+            "robot_seconds": _robot_seconds(timed, result),
             "sample_time": timed.timeline.sample_time,
             "document": gait_content(timed),
         }

@@ -4,6 +4,7 @@ import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import cached_property
 
 import numpy as np
 
@@ -23,21 +24,27 @@ from core.gait.gait import Gait, motion_problem, resting_poses
 from core.gait.held_feet import HeldFeet, held_sentence
 from core.gait.manual_motion import manual_motion, stance_slip
 from core.gait.options import GaitOptions
+from core.gait.poses import FoundPoses
 from core.gait.provenance import Provenance
 from core.gait.recording import Recording, RecordingForm
 from core.motion.balance import balance_margins
 from core.motion.support_polygon import stability_margins
 from core.motion.trajectory import Trajectory
+from core.pose_gaits.gait_poses import drawn_poses, found_gait, gait_of_poses, pose_problem
+from core.pose_gaits.pose_check import check_poses, motion_along
+from core.pose_gaits.pose_gait import PoseGait
 from core.problem.initial_guess import initial_guess
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import MotionProblem, missing_support
 from core.recorded.recorded_motion import gait_trajectory
 from core.robot.kinematics import UnreachableError, free_strokes
 from core.robot.model import RobotModel, load_robot
+from core.wire.robot_time import estimate_seconds
 from core.wire.waypoint_merging import WaypointPlan, plan_waypoints
 from core.wire.waypoints import Waypoints
 from solver_jobs import MotionResult, SolveStatus
 
+ADAPTED_NOTE = "The last poses, adapted to what is asked now; they are not solved, and cannot be sent."
 AS_PLANNED = GaitOptions(merge=0.0, stop_bound=None)
 """One waypoint a knot."""
 
@@ -53,6 +60,10 @@ class PlanSource(StrEnum):
     LIVE = "live"
     RECORDED = "recorded"
     """The motion of a file, as it stands."""
+    POSES = "poses"
+    """Poses for the robot's clock, as a solver has found them."""
+    ADAPTED = "adapted"
+    """The last poses, adapted to what is asked now; to be looked at until the solver has answered."""
     SEQUENCE = "sequence"
     """The parts of a sequence, each in its own way."""
     DRAFT = "draft"
@@ -78,6 +89,8 @@ class Plan:
         provenance: of that result, where it is known.
         parts: of a sequence, and the moves between them; empty for a gait of its own.
         made_of: hash of the document that it was made of; None where it is of none.
+        poses: of a gait for the robot's clock; adapted ones are not confirmed.
+        infeasible: sentences on why a search found no poses; empty where none has failed.
     """
 
     source: PlanSource
@@ -93,6 +106,20 @@ class Plan:
     provenance: Provenance | None = None
     parts: tuple[PlannedPart, ...] = ()
     made_of: str | None = None
+    poses: PoseGait | None = None
+    infeasible: tuple[str, ...] = ()
+
+    @property
+    def is_draft(self) -> bool:
+        """Whether it is only drawn, so that it is never sent."""
+        return self.source in (PlanSource.DRAFT, PlanSource.ITERATE, PlanSource.ADAPTED)
+
+    @cached_property
+    def moved(self) -> Trajectory | None:
+        """The motion between its knots: of poses as the motors take it, straight in motor space."""
+        if self.poses is None or self.source is not PlanSource.POSES:
+            return self.trajectory
+        return motion_along(self.poses)
 
     @property
     def waypoints(self) -> Waypoints | None:
@@ -152,6 +179,8 @@ def make_plan(gait: Gait, result: Json | None, solve: Solve) -> Plan:
     """
     model = load_robot(gait.robot)
     try:
+        if gait.poses is not None:
+            return pose_plan(gait, model, result)
         if gait.recorded is not None:
             return with_waypoints(_recorded_plan(gait, gait.recorded, model), gait.options)
         if gait.segment_table is not None:
@@ -172,6 +201,43 @@ def make_plan(gait: Gait, result: Json | None, solve: Solve) -> Plan:
         return with_waypoints(plan, gait.options)
     except FootfallError as refusal:
         return Plan(PlanSource.DRAFT, refusal.sentence, model, None, None, refusal)
+
+
+def pose_plan(gait: Gait, model: RobotModel, result: Json | None) -> Plan:
+    """The plan of a gait for the robot's clock: its poses where they answer what is asked, else adapted ones.
+
+    Args:
+        gait: the document.
+        model: its robot.
+        result: what a search for exactly this gait ended with, where there was one.
+
+    Raises:
+        FootfallError: the gait asks for what it cannot have, or adapted poses are out of reach.
+    """
+    found = found_gait(gait, model)
+    kept = None if result is None else result.get("found")
+    if found is None and kept is not None:
+        found = gait_of_poses(pose_problem(gait, model), FoundPoses(**kept))
+    if found is not None and check_poses(found).confirmed:
+        return _of_poses(PlanSource.POSES, _poses_note(found), found)
+    is_infeasible = result is not None and result.get("status") == SolveStatus.INFEASIBLE
+    why = tuple(result.get("explanation", ())) if result is not None and is_infeasible else ()
+    note = " ".join(why) or ADAPTED_NOTE
+    return replace(_of_poses(PlanSource.ADAPTED, note, drawn_poses(gait, model)), infeasible=why)
+
+
+def _of_poses(source: PlanSource, note: str, poses: PoseGait) -> Plan:
+    """Every pose is a waypoint, and nothing is merged or cut: the poses are made for the motors' way."""
+    plan = Plan(source, note, poses.problem.model, poses.trajectory, None, None, poses=poses)
+    return with_waypoints(plan, AS_PLANNED)
+
+
+def _poses_note(poses: PoseGait) -> str:
+    moves, seconds = poses.problem.move_count, estimate_seconds(poses.waypoints)
+    return (
+        f"Made for the robot's clock: {moves} moves in {seconds:.1f} s on the robot, "
+        f"{poses.distance / seconds * 1000:.2f} mm/s; every limit is confirmed along every move."
+    )
 
 
 def iterate_plan(model: RobotModel, trajectory: Trajectory, number: int, last: int) -> Plan:
@@ -299,6 +365,7 @@ def verdict_of(plan: Plan, gait: Gait, simulated: Simulated | None = None) -> Ve
         sentence = "There is no plan to check." if plan.refusal is None else plan.refusal.sentence
         raise CheckError(sentence, "plan")
     is_fresh = plan.made_of is None or plan.made_of == sent_hash(gait)
-    is_draft = plan.source in (PlanSource.DRAFT, PlanSource.ITERATE)
-    checked = checked_plan(gait, plan.model, plan.trajectory, plan.way, is_draft=is_draft, is_fresh=is_fresh)
+    checked = checked_plan(
+        gait, plan.model, plan.trajectory, plan.way, is_draft=plan.is_draft, is_fresh=is_fresh
+    )
     return check_plan(checked, simulated)

@@ -7,11 +7,14 @@ from importlib.metadata import version
 
 from app.common.json import Json
 from app.common.version import VERSION
-from app.documents.gait_json import asked_hash
+from app.documents.gait_json import asked_hash, motion_hash
 from app.documents.trajectory_json import content_sha256
 from app.plans.plan import Plan
 from core.gait.gait import Gait
+from core.gait.poses import FoundPoses
 from core.gait.provenance import Provenance
+from core.pose_gaits.gait_poses import gait_of_poses, pose_problem, with_poses
+from core.robot.model import load_robot
 
 EXACT = "nlp"
 """The exact tier, as the command line calls it."""
@@ -42,13 +45,17 @@ def result_provenance(motion: str, content: Json) -> Provenance:
 
 
 def with_result(gait: Gait, motion: str, content: Json) -> Gait:
-    """The gait with the provenance of a result, where it is of this gait; else the gait as it is.
+    """The gait with the poses or the provenance of a result, where it is of this gait.
 
     Args:
         gait: the document.
         motion: hash of what was asked.
         content: the result as it is kept; of older ones the provenance is not known.
     """
+    if gait.poses is not None and content.get("found") is not None and motion_hash(gait) == motion:
+        model = load_robot(gait.robot)
+        solved = gait_of_poses(pose_problem(gait, model), FoundPoses(**content["found"]))
+        return with_poses(gait, solved)
     kept = content.get("provenance")
     if kept is None or gait.recorded is not None or asked_hash(gait) != motion:
         return gait

@@ -167,7 +167,7 @@ def _require_motions(gait: Gait, plans: Sequence[Plan]) -> None:
         InfeasibleError: naming the first one that has none.
     """
     for index, (part, plan) in enumerate(zip(gait.sequence, plans, strict=True)):
-        if plan.trajectory is None or plan.waypoints is None or plan.source is PlanSource.DRAFT:
+        if plan.trajectory is None or plan.waypoints is None or plan.is_draft:
             sentence = f"{part_name(index, part)}, has no motion: {_reason(plan)}"
             raise InfeasibleError(f"{sentence} The gait itself says all that it lacks.", "sequence")
 

@@ -57,7 +57,7 @@ async def _version(studio: Studio, gait_id: str, of: Version) -> Plan:
 
 
 def _motion(plan: Plan) -> Trajectory:
-    if plan.trajectory is None:
+    if plan.moved is None:
         sentence = "This version makes no motion." if plan.refusal is None else plan.refusal.sentence
         raise StateError(sentence, "plan")
-    return plan.trajectory
+    return plan.moved

@@ -19,11 +19,20 @@ MOST_POSES = 60_000
 """Frames × nodes of a plan, 1.7 MB: what an edit of a long gait of many feet may ask for again and again."""
 
 
-def overlay_table(model: RobotModel, trajectory: Trajectory) -> dict[str, Any]:
+def overlay_table(
+    model: RobotModel, trajectory: Trajectory, stops: ArrayLike | None = None
+) -> dict[str, Any]:
     """What the page draws on the floor, as JSON values (s, m).
 
-    Keys: floor (its height), times, com, cop (None where accelerations are unknown), feet, contact, margins.
+    Keys: floor (its height), times, com, cop (None where accelerations are unknown), feet, contact, margins,
+    stops (numbers of the samples at which the robot stops, each of which gets a mark).
+
+    Args:
+        model: the robot.
+        trajectory: in the world frame.
+        stops: (n,) times at which the robot stops, s; None where no mark is wanted.
     """
+    marked = [] if stops is None else np.abs(trajectory.times - np.asarray(stops)[:, None]).argmin(axis=1)
     pressure = pressure_points(model, trajectory)
     margins = stability_margins(trajectory.body_world[:, :2], trajectory.feet_world, trajectory.contact)
     finite = np.where(np.isfinite(margins), margins, -1.0)
@@ -35,11 +44,18 @@ def overlay_table(model: RobotModel, trajectory: Trajectory) -> dict[str, Any]:
         "feet": _rounded(trajectory.feet_world),
         "contact": trajectory.contact.tolist(),
         "margins": _rounded(finite),
+        "stops": np.asarray(marked, int).tolist(),
     }
 
 
-def plan_poses(model: RobotModel, trajectory: Trajectory) -> PoseBlob:
-    """Everything that the preview needs of a plan: its poses with its overlay (see `pose_frames`)."""
+def plan_poses(model: RobotModel, trajectory: Trajectory, stops: ArrayLike | None = None) -> PoseBlob:
+    """Everything that the preview needs of a plan: its poses with its overlay (see `pose_frames`).
+
+    Args:
+        model: the robot.
+        trajectory: in the world frame.
+        stops: see `overlay_table`.
+    """
     blob = pose_frames(
         model,
         trajectory.times,
@@ -48,7 +64,7 @@ def plan_poses(model: RobotModel, trajectory: Trajectory) -> PoseBlob:
         trajectory.feet_world,
         frames_a_second(model, trajectory),
     )
-    return replace(blob, overlay=overlay_table(model, trajectory))
+    return replace(blob, overlay=overlay_table(model, trajectory, stops))
 
 
 def frames_a_second(model: RobotModel, trajectory: Trajectory) -> float:

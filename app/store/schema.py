@@ -166,6 +166,14 @@ def _add_learning(connection: sqlite3.Connection) -> None:
         connection.execute(statement)
 
 
+def _add_times(connection: sqlite3.Connection) -> None:
+    """How long each gait's plan lasts, as planned and on the robot."""
+    connection.execute(
+        "CREATE TABLE times(gait TEXT PRIMARY KEY, sent TEXT, plan_seconds REAL, robot_seconds REAL, "
+        "speed REAL)"
+    )
+
+
 _MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     _add_authors_and_versions,
     _add_to_runs,
@@ -174,6 +182,7 @@ _MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     _add_beside_trials,
     _add_videos,
     _add_learning,
+    _add_times,
 )
 
 NEWEST = len(_MIGRATIONS)

@@ -1,6 +1,6 @@
 """Publishes changes to the pages: gaits with their plans, the list of gaits, jobs, trials, the robot."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from concurrent.futures import Future
 
 from app.common.json import Json
@@ -13,6 +13,7 @@ from app.gaits.service import GaitService
 from app.gaits.summaries import GaitSummaries
 from app.gaits.views import gait_view, steps_view
 from app.jobs.repository import JobRepository
+from app.plans.plan import Plan
 from app.plans.sequence_plan import run_motions
 from app.session.command_queue import log_failure
 from app.session.event_hub import EventHub
@@ -34,6 +35,7 @@ class Publisher:
         plans: makes the plan that a view needs.
         simulations: the simulations that are kept.
         job_repository: the list of jobs.
+        planned: told of each gait that is shown, with its plan; gives the state of a search behind it.
     """
 
     def __init__(
@@ -43,12 +45,14 @@ class Publisher:
         plans: Planner,
         simulations: SimulationRepository,
         job_repository: JobRepository,
+        planned: Callable[[str, Gait, Plan], Json | None] = lambda gait_id, gait, plan: None,
     ) -> None:
         self._hub = hub
         self._gaits = gaits
         self._plans = plans
         self._simulations = simulations
         self._job_repository = job_repository
+        self._planned = planned
         self._list = GaitSummaries(gaits)
         self._troubles: dict[str, str] = {}
         self._simulated_as: dict[str, frozenset[str]] = {}
@@ -82,12 +86,14 @@ class Publisher:
 
     def _gait_view(self, open_gait: OpenGait) -> Json:
         plan = self._gaits.plan(open_gait.id)
+        search = self._planned(open_gait.id, open_gait.gait, plan)
         self._simulated_as[open_gait.id] = self._simulations.keys_of(plan)
         view = gait_view(open_gait, plan, self._hub.pages())
         return view | {
             "outside": self._gaits.outside(open_gait.id),
             "simulation": self._simulations.standing(open_gait.id, plan),
             "sources": self._sources(open_gait),
+            "search": search,
             "version": self._gaits.versions.newest_number(open_gait.id),
         }
 

@@ -12,6 +12,7 @@ from app.common.json import Json
 from app.gaits.live_plans import LivePlans
 from app.gaits.open_gait import OpenGait
 from app.gaits.planner import Planner
+from app.gaits.pose_searches import PoseAnswer, PoseSearches
 from app.gaits.service import GaitService
 from app.jobs.optimisation_service import OptimisationService, likely_problem
 from app.jobs.repository import JobRepository
@@ -40,7 +41,7 @@ from app.trials.report.service import TrialReportService
 from app.trials.service import TrialService
 from app.trials.simulated_feet import TrialSimulations
 from app.videos.lab import Lab
-from solver_jobs import BatchSimulator, Job, JobQueue, LiveSolver, PatternSolver, Simulator
+from solver_jobs import BatchSimulator, Job, JobQueue, LiveSolver, PatternSolver, PoseGaitSolver, Simulator
 
 PATTERN_PROCESSES = 2
 """Pattern searches that go on at one time; each process starts when it is first needed."""
@@ -110,7 +111,11 @@ class Studio:
         self._plans = self._register(Planner(self.commands, self.gaits))
         self._register(solver)  # closed before the plans too, which wait for it
         self.job_repository = JobRepository(database)
-        self.publisher = Publisher(hub, self.gaits, self._plans, self.simulations, self.job_repository)
+        pose_solver = self._register(PoseGaitSolver())
+        self.pose_searches = PoseSearches(pose_solver, self._poses_answered, self._poses_sought)
+        self.publisher = Publisher(
+            hub, self.gaits, self._plans, self.simulations, self.job_repository, self.pose_searches.look_at
+        )
         self.commands.tell(self.publisher.summaries)
         self._register(FileWatch(partial(self.commands.tell, self.publisher.look_at_files)))
         searches = tuple(self._register(PatternSolver()) for _ in range(PATTERN_PROCESSES))
@@ -213,6 +218,19 @@ class Studio:
 
     def _on_result(self, motion: str, content: Json) -> None:
         self.publisher.publish_all_soon(self.gaits.on_result(motion, content))
+
+    def _poses_sought(self, gait_id: str, state: Json) -> None:
+        self.hub.publish({"type": "search", "gait": gait_id, "search": state})
+
+    def _poses_answered(self, gait_id: str, answer: PoseAnswer) -> None:
+        self.commands.tell(lambda: self._take_poses(gait_id, answer))
+
+    def _take_poses(self, gait_id: str, answer: PoseAnswer) -> None:
+        self.pose_searches.take(gait_id, answer)
+        if answer.content is not None:
+            self._on_result(answer.motion, answer.content)
+        elif answer.failure is not None:
+            self.publisher.publish_soon(gait_id)
 
     def _simulated(self, waypoints: str) -> None:
         """Drops verdicts and approvals that are older than the simulation of their waypoints. Thread-safe."""

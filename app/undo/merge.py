@@ -25,7 +25,7 @@ _CELLS = (("timeline", "feet"), ("timeline", "locked"))
 _WHOLE: tuple[Path, ...] = (("order",), ("held", "start"), ("held", "end"))
 """Lists that make sense as a whole only."""
 
-_BESIDE: tuple[Path, ...] = (("provenance",),)
+_BESIDE: tuple[Path, ...] = (("provenance",), ("poses", "found"))
 """What stands in a document without being edited."""
 
 MOST_PLACES = 3
@@ -147,9 +147,16 @@ def _alike(kind: type[list[Any]] | type[str], values: tuple[Any, Any, Any]) -> b
 
 def say_the_same(one: Json, other: Json) -> bool:
     """Whether two documents agree in all that is edited."""
-    beside = {path[0] for path in _BESIDE}
-    keys = (one.keys() | other.keys()) - beside
-    return all(one.get(key, MISSING) == other.get(key, MISSING) for key in keys)
+    return bool(_edited(one, ()) == _edited(other, ()))
+
+
+def _edited(content: Any, path: Path) -> Any:
+    """A value without what stands in it without being edited."""
+    if not isinstance(content, dict):
+        return content
+    return {
+        key: _edited(value, (*path, key)) for key, value in content.items() if (*path, key) not in _BESIDE
+    }
 
 
 def value_at(content: Any, path: Path) -> Any:

@@ -1,4 +1,8 @@
-"""The rule on arms: those of neighbouring legs keep clear of each other, at waypoints and between them."""
+"""The rule on arms: those of neighbouring legs keep clear of each other, at waypoints and between them.
+
+It warns, and there is no error: by the same drawing the published walk of 25 mm has arms 0.7 mm in one
+another, and it went on the real robot, whose arms are soft.
+"""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -6,19 +10,13 @@ from numpy.typing import NDArray
 from core.arrays import Floats
 from core.checks.checked_plan import CheckedPlan, knot_place
 from core.findings import TOLERANCE, Finding, Outcome, RuleMargin, Severity, found
-from core.robot.arms import arm_gaps
+from core.robot.arms import ARM_GAP, arm_gaps
 from core.robot.leg import foot_from_strokes
 from core.robot.model import RobotModel
 from core.robot.shoes import neighbour_pairs
 from core.wire.executed_path import STEPS
 from core.wire.waypoints import Waypoints
 
-ARM_GAP = 0.003
-"""Room between the arms of two legs below which the check warns, m.
-
-There is no error: by the same drawing the published walk of 25 mm has arms 0.7 mm in one another, and it
-went on the real robot, whose arms are soft.
-"""
 BEND = 1.2
 """How much longer than straight the way of a bar's end is taken to be at most."""
 REMEDY = "Shorten the step, or keep these feet further apart."
@@ -91,6 +89,6 @@ def _finding(legs: list[int], gap: float, move: int, place: dict[str, int | floa
     else:
         words = (
             f"{where} the arms of {names} come within {gap * 1000:.1f} mm of each other, less than "
-            f"{ARM_GAP * 1000:.0f} mm."
+            f"{ARM_GAP * 1000:g} mm."
         )
     return found("arm_distance", Severity.WARNING, words, REMEDY, gap, ARM_GAP, foot=legs[0], **place)

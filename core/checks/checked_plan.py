@@ -99,6 +99,8 @@ def asked_of(gait: Gait) -> Asked:
     if gait.recorded is not None or gait.segment_table is not None or gait.sequence:
         return Asked(turn=turn, held=gait.held)
     options = gait.options
+    if gait.poses is not None:
+        return Asked(turn=turn, margin=max(options.margin, 0.0))
     end = options.plane_height if options.end_plane_height is None else options.end_plane_height
     return Asked(
         turn=turn,

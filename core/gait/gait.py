@@ -13,6 +13,7 @@ from core.errors import InputError
 from core.gait.held_feet import HeldFeet, held_height
 from core.gait.held_rules import require_feet, require_repeatable, require_rest
 from core.gait.options import GaitOptions
+from core.gait.poses import Poses
 from core.gait.provenance import Provenance
 from core.gait.recording import Recording
 from core.motion.contact_timeline import ContactTimeline, drawn_samples, timeline_from_order
@@ -73,6 +74,8 @@ class Gait:
         provenance: of the last computed result, for whichever version of the gait; None where there is none.
         sequence: the gaits that it chains; then order, step, iterations and timeline follow from them (see
             `core.library.sequence`). Empty for a gait of its own.
+        poses: of a gait for the robot's clock; then the timeline follows from order, iterations and poses, a
+            sample a pose. None for every other gait.
         held: feet that are in the air at the first or the last sample on purpose; every other one stands.
     """
 
@@ -91,6 +94,7 @@ class Gait:
     provenance: Provenance | None = None
     sequence: tuple[SequencePart, ...] = ()
     held: HeldFeet = field(default_factory=HeldFeet)
+    poses: Poses | None = None
 
     def __post_init__(self) -> None:
         _require_text("name", self.name, MOST_NAME)
@@ -123,6 +127,12 @@ class Gait:
                 "order",
             )
         require_feet(self.held, self.timeline.leg_count)
+        if self.poses is not None and (self.segment_table or self.recorded or self.sequence):
+            raise InputError(
+                "A gait for the robot's clock has no segment table, no recorded motion and no parts; take "
+                "them or its poses out of the document.",
+                "poses",
+            )
 
     def with_options(self, **changes: Any) -> Gait:
         """The gait with some of its options changed; its timeline stays as it is."""
@@ -173,6 +183,12 @@ class SequencePart:
             raise InputError(
                 f"“{self.gait.name}” runs {self.times} times in the sequence; it must be 1 to {MOST_TIMES}.",
                 "times",
+            )
+        if self.gait.poses is not None:
+            raise InputError(
+                f"“{self.gait.name}” is made for the robot's clock, whose samples are not evenly apart; a "
+                "sequence cannot have it as a part yet.",
+                "sequence",
             )
         if self.gait.sequence:
             raise InputError(
@@ -354,6 +370,12 @@ def motion_problem(gait: Gait, model: RobotModel) -> MotionProblem:
             f"“{gait.name}” is a sequence: its parts have motions of their own. Optimise the gait that a "
             "part comes from, and take it over again.",
             "sequence",
+        )
+    if gait.poses is not None:
+        raise InputError(
+            f"“{gait.name}” is made for the robot's clock, and no trajectory is optimised for it; "
+            "`footfall fastest` looks for its poses.",
+            "poses",
         )
     require_rest(gait.timeline, gait.held, cycle=gait.options.boundary is Boundary.PERIODIC)
     options = gait.options

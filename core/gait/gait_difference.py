@@ -11,6 +11,7 @@ from core.arrays import Floats
 from core.gait.gait import Gait, SequencePart
 from core.gait.held_feet import feet_words
 from core.gait.options import GaitOptions
+from core.gait.poses import POSE_LIMITS, Poses
 from core.motion.timeline_difference import timeline_difference
 from core.robot.model import load_robot
 from core.segments.segment_difference import table_difference
@@ -65,6 +66,7 @@ def gait_difference(before: Gait, after: Gait) -> tuple[DifferenceGroup, ...]:
         "Gait": (*_head(before, after), *(() if chained else _motion(before, after))),
         "Parts": _parts(before.sequence, after.sequence),
         "Timeline": () if chained else timeline_difference(before.timeline, after.timeline),
+        "Poses": _poses(before.poses, after.poses),
         "Segments": () if chained else table_difference(before.segment_table, after.segment_table),
         "Options": _options(before.options, after.options),
     }
@@ -83,6 +85,24 @@ def _head(before: Gait, after: Gait) -> list[str]:
         old, new = (f"motion of {g.recorded.file}" if g.recorded else "none" for g in (before, after))
         sentences += _change("Recorded motion:", old, new) or ["Recorded motion replaced"]
     return sentences
+
+
+def _poses(before: Poses | None, after: Poses | None) -> tuple[str, ...]:
+    """What gaits for the robot's clock ask beside the rest; the poses that were found are nobody's edit."""
+    if before is None or after is None:
+        return () if before is after else (f"Made for the robot's clock: {_yes(before)} → {_yes(after)}",)
+    sentences = _change(
+        "Step length:", *("fastest" if poses.free_step else "as set" for poses in (before, after))
+    )
+    for name in POSE_LIMITS:
+        old, new = getattr(before, name) * 1000, getattr(after, name) * 1000
+        words = name.replace("_", " ").capitalize()
+        sentences += [] if old == new else _change(words, *(f"{text} mm" for text in _apart(old, new)))
+    return tuple(sentences)
+
+
+def _yes(poses: Poses | None) -> str:
+    return "no" if poses is None else "yes"
 
 
 def _texts(before: str, after: str) -> tuple[str, str]:

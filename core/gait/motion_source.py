@@ -12,6 +12,8 @@ class MotionSource(StrEnum):
     """The motion of a file."""
     SEQUENCE = "sequence"
     """Other gaits, one after the other."""
+    POSES = "poses"
+    """Poses for the robot's clock."""
     MANUAL = "manual"
     """A segment table."""
     OPTIMISED = "optimised"
@@ -26,6 +28,8 @@ def motion_source(gait: Gait) -> MotionSource:
         return MotionSource.SEQUENCE
     if gait.recorded is not None:
         return MotionSource.RECORDED
+    if gait.poses is not None:
+        return MotionSource.POSES
     if gait.segment_table is not None:
         return MotionSource.MANUAL
     return MotionSource.OPTIMISED if is_drawn(gait) else MotionSource.DRAWN

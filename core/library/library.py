@@ -1,6 +1,6 @@
 """The gaits that come with the program, built from the tables of `core/data`."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cache
@@ -13,6 +13,7 @@ from core.data.tables import data_table
 from core.errors import InputError
 from core.gait.gait import Gait, Orientation, SequencePart, heading_step, with_return
 from core.gait.options import GaitOptions
+from core.library.for_robot import gait_for_robot
 from core.library.patterns import LibraryPattern, library_pattern
 from core.library.sequence import sequence_gait
 from core.motion.contact_timeline import ContactTimeline, timeline_from_order, timeline_from_rows
@@ -33,6 +34,8 @@ DEFAULT_SEGMENT_SAMPLES = 5
 class Group(StrEnum):
     """Where the page's list of gaits puts an entry."""
 
+    FOR_ROBOT = "For this robot"
+    """For the robot's clock: as fast as its firmware allows (docs/fastest.md)."""
     OPTIMISED = "Optimised"
     """For the optimiser, thesis 3.4."""
     BY_HAND = "By hand"
@@ -89,7 +92,16 @@ def library() -> Mapping[str, LibraryEntry]:
     for pattern in library_patterns().values():
         singles[pattern.id] = LibraryEntry(pattern.id, pattern.gait, None, Group.PATTERNS, pattern.walks)
     sequences = (_sequence_entry(item, singles) for item in data_table("sequences.toml")["sequence"])
-    return MappingProxyType(singles | {entry.id: entry for entry in sequences})
+    for_robot = (_entry_for_robot(item, singles) for item in data_table("for_robot.toml")["gait"])
+    return MappingProxyType(_by_id(for_robot) | singles | _by_id(sequences))
+
+
+def _by_id(entries: Iterable[LibraryEntry]) -> dict[str, LibraryEntry]:
+    return {entry.id: entry for entry in entries}
+
+
+def _entry_for_robot(item: dict[str, Any], singles: Mapping[str, LibraryEntry]) -> LibraryEntry:
+    return LibraryEntry(item["id"], gait_for_robot(item, singles[item["like"]].gait), None, Group.FOR_ROBOT)
 
 
 @cache
@@ -180,7 +192,7 @@ def _options(item: dict[str, Any]) -> GaitOptions:
 
 
 def optimised_entry(name: str) -> LibraryEntry:
-    """The built-in gait for the optimiser.
+    """The built-in gait for an optimiser: of trajectories, or of poses for the robot's clock.
 
     Raises:
         InputError: there is none of that name.

@@ -30,6 +30,11 @@ class PatternSide:
             raise InputError(
                 f"“{self.gait.name}” is a sequence; choose the gait of one of its parts.", self.name
             )
+        if self.gait.poses is not None:
+            raise InputError(
+                f"“{self.gait.name}” is made for the robot's clock; choose a gait whose timeline is drawn.",
+                self.name,
+            )
         if not 0 <= self.at < count:
             raise InputError(
                 f"The cursor is at sample {self.at + 1} of “{self.gait.name}”; it must be 1 to {count}.",

@@ -300,12 +300,13 @@ def require_own_timeline(gait: Gait) -> None:
     """A gait whose timeline may be replaced.
 
     Raises:
-        InputError: it follows from segments, a file or other gaits.
+        InputError: it follows from segments, a file, other gaits or poses.
     """
     causes = {
         "made by hand from segments": gait.segment_table is not None,
         "a recorded motion": gait.recorded is not None,
         "a sequence": bool(gait.sequence),
+        "made for the robot's clock": gait.poses is not None,
     }
     for words, holds in causes.items():
         if holds:

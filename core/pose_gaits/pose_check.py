@@ -12,15 +12,23 @@ import numpy as np
 
 from core.arrays import Bools, Floats
 from core.motion.support_polygon import stability_margins
+from core.motion.trajectory import Trajectory
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import REST_HEIGHT, SWING_SHARE, PoseProblem
 from core.problem.motion_problem import standing_pose, turned_about_z
+from core.robot.arms import arm_gaps
 from core.robot.kinematics import BodyPose, UnreachableError, walker_strokes
+from core.robot.model import RobotModel
+from core.robot.shoes import neighbour_pairs
 from core.wire.robot_time import stop_seconds
 from core.wire.waypoint_merging import robot_feet
 
 SAMPLES = 41
 """Places along a move that are looked at, both ends included; an odd number, so that the middle is one."""
+ARM_STRIDE = 2
+"""Arms are looked at at every second of these places."""
+SHOWN_SAMPLES = 8
+"""Places of each move at which its motion is shown."""
 NEAR_GROUND = 0.0005
 """A swinging foot that is lower than this drags, m."""
 HEIGHT_TOLERANCE = 0.00015
@@ -62,6 +70,7 @@ class PoseFigures:
         half_way_height: least height of a swinging foot in the middle of a move, over the standing feet.
         drag: farthest that a foot lower than `NEAR_GROUND` is from where it stood or will stand.
         shoe_distance: least distance between the middles of two feet.
+        arm_distance: least room between the arms of neighbouring legs; below 0 they are in one another.
         stroke_least: smallest stroke.
         stroke_most: largest stroke.
         largest_move: largest move of a motor.
@@ -74,6 +83,7 @@ class PoseFigures:
     half_way_height: float
     drag: float
     shoe_distance: float
+    arm_distance: float
     stroke_least: float
     stroke_most: float
     largest_move: float
@@ -104,6 +114,9 @@ class MotionInMove:
 
     Args:
         shares: (n,) of the move.
+        body: (n, 3) point of the body axis in the actuator plane, m.
+        heading: (n,) rad.
+        arms: (pairs,) least room between the arms of each two neighbouring legs, m.
         feet: (n, legs, 3) platform centres, m.
         margins: (n,) static stability margin, m.
         slips: (n, legs, 3) of each standing foot from its foothold, 0 for the others, m.
@@ -112,6 +125,9 @@ class MotionInMove:
     """
 
     shares: Floats
+    body: Floats
+    heading: Floats
+    arms: Floats
     feet: Floats
     margins: Floats
     slips: Floats
@@ -132,16 +148,46 @@ def motion_in_move(gait: PoseGait, move: int, samples: int = SAMPLES) -> MotionI
     problem = gait.problem
     standing = ~problem.moving[move]
     shares = np.linspace(0.0, 1.0, samples)
-    mixed = [(1 - share) * gait.strokes[move] + share * gait.strokes[move + 1] for share in shares]
+    mixed = np.array([(1 - s) * gait.strokes[move] + s * gait.strokes[move + 1] for s in shares])
     headings = (1 - shares) * gait.headings[move] + shares * gait.headings[move + 1]
-    feet_robot = robot_feet(problem.model, np.array(mixed))
+    feet_robot = robot_feet(problem.model, mixed)
     turned = np.array([turned_about_z(feet, angle) for feet, angle in zip(feet_robot, headings, strict=True)])
     asked = gait.feet[move][standing] - turned[:, standing]
     body = (asked.min(axis=1) + asked.max(axis=1)) / 2
     feet = turned + body[:, None]
     slips = np.where(standing[:, None], feet - gait.feet[move], 0.0)
     margins = stability_margins(body[:, :2], feet, np.tile(standing, (samples, 1)))
-    return MotionInMove(shares, feet, margins, slips, heights_over_plane(feet, standing), standing)
+    arms = np.nan_to_num(arm_gaps(problem.model, mixed[::ARM_STRIDE]), nan=np.inf).min(axis=0)
+    heights = heights_over_plane(feet, standing)
+    return MotionInMove(shares, body, headings, arms, feet, margins, slips, heights, standing)
+
+
+def motion_along(gait: PoseGait, samples: int = SHOWN_SAMPLES) -> Trajectory:
+    """The motion over the robot's time with places within each move, as its motors take it.
+
+    Args:
+        gait: the poses.
+        samples: places of each move, its beginning left out.
+    """
+    own, times = gait.trajectory, [0.0]
+    rows = [(own.body_world[0], own.heading[0], own.feet_world[0], own.contact[0])]
+    height = np.array([0.0, 0.0, gait.problem.model.com_height])
+    for move, seconds in enumerate(gait.move_seconds):
+        motion = motion_in_move(gait, move, samples + 1)
+        for place in range(1, samples + 1):
+            times.append(float(own.times[move] + motion.shares[place] * seconds))
+            is_end = place == samples
+            contact = own.contact[move + 1] if is_end else motion.standing
+            rows.append((motion.body[place] + height, motion.heading[place], motion.feet[place], contact))
+    body, heading, feet, contact = (np.array(column) for column in zip(*rows, strict=True))
+    return Trajectory(np.array(times), body, heading, feet, contact)
+
+
+def least_arm_distance(gait: PoseGait) -> float:
+    """Least room between the arms of neighbouring legs along all moves, m; below 0 they touch."""
+    shares = np.linspace(0.0, 1.0, SAMPLES)[::ARM_STRIDE, None, None, None]
+    mixed = (1 - shares) * gait.strokes[:-1] + shares * gait.strokes[1:]
+    return float(np.nanmin(arm_gaps(gait.problem.model, mixed.reshape(-1, *gait.strokes.shape[1:]))))
 
 
 def heights_over_plane(feet: Floats, standing: Bools) -> Floats:
@@ -175,6 +221,7 @@ def _figures(gait: PoseGait, motions: list[MotionInMove]) -> PoseFigures:
         half_way_height=min(_half_way_height(motion) for motion in motions),
         drag=max(_drag(gait, move, motion) for move, motion in enumerate(motions)),
         shoe_distance=min(float(_foot_distances(motion.feet).min()) for motion in motions),
+        arm_distance=min(float(motion.arms.min()) for motion in motions),
         stroke_least=float(gait.strokes.min()),
         stroke_most=float(gait.strokes.max()),
         largest_move=largest,
@@ -238,6 +285,14 @@ def _move_findings(problem: PoseProblem, move: int, motion: MotionInMove) -> Ite
             f"{_mm(bounds.shoe_distance)}."
         )
         yield _finding("shoe distance", move, int(first[pair]), near, sentence)
+    near = bounds.arm_distance - float(motion.arms.min())
+    if bounds.arm_distance > 0.0 and near > TOLERANCE:
+        one, other = sorted(neighbour_pairs(problem.model.leg_count)[int(motion.arms.argmin())].tolist())
+        sentence = (
+            f"The arms of legs {one + 1} and {other + 1} come {{}} nearer to each other {where} than "
+            f"{_mm(bounds.arm_distance)}."
+        )
+        yield _finding("arm distance", move, one, near, sentence)
 
 
 def _stroke_findings(gait: PoseGait) -> Iterator[PoseFinding]:
@@ -305,10 +360,14 @@ def _end_distance(gait: PoseGait) -> float:
     problem = gait.problem
     if problem.cycles is None:
         return float(np.abs(gait.strokes[-1] - gait.strokes[0]).max())
-    stance = standing_pose(problem.model, REST_HEIGHT, (0.0, 0.0))
-    plane = stance.body_world - np.array([0.0, 0.0, problem.model.com_height])
-    strokes = walker_strokes(problem.model, stance.feet_world, BodyPose(plane, np.zeros(())))
-    return float(np.abs(gait.strokes[[0, -1]] - strokes).max())
+    return float(np.abs(gait.strokes[[0, -1]] - rest_strokes(problem.model)).max())
+
+
+def rest_strokes(model: RobotModel) -> Floats:
+    """(legs, 3) strokes of the standard stance, m."""
+    stance = standing_pose(model, REST_HEIGHT, (0.0, 0.0))
+    plane = stance.body_world - np.array([0.0, 0.0, model.com_height])
+    return walker_strokes(model, stance.feet_world, BodyPose(plane, np.zeros(())))
 
 
 def _finding(limit: str, move: int | None, foot: int | None, amount: float, sentence: str) -> PoseFinding:

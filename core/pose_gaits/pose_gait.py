@@ -8,7 +8,7 @@ import numpy as np
 from core.arrays import Floats, frozen_floats
 from core.motion.trajectory import Trajectory
 from core.pose_gaits.pose_problem import PoseProblem
-from core.wire.robot_time import far_motors
+from core.wire.robot_time import ARRIVAL_THRESHOLD, deaf_seconds, far_motors
 from core.wire.waypoints import Waypoints
 
 FIRST_SECONDS = 1.0
@@ -86,3 +86,13 @@ class PoseGait:
         body = self.bodies + np.array([0.0, 0.0, self.problem.model.com_height])
         times = np.append(0.0, np.cumsum(self.move_seconds))
         return Trajectory(times, body, self.headings, self.feet, ~self.problem.airborne)
+
+
+def heard_times(gait: PoseGait) -> Floats:
+    """(moves,) from when the robot hears a Stop in each move at the latest, s from the first pose.
+
+    It reads its line again when the move's first ramp has ended.
+    """
+    begins = gait.trajectory.times[:-1]
+    deaf = [deaf_seconds(float(move), off=ARRIVAL_THRESHOLD) for move in gait.moves]
+    return np.asarray(np.minimum(begins + deaf, gait.trajectory.times[1:]))

@@ -15,6 +15,7 @@ import numpy as np
 from core.arrays import Bools, Floats
 from core.errors import InputError
 from core.motion.support_polygon import support_polygon
+from core.robot.arms import ARM_GAP
 from core.robot.model import RobotModel
 from core.wire.robot_time import PUBLISHED, TimeLaw, longest_move
 
@@ -42,6 +43,7 @@ POSE_BOUNDS: Mapping[str, tuple[float, float]] = MappingProxyType(
         "clearance": (LEAST_CLEARANCE, 0.015),
         "slip": (0.00005, 0.005),
         "shoe_distance": (0.0, 0.06),
+        "arm_distance": (0.0, 0.01),
         "stop_bound": (0.8, 10.0),
     }
 )
@@ -59,6 +61,7 @@ class PoseBounds:
         clearance: height of a swinging foot at its pose in the air, above the plane of the standing ones, m.
         slip: how far a standing foot may be off its foothold within a move, in x and y; half of it in z, m.
         shoe_distance: least distance between the middles of two feet, m.
+        arm_distance: least room between the arms of neighbouring legs, m; 0 where they may touch.
         stop_bound: longest time until the robot hears a stop, s.
         plane_height: lowest and highest actuator plane of a pose, m.
     """
@@ -67,6 +70,7 @@ class PoseBounds:
     clearance: float = 0.003
     slip: float = 0.0005
     shoe_distance: float = 0.028
+    arm_distance: float = ARM_GAP
     stop_bound: float = 1.5
     plane_height: tuple[float, float] = PLANE_HEIGHTS
 

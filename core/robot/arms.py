@@ -4,6 +4,8 @@ An arm is a parallelogram of four bars, `rod_diameter` thick: two rods whose end
 across the arm, the knee's bar above and the platform's bar below.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from core.arrays import Floats
@@ -11,6 +13,8 @@ from core.robot.leg import foot_from_strokes, vertex_directions
 from core.robot.model import RobotModel
 from core.robot.shoes import neighbour_pairs
 
+ARM_GAP = 0.0005
+"""Room between the arms of two legs below which the check warns, and that the fastest walks keep, m."""
 TOGETHER = 400
 """Poses that are looked at together, so that memory stays small."""
 PARALLEL = 1e-15
@@ -40,17 +44,32 @@ def arm_bars(model: RobotModel, strokes: Floats) -> Floats:
     return np.asarray(turned + model.module_centres_robot[:, None, None, None])
 
 
-def segment_distances(first: Floats, second: Floats) -> Floats:
-    """Least distance of two segments p + s·a and q + t·b with s, t in 0 to 1.
+@dataclass(frozen=True, eq=False)
+class NearestPoints:
+    """Where two segments p + s·a and q + t·b, with s and t in 0 to 1, are nearest to each other.
+
+    Args:
+        first: (..., 3) on the first one, m.
+        second: (..., 3) on the second one, m.
+    """
+
+    first: Floats
+    second: Floats
+
+    @property
+    def distances(self) -> Floats:
+        """(...) m."""
+        return np.asarray(np.linalg.norm(self.first - self.second, axis=-1))
+
+
+def nearest_points(first: Floats, second: Floats) -> NearestPoints:
+    """Where two segments are nearest to each other.
 
     The lines' nearest points are taken, and each share is clipped with the other one's best answer.
 
     Args:
         first: (..., 2, 3) both ends, m.
         second: likewise.
-
-    Returns:
-        (...) m.
     """
     a, b = first[..., 1, :] - first[..., 0, :], second[..., 1, :] - second[..., 0, :]
     between = first[..., 0, :] - second[..., 0, :]
@@ -62,8 +81,10 @@ def segment_distances(first: Floats, second: Floats) -> Floats:
     share = np.clip(share, 0.0, 1.0)
     other = np.clip((ab * share + to_b) / bb, 0.0, 1.0)
     share = np.clip((ab * other - to_a) / aa, 0.0, 1.0)
-    apart = between + share[..., None] * a - other[..., None] * b
-    return np.asarray(np.linalg.norm(apart, axis=-1))
+    return NearestPoints(
+        np.asarray(first[..., 0, :] + share[..., None] * a),
+        np.asarray(second[..., 0, :] + other[..., None] * b),
+    )
 
 
 def arm_gaps(model: RobotModel, strokes: Floats) -> Floats:
@@ -83,7 +104,7 @@ def arm_gaps(model: RobotModel, strokes: Floats) -> Floats:
         bars = arm_bars(model, strokes[begin : begin + TOGETHER])
         flat = bars.reshape(*bars.shape[:2], -1, 2, 3)
         distances = [
-            segment_distances(flat[:, one, :, None], flat[:, other, None]).min(axis=(1, 2))
+            nearest_points(flat[:, one, :, None], flat[:, other, None]).distances.min(axis=(1, 2))
             for one, other in pairs
         ]
         found.append(np.stack(distances, axis=-1))

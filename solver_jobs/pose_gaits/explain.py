@@ -5,10 +5,10 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from core.pose_gaits.pose_problem import LEAST_CLEARANCE, PoseProblem
+from core.pose_gaits.start_motion import MM
 from core.wire.robot_time import deaf_seconds
 from solver_jobs.pose_gaits.pose_program import SLACKS, PoseProgram, Weights
 from solver_jobs.pose_gaits.program import Attempt, Row
-from solver_jobs.pose_gaits.start_motion import MM
 
 FARTHEST = Weights(time=1e-3, reach=1.0)
 LOOSEST = Weights(time=1e-3, slack=10.0)

@@ -6,8 +6,10 @@ strokes are (1 − m) h_k + m h_{k+1}, and what body and feet do there has to be
 their footholds a little within a move, since motors that go straight do not keep them exactly.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import combinations
+from types import MappingProxyType
 
 import numpy as np
 from casadi import DM, SX, Function, fmax, horzcat, sqrt, sum1, sumsqr, vertcat
@@ -15,10 +17,11 @@ from casadi import DM, SX, Function, fmax, horzcat, sqrt, sum1, sumsqr, vertcat
 from core.arrays import Floats
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import FRACTIONS, REST_HEIGHT, SHORTEST_MOVE, PoseProblem
+from core.pose_gaits.start_motion import MM, PosesStart, StartMotion, rotation_about_z
 from core.wire.robot_time import RAMP_SPEED
 from solver_jobs.nlp.leg_equations import motor_arms, squared_offsets
+from solver_jobs.pose_gaits.arms import ArmPlace, Plane, arm_corners
 from solver_jobs.pose_gaits.program import Program, Row
-from solver_jobs.pose_gaits.start_motion import MM, StartMotion, rotation_about_z
 
 STROKE_ROOM = 0.001
 """Strokes stay this much within their range, so that a rounded file does, mm."""
@@ -29,6 +32,8 @@ FAR = 3000.0
 """No unknown is farther than this, mm."""
 LEAST_DEPTH = 5.0
 """A rod's depth that the equations do not go below while IPOPT looks around, mm."""
+LEAST_NORMAL = 0.25
+"""Least squared length of a plane's normal: one of length 0 would separate nothing."""
 SLACKS = ("margin", "clearance", "shoe distance", "stop bound")
 """Limits that an explanation may loosen."""
 
@@ -59,23 +64,52 @@ class Weights:
         return np.array([self.time, self.pace, self.slip, self.sway, self.reach, self.slack])
 
 
+@dataclass(frozen=True, eq=False)
+class ArmRows:
+    """Arms that have to keep apart.
+
+    Args:
+        distance: room between the bars of two arms, m.
+        planes: where, each with the plane between them from which the search starts.
+    """
+
+    distance: float
+    planes: Mapping[ArmPlace, Plane]
+
+
+NO_ARMS = ArmRows(0.0, MappingProxyType({}))
+
+
 class PoseProgram:
     """The compiled program of a problem.
+
+    The unknowns of its planes between arms come last, so that a program with other planes has the same
+    unknowns before them.
 
     Args:
         problem: what is asked.
         step_guess: step a cycle from which the search starts, m.
+        arms: that have to keep apart.
+        start: from which the search starts; None for a body that goes on evenly.
     """
 
-    def __init__(self, problem: PoseProblem, step_guess: float) -> None:
+    def __init__(
+        self,
+        problem: PoseProblem,
+        step_guess: float,
+        arms: ArmRows = NO_ARMS,
+        start: StartMotion | PosesStart | None = None,
+    ) -> None:
         self.problem = problem
+        self.arms = arms
         self.program = Program()
         self._model = problem.model
         self._bounds = problem.bounds
-        self._guess = StartMotion(problem, step_guess * MM)
+        self._guess = start or StartMotion(problem, step_guess * MM)
         self._longest = problem.largest_move * MM
         self._shortest = min(SHORTEST_MOVE * MM, self._longest)
         self._deviations: list[SX] = []
+        self._within: dict[tuple[int, float], _Posture] = {}
         self._slack_symbols = {
             name: self.program.variable(f"slack {name}", [0.0], [0.0], [0.0]) for name in SLACKS
         }
@@ -93,6 +127,8 @@ class PoseProgram:
         self._add_poses()
         self._add_moves()
         self._add_fractions()
+        self.own_count = self.program.variable_count
+        self._keep_arms_apart()
         self._compile()
 
     # Poses
@@ -264,6 +300,7 @@ class PoseProgram:
                     for leg in range(legs)
                 ]
                 mixed = (1 - share) * self.strokes[move] + share * self.strokes[move + 1]
+                self._within[move, share] = _Posture(body, feet, mixed, heading)
                 for leg in range(legs):
                     asked = mixed[3 * leg : 3 * leg + 3]
                     self.program.bound(self._strokes(feet[leg], leg, body, heading) - asked, 0.0, 0.0)
@@ -280,6 +317,28 @@ class PoseProgram:
                         self.program.bound(height + self._slack_symbols["clearance"], asked_height, row=row)
                 self._balance(body, feet, standing, move)
                 self._keep_apart(feet, move)
+
+    def _keep_arms_apart(self) -> None:
+        """A plane between two arms leaves half of their distance to the corners of either."""
+        half = (self._model.shape.rod_diameter + self.arms.distance) * MM / 2
+        for place, plane in self.arms.planes.items():
+            unit = self.program.variable(f"normal {place}", [-1.0] * 3, [1.0] * 3, plane.normal)
+            offset = self.program.variable(f"offset {place}", [-FAR], [FAR], [plane.offset])
+            self.program.bound(sumsqr(unit), LEAST_NORMAL, 1.0)
+            for leg, arm, side in zip(place.legs, place.arms, (1, -1), strict=True):
+                posture = self._posture(place)
+                stroke = posture.strokes[3 * leg + arm]
+                row = Row("arm distance", place.move, leg)
+                for corner in arm_corners(
+                    self._model, leg, arm, posture.body, posture.feet[leg], stroke, posture.heading
+                ):
+                    self.program.bound(side * (unit.T @ corner - offset), half, row=row)
+
+    def _posture(self, place: ArmPlace) -> "_Posture":
+        move = place.move
+        if place.share == 0.0:
+            return _Posture(self.bodies[move], self.feet[move], self.strokes[move], self.headings[move])
+        return self._within[move, place.share]
 
     # The cost, and what comes of it
 
@@ -333,6 +392,23 @@ class PoseProgram:
             feet.reshape(poses, legs, 3) / MM,
             strokes.reshape(poses, legs, 3) / MM,
         )
+
+
+@dataclass(frozen=True, eq=False)
+class _Posture:
+    """The robot at a place of a move.
+
+    Args:
+        body: (3,) mm.
+        feet: (3,) each, mm.
+        strokes: (3·legs,) mm.
+        heading: rad.
+    """
+
+    body: SX
+    feet: list[SX]
+    strokes: SX
+    heading: float
 
 
 def _plane_height(foot: SX, standing: list[SX]) -> SX:

@@ -1,5 +1,6 @@
 """A nonlinear program that is put together row by row and solved by IPOPT, as often as one likes."""
 
+import itertools
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -42,6 +43,7 @@ class Attempt:
         status: IPOPT's own word.
         values: (variables,) where it ended.
         pressures: (rows,) multipliers of the rows: how much each of them holds the solution back.
+        iterations: how many it took.
         seconds: time in the solver.
     """
 
@@ -49,6 +51,7 @@ class Attempt:
     status: str
     values: Floats
     pressures: Floats
+    iterations: int
     seconds: float
 
 
@@ -138,7 +141,8 @@ class Program:
         variable_bounds: tuple[Floats, Floats],
         row_bounds: tuple[Floats, Floats],
         keep_on: Callable[[], bool],
-        most_seconds: float,
+        most_iterations: int = MOST_ITERATIONS,
+        most_seconds: float = np.inf,
     ) -> Attempt:
         """Calls IPOPT once.
 
@@ -148,13 +152,17 @@ class Program:
             variable_bounds: (variables,) each.
             row_bounds: (rows,) each.
             keep_on: asked now and then; false ends the run.
-            most_seconds: a run that takes longer leads nowhere, and is ended.
+            most_iterations: a run that takes more is ended; iterations and not seconds, so that an answer
+                does not depend on what else the computer does.
+            most_seconds: the same; for runs whose iterations may stall.
         """
         if self._solver is None or self._monitor is None:
             raise RuntimeError("The program is not compiled.")
-        begin = time.perf_counter()
+        begin, looks = time.perf_counter(), itertools.count(1)
         self._monitor.listener = lambda values, figures: (
-            keep_on() and time.perf_counter() - begin < most_seconds
+            keep_on()
+            and next(looks) * CHECK_EVERY < most_iterations
+            and time.perf_counter() - begin < most_seconds
         )
         lower, upper = variable_bounds
         result = self._solver(
@@ -168,6 +176,7 @@ class Program:
         seconds = time.perf_counter() - begin
         if self._monitor.error is not None:
             raise self._monitor.error
-        status = str(self._solver.stats()["return_status"])
+        stats = self._solver.stats()
+        status = str(stats["return_status"])
         values, pressures = (np.array(result[name]).ravel() for name in ("x", "lam_g"))
-        return Attempt(status in ACCEPTED, status, values, pressures, seconds)
+        return Attempt(status in ACCEPTED, status, values, pressures, int(stats["iter_count"]), seconds)

@@ -7,12 +7,15 @@ from dataclasses import replace
 import numpy as np
 
 from core.arrays import Floats
-from core.pose_gaits.pose_check import check_poses
+from core.pose_gaits.pose_check import check_poses, least_arm_distance, rest_strokes
+from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import SHORTEST_MOVE, PoseProblem
-from solver_jobs.pose_gaits.explain import explained
-from solver_jobs.pose_gaits.pose_program import SLACKS, PoseProgram, Weights
-from solver_jobs.pose_gaits.program import Attempt
-from solver_jobs.pose_gaits.start_motion import MM
+from core.pose_gaits.start_motion import MM, PosesStart
+from core.robot.arms import arm_gaps
+from solver_jobs.pose_gaits.arms import NEAR, ArmPlace, Plane, near_arms
+from solver_jobs.pose_gaits.explain import NOT_PROVEN, explained
+from solver_jobs.pose_gaits.pose_program import SLACKS, ArmRows, PoseProgram, Weights
+from solver_jobs.pose_gaits.program import MOST_ITERATIONS, Attempt
 from solver_jobs.results.motion import SolveStatus
 from solver_jobs.results.pose import PoseProgress, PoseResult
 
@@ -20,6 +23,8 @@ STARTS = 3
 """Starts that are tried where the step is free."""
 STEP_GUESS = 0.030
 """Step a cycle from which a search with a free step begins, m."""
+LEAST_STEP = 1.0
+"""Shortest step a cycle of such a search, mm."""
 SPREAD = 3.0
 """Standard deviation by which further starts move the body sideways, mm."""
 FASTEST = Weights(time=1.0, pace=0.0)
@@ -30,14 +35,20 @@ SAME_TIME = 1e-4
 """Share of the robot's time that a gentler gait may take more."""
 CONVERGED = "Solve_Succeeded"
 """IPOPT's word for an optimum within its tolerance."""
-MOST_SECONDS = 30.0
-"""For one run of IPOPT."""
-MORE_SECONDS = 2.0
-"""Making short moves long takes at most this much longer than the gait took itself, s."""
+LENGTHENING_ITERATIONS = 60
+"""IPOPT gets this many to make short moves long; where it needs more it stalls."""
+STALLED = 2.0
+"""It stalls too where its iterations take this many times as long as those that found the gait."""
 LENGTHENINGS = 3
 """Times that short moves are made long."""
 NEARLY_LONG = 0.02
 """A move that is shorter than `SHORTEST_MOVE` by less than this is long enough, mm."""
+MOST_ARM_ROUNDS = 4
+"""Times that a gait whose arms come too near is looked for anew."""
+ARM_TOLERANCE = 0.00002
+"""Less than this is no lack of room between arms, m; the check allows more."""
+ARM_ROOM = 0.0001
+"""Arms are kept this much farther apart than asked at the places that have rows, m."""
 WORTH = 0.995
 """Longer moves are taken where the gait stays this fast by the law: the board has fewer second ramps then."""
 
@@ -50,14 +61,17 @@ class _Cancelled(Exception):  # noqa: N818 - it is no error
     """Somebody ended the search."""
 
 
-def solve_poses(problem: PoseProblem, report: Report = lambda progress: True) -> PoseResult:
+def solve_poses(
+    problem: PoseProblem, report: Report = lambda progress: True, near: PoseGait | None = None
+) -> PoseResult:
     """Looks for the fastest pose gait.
 
     Args:
         problem: what is asked.
         report: called between and within the stages.
+        near: poses to begin with instead of several starts; they need not answer the problem.
     """
-    results = [_solved(replace(problem, parts=parts), report) for parts in problem.parts_to_try]
+    results = [_solved(replace(problem, parts=parts), report, near) for parts in problem.parts_to_try]
     cancelled = [result for result in results if result.status is SolveStatus.CANCELLED]
     solved = [result for result in results if result.gait is not None]
     best = cancelled[0] if cancelled else max(solved, key=_result_speed) if solved else results[0]
@@ -72,9 +86,10 @@ def _result_speed(result: PoseResult) -> float:
     return 0.0 if result.gait is None else result.gait.speed
 
 
-def _solved(problem: PoseProblem, report: Report) -> PoseResult:
+def _solved(problem: PoseProblem, report: Report, near: PoseGait | None) -> PoseResult:
     """The search with a given number of parts."""
-    search = _Search(problem, report)
+    fits = near is not None and np.array_equal(near.problem.airborne, problem.airborne)
+    search = _Search(problem, report, near if fits else None)
     try:
         return search.result()
     except _Cancelled:
@@ -84,30 +99,33 @@ def _solved(problem: PoseProblem, report: Report) -> PoseResult:
 class _Search:
     """One search; it keeps what is known for its reports."""
 
-    def __init__(self, problem: PoseProblem, report: Report) -> None:
+    def __init__(self, problem: PoseProblem, report: Report, near: PoseGait | None) -> None:
         self.problem = problem
+        self._near = near
         self._report = report
         self._begin = time.perf_counter()
         self._solve_seconds = 0.0
-        self._ran_out = False
         self._forced: Forced = ()
         self._progress = PoseProgress("Building the program", 0.0, None)
 
     def result(self) -> PoseResult:
+        too_near = self._too_near_at_rest()
+        if too_near is not None:
+            return self.ended(SolveStatus.INFEASIBLE, (too_near,))
         self._tell("Building the program", 0.0)
-        program = PoseProgram(self.problem, self.problem.step or STEP_GUESS)
-        best = self._fastest(program)
+        program, best = self._found()
         if best is None:
             self._tell("Looking for the reason", 0.8)
             short = program if self.problem.step is None else PoseProgram(self.problem, STEP_GUESS)
-            if self._ran_out:
-                sentence = (
-                    f"The search took longer than {MOST_SECONDS:.0f} s for one start. Choose fewer --cycles, "
-                    "or try again when the computer has less to do."
-                )
-                return self.ended(SolveStatus.FAILED, (sentence,))
             sentences = explained(self.problem, short, self._run(short))
             return self.ended(SolveStatus.INFEASIBLE, sentences)
+        apart = self._with_arms_apart(program, best)
+        if apart is None and self._near is not None:
+            self._near = None  # other starts may lead to arms that keep apart
+            return self.result()
+        if apart is None:
+            return self.ended(SolveStatus.INFEASIBLE, self._arms_explained(program, best))
+        program, best = apart
         best = self._lengthened(program, best)
         gait, check = program.gait(best.values), check_poses(program.gait(best.values))
         gentle = self._gentle(program, best)
@@ -119,9 +137,24 @@ class _Search:
         if check.confirmed:
             ended, optimal = self.ended(SolveStatus.SOLVED, ()), best.status == CONVERGED
             return replace(ended, gait=gait, check=check, optimal=optimal)
+        if self._near is not None:
+            self._near = None
+            return self.result()
         sentences = tuple(finding.sentence for finding in check.findings[:5])
         explanation = ("The independent check does not confirm the gait that was found.", *sentences)
         return self.ended(SolveStatus.FAILED, explanation)
+
+    def _found(self) -> tuple[PoseProgram, Attempt | None]:
+        """The program and its fastest gait: beside the poses that are known, else of several starts."""
+        if self._near is not None:
+            self._tell("Solving", 0.1)
+            program = PoseProgram(self.problem, self._near.step, start=PosesStart(self._near))
+            weights = FREE if self.problem.step is None else FASTEST
+            attempt = self._run(program)(program.program.start, weights, step=self._step)
+            if attempt.converged:
+                return program, attempt
+        program = PoseProgram(self.problem, self.problem.step or STEP_GUESS)
+        return program, self._fastest(program)
 
     def ended(self, status: SolveStatus, explanation: tuple[str, ...]) -> PoseResult:
         seconds = time.perf_counter() - self._begin
@@ -147,7 +180,8 @@ class _Search:
             seconds: float = np.inf,
             forced: Forced = (),
             slack: Mapping[str, float] | None = None,
-            most_seconds: float = MOST_SECONDS,
+            most_iterations: int = MOST_ITERATIONS,
+            most_seconds: float = np.inf,
         ) -> Attempt:
             lower, upper = program.program.variable_bounds
             if step is not None:
@@ -163,12 +197,17 @@ class _Search:
                 else:
                     row_upper[place] = -SHORTEST_MOVE * MM
             attempt = program.program.run(
-                weights.values, start, (lower, upper), (row_lower, row_upper), self._keep_on, most_seconds
+                weights.values,
+                start,
+                (lower, upper),
+                (row_lower, row_upper),
+                self._keep_on,
+                most_iterations,
+                most_seconds,
             )
             self._solve_seconds += attempt.seconds
             if attempt.status == "User_Requested_Stop" and not self._report(self._progress):
                 raise _Cancelled
-            self._ran_out = self._ran_out or attempt.status == "User_Requested_Stop"
             return attempt
 
         return run
@@ -189,7 +228,7 @@ class _Search:
                 attempt = run(start, FASTEST, step=self._step)
             else:
                 if self.problem.cycles is not None:  # a long way from a poor start often fails
-                    short = run(start, FREE, step=(STEP_GUESS * MM, STEP_GUESS * MM))
+                    short = run(start, FREE, step=(LEAST_STEP, STEP_GUESS * MM))
                     start = short.values if short.converged else start
                 attempt = run(start, FREE)
             if attempt.converged:
@@ -199,6 +238,53 @@ class _Search:
                 if self.problem.step is not None:
                     break
         return max(found, key=lambda one: _speed(program, one)) if found else None
+
+    def _with_arms_apart(self, program: PoseProgram, best: Attempt) -> tuple[PoseProgram, Attempt] | None:
+        """The fastest gait near the one that was found whose arms keep apart, and its program."""
+        asked, room = self.problem.bounds.arm_distance, ARM_ROOM
+        planes: dict[ArmPlace, Plane] = {}
+        for number in range(MOST_ARM_ROUNDS):
+            gait = program.gait(best.values)
+            lacking = asked - least_arm_distance(gait)
+            if asked == 0.0 or lacking <= ARM_TOLERANCE:
+                break
+            self._tell("Keeping arms apart", 0.62 + 0.02 * number, gait.speed)
+            if planes and near_arms(gait, asked - NEAR).keys() <= planes.keys():
+                # Between the places that have rows the arms come a little nearer.
+                room += lacking
+            planes |= near_arms(gait, asked + room)
+            program = PoseProgram(self.problem, gait.step, ArmRows(asked + room, planes))
+            start = program.program.start
+            start[: program.own_count] = best.values[: program.own_count]
+            weights = FREE if self.problem.step is None else FASTEST
+            best = self._run(program)(start, weights, step=self._step)
+            if not best.converged:
+                return None
+        return program, best
+
+    def _too_near_at_rest(self) -> str | None:
+        """That arms are nearer than asked where the walk begins and ends; None where they are not."""
+        asked = self.problem.bounds.arm_distance
+        if self.problem.cycles is None or asked == 0.0:
+            return None
+        gap = float(np.nanmin(arm_gaps(self.problem.model, rest_strokes(self.problem.model)[None])))
+        if gap >= asked:
+            return None
+        return (
+            f"The arms of neighbouring legs are {gap * MM:.1f} mm apart in the standard stance, and "
+            f"{asked * MM:g} mm are asked (--arm-distance). Ask for less."
+        )
+
+    def _arms_explained(self, program: PoseProgram, best: Attempt) -> tuple[str, ...]:
+        """Why a gait that was found cannot keep its arms apart."""
+        least = least_arm_distance(program.gait(best.values)) * MM
+        near = f"come within {least:.1f} mm" if least >= 0.0 else f"would be {-least:.1f} mm in one another"
+        return (
+            f"The gait that was found lets the arms of neighbouring legs come too near: they {near}, and "
+            f"{self.problem.bounds.arm_distance * MM:g} mm are asked (--arm-distance). Shorten the --step, "
+            "or ask for less.",
+            NOT_PROVEN,
+        )
 
     def _lengthened(self, program: PoseProgram, best: Attempt) -> Attempt:
         """The gait with moves of at least `SHORTEST_MOVE` where the law calls it as fast.
@@ -216,8 +302,15 @@ class _Search:
             self._tell("Making short moves long", 0.7 + 0.03 * number)
             forced = (*forced, *short)
             weights = FREE if self.problem.step is None else FASTEST
-            patience = MORE_SECONDS + best.seconds
-            attempt = run(best.values, weights, step=self._step, forced=forced, most_seconds=patience)
+            usual = best.seconds / max(best.iterations, 1) * LENGTHENING_ITERATIONS
+            attempt = run(
+                best.values,
+                weights,
+                step=self._step,
+                forced=forced,
+                most_iterations=LENGTHENING_ITERATIONS,
+                most_seconds=STALLED * usual,
+            )
             if not attempt.converged or _speed(program, attempt) < WORTH * _speed(program, best):
                 return best
             best, self._forced = attempt, forced

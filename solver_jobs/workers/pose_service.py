@@ -2,15 +2,16 @@
 
 from collections.abc import Callable
 
+from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseProblem
 from solver_jobs.results.motion import SolveStatus
 from solver_jobs.results.pose import PoseProgress, PoseResult
-from solver_jobs.workers.pose_worker import run_pose_worker
+from solver_jobs.workers.pose_worker import PoseQuestion, run_pose_worker
 from solver_jobs.workers.spawning import NICENESS
 from solver_jobs.workers.task_service import SILENCE_SECONDS, Task, TaskService
 
 
-class PoseSearch(Task[PoseProblem, PoseProgress, PoseResult]):
+class PoseSearch(Task[PoseQuestion, PoseProgress, PoseResult]):
     """A search that was submitted; a cancelled one has no gait."""
 
     def unanswered(self, seconds: float) -> PoseResult:
@@ -36,12 +37,16 @@ class PoseGaitSolver(TaskService[PoseSearch]):
         super().__init__("pose gait solver", run_pose_worker, None, niceness)
 
     def submit(
-        self, problem: PoseProblem, progress: Callable[[PoseProgress], object] = lambda known: None
+        self,
+        problem: PoseProblem,
+        progress: Callable[[PoseProgress], object] = lambda known: None,
+        near: PoseGait | None = None,
     ) -> PoseSearch:
         """Begins a search, after those that were submitted before.
 
         Args:
             problem: what is asked.
             progress: called with what is known, from a thread of the service's.
+            near: poses to begin with; None for several starts.
         """
-        return self.ask(PoseSearch(problem, progress))
+        return self.ask(PoseSearch(PoseQuestion(problem, near), progress))

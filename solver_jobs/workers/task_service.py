@@ -65,6 +65,10 @@ class Task(ABC, Generic[Payload, Known, Result]):
         """
         return self._future.result(timeout)
 
+    def when_done(self, tell: Callable[[], object]) -> None:
+        """Calls back once the answer is there, from a thread of the service's; at once where it is."""
+        self._future.add_done_callback(lambda done: tell())
+
     def cancel(self) -> None:
         """Ends it; one that is done stays as it is."""
         self.is_ending = True

@@ -16,6 +16,7 @@ from core.checks import motors as motor_check
 from core.checks import path as path_check
 from core.checks import shoes as shoe_check
 from core.physics import findings as physics
+from core.robot.arms import ARM_GAP
 from core.robot.model import load_robot
 from core.robot.shoes import SHOE_GAP
 from core.wire.messages import LONGEST_DURATION, SHORTEST_DURATION
@@ -69,7 +70,7 @@ def test_every_rule_that_the_code_names_stands_in_the_table_and_no_other() -> No
             "shoe_distance",
             [f"the shoes' diameter, {SHOE * 1000:.1f} mm", f"{SHOE_GAP * 1000:.1f} mm"],
         ),
-        ("arm_distance", [f"{arm_check.ARM_GAP * 1000:.1f} mm"]),
+        ("arm_distance", [f"{ARM_GAP * 1000:.1f} mm"]),
         ("start_pose", [f"{document_check.START_FEET} feet", "none"]),
         ("travel", [f"{document_check.TRAVEL_LIMIT * 1000:.1f} mm"]),
         ("turn", [f"{np.degrees(document_check.TURN_LIMIT):.0f}°"]),

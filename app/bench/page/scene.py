@@ -73,6 +73,7 @@ def bench_scene(rounds: int = ROUNDS) -> list[Row]:
 
 def _row(page: Page, address: str, name: str, choices: Json, rounds: int) -> Row:
     page.goto(address)
+    page.evaluate("localStorage.setItem('footfall.gait', 'walk')")
     for key, choice in choices.items():
         page.evaluate(
             "([key, value]) => localStorage.setItem(key, value)", [f"footfall.{key}", json.dumps(choice)]

@@ -18,9 +18,9 @@ function show() {
   find("margin").textContent = state.margin === null
     ? "Too few feet stand for a support polygon"
     : `Stability margin ${(state.margin * 1000).toFixed(1)} mm${state.margin < 0 ? ", outside the support polygon" : ""}`;
-  const { left, width, samples } = data.diagram;
+  const { places } = data.diagram;
   const { knot, part } = place(player.time);
-  const x = left + (width * Math.min(knot + part + 0.5, samples)) / samples;
+  const x = mix(places[knot], places[Math.min(knot + 1, last)], part);
   playhead.style.transform = `translate(${player.from + x * player.scale}px, 0)`;
 }
 
@@ -116,7 +116,7 @@ function zoom(factor) {
 }
 
 function installDiagram() {
-  const { top, bottom, left, width, samples } = data.diagram;
+  const { top, bottom, places } = data.diagram;
   const fit = () => {
     const matrix = diagram.getScreenCTM();
     const frame = find("diagram").getBoundingClientRect();
@@ -129,9 +129,9 @@ function installDiagram() {
   new ResizeObserver(fit).observe(diagram);
   const scrubTo = (event) => {
     const point = new DOMPoint(event.clientX, event.clientY).matrixTransform(diagram.getScreenCTM().inverse());
-    const knot = Math.min(Math.max(((point.x - left) / width) * samples - 0.5, 0), last);
-    const low = Math.min(Math.floor(knot), last - 1);
-    goTo(mix(data.times[low], data.times[low + 1], knot - low));
+    const low = Math.min(Math.max(places.findLastIndex((x) => x <= point.x), 0), last - 1);
+    const part = (point.x - places[low]) / (places[low + 1] - places[low]);
+    goTo(mix(data.times[low], data.times[low + 1], Math.min(Math.max(part, 0), 1)));
   };
   diagram.addEventListener("pointerdown", (event) => {
     diagram.setPointerCapture(event.pointerId);

@@ -1,5 +1,6 @@
 """Gaits: list, documents, edits, plans, checks and approvals."""
 
+from collections.abc import Callable
 from dataclasses import asdict, replace
 from enum import StrEnum
 from functools import partial
@@ -18,6 +19,7 @@ from app.gaits.open_gait import OpenGait
 from app.gaits.trash import ROUTE
 from app.gaits.views import approval_view, verdict_view
 from app.scene.overlay import plan_poses
+from app.studio.studio import Studio
 from app.web.dependencies import (
     RequestBody,
     Revision,
@@ -242,6 +244,28 @@ def _asked(body: bytes) -> Live:
         raise InputError(f"body, field {field}: {first['msg']}.", f"body.{field}") from error
 
 
+@router.delete("/{gait_id}/search")
+async def cancel_search(gait_id: str, studio: TheStudio) -> Json:
+    """Ends the search for the poses of a gait for the robot's clock."""
+    return await _searched(gait_id, studio, studio.pose_searches.cancel)
+
+
+@router.post("/{gait_id}/search")
+async def search_again(gait_id: str, studio: TheStudio) -> Json:
+    """Searches again for poses after the search was cancelled."""
+    return await _searched(gait_id, studio, studio.pose_searches.again)
+
+
+async def _searched(gait_id: str, studio: Studio, act: Callable[[str], None]) -> Json:
+    def acted() -> Json:
+        open_gait = studio.gaits.open_gait(gait_id)
+        act(gait_id)
+        studio.publisher.publish_gait(open_gait)
+        return studio.publisher.view(gait_id)
+
+    return await on_planned(studio, gait_id, acted)
+
+
 @router.post("/{gait_id}/check")
 async def check(gait_id: str, studio: TheStudio) -> Json:
     """Checks the plan by every rule and gives the verdict."""
@@ -277,10 +301,11 @@ async def poses(gait_id: str, plan: str, studio: TheStudio) -> Response:
     shown = await on_planned(studio, gait_id, lambda: studio.gaits.plan(gait_id))
     if shown.hash != plan:
         shown = studio.live.kept(plan)
-    trajectory = shown.trajectory
+    trajectory = shown.moved
     if trajectory is None:
         raise StateError("This plan cannot be shown: there is no motion.", "plan")
-    blob = await run_in_threadpool(plan_poses, shown.model, trajectory)
+    stops = None if shown.poses is None else shown.poses.trajectory.times
+    blob = await run_in_threadpool(plan_poses, shown.model, trajectory, stops)
     return Response(blob.to_bytes(), media_type="application/octet-stream")
 
 

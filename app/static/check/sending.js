@@ -2,7 +2,7 @@
 
 import { h } from "../lib/dom.js";
 import { numberField } from "../state/fields.js";
-import { fixed, seconds } from "../lib/format.js";
+import { fixed, seconds, timesText } from "../lib/format.js";
 import { shownDocument } from "../state/store.js";
 
 const option = (name, factor = 1) => ({
@@ -35,11 +35,13 @@ export function costTable(verdict) {
     ...verdict.notes.map((text) => h("p", { class: "why", text }))];
 }
 
-function inShort(plan) {
+function inShort(view) {
+  const plan = view?.plan;
   if (!plan?.waypoint_count) return "";
   const { waypoint_count: count, times, robot_seconds: takes, every_knot_seconds: every, stop_seconds: stop } = plan;
-  const instead = Math.abs(every - takes) >= 0.5 ? ` (one waypoint a knot: ${fixed(every, 0)} s)` : "";
-  return `${count} waypoints of ${times.length} knots, about ${fixed(takes, 0)} s on the robot${instead}. Stop acts within ${seconds(stop)} s.`;
+  const instead = Math.abs(every - takes) >= 0.5 ? ` (with one a knot: ${fixed(every, 0)} s)` : "";
+  const lasts = timesText(view) || `About ${fixed(takes, 0)} s on the robot`;
+  return `${lasts}. ${count} waypoints of ${times.length} knots${instead}. Stop acts within ${seconds(stop)} s.`;
 }
 
 /** Builds the two fields and the line of what they cost. */
@@ -50,6 +52,6 @@ export function sendingFields(store, edits) {
     const document = shownDocument(state);
     if (document) fields.forEach((field) => field.show(document));
   });
-  store.watch(({ view }) => [view?.plan], ({ view }) => { line.textContent = inShort(view?.plan); });
+  store.watch(({ view }) => [view], ({ view }) => { line.textContent = inShort(view); });
   return h("div", { class: "sending", role: "group", "aria-label": "How it is sent" }, h("div", { class: "fields" }, ...fields.map(({ element }) => element)), line);
 }

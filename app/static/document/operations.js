@@ -10,7 +10,7 @@ import { capital, counted } from "../lib/format.js";
 import { drawnRows, isDrawn, repeatedRows } from "./drawn_timeline.js";
 import { heldMirrored, heldReversed, heldTurned } from "./held_feet.js";
 import { allFeet, isWhole, lengthOf, regionText, wholeOf } from "./region.js";
-import { FOLLOWS, isSequence } from "./sequence_edits.js";
+import { whyNotDrawn } from "./drawable.js";
 import { blockOf, heldBack, mirrored, mirroredFeet, resampled, reversed, shifted, stretchedInPlace, toStance, turnedRows, withBlock, withLocks } from "./timeline_operators.js";
 
 const MOST_ITERATIONS = 20;
@@ -168,7 +168,8 @@ const refusalOf = (before, after) =>
  * @param {number} [amount]
  */
 export function outcomeOf(id, { document, region, mirror: map }, amount) {
-  if (isSequence(document)) return { reason: FOLLOWS };
+  const whyNot = whyNotDrawn(document);
+  if (whyNot) return { reason: whyNot };
   const chosen = region ?? wholeOf(document);
   const context = { document, region: chosen, mirror: map, amount, words: regionText(document, chosen) };
   const found = OPERATIONS[id].outcome(context);

@@ -5,9 +5,6 @@ const withParts = (change) => (document) => ({ ...document, sequence: change(doc
 /** How often a part may run. */
 export const MOST_TIMES = 20;
 
-/** Why nothing is drawn on a sequence's timeline. */
-export const FOLLOWS = "The timeline of a sequence follows from its parts. Change the gait that a part comes from, and take it over.";
-
 /** Whether a document chains gaits. */
 export const isSequence = (document) => Boolean(document?.sequence?.length);
 

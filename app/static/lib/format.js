@@ -61,3 +61,10 @@ export const counted = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s
 
 /** "body_height" as "Body height". */
 export const ruleName = (rule) => capital(rule.replace(/[_-]/g, " "));
+
+/** How long a gait lasts as planned and on the robot, and how fast it goes; "" where that is not known. */
+export function timesText({ plan_seconds: planned, robot_seconds: takes, speed }) {
+  if (takes === null) return "";
+  const parts = [`${fixed(planned)} s planned`, `${fixed(takes)} s on the robot`];
+  return [...parts, ...(speed ? [`${fixed(speed * 1000, 2)} mm/s`] : [])].join(" · ");
+}

@@ -7,7 +7,7 @@ import { shownPlan } from "../state/store.js";
 
 const TEXTS = {
   live: ["Feasible", "good"], optimised: ["Optimised", "good"], manual: ["By hand", "good"], sequence: ["Sequence", "good"], iterate: ["An iteration, not the plan", "caution"],
-  recorded: ["Recorded", "good"],
+  recorded: ["Recorded", "good"], poses: ["Feasible", "good"],
 };
 const FAMILIES = {
   body_torque: "Balance", margin: "Margin", workspace: "Reach", foot_speed: "Speed", body_speed: "Body speed", clearance: "Clearance",
@@ -22,6 +22,8 @@ const FOR_EVERY_MOTION = /^This is proven/;
 export function planState(plan) {
   if (!plan) return ["No plan", "quiet"];
   if (plan.live?.status === "infeasible") return ["Infeasible", "bad"];
+  if (plan.poses?.explanation.length) return ["Infeasible", "bad"];
+  if (plan.source === "adapted") return ["Adapted, not solved", "caution"];
   if (!plan.times.length) return ["No motion", "bad"];
   if (plan.source === "draft" && plan.parts?.length && !plan.parts.some((part) => part.broke_off)) return ["Infeasible", "bad"];
   if (plan.source === "draft") return ["No answer", "caution"];
@@ -31,7 +33,7 @@ export function planState(plan) {
   return TEXTS[plan.source] ?? [plan.source, "quiet"];
 }
 
-const TIER = { live: "live", optimised: "exact" };
+const TIER = { live: "live", optimised: "exact", poses: "" };
 
 /** The live line: dot, word, margin and time. */
 export function statusLine() {
@@ -42,11 +44,11 @@ export function statusLine() {
     show(plan) {
       const [text, tone] = planState(plan);
       dot.dataset.tone = tone;
-      setText(word, tone === "good" && TIER[plan?.source] ? `${text}, checked` : text);
+      setText(word, tone === "good" && plan?.source in TIER ? `${text}, checked` : text);
       setText(margin, plan && plan.balance !== null && plan.times.length && text !== "Infeasible" ? `${mm(plan.balance)} mm` : "");
       margin.title = "Least distance of the balance point from the edge of the support polygon";
       margin.dataset.toneText = plan?.balance < 0 ? "bad" : "";
-      const tier = TIER[plan?.source] ?? (plan?.live ? "live" : "");
+      const tier = plan?.source === "poses" ? `${fixed(plan.speed_mm_s ?? 0, 2)} mm/s` : TIER[plan?.source] ?? (plan?.live ? "live" : "");
       // The exact tier's time stands in the line of origin, where there is room for it.
       setText(time, tier === "live" && plan.seconds !== null ? `${tier} ${fixed(plan.seconds * 1000, 0)} ms` : tier);
     },
@@ -123,8 +125,14 @@ export function liveAnswer(edits, goTo) {
     element,
     show(state) {
       const plan = shownPlan(state);
-      element.hidden = plan?.live?.status !== "infeasible";
+      const why = plan?.poses?.explanation ?? [];
+      element.hidden = plan?.live?.status !== "infeasible" && !why.length;
       if (element.hidden) return;
+      if (why.length) {
+        head.replaceChildren(...why.map((text) => h("p", { text })));
+        details.replaceChildren();
+        return;
+      }
       const parts = liveParts(state, plan, edits, goTo);
       head.replaceChildren(...parts.head);
       details.replaceChildren(...parts.details);

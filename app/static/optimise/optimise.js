@@ -12,8 +12,12 @@ import { shownDocument, shownPlan } from "../state/store.js";
 import { mountConvergence } from "./convergence.js";
 import { mountIterates } from "./iterates.js";
 import { jobAnswer, liveAnswer, statusLine } from "./live_answer.js";
-import { optimiserOptions } from "./optimiser_options.js";
+import { hasField, optimiserOptions } from "./optimiser_options.js";
+import { poseSearch } from "./pose_search.js";
 import { timingAnswer, timingButton, timingNote } from "./timing.js";
+
+const POSES = "Each edit is answered at once by the last motion, adapted; the fastest one is looked for behind it.";
+const nameOf = (element) => element.querySelector("[aria-label]").getAttribute("aria-label");
 
 const TIERS = "Every edit is answered live. Optimise runs the exact tier, which also chooses footholds and heights.";
 
@@ -26,7 +30,7 @@ function exactButton(store) {
   store.watch(({ jobs, view, pending, selected }) => [jobs, view, pending.length, selected], (state) => {
     const busy = state.jobs.some((job) => job.gait === state.selected && job.kind === "optimise" && jobIsOn(job));
     const why = !state.view ? "No gait is selected." : busy ? "This gait is being optimised. Cancel the job or wait for it." : null;
-    setAllowed(button, why ?? (state.pending.length ? "The last edit is not accepted yet." : null), TIERS);
+    setAllowed(button, why ?? (state.view.document.poses ? POSES : null) ?? (state.pending.length ? "The last edit is not accepted yet." : null), TIERS);
   });
   return button;
 }
@@ -47,18 +51,23 @@ export function mountOptimise(store, edits, goTo) {
   const timing = timingAnswer(store, edits);
   const error = h("p", { class: "box-note", role: "alert", data: { tone: "bad" }, hidden: true });
   const section = byId("optimise");
+  const why = h("p", { class: "why" });
   const changed = h("span", { class: "quiet" });
   section.append(
-    status.element, originLine(store), h("div", { class: "fields" }, robot.element, order.element, ...main.map(({ element }) => element)), error, ...answers.map(({ element }) => element),
+    status.element, originLine(store), h("div", { class: "fields" }, robot.element, order.element, ...main.map(({ element }) => element)), error, poseSearch(store), ...answers.map(({ element }) => element),
     h("details", { class: "more" }, h("summary", {}, "More", changed), h("div", { class: "fields" }, ...more.map(({ element }) => element))),
-    h("div", { class: "solve" }, exactButton(store), timingButton(store)), timingNote(store), timing.element, h("p", { class: "why", text: TIERS }));
+    h("div", { class: "solve" }, exactButton(store), timingButton(store)), timingNote(store), timing.element, why);
+  store.watch(({ view }) => [Boolean(view?.document.poses)], ({ view }) => setText(why, view?.document.poses ? POSES : TIERS));
   mountConvergence(store, section);
   const iterates = mountIterates(store, section);
 
   store.watch(({ view, pending, gesture, formError }) => [view, pending, gesture, formError], (state) => {
     const document = shownDocument(state);
     if (!document) return;
-    fields.forEach((field) => field.show(document));
+    for (const field of fields) {
+      field.element.hidden = !hasField(document, nameOf(field.element));
+      if (!field.element.hidden) field.show(document);
+    }
     changed.textContent = moreInShort(document);
     error.hidden = !state.formError;
     error.textContent = state.formError ?? "";
@@ -75,7 +84,8 @@ export function mountOptimise(store, edits, goTo) {
 const withoutShortMargin = (plan) => (plan?.live?.status === "infeasible" ? { ...plan, balance: null } : plan);
 
 /** What differs from the usual under the fold, so that it is not forgotten. */
-function moreInShort({ iterations, direction, options, held }) {
+function moreInShort({ iterations, direction, options, held, poses }) {
+  if (poses) return direction > 1 ? `: direction ${direction}` : "";
   const parts = [
     options.workspace !== "stroke" && "cylinder", options.cost !== "goal" && "effort",
     iterations > 1 && `${iterations} iterations`, direction > 1 && `direction ${direction}`, options.boundary === "periodic" && "cycle",

@@ -73,6 +73,30 @@ const MORE_NUMBERS = [
     help: "Coefficient of each foot's friction cone; empty for no limit", ...option("friction") },
 ];
 
+const limit = (name) => ({
+  read: ({ poses }) => (poses ? poses[name] * 1000 : null),
+  write: (document, value) => ({ ...document, poses: { ...document.poses, [name]: value / 1000 } }),
+});
+
+/** What only a gait for the robot's clock has. */
+const POSE_CHOICES = [
+  { label: "Length", name: "Step length", options: [["true", "fastest"], ["false", "as set"]],
+    help: "fastest: the step with which the walk is fastest; as set: the step above",
+    read: ({ poses }) => String(poses?.free_step ?? false), write: (document, value) => ({ ...document, poses: { ...document.poses, free_step: value === "true" } }) },
+];
+const POSE_NUMBERS = [
+  { label: "Slip", name: "Slip", unit: "mm", min: 0.05, max: 5, step: 0.1, decimals: 2, help: "How far a standing foot may leave its foothold within a move, since motors that go straight do not keep it exactly", ...limit("slip") },
+  { label: "Shoes", name: "Shoe distance", unit: "mm", min: 0, max: 60, step: 0.5, decimals: 1, help: "Least distance between the middles of two feet; a shoe is 25 mm across", ...limit("shoe_distance") },
+  { label: "Arms", name: "Arm distance", unit: "mm", min: 0, max: 10, step: 0.5, decimals: 1, help: "Least room between the arms of neighbouring legs; 0 where they may touch", ...limit("arm_distance") },
+];
+
+/** The other fields that such a gait has as well. */
+const OF_POSES = new Set(["Robot", "Foot order", "Step", "Clearance", "Stability margin", "Iterations", "Orientation", "Direction", "Notes"]);
+const ONLY_POSES = new Set([...POSE_CHOICES, ...POSE_NUMBERS].map(({ name }) => name));
+
+/** Whether a gait has a field, by its accessible name. */
+export const hasField = ({ poses }, name) => (poses ? OF_POSES.has(name) || ONLY_POSES.has(name) : !ONLY_POSES.has(name));
+
 const MORE_CHOICES = [
   { label: "Orientation", name: "Orientation", options: [["FB", "FB"], ["FBS", "FBS"]],
     help: "Which way the feet are seen. FB: front and back pairs, along the diagonal between x and y; FBS: front, sides and back, along x. Roles and Mirror follow; the step stays",
@@ -130,8 +154,8 @@ export function optimiserOptions(store, edits, makeNew) {
   return {
     robot: robotField(edits, makeNew),
     order: orderField(store, edits),
-    main: [...STEP.map(number), ...phaseFields(store, edits), ...LIMITS.map(number)],
-    more: [...SHARES.map(number), ...CHOICES.map(choice), ...MORE_NUMBERS.map(number), ...MORE_CHOICES.map(choice), ...heldFields(store, edits), notesField(store, edits)],
+    main: [...STEP.map(number), ...POSE_CHOICES.map(choice), ...phaseFields(store, edits), ...LIMITS.map(number)],
+    more: [...POSE_NUMBERS.map(number), ...SHARES.map(number), ...CHOICES.map(choice), ...MORE_NUMBERS.map(number), ...MORE_CHOICES.map(choice), ...heldFields(store, edits), notesField(store, edits)],
   };
 }
 

@@ -21,6 +21,7 @@ function whyNot(state) {
   const { view, pending } = state;
   if (!view) return "No gait is selected.";
   if (pending.length) return "The last edit is not accepted yet.";
+  if (view.document.poses) return "This gait is made for the robot's clock, which has no timing to choose.";
   if (view.document.segment_table) return "This gait is made by hand from its segment table. Draw on the timeline first.";
   if (stepTurn(view.document) !== 0) return TURNS;
   const job = timingOf(state);
@@ -63,7 +64,16 @@ async function use(usable, store, edits) {
   if (store.state.selected === selected && !store.state.pending.length) await api.optimise(selected);
 }
 
-function found({ result }, document, store, edits) {
+/** What the usable timing does to the robot's time, and whether that is any help. */
+function onRobot({ seconds, robot_seconds: after }, { plan_seconds: planned, robot_seconds: before }) {
+  if (after === null) return ["It cannot be sent to the robot.", false];
+  if (before === null) return [`On the robot: ${fixed(after)} s.`, true];
+  const change = `Planned ${fixed(planned)} → ${fixed(seconds)} s · on the robot ${fixed(before)} → ${fixed(after)} s.`;
+  return after < before ? [change, true] : [`${change} The robot stops at each waypoint, so this timing does not help it.`, false];
+}
+
+function found({ result }, view, store, edits) {
+  const { document } = view;
   const drawn = result.phases.map(({ first, last }) => (last - first + 1) * document.timeline.sample_time);
   const scale = result.drawn_seconds / drawn.reduce((sum, seconds) => sum + seconds, 0);
   const longest = Math.max(result.drawn_seconds, result.total_seconds);
@@ -72,10 +82,13 @@ function found({ result }, document, store, edits) {
     ...bar("Fastest", result.phases.map(({ seconds }) => seconds), result.phases, longest, document));
   const { usable } = result;
   if (!usable) return [bars, h("p", { class: "why", text: "In whole samples no timing this short was found that keeps every limit." })];
+  const [change, helps] = onRobot(usable, view);
+  const note = h("p", { text: change });
+  if (!helps) return [bars, note];
   const label = `Use ${fixed(usable.seconds)} s`;
   const button = h("button", { text: label, title: "Takes over the phases in whole samples and the motors' limits, and runs Optimise",
     on: { click: attempt(() => use(usable, store, edits)) } });
-  return [bars, h("div", { class: "buttons" }, button, h("span", { class: "why", text: `in whole samples, ${fixed(usable.sample_time, 2)} s apart` }))];
+  return [bars, note, h("div", { class: "buttons" }, button, h("span", { class: "why", text: `in whole samples, ${fixed(usable.sample_time, 2)} s apart` }))];
 }
 
 /** The box with what the search found. */
@@ -89,7 +102,7 @@ export function timingAnswer(store, edits) {
       if (element.hidden) return;
       const done = job.state === "done" && job.result;
       element.dataset.tone = done ? "good" : jobIsOn(job) ? "plain" : "caution";
-      element.replaceChildren(h("h4", { text: "Fastest timing" }), ...(done ? found(job, state.view.document, store, edits) : [h("p", { text: jobIsOn(job) ? "Searching; this takes some seconds." : job.sentence })]));
+      element.replaceChildren(h("h4", { text: "Fastest timing" }), ...(done ? found(job, state.view, store, edits) : [h("p", { text: jobIsOn(job) ? "Searching; this takes some seconds." : job.sentence })]));
     },
   };
 }

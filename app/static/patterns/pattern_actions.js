@@ -5,6 +5,7 @@ import { api } from "../api/gaits.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { ticket } from "../lib/latest_only.js";
 import { bodyOf, limbsOf, ruleOf, RULES } from "./pattern_problem.js";
+import { whyNotDrawn } from "../document/drawable.js";
 import { shownDocument } from "../state/store.js";
 import { announce, attempt, toast } from "../lib/toasts.js";
 
@@ -101,7 +102,7 @@ export function patternActions(store, problem, { edits, playback, show }) {
     show() {
       const [pattern, why] = usable(problem.state);
       const isDrawing = problem.state.mode === "drawing";
-      const whyNot = why ?? (isDrawing ? nothingToDraw(pattern, shownDocument(store.state)) : null);
+      const whyNot = why ?? (isDrawing ? whyNotDrawn(shownDocument(store.state)) ?? nothingToDraw(pattern, shownDocument(store.state)) : null);
       setText(make, isDrawing ? LABEL : "Make gait");
       setAllowed(make, whyNot, isDrawing ? "Draws the pattern into the open gait, as one edit that Undo takes back" : "A new gait in the list, which is opened; Delete takes it away again");
       const walking = Boolean(store.state.iterate?.pattern);

@@ -4,10 +4,10 @@ import { api } from "../api/gaits.js";
 import { shownDocument } from "../state/store.js";
 import { attempt } from "../lib/toasts.js";
 
-/** Gaits that a transition can lead from or to: of the shown gait's robot and orientation, and no sequences. */
+/** Gaits that a transition can lead from or to: of the shown gait's robot and orientation, no sequences, and none for the robot's clock. */
 export function transitionGaits({ gaits, selected }) {
   const open = gaits.find(({ id }) => id === selected);
-  return open ? gaits.filter(({ robot, orientation, source }) => robot === open.robot && orientation === open.orientation && source !== "sequence") : [];
+  return open ? gaits.filter(({ robot, orientation, source }) => robot === open.robot && orientation === open.orientation && !["sequence", "poses"].includes(source)) : [];
 }
 
 /** The timeline of a gait as the page knows it: the open one with its edits under way. */

@@ -1,6 +1,6 @@
 /** Strip plots under the timeline, on its time axis: which are shown, their curves, and the figures under the pointer. */
 
-import { axisKey, axisOf, timeAt } from "../state/time_axis.js";
+import { axisKey, axisOf, fractionAt, timeAt } from "../state/time_axis.js";
 import { checkMenu } from "../lib/check_menu.js";
 import { recalled, remember } from "../lib/remembered.js";
 import { HEIGHT, WIDTH, acrossOf, indexAt, pathOf, rangeOf, scaleOf } from "./curves.js";
@@ -69,7 +69,7 @@ function footTags({ series }, across, scale) {
 }
 
 /** Draws a strip, with measured or simulated curves over it; returns what the pointer needs. */
-function draw(row, content, across, count, axis, overs) {
+function draw(row, content, across, count, axis, overs, rules) {
   const { low = null, high = null, wanted = null, floor = null, most = 0 } = content;
   const ranges = [rangeOf(content.series, count), ...overs.map(measuredRange)];
   const range = [Math.min(...ranges.map(([least]) => least)), Math.max(...ranges.map(([, greatest]) => greatest))];
@@ -79,10 +79,17 @@ function draw(row, content, across, count, axis, overs) {
   const lines = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: "none", "aria-hidden": "true" },
     ...limits.map((value) => line(scale(value), "limit")), ...(floor === null ? [] : [line(scale(floor), "floor")]),
     ...(wanted === null ? [] : [line(scale(wanted), "wanted")]));
-  row.canvas.show({ bands: missing(content, across), curves: [...curvesOf(content, across, scale, overs.length > 0), ...overs.flatMap((over) => measuredCurves(over, axis, scale))], clips: beyond(content, scale, range) });
+  row.canvas.show({ bands: missing(content, across), rules, curves: [...curvesOf(content, across, scale, overs.length > 0), ...overs.flatMap((over) => measuredCurves(over, axis, scale))], clips: beyond(content, scale, range) });
   row.strip.replaceChildren(lines, row.canvas.element, ...limits.map((value) => tick(value, scale)), ...(content.tags ? footTags(content, across, scale) : []), ...(overs.length ? [h("span", { class: "measured-key", text: [...overs.map(({ word }) => word), "planned dotted"].join(", ") })] : []));
   row.strip.setAttribute("aria-label", summary(row.kind, range, limits));
   return { content, scale };
+}
+
+/** Of a gait for the robot's clock: a line at each pose, and a short one from where Stop is heard in each move. */
+function rulesOf(axis, { poses, times }) {
+  if (!poses) return [];
+  const at = (from) => (time) => ({ x: fractionAt(axis, time) * WIDTH, from });
+  return [...times.map(at(0)), ...poses.heard.map(at(0.8))].filter(({ x }) => x >= 0 && x <= WIDTH);
 }
 
 function summary({ name, unit, help }, [least, most], limits) {
@@ -113,11 +120,12 @@ function render(rows, state) {
   }
   const axis = axisOf(state);
   const across = acrossOf(axis, plan.times);
+  const rules = rulesOf(axis, plan);
   const { options } = shownDocument(state);
   for (const row of rows) {
     if (row.strip.hidden) continue;
     const content = row.kind.of(plan, options);
-    if (content) row.drawn = draw(row, content, across, plan.times.length, axis, oversOf(state, row.kind.key));
+    if (content) row.drawn = draw(row, content, across, plan.times.length, axis, oversOf(state, row.kind.key), rules);
     else showSentence(row, row.kind.lack);
   }
 }

@@ -7,7 +7,7 @@ import { HEIGHT, WIDTH } from "./curves.js";
 import { h } from "../lib/dom.js";
 
 const FEET = 12;
-const NAMES = { fine: "--good", broken: "--bad" };
+const NAMES = { fine: "--good", broken: "--bad", rule: "--quiet" };
 const dark = matchMedia("(prefers-color-scheme: dark)");
 let palette = null;
 dark.addEventListener("change", () => { palette = null; });
@@ -28,7 +28,7 @@ function stretched(d, { width, height }) {
   return path;
 }
 
-function paint(element, size, { bands = [], curves = [], clips = [] }) {
+function paint(element, size, { bands = [], rules = [], curves = [], clips = [] }) {
   const ratio = window.devicePixelRatio || 1;
   const [across, down] = [Math.round(size.width * ratio), Math.round(size.height * ratio)];
   if (element.width !== across || element.height !== down) [element.width, element.height] = [across, down];
@@ -42,6 +42,11 @@ function paint(element, size, { bands = [], curves = [], clips = [] }) {
   pen.fillStyle = colours.broken;
   pen.globalAlpha = 0.16;
   for (const { x, width } of bands) pen.fillRect(x * sx, 0, width * sx, size.height);
+  pen.fillStyle = colours.rule;
+  for (const { x, from } of rules) {
+    pen.globalAlpha = from ? 0.55 : 0.3;
+    pen.fillRect(x * sx - 0.5, from * size.height, 1, size.height);
+  }
   const paths = curves.map(({ d, tone, width, alpha, dash = [] }) => {
     const path = stretched(d, size);
     [pen.strokeStyle, pen.lineWidth, pen.globalAlpha] = [colours[tone], width, alpha];
@@ -61,6 +66,7 @@ function paint(element, size, { bands = [], curves = [], clips = [] }) {
 /**
  * Makes a strip's canvas, which follows the strip's size and the theme.
  * @returns {{element: HTMLCanvasElement, show: (drawing: object) => void}} a drawing has `bands` of missing values {x, width},
+ *   `rules`, upright lines {x, from}, from a share of the height downwards,
  *   `curves` {d, tone (a foot's number, "fine"), width, alpha, dash} and `clips` {y, height}, where curves are drawn in the bad colour
  */
 export function stripCanvas(strip) {

@@ -98,8 +98,10 @@ export function troubleUpdates(overlay, sample, trouble) {
   return ["/overlay/trouble", { points: lines.length ? Float32Array.from(lines) : new Float32Array(6), colors: Uint8Array.from(BAD) }];
 }
 
-function cross([x, y, z]) {
-  const arm = 0.004;
+/** Line pieces of several drawings. */
+const joined = (parts) => Float32Array.from(parts.flatMap((part) => [...part]));
+
+function cross([x, y, z], arm = 0.004) {
   return [...pieces([[x - arm, y - arm, z], [x + arm, y + arm, z]]), ...pieces([[x - arm, y + arm, z], [x + arm, y - arm, z]])];
 }
 
@@ -118,7 +120,7 @@ export function planUpdates(overlay, theme) {
   const ink = Uint8Array.from(INK[theme]);
   const trace = overlay.com.map((point) => floorPoint(overlay, point, 3));
   const updates = [
-    ["/overlay/com_trace", { points: pieces(trace), colors: ink }],
+    ["/overlay/com_trace", { points: joined([pieces(trace), ...(overlay.stops ?? []).map((at) => cross(trace[at], 0.0022))]), colors: ink }],
     ["/overlay/com", { color: [...ink] }],
   ];
   if (overlay.cop) {

@@ -7,9 +7,10 @@
  *   playback.addEventListener("time", (event) => preview.setTime(event.detail.time));
  *   playback.addEventListener("state", (event) => button.textContent = event.detail.playing ? "Pause" : "Play");
  *
- * Properties (read only): time, duration, playing, speed, loop ([start, end] or null), stepLength.
+ * Properties (read only): time, duration, playing, speed, loop ([start, end] or null).
  * Methods:
- *   setPlan(duration, stepLength)  another plan: the playhead stays where it was, held inside the new duration
+ *   setPlan(duration, samples)     another plan: the playhead stays where it was, held inside the new duration; `samples`
+ *                                  is the time between two of them, or the time of each
  *   play() pause() toggle()        play at the end starts over
  *   setTime(seconds)               scrubs, held inside [0, duration]; playing goes on from there
  *   step(count = 1)                pauses and moves by whole samples, negative backwards
@@ -28,10 +29,13 @@ import { clamp } from "../lib/clamp.js";
 const SLOWEST = 0.1;
 const FASTEST = 10;
 
+/** Index of the time that is nearest. */
+const nearest = (times, time) => times.reduce((best, one, index) => (Math.abs(one - time) < Math.abs(times[best] - time) ? index : best), 0);
+
 export class Playback extends EventTarget {
   #time = 0;
   #duration;
-  #stepLength;
+  #samples;
   #speed = 1;
   #loop = null;
   #playing = false;
@@ -44,7 +48,7 @@ export class Playback extends EventTarget {
   /**
    * @param {object} options
    * @param {number} [options.duration] of the plan, s
-   * @param {number} [options.step] of one sample, s
+   * @param {number} [options.step] between two samples, s
    * @param {() => number} [options.now] clock in ms; tests give their own
    * @param {(callback: () => void) => number} [options.requestFrame]
    * @param {(request: number) => void} [options.cancelFrame]
@@ -58,7 +62,7 @@ export class Playback extends EventTarget {
   } = {}) {
     super();
     this.#duration = Math.max(0, duration);
-    this.#stepLength = step;
+    this.#samples = step;
     this.#now = now;
     this.#requestFrame = requestFrame;
     this.#cancelFrame = cancelFrame;
@@ -66,14 +70,13 @@ export class Playback extends EventTarget {
 
   get time() { return this.#time; }
   get duration() { return this.#duration; }
-  get stepLength() { return this.#stepLength; }
   get speed() { return this.#speed; }
   get loop() { return this.#loop; }
   get playing() { return this.#playing; }
 
-  setPlan(duration, stepLength = this.#stepLength) {
+  setPlan(duration, samples = this.#samples) {
     this.#duration = Math.max(0, duration);
-    this.#stepLength = stepLength;
+    this.#samples = samples;
     if (this.#loop) this.#loop = this.#loopWithin(this.#loop);
     if (this.#duration === 0) this.#stop();
     this.#moveTo(this.#time, "plan");
@@ -110,8 +113,9 @@ export class Playback extends EventTarget {
 
   step(count = 1) {
     this.pause();
-    const sample = Math.round(this.#time / this.#stepLength + count);
-    this.setTime(sample * this.#stepLength);
+    const times = Array.isArray(this.#samples) ? this.#samples : null;
+    if (times) this.setTime(times[clamp(nearest(times, this.#time) + count, 0, times.length - 1)]);
+    else this.setTime(Math.round(this.#time / this.#samples + count) * this.#samples);
   }
 
   toStart() { this.setTime(0); }

@@ -3,6 +3,7 @@
 import { api } from "../api/gaits.js";
 import { dialogFrame, openDialog } from "../lib/dialogs.js";
 import { byId, h, setAttribute, setText } from "../lib/dom.js";
+import { fixed, timesText } from "../lib/format.js";
 import { attempt, clearOfGait, report, toast } from "../lib/toasts.js";
 import { acceptView } from "../state/store.js";
 
@@ -109,9 +110,16 @@ function showProblem(part, { name, problem }) {
   setAttribute(part.button, "title", problem);
 }
 
-const tagOf = ({ outside, walks, source, orientation }) => (outside ? "changed" : walks === false ? "infeasible" : source === "sequence" ? "seq." : orientation);
+/** The last word of a row: what is wrong with the gait, else its speed on the robot, else what it is. */
+function tagOf({ outside, walks, source, orientation, speed }) {
+  if (outside) return "changed";
+  if (walks === false) return "infeasible";
+  return speed ? fixed(speed * 1000, 2) : source === "sequence" ? "seq." : orientation;
+}
 
-function show(part, gait, selected) {
+function show(part, listed, selected, view) {
+  // The view of the shown gait is newer than the list.
+  const gait = view?.id === listed.id ? { ...listed, plan_seconds: view.plan_seconds, robot_seconds: view.robot_seconds, speed: view.speed } : listed;
   if (gait.problem) {
     showProblem(part, gait);
     return;
@@ -122,7 +130,9 @@ function show(part, gait, selected) {
   setAttribute(part.button, "data-stuck", !walks || Boolean(gait.outside));
   part.dot.hidden = !gait.edited;
   setAttribute(part.button, "aria-current", gait.id === selected ? "true" : null);
-  setAttribute(part.button, "title", `${gait.name}: ${gait.robot}, ${gait.source}, ${gait.kind}${gait.source === "sequence" ? "" : `, foot order ${gait.order.join(" ")}`}${gait.edited ? ", unsaved changes" : ""}${gait.outside ? ". " + gait.outside : ""}${walks ? "" : ". No motion of it keeps every limit"}. Double click: its name`);
+  const facts = [gait.robot, gait.orientation, gait.source, gait.kind, gait.source === "sequence" ? "" : `foot order ${gait.order.join(" ")}`, gait.edited ? "unsaved changes" : ""];
+  const sentences = [`${gait.name}: ${facts.filter(Boolean).join(", ")}`, timesText(gait), gait.outside, walks ? "" : "No motion of it keeps every limit", "Double click: its name"];
+  setAttribute(part.button, "title", sentences.filter(Boolean).join(". "));
 }
 
 const FIRST = "Saved";
@@ -130,12 +140,12 @@ const FOLDED_AT_FIRST = ["By hand", "Orders of Appendix A", "Textbook"];
 
 /** A group's heading, which folds it; the group that is shown stays open. */
 function heading(group, folded, redraw) {
-  const text = h("span", {});
+  const [text, unit] = [h("span", {}), h("span", { class: "unit", title: "Speed on the robot", text: "mm/s" })];
   const button = h("button", { class: "group", on: { click: () => {
     if (!folded.delete(group)) folded.add(group);
     redraw();
-  } } }, text);
-  return { element: h("li", { class: "group-row" }, button), button, text };
+  } } }, text, unit);
+  return { element: h("li", { class: "group-row" }, button), button, text, unit };
 }
 
 function grouped(gaits) {
@@ -166,7 +176,7 @@ export function mountGaits(store) {
     if (id && !store.state.gaits.some((gait) => gait.id === id && gait.problem)) rename(store, id);
   });
 
-  function draw({ gaits, selected }) {
+  function draw({ gaits, selected, view }) {
     const wanted = new Set();
     const searched = search.search();
     const matching = searched ? gaits.filter((gait) => found(gait, searched)) : gaits;
@@ -177,11 +187,12 @@ export function mountGaits(store) {
       const head = headings.get(group);
       if (open) listed += members.length;
       setText(head.text, open ? group : `${group} (${members.length})`);
+      head.unit.hidden = !open || !members.some(({ speed }) => speed);
       setAttribute(head.button, "aria-expanded", String(open));
       wanted.add(head.element);
       for (const gait of members) {
         if (!parts.has(gait.id)) parts.set(gait.id, item(gait));
-        show(parts.get(gait.id), gait, selected);
+        show(parts.get(gait.id), gait, selected, view);
         if (open) wanted.add(parts.get(gait.id).element);
       }
     }
@@ -194,7 +205,7 @@ export function mountGaits(store) {
     }
   }
 
-  store.watch(({ gaits, selected }) => [gaits, selected], (state) => {
+  store.watch(({ gaits, selected, view }) => [gaits, selected, view?.id, view?.robot_seconds, view?.speed], (state) => {
     const { gaits, selected, greeted } = state;
     const kept = new Set(gaits.map(({ id }) => id));
     for (const id of parts.keys()) if (!kept.has(id)) parts.delete(id);
@@ -207,8 +218,6 @@ export function mountGaits(store) {
   });
 }
 
-const ENOUGH = 20;
-
 /** Whether a gait's line has every word of the search. */
 function found(gait, search) {
   const words = search.toLowerCase().split(/\s+/).filter(Boolean);
@@ -217,14 +226,14 @@ function found(gait, search) {
 }
 
 /**
- * Builds the field; it is hidden while few gaits are listed. `show` gets the number of matches and the number of gaits.
+ * Builds the field. `show` gets the number of matches and the number of gaits.
  * @param {(search: string) => void} changed called with what is searched for
  * @returns {{element: HTMLElement, show: (listed: number, count: number) => void, search: () => string}}
  */
 function gaitSearch(changed) {
   const field = h("input", { type: "search", "aria-label": "Find a gait", placeholder: "Find a gait", autocomplete: "off", spellcheck: "false", title: "Words of its name, robot, orientation or making; or its foot order" });
   const nothing = h("p", { class: "teach", role: "status", hidden: true });
-  const element = h("div", { class: "gait-search", hidden: true }, field, nothing);
+  const element = h("div", { class: "gait-search" }, field, nothing);
   field.addEventListener("input", () => changed(field.value));
   field.addEventListener("keydown", (event) => {
     if (event.key !== "Escape" || !field.value) return;
@@ -237,7 +246,6 @@ function gaitSearch(changed) {
     element,
     search: () => field.value,
     show(listed, count) {
-      element.hidden = listed <= ENOUGH && !field.value;
       nothing.hidden = listed > 0 || !field.value;
       if (!listed) nothing.textContent = `No gait has “${field.value.trim()}”. Esc shows all ${count}.`;
     },

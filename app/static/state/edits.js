@@ -9,7 +9,7 @@
 
 import { CONFLICT, api } from "../api/gaits.js";
 import { undoSegmentDraft } from "./segment_draft.js";
-import { FOLLOWS, isSequence } from "../document/sequence_edits.js";
+import { whyNotDrawn } from "../document/drawable.js";
 import { acceptView, shownDocument } from "./store.js";
 import { report, toast } from "../lib/toasts.js";
 
@@ -133,8 +133,8 @@ export function createEdits(store) {
     if (!gait) return Promise.resolve();
     const one = { gait, apply, label, drawing, refused: false };
     if (!isShown(gait)) store.set({ left: [...store.state.left, one] });
-    else if (drawing && isSequence(store.state.view?.document)) {
-      toast(FOLLOWS);
+    else if (drawing && whyNotDrawn(store.state.view?.document)) {
+      toast(whyNotDrawn(store.state.view.document));
       return Promise.resolve();
     } else store.set({ pending: [...store.state.pending, one], formError: null });
     return flush();

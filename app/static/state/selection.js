@@ -7,7 +7,7 @@
 
 import { axisKey, axisOf, columnFraction } from "./time_axis.js";
 import { h } from "../lib/dom.js";
-import { hasCell, lengthOf, spanning, within, wholeOf } from "../document/region.js";
+import { hasCell, spanning, within, wholeOf } from "../document/region.js";
 import { previewedDocument, shownDocument } from "./store.js";
 import { swingAt } from "../document/swings.js";
 
@@ -59,7 +59,7 @@ function placeBox(box, state, region) {
   const [axis, { timeline }] = [axisOf(state), previewedDocument(state)];
   const rows = timeline.feet.length;
   box.style.left = `${100 * columnFraction(axis, region.samples[0])}%`;
-  box.style.width = `${(100 * lengthOf(region)) / axis.shown}%`;
+  box.style.width = `${100 * (columnFraction(axis, region.samples[1] + 1) - columnFraction(axis, region.samples[0]))}%`;
   box.style.top = `${(100 * region.feet[0]) / rows}%`;
   box.style.height = `${(100 * (region.feet[1] - region.feet[0] + 1)) / rows}%`;
 }

@@ -30,6 +30,7 @@ function receive(store, message, onHello) {
     case "sources": acceptSources(store, message); break;
     case "job": store.set({ jobs: withJob(store.state.jobs, message.job) }); break;
     case "storage": store.set({ storage: message.storage }); break;
+    case "search": store.set({ poseSearch: message.search }); break;
     case "pattern": store.set({ pattern: message }); break;
     case "setups": store.set({ setups: message.setups }); break;
     case "cameras": store.set({ cameras: message.cameras }); break;

@@ -15,6 +15,7 @@ const INITIAL = Object.freeze({
   robot: null,
   storage: null,
   selected: null,
+  poseSearch: null,
   view: null,
   pending: Object.freeze([]),
   left: Object.freeze([]),

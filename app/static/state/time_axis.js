@@ -1,8 +1,11 @@
 /**
  * The time axis that ruler, timeline, plots and playhead share, and the window of it that is shown.
  *
- * A sample is a point in time, drawn as a column; its moment is the column's middle. What draws on the axis goes
- * through `axisOf`, `fractionAt` and `timeAt`, and draws anew when `axisKey` changes: then it follows zoom and preview.
+ * A sample is a point in time, drawn as a column; its moment lies within the column. Of most gaits samples are evenly
+ * apart, and the moment is the column's middle. Of a gait for the robot's clock a sample is a pose: columns meet half way
+ * between two poses, so that each is as wide as the robot is on its way. Places on the axis are counted in columns of
+ * mean width. What draws on the axis goes through `axisOf`, `fractionAt` and `timeAt`, and draws anew when `axisKey`
+ * changes: then it follows zoom and preview.
  */
 
 import { clamp } from "../lib/clamp.js";
@@ -11,38 +14,79 @@ import { previewedDocument, shownPlan } from "./store.js";
 /** Fewest columns that a zoomed window shows. */
 export const LEAST_SHOWN = 8;
 
+let known = { times: null, borders: null };
+
+/** Borders of the columns of uneven samples, s: half way between two of them. */
+function bordersOf(times) {
+  if (known.times !== times) {
+    const middles = times.slice(1).map((time, index) => (time + times[index]) / 2);
+    const [first, last] = [times[0] - (times[1] - times[0]) / 2, times.at(-1) + (times.at(-1) - times.at(-2)) / 2];
+    known = { times, borders: [first, ...middles, last] };
+  }
+  return known.borders;
+}
+
 /**
  * @param {object} state of the store
- * @returns {{samples: number, columns: number, step: number, duration: number, first: number, shown: number}} `step` in
- *   s; the window begins at column `first` and is `shown` columns wide, both may be broken numbers
+ * @returns {{samples: number, columns: number, step: number, duration: number, first: number, shown: number, start: number,
+ *   times: number[]|null, borders: number[]|null}} `step` is a column's mean width and `start` the left edge of the first,
+ *   s; the window begins at column `first` and is `shown` columns wide, both may be broken numbers; `times` of the samples
+ *   and `borders` of their columns are null where samples are evenly apart
  */
 export function axisOf(state) {
   const document = previewedDocument(state);
-  const step = document?.timeline.sample_time ?? 0.4;
   const samples = document?.timeline.feet[0]?.length ?? 0;
-  const planEnd = shownPlan(state)?.times?.at(-1) ?? 0;
-  const columns = Math.max(samples, Math.round(planEnd / step) + 1, 1);
+  const planTimes = shownPlan(state)?.times ?? [];
+  const planEnd = planTimes.at(-1) ?? 0;
+  const times = document?.poses && planTimes.length === samples && samples > 1 ? planTimes : null;
+  const borders = times && bordersOf(times);
+  const step = borders ? (borders.at(-1) - borders[0]) / samples : document?.timeline.sample_time ?? 0.4;
+  const columns = borders ? samples : Math.max(samples, Math.round(planEnd / step) + 1, 1);
   const shown = clamp(state.zoom?.shown ?? columns, Math.min(LEAST_SHOWN, columns), columns);
   const first = clamp(state.zoom?.first ?? 0, 0, columns - shown);
-  return { samples, columns, step, duration: planEnd || Math.max(0, samples - 1) * step, first, shown };
+  return { samples, columns, step, duration: planEnd || Math.max(0, samples - 1) * step, first, shown, start: borders?.[0] ?? -step / 2, times, borders };
 }
 
 /** What a drawing on the axis depends on, as one value to be watched. */
 export function axisKey(state) {
-  const { samples, columns, step, first, shown } = axisOf(state);
-  return `${samples} ${columns} ${step} ${first} ${shown}`;
+  const { samples, columns, step, first, shown, borders } = axisOf(state);
+  return `${samples} ${columns} ${step} ${first} ${shown} ${borders ?? ""}`;
 }
 
+/** Where a moment lies on the axis, in columns of mean width. */
+export const placeAt = (axis, time) => (time - axis.start) / axis.step;
+
+/** Where the left edge of a column lies on the axis, in columns of mean width; of a broken number, a place within it. */
+export function placeOf(axis, column) {
+  if (!axis.borders) return column;
+  const index = clamp(Math.floor(column), 0, axis.samples - 1);
+  const [from, to] = [axis.borders[index], axis.borders[index + 1]];
+  return placeAt(axis, from + (column - index) * (to - from));
+}
+
+/** When a column begins, s. */
+export const columnTime = (axis, column) => axis.start + placeOf(axis, column) * axis.step;
+
 /** Where a moment lies on the shown window, 0 to 1; outside of it less or more. */
-export const fractionAt = (axis, time) => columnFraction(axis, time / axis.step + 0.5);
+export const fractionAt = (axis, time) => (placeAt(axis, time) - axis.first) / axis.shown;
 
 /** Where the left edge of a column lies on the shown window, 0 to 1. */
-export const columnFraction = (axis, column) => (column - axis.first) / axis.shown;
+export const columnFraction = (axis, column) => (placeOf(axis, column) - axis.first) / axis.shown;
 
 /** The moment at a place on the shown window, held inside the duration. */
 export function timeAt(axis, fraction) {
-  const time = (axis.first + fraction * axis.shown - 0.5) * axis.step;
-  return clamp(time, 0, axis.duration);
+  return clamp(axis.start + (axis.first + fraction * axis.shown) * axis.step, 0, axis.duration);
+}
+
+/** The moment of a sample, s. */
+export const momentOf = (axis, sample) => axis.times?.[sample] ?? sample * axis.step;
+
+/** The column at a place on the shown window, which may lie outside of the samples. */
+export function columnAt(axis, fraction) {
+  const place = axis.first + fraction * axis.shown;
+  if (!axis.borders) return Math.floor(place);
+  const time = axis.start + place * axis.step;
+  return axis.borders.findLastIndex((border) => border <= time);
 }
 
 /** Seconds between labels so that they stay at least `least` pixels apart. */

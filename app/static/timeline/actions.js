@@ -6,6 +6,7 @@ import { OPERATIONS, outcomeOf } from "../document/operations.js";
 import { blockOf, heldBack, withBlock } from "../document/timeline_operators.js";
 import { wholeOf, regionText } from "../document/region.js";
 import { selectedRegion } from "../state/selection.js";
+import { axisOf, columnTime } from "../state/time_axis.js";
 import { shownDocument } from "../state/store.js";
 import { announce, toast } from "../lib/toasts.js";
 
@@ -100,8 +101,8 @@ export function createActions({ store, edits, playback, focused }) {
   function loop() {
     const chosenNow = region();
     if (!chosenNow) return playback.setLoop(!playback.loop);
-    const step = document().timeline.sample_time;
-    const [start, end] = [(chosenNow.samples[0] - 0.5) * step, (chosenNow.samples[1] + 0.5) * step].map((time) => Math.min(Math.max(time, 0), playback.duration));
+    const axis = axisOf(store.state);
+    const [start, end] = [chosenNow.samples[0], chosenNow.samples[1] + 1].map((column) => columnTime(axis, column)).map((time) => Math.min(Math.max(time, 0), playback.duration));
     const same = playback.loop && Math.abs(playback.loop[0] - start) < 1e-9 && Math.abs(playback.loop[1] - end) < 1e-9;
     playback.setLoop(same ? false : [start, end]);
     if (!same && (playback.time < start || playback.time > end)) playback.setTime(start);

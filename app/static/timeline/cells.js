@@ -1,7 +1,7 @@
 /** Cells of the footfall grid: which one an element or a place on the screen is, and which one holds the focus. */
 
 import { clamp } from "../lib/clamp.js";
-import { axisOf } from "../state/time_axis.js";
+import { axisOf, columnAt } from "../state/time_axis.js";
 
 /** The nearest cell on a timeline. */
 export const nearestCell = ([foot, sample], feet, samples) => [clamp(foot, 0, feet - 1), clamp(sample, 0, samples - 1)];
@@ -43,8 +43,7 @@ export function cellFinder(store, rows) {
   return (x, y) => {
     const axis = axisOf(store.state);
     const foot = Math.floor(((y - first.top) / (last.bottom - first.top)) * parts.length);
-    const sample = Math.floor(axis.first + ((x - first.left) / first.width) * axis.shown);
-    return nearestCell([foot, sample], parts.length, axis.samples);
+    return nearestCell([foot, columnAt(axis, (x - first.left) / first.width)], parts.length, axis.samples);
   };
 }
 

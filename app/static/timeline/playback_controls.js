@@ -86,7 +86,7 @@ export function mountPlayback(store, playback, showFigures, loop) {
   }).observe(overlay);
   store.watch((state) => [state.view?.id, shownPlan(state), state.view?.document.timeline.sample_time, state.pending.length], (state) => {
     axis = axisOf(state);
-    playback.setPlan(axis.duration, axis.step);
+    playback.setPlan(axis.duration, axis.times ?? axis.step);
     movePlayhead();
   });
   store.watch((state) => [axisKey(state)], (state) => {

@@ -4,7 +4,8 @@ import { missingMotionByCell } from "../document/missing_motion.js";
 import { byId, h } from "../lib/dom.js";
 import { mountSelection } from "../state/selection.js";
 import { previewedDocument, shownDocument, shownPlan } from "../state/store.js";
-import { axisKey, axisOf, columnFraction, fractionAt, labelEvery, timeAt } from "../state/time_axis.js";
+import { axisKey, axisOf } from "../state/time_axis.js";
+import { mountRuler } from "./ruler.js";
 import { mountTimelineInput } from "./timeline_input.js";
 import { buildRow, DENSE, drawRow, findingsByCell, fitRow } from "./timeline_rows.js";
 
@@ -12,7 +13,8 @@ function showNote(store, edits) {
   const note = byId("edit-note");
   const { refused, view } = store.state;
   const plan = shownPlan(store.state);
-  const refusal = plan?.live?.status === "infeasible" ? null : plan?.refusal?.sentence;
+  // An adapted motion may be out of reach; the search behind it says whether the gait is.
+  const refusal = plan?.live?.status === "infeasible" || plan?.source === "adapted" ? null : plan?.refusal?.sentence;
   const sentence = refused ?? refusal ?? view?.notice ?? null;
   if (!sentence) return note.replaceChildren();
   const text = h("p", { text: refused ? `Not accepted: ${refused}` : sentence, title: sentence, data: { toneText: refused || refusal ? "bad" : "caution" } });
@@ -49,9 +51,10 @@ export function mountTimeline(store, edits, playback, reveal) {
     input.rebuilt(focused && !grid.contains(document.activeElement));
   }
 
-  function place({ samples, shown, first }) {
+  function place({ samples, shown, first, borders }) {
     grid.toggleAttribute("data-dense", shown > DENSE);
-    for (const { strip } of parts) {
+    for (const { strip, cells } of parts) {
+      cells.forEach((cell, sample) => { cell.style.flexGrow = borders ? borders[sample + 1] - borders[sample] : ""; });
       strip.style.width = `${(100 * samples) / shown}%`;
       strip.style.transform = first ? `translateX(${(-100 * first) / samples}%)` : "";
     }
@@ -79,78 +82,4 @@ export function mountTimeline(store, edits, playback, reveal) {
   mountSelection(store, marks, () => parts);
   mountRuler(store, playback);
   return input;
-}
-
-const percent = (fraction) => `${100 * fraction}%`;
-const isShown = (fraction) => fraction >= -1e-9 && fraction <= 1 + 1e-9;
-
-function placed(element, left, width = null) {
-  element.style.left = percent(left);
-  if (width !== null) element.style.width = percent(width);
-  return element;
-}
-
-function missingMotionMarks(axis, plan) {
-  return (plan?.live?.lacks ?? []).slice().reverse().map((missing) => {
-    const mark = h("b", { class: "lack", title: missing.sentence, data: { tone: missing === plan.live.lacks[0] ? "bad" : "caution" } });
-    return placed(mark, columnFraction(axis, missing.first), (missing.last + 1 - missing.first) / axis.shown);
-  });
-}
-
-function ticks(axis, width) {
-  const every = labelEvery(axis, width);
-  const marks = [];
-  const end = (axis.columns - 1) * axis.step + 1e-9;
-  for (let count = 0; count * every <= end; count += 1) {
-    const time = count * every;
-    const left = fractionAt(axis, time);
-    if (isShown(left)) marks.push(placed(h("span", { text: time === 0 ? "0 s" : String(Math.round(time * 10) / 10) }), left), placed(h("i"), left));
-  }
-  return marks;
-}
-
-/** Marks of findings; where several fall on one sample the errors lie on top. */
-function findingMarks(axis, verdict) {
-  const placeable = (verdict?.findings ?? []).filter(({ sample, foot }) => sample !== null && foot === null);
-  return placeable.sort((a, b) => (a.severity === "error") - (b.severity === "error"))
-    .map((finding) => placed(h("b", { class: "mark", title: finding.sentence, data: { severity: finding.severity } }), fractionAt(axis, finding.sample * axis.step)));
-}
-
-function loopMark(axis, [start, end]) {
-  const from = Math.max(0, fractionAt(axis, start));
-  return placed(h("b", { class: "loop", title: `Plays from ${start.toFixed(1)} to ${end.toFixed(1)} s over and over (L ends it)` }), from, Math.min(1, fractionAt(axis, end)) - from);
-}
-
-function draw(state, playback, width) {
-  const [axis, plan] = [axisOf(state), shownPlan(state)];
-  const loop = playback.loop && (playback.loop[0] > 0 || playback.loop[1] < playback.duration - 1e-9) ? [loopMark(axis, playback.loop)] : [];
-  byId("ruler").replaceChildren(...loop, ...missingMotionMarks(axis, plan), ...ticks(axis, width), ...findingMarks(axis, state.live ? null : state.view?.verdict));
-}
-
-function mountScrubbing(store, playback) {
-  const ruler = byId("ruler");
-  const scrub = (event) => {
-    const box = ruler.getBoundingClientRect();
-    playback.setTime(timeAt(axisOf(store.state), (event.clientX - box.left) / box.width));
-  };
-  ruler.addEventListener("pointerdown", (event) => {
-    ruler.setPointerCapture(event.pointerId);
-    scrub(event);
-  });
-  ruler.addEventListener("pointermove", (event) => {
-    if (ruler.hasPointerCapture(event.pointerId)) scrub(event);
-  });
-}
-
-/** Draws the ruler and keeps it current; it scrubs `playback`. */
-function mountRuler(store, playback) {
-  let width = byId("ruler").clientWidth;
-  const again = () => draw(store.state, playback, width || 1000);
-  store.watch((state) => [state.view?.id, shownPlan(state), state.view?.verdict, axisKey(state)], again);
-  playback.addEventListener("state", again);
-  new ResizeObserver(([{ contentRect }]) => {
-    width = contentRect.width;
-    again();
-  }).observe(byId("ruler"));
-  mountScrubbing(store, playback);
 }

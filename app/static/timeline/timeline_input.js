@@ -6,12 +6,12 @@
  * with Shift it selects.
  */
 
-import { axisOf } from "../state/time_axis.js";
+import { axisOf, columnFraction } from "../state/time_axis.js";
 import { cellFinder, cellOf, nearestCell, nextBorder, rovingFocus } from "./cells.js";
 import { carrying, isLocked, locking, lockRegion, moving, painting, selecting, reportLocked } from "./drags.js";
 import { spanning, regionText } from "../document/region.js";
 import { createSelecting, isSelected } from "../state/selection.js";
-import { FOLLOWS, isSequence } from "../document/sequence_edits.js";
+import { whyNotDrawn } from "../document/drawable.js";
 import { shownDocument } from "../state/store.js";
 import { partOf } from "../document/swings.js";
 import { announce, toast } from "../lib/toasts.js";
@@ -73,7 +73,8 @@ export function mountTimelineInput(store, edits, grid, rows, reveal) {
 
   function dragOf(event, start, from) {
     const { tool } = store.state;
-    if (isSequence(document())) return event.ctrlKey || event.metaKey || tool === "select" ? selecting(selection, start) : toast(FOLLOWS);
+    const whyNot = whyNotDrawn(document());
+    if (whyNot) return event.ctrlKey || event.metaKey || tool === "select" ? selecting(selection, start) : toast(whyNot);
     if (event.shiftKey) return locking(store, edits, start, () => selection.extendTo(start, from));
     if (event.ctrlKey || event.metaKey) return selecting(selection, start);
     if (tool === "lock") return locking(store, edits, start);
@@ -112,8 +113,8 @@ export function mountTimelineInput(store, edits, grid, rows, reveal) {
 
   /** A drag that leaves the shown window takes it along. */
   function scrollAlong(sample) {
-    const { first, shown } = axisOf(store.state);
-    if (sample < first || sample >= first + shown) reveal(sample);
+    const fraction = columnFraction(axisOf(store.state), sample);
+    if (fraction < 0 || fraction >= 1) reveal(sample);
   }
 
   function end(commit) {
@@ -187,7 +188,7 @@ export function mountTimelineInput(store, edits, grid, rows, reveal) {
     if (!here || drag || !document()) return;
     const { cells, words } = rows()[here[0]];
     const part = partOf(document().timeline.feet[here[0]], here[1]);
-    const help = isSequence(document()) ? FOLLOWS : helpOf(store.state.tool, part, isLocked(document(), here));
+    const help = whyNotDrawn(document()) ?? helpOf(store.state.tool, part, isLocked(document(), here));
     cells[here[1]].title = [words[here[1]], help].filter(Boolean).join(" ");
   }
 

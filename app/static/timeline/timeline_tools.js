@@ -3,6 +3,7 @@
 import { byId, h, onPress, setAllowed, setAttribute } from "../lib/dom.js";
 import { openAmount } from "./timeline_amount.js";
 import { menuButton } from "./timeline_menu.js";
+import { whyNotDrawn } from "../document/drawable.js";
 import { OPERATIONS } from "../document/operations.js";
 import { toast } from "../lib/toasts.js";
 
@@ -14,7 +15,12 @@ const TOOLS = {
 
 function toolGroup(store) {
   const buttons = Object.entries(TOOLS).map(([tool, [text, title]]) =>
-    h("button", { text, title, "aria-pressed": "false", data: { tool }, on: { click: () => store.set({ tool }) } }));
+    h("button", { text, title, "aria-pressed": "false", data: { tool } }));
+  buttons.forEach((button) => onPress(button, () => store.set({ tool: button.dataset.tool }), toast));
+  store.watch(({ view }) => [view?.document], ({ view }) => {
+    const whyNot = whyNotDrawn(view?.document);
+    buttons.forEach((button) => setAllowed(button, button.dataset.tool === "select" ? null : whyNot, TOOLS[button.dataset.tool][1]));
+  });
   store.watch(({ tool }) => [tool], ({ tool }) => {
     buttons.forEach((button) => setAttribute(button, "aria-pressed", String(button.dataset.tool === tool)));
     byId("timeline").dataset.tool = tool;
@@ -33,7 +39,7 @@ function operationButton(store, actions, id, open) {
   }
   onPress(button, () => (amount ? open(id, button) : actions.act(id)), toast);
   store.watch((state) => [state.view, state.pending, state.selection], (state) => {
-    const reason = !state.view ? "No gait is selected." : amount ? null : actions.outcome(id).reason;
+    const reason = !state.view ? "No gait is selected." : amount ? whyNotDrawn(state.view.document) : actions.outcome(id).reason;
     setAllowed(button, reason, `${help}. Works on ${actions.scope()}`);
   });
   return button;

@@ -5,7 +5,7 @@
  */
 
 import { clamp } from "../lib/clamp.js";
-import { axisOf, fractionAt, LEAST_SHOWN } from "../state/time_axis.js";
+import { axisOf, fractionAt, LEAST_SHOWN, placeAt, placeOf } from "../state/time_axis.js";
 import { byId, h, setAttribute } from "../lib/dom.js";
 
 const STEP = 1.5;
@@ -35,14 +35,15 @@ export function createZoom(store) {
     reveal(column) {
       const { first, shown } = axis();
       const room = Math.min(1, shown / 8);
-      if (column < first + room) show(column - room, shown);
-      else if (column + 1 > first + shown - room) show(column + 1 + room - shown, shown);
+      const [left, right] = [placeOf(axis(), column), placeOf(axis(), column + 1)];
+      if (left < first + room) show(left - room, shown);
+      else if (right > first + shown - room) show(right + room - shown, shown);
     },
     /** Turns the page where the playhead has left the window. */
     follow(time) {
-      const { shown, step } = axis();
+      const { shown } = axis();
       const fraction = fractionAt(axis(), time);
-      if (fraction < 0 || fraction > 1) show(time / step + 0.5 - shown / 10, shown);
+      if (fraction < 0 || fraction > 1) show(placeAt(axis(), time) - shown / 10, shown);
     },
   };
 }

@@ -24,7 +24,6 @@ def test_every_kind_of_flood_is_measured_from_one_address_and_from_many() -> Non
 
 
 @pytest.mark.heavy
-@pytest.mark.alone
 def test_each_flood_has_a_row_and_the_last_one_is_of_all(monkeypatch: pytest.MonkeyPatch) -> None:
     attacks = {NO_FLOOD: Attack((), 0), "half": Attack((Flood.HALF_HEADS,), CONNECTIONS)}
     monkeypatch.setattr(flooded_stop, "all_attacks", lambda: attacks)
@@ -36,7 +35,6 @@ def test_each_flood_has_a_row_and_the_last_one_is_of_all(monkeypatch: pytest.Mon
 
 
 @pytest.mark.heavy
-@pytest.mark.alone
 def test_a_stop_that_is_cut_off_is_asked_again_and_counted(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -28,7 +28,6 @@ def test_a_stopped_robot_stands_still_within_its_bound(bound: float, profile: Pr
 
 
 @pytest.mark.heavy
-@pytest.mark.alone
 def test_a_kill_in_mid_run_ends_the_messages_and_the_run_is_shown_as_interrupted() -> None:
     for killed in kill_rounds(2, random.Random(5)):
         assert killed.written == 0

@@ -150,7 +150,7 @@ def test_the_studio_does_not_start_for_a_robot_that_is_not_there(
 def test_listing_gaits_makes_no_folder(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     status, answer = run_json(capsys, "gaits", "--data", str(tmp_path / "absent"))
     assert status == 0
-    assert answer["gaits"][0]["id"] == "walk"
+    assert answer["gaits"][0]["id"] == "fast-c-gait"
     assert list(tmp_path.iterdir()) == []
 
 

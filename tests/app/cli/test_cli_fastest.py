@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from app.documents.gait_json import parse_gait
+from core.gait.motion_source import MotionSource, motion_source
 from core.wire.waypoints import parse_waypoint_csv
 from tests.support.command import run, run_json
 from tests.support.patience import patient_robot
@@ -69,7 +71,7 @@ def test_a_walk_is_written_and_every_other_command_takes_it(
         (("--cycles", "0"), "--cycles"),
         (("--direction", "5"), "--direction"),
         (("--robot", "centipede"), "centipede"),
-        (("-o", "gait.json"), "no waypoint file"),
+        (("-o", "way.txt"), "neither a waypoint file nor a gait file"),
     ],
 )
 def test_bad_input_is_named_with_its_remedy(
@@ -89,3 +91,17 @@ def test_a_step_that_no_motor_reaches_is_infeasible_with_the_longest_that_works(
     assert (status, answer["status"], answer["waypoints"]) == (3, "infeasible", None)
     assert "the longest that was found is" in answer["explanation"][0]
     assert not way.exists()
+
+
+def test_a_gait_file_opens_as_a_gait(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    file = tmp_path / "gait.json"
+    words = ("c-gait", "--step", "0.010", "--direction", "2", "-o", str(file))
+    status, answer = run_json(capsys, "fastest", *words)
+    assert (status, answer["waypoints"]) == (0, str(file))
+    gait = parse_gait(file.read_text())
+    assert (gait.direction, gait.iterations, motion_source(gait)) == (2, 1, MotionSource.POSES)
+    status, verdict = run_json(capsys, "check", str(file))
+    assert (status, verdict["passed"]) == (0, True)
+    status, refused = run_json(capsys, "optimise", str(file))
+    assert status == 2
+    assert "footfall fastest" in refused["error"]

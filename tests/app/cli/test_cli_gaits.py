@@ -71,8 +71,12 @@ def test_gaits_are_listed_by_group(capsys: pytest.CaptureFixture[str], tmp_path:
         "order",
         "kind",
         "made",
+        "plan_seconds",
+        "robot_seconds",
+        "speed",
         "group",
     }
+    assert answer["gaits"][0]["speed"] == pytest.approx(0.0023, abs=1e-4)
     text = run(capsys, "gaits", "--data", str(tmp_path))[1]
     assert [line[:-1] for line in text.splitlines() if line.endswith(":")] == list(Group)
 

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from app.documents.gait_json import gait_content, gait_from_content, motion_hash, parse_gait
 from app.documents.trajectory_json import trajectory_content
-from app.export.gait_diagram import facts
+from app.export.gait_diagram import facts, sample_edges
 from app.gaits.approvals import ApprovalRequest
 from app.gaits.live_plans import LivePlans
 from app.gaits.sequence_documents import PartReference, SourceState, made_sequence, refreshed, source_states
@@ -334,9 +334,14 @@ class _Here(FixedTier):
 
 def test_the_diagram_names_the_parts_and_how_many_have_no_room() -> None:
     short = sequence_gait("x", [SequencePart(gait("walk"), 3), SequencePart(gait("rotate"))])
-    assert facts(short) == "3x Walk 10 mm, 1x Rotate 15°  ·  30.0 mm, turn 15.0°  ·  169 samples of 0.4 s"
+    assert (
+        facts(short, sample_edges(short, load_robot(short.robot)))
+        == "3x Walk 10 mm, 1x Rotate 15°  ·  30.0 mm, turn 15.0°  ·  169 samples of 0.4 s"
+    )
     long = sequence_gait("x", [SequencePart(gait("walk"))] * 9)
-    assert facts(long).startswith(", ".join(["1x Walk 10 mm"] * 5) + " and 4 more  ·  90.0 mm")
+    assert facts(long, sample_edges(long, load_robot(long.robot))).startswith(
+        ", ".join(["1x Walk 10 mm"] * 5) + " and 4 more  ·  90.0 mm"
+    )
 
 
 @pytest.mark.parametrize("robot", ["deltawalker5", "hexapod"])

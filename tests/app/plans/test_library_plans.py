@@ -9,15 +9,18 @@ import pytest
 from app.gaits.open_gait import fresh_gait
 from app.gaits.views import gait_view, verdict_view
 from app.plans.plan import PlanSource, verdict_of
+from app.plans.robot_times import robot_times
 from app.plans.sequence_plan import plan_of
 from core.checks.checked_plan import CheckedPlan
 from core.checks.shoes import check_shoes
 from core.errors import CheckError
 from core.library.library import Group, library
+from core.library.robot_times import library_times
 from core.robot.shoes import foot_distances, least_distance
 from solver_jobs import solve_live
 
 SOURCES = {
+    Group.FOR_ROBOT: PlanSource.POSES,
     Group.OPTIMISED: PlanSource.LIVE,
     Group.APPENDIX: PlanSource.LIVE,
     Group.BY_HAND: PlanSource.MANUAL,
@@ -48,6 +51,8 @@ def test_every_gait_of_the_library_opens_and_is_judged(gait_id: str) -> None:
     plan = plan_of(entry.gait, lambda motion: None, lambda gait: solve_live)
     assert plan.source is OTHERS.get(gait_id, SOURCES[entry.group])
     assert entry.walks is (plan.source is not PlanSource.DRAFT)
+    times = None if plan.is_draft else robot_times(plan)
+    assert library_times().get(gait_id) == times, "python -m app.plans.library_times finds them anew"
     shown = json.dumps(gait_view(fresh_gait(gait_id, entry.gait, True, None), plan), allow_nan=False)
     assert json.loads(shown)["plan"]["note"]
     if plan.refusal is not None:

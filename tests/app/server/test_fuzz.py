@@ -69,7 +69,6 @@ def attack(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Attack]:
 
 
 @pytest.mark.heavy
-@pytest.mark.alone
 @pytest.mark.soak
 @pytest.mark.parametrize("part", range(PARTS))
 def test_no_request_makes_an_error_or_a_long_wait(attack: Attack, part: int) -> None:
@@ -80,7 +79,6 @@ def test_no_request_makes_an_error_or_a_long_wait(attack: Attack, part: int) -> 
 
 
 @pytest.mark.heavy
-@pytest.mark.alone
 @pytest.mark.soak
 def test_after_all_that_the_studio_is_as_good_as_new_and_after_a_soak_its_memory_flat(attack: Attack) -> None:
     words = attack.words(together(attack.campaign.parts))

@@ -16,7 +16,7 @@ from app.emulator.emulated_robot import EmulatedRobot
 from tests.support.soak import soaked
 from tests.support.storm.storm import Storm
 
-pytestmark = [pytest.mark.heavy, pytest.mark.alone, pytest.mark.soak]
+pytestmark = [pytest.mark.heavy, pytest.mark.soak]
 
 SPEED = 10.0
 """Seconds of the emulated robot in a second."""

@@ -24,7 +24,7 @@ from app.documents.gait_json import parse_gait
 from tests.support.kill_worker import GAITS, number_of, opened
 from tests.support.studio_process import PROJECT, StudioProcess
 
-pytestmark = [pytest.mark.heavy, pytest.mark.alone]
+pytestmark = pytest.mark.heavy
 
 ROUNDS = 45
 SERVER_ROUNDS = 5

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from core.arrays import Floats
-from core.checks.arms import ARM_GAP, check_arms_of_waypoints
+from core.checks.arms import check_arms_of_waypoints
 from core.checks.rules import check_waypoints
 from core.findings import Finding, Severity
-from core.robot.arms import arm_gaps
+from core.robot.arms import ARM_GAP, arm_gaps
 from core.robot.leg import strokes_from_foot
 from core.robot.model import RobotModel, load_robot
 from core.wire.executed_path import STEPS
@@ -50,9 +50,9 @@ def test_arms_that_reach_into_one_another_are_a_warning_with_legs_waypoint_and_a
 
 
 def test_little_room_is_a_warning() -> None:
-    ways = np.linspace(0.0, 0.012, 60)
+    ways = np.linspace(0.0, 0.012, 600)
     gaps = arm_gaps(MODEL, leaning(*ways)).min(axis=1)
-    little = float(ways[np.nonzero((gaps > 0.0005) & (gaps < ARM_GAP - 0.0005))[0][0]])
+    little = float(ways[np.nonzero((gaps > 0.0001) & (gaps < ARM_GAP - 0.0001))[0][0]])
     (finding,) = found(leaning(little))
     assert (finding.severity, finding.limit) == (Severity.WARNING, ARM_GAP)
     assert "At waypoint 1 the arms of legs 1 and 2 come within" in finding.sentence

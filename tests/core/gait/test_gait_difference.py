@@ -14,6 +14,7 @@ from core.gait.gait import Gait, Orientation, SequencePart, drawn_timeline, with
 from core.gait.gait_difference import OPTION_WORDS, gait_difference
 from core.gait.held_feet import HeldFeet
 from core.gait.options import GaitOptions
+from core.gait.poses import FoundPoses, Poses
 from core.gait.recording import Recording, RecordingForm
 from core.library.library import library
 from core.motion.heading_profile import HeadingProfile
@@ -56,6 +57,7 @@ CHANGES: dict[str, Any] = {
     "recorded": Recording("a.csv", RecordingForm.WAYPOINTS, "1,2\n"),
     "sequence": (SequencePart(WALK, 3),),
     "held": HeldFeet(end=(2,)),
+    "poses": Poses(),
 }
 OPTION_CHANGES: dict[str, Any] = {
     "clearance": 0.004,
@@ -98,6 +100,18 @@ def test_every_option_has_its_sentence_in_both_directions(field: str) -> None:
 def test_a_gait_is_no_different_from_itself(gait_id: str) -> None:
     gait = library()[gait_id].gait
     assert gait_difference(gait, replace(gait)) == ()
+
+
+def test_what_only_gaits_for_the_robots_clock_ask_is_told_and_found_poses_are_not() -> None:
+    before = replace(WALK, poses=Poses())
+    found = FoundPoses("0" * 64, 0.01, np.zeros((2, 3)), np.zeros((2, 4, 3)))
+    after = replace(WALK, poses=Poses(free_step=False, slip=0.001, arm_distance=0.0, found=found))
+    assert sentences(before, after) == [
+        "Step length: fastest → as set",
+        "Slip 0.5 mm → 1.0 mm",
+        "Arm distance 0.5 mm → 0.0 mm",
+    ]
+    assert sentences(before, replace(WALK, poses=Poses(found=found))) == []
 
 
 def test_steps_are_told_by_length_where_the_way_is_the_same() -> None:

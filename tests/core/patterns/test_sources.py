@@ -24,6 +24,7 @@ from core.patterns.sources import (
     foot_sides,
     hint_of_groups,
     periodic_problem,
+    require_own_timeline,
     transition_problem,
 )
 from core.robot.leg import strokes_from_foot
@@ -96,6 +97,14 @@ def test_gaits_that_do_not_fit_are_refused(other: dict[str, Any], at: int, to: i
 def test_a_sequence_is_no_side_of_a_transition() -> None:
     with pytest.raises(InputError, match="is a sequence; choose the gait of one of its parts"):
         transition_problem(library()["walk-turn-s-gait"].gait, 0, WALK, 0, 12)
+
+
+def test_a_gait_for_the_robots_clock_is_no_side_of_a_transition_and_keeps_its_timeline() -> None:
+    gait = library()["fast-walk"].gait
+    with pytest.raises(InputError, match="made for the robot's clock; choose a gait whose timeline is drawn"):
+        transition_problem(gait, 0, WALK, 0, 12)
+    with pytest.raises(InputError, match="made for the robot's clock, so its timeline cannot be drawn anew"):
+        require_own_timeline(gait)
 
 
 def test_locked_cells_are_kept_and_contradictions_are_named() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from core.robot.arms import arm_bars, segment_distances
+from core.robot.arms import arm_bars, nearest_points
 from core.robot.model import load_robot
 
 MODEL = load_robot("deltawalker")
@@ -26,6 +26,6 @@ def test_segments_are_as_far_apart_as_their_nearest_points() -> None:
         one[:, None, 0] + shares[:, None] * (one[:, 1] - one[:, 0])[:, None] for one in (first, second)
     )
     sampled = np.linalg.norm(on_first[:, :, None] - on_second[:, None], axis=-1).min(axis=(1, 2))
-    exact = segment_distances(first, second)
+    exact = nearest_points(first, second).distances
     assert (exact <= sampled + 1e-12).all()
     np.testing.assert_allclose(exact, sampled, atol=0.02)

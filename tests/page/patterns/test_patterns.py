@@ -77,6 +77,9 @@ def solved(page: Page, word: str | re.Pattern[str] = "Optimal") -> None:
     """Waits until the newest question is answered."""
     expect(page.locator(".pattern-grid[data-stale]")).to_have_count(0)
     expect(status(page)).to_contain_text(word)
+    if word != "Infeasible":  # the first pattern of a search is in the grid before the search has ended
+        walk = page.locator(".pattern-acts button").first
+        expect(walk).not_to_have_attribute("aria-disabled", "true")
     wait_for(
         lambda: rows(page) != [] and (word == "Infeasible" or "." not in "".join(rows(page))), "its cells", 60
     )

@@ -110,8 +110,8 @@ def test_a_stop_goes_out_on_two_ways_of_which_each_is_enough(
 def test_stop_works_while_the_page_is_still_being_read(ada: Page, held_still: StudioProcess) -> None:
     ada.route("**/static/editor.js", lambda route: route.abort())
     ada.reload()
-    with ada.expect_response("**/api/robot/stop"):
-        ada.get_by_role("button", name="Stop", exact=True).press("Enter")
+    # Not its answer: on a busy machine the page may give up waiting for it, and send Stop again.
+    ada.get_by_role("button", name="Stop", exact=True).press("Enter")
     wait_for(lambda: held_still.robot()["robot"] == "stopped", "the robot is stopped")
 
 

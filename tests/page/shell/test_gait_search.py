@@ -73,12 +73,3 @@ def test_a_line_of_the_list_follows_an_edit_elsewhere(page: Page, studio: Studio
     studio.ask("PUT", "/api/gaits/trial-0007?label=Name", {**document, "name": "Seventh heaven"})
     line = page.get_by_role("list", name="Gaits").get_by_role("button", name=re.compile("^Seventh heaven"))
     expect(line).to_have_attribute("title", re.compile("unsaved changes"))
-
-
-def test_a_short_list_has_no_search(browser: Browser, tmp_path: Path) -> None:
-    with (
-        running_studio(tmp_path) as studio,
-        opened_page(browser, studio.url, 1024, 768, has_scene=False) as opened,
-    ):
-        expect(opened.get_by_label("Gait name")).not_to_have_value("")
-        expect(opened.get_by_role("searchbox", name="Find a gait")).to_be_hidden()

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from app.bench.solvers.fastest_times import random_problems
 from core.checks.checked_plan import CheckedPlan
 from core.checks.rules import check_plan
 from core.pose_gaits.pose_check import check_poses
@@ -96,6 +97,7 @@ def test_the_check_sees_a_gait_that_was_changed(c_gait: PoseGait, change: str) -
         ("clearance", PoseBounds(clearance=0.009)),
         ("slip", PoseBounds(slip=0.0001)),
         ("shoe distance", PoseBounds(shoe_distance=0.045)),
+        ("arm distance", PoseBounds(arm_distance=0.004)),
         ("stop bound", PoseBounds(stop_bound=1.2)),
     ],
 )
@@ -123,6 +125,22 @@ def test_a_margin_that_is_too_wide_is_explained_by_the_widest_that_works() -> No
     assert "The margin (--margin) is 25 mm" in result.explanation[0]
 
 
+def test_arms_that_come_near_each_other_are_kept_apart(c_gait: PoseGait) -> None:
+    asked = 0.003
+    assert 0.001 < check_poses(c_gait).figures.arm_distance < asked
+    result = solved(bounds=PoseBounds(arm_distance=asked))
+    assert result.gait is not None
+    assert check_poses(result.gait).figures.arm_distance > asked - 5e-5
+    assert 0.97 * c_gait.speed < result.gait.speed < c_gait.speed
+
+
+def test_arms_that_are_nearer_in_the_standard_stance_are_refused_at_once() -> None:
+    result = solved(cycles=1, bounds=PoseBounds(arm_distance=0.007))
+    assert result.status is SolveStatus.INFEASIBLE
+    assert "5.6 mm apart in the standard stance, and 7 mm are asked (--arm-distance)" in result.explanation[0]
+    assert result.solve_seconds == 0.0
+
+
 def test_a_cancelled_search_has_no_gait() -> None:
     told: list[PoseProgress] = []
 
@@ -144,17 +162,9 @@ def test_a_robot_with_six_legs_walks_too() -> None:
 @pytest.mark.heavy
 @pytest.mark.soak
 def test_what_is_called_solved_is_confirmed_whatever_is_asked() -> None:
-    random = np.random.default_rng(20261123)
     statuses = []
-    for _ in range(soaked(40)):
-        order = tuple(int(foot) for foot in random.permutation(4) + 1)
-        bounds = PoseBounds(
-            margin=float(random.uniform(0.0, 0.012)),
-            clearance=float(random.uniform(0.001, 0.006)),
-            stop_bound=float(random.choice([1.1, 1.3, 1.5, 2.0, 2.5])),
-        )
-        step = None if random.random() < 0.4 else float(random.uniform(0.005, 0.07))
-        result = solved(order, float(random.choice(4)) * np.pi / 4, step=step, bounds=bounds)
+    for problem in random_problems(soaked(40), 20261123, (None,)):
+        result = solve_poses(problem)
         statuses.append(result.status)
         assert (result.status is SolveStatus.SOLVED) == (result.gait is not None)
         if result.gait is not None:

@@ -17,20 +17,27 @@ _FLAT: dict[Browser, Browser] = {}
 _PROFILES: dict[Browser, BrowserContext] = {}
 _BUSY: set[Browser] = set()
 """Browsers of which a page is open."""
+WALK = (
+    "try { localStorage.getItem('footfall.gait') ?? localStorage.setItem('footfall.gait', 'walk') } catch {}"
+)
+"""As if the drawn walk was used last, where no gait is remembered: most tests are about drawn gaits."""
 NO_FRAME = "Object.defineProperty(HTMLIFrameElement.prototype, 'src', { set() {}, get: () => '' })"
 """Lighter than an answer in the place of the server's, which has every request pass through Playwright."""
 
 
 @contextmanager
 def opened_page(
-    browser: Browser, url: str, width: int, height: int, *, has_scene: bool = True
+    browser: Browser, url: str, width: int, height: int, *, has_scene: bool = True, is_new: bool = False
 ) -> Iterator[Page]:
     """Opens an address in a window of a size, and ends with an error where the page threw one.
 
     Without its 3D scene, which is seconds of drawing in software, where a test has nothing to do with it.
+    A new user's page shows the first gait of the list, any other the walk.
     """
     drawing = browser if has_scene else flat_browser(browser)
     with window(drawing, url) as page:
+        if not is_new:
+            page.add_init_script(WALK)
         page.set_viewport_size({"width": width, "height": height})
         page.set_default_timeout(LONG_MS)
         if not has_scene:
@@ -38,7 +45,11 @@ def opened_page(
         problems: list[str] = []
         page.on("pageerror", lambda error: problems.append(str(error)))
         page.goto(url)
-        yield page
+        try:
+            yield page
+        except BaseException:
+            print("The page said:", page.locator("#toasts").all_inner_texts())  # noqa: T201
+            raise
     assert problems == []
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from core.arrays import Floats
+from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseProblem
 
 MM = 1000.0
@@ -57,6 +58,29 @@ class StartMotion:
         progress = (1 - share) * self._progress[move] + share * self._progress[move + 1]
         heights = (1 - share) * self._problem.floor[move] + share * self._problem.floor[move + 1]
         return self._body(place), self._feet(progress, heights), float(self._turn * place)
+
+
+class PosesStart:
+    """The same from poses that are known; within a move everything goes straight.
+
+    Args:
+        gait: the poses.
+    """
+
+    def __init__(self, gait: PoseGait) -> None:
+        self.bodies = gait.bodies * MM
+        self.headings = gait.headings.tolist()
+        self.feet = list(gait.feet * MM)
+
+    def within(self, move: int, share: float) -> tuple[Floats, Floats, float]:
+        """Body, feet and heading at a share of a move, mm and rad."""
+
+        def mixed(first: Floats, last: Floats) -> Floats:
+            return np.asarray((1 - share) * first + share * last)
+
+        turn = (1 - share) * self.headings[move] + share * self.headings[move + 1]
+        body = mixed(self.bodies[move], self.bodies[move + 1])
+        return body, mixed(self.feet[move], self.feet[move + 1]), turn
 
 
 def rotation_about_z(angle: float) -> Floats:

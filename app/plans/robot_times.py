@@ -1,0 +1,21 @@
+"""How long a plan lasts, as planned and on the robot."""
+
+import numpy as np
+
+from app.plans.plan import Plan
+from core.library.robot_times import RobotTimes
+from core.wire.robot_time import estimate_seconds
+
+
+def robot_times(plan: Plan) -> RobotTimes | None:
+    """A plan's times; None where it has no waypoints."""
+    trajectory = plan.trajectory
+    if plan.way is None or trajectory is None:
+        return None
+    seconds = estimate_seconds(plan.way.waypoints)
+    way = float(np.linalg.norm(trajectory.body_world[-1, :2] - trajectory.body_world[0, :2]))
+    return RobotTimes(
+        plan_seconds=round(float(trajectory.times[-1] - trajectory.times[0]), 3),
+        robot_seconds=round(seconds, 1),
+        speed=round(way / seconds, 6),
+    )

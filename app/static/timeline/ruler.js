@@ -1,0 +1,112 @@
+/** The ruler over the timeline: planned seconds, the robot's seconds, loop, findings; it scrubs the playback. */
+
+import { clamp } from "../lib/clamp.js";
+import { byId, h } from "../lib/dom.js";
+import { shownPlan } from "../state/store.js";
+import { axisKey, axisOf, columnFraction, fractionAt, labelEvery, momentOf, timeAt } from "../state/time_axis.js";
+
+const percent = (fraction) => `${100 * fraction}%`;
+const isShown = (fraction) => fraction >= -1e-9 && fraction <= 1 + 1e-9;
+
+function placed(element, left, width = null) {
+  element.style.left = percent(left);
+  if (width !== null) element.style.width = percent(width);
+  return element;
+}
+
+function missingMotionMarks(axis, plan) {
+  return (plan?.live?.lacks ?? []).slice().reverse().map((missing) => {
+    const mark = h("b", { class: "lack", title: missing.sentence, data: { tone: missing === plan.live.lacks[0] ? "bad" : "caution" } });
+    return placed(mark, columnFraction(axis, missing.first), columnFraction(axis, missing.last + 1) - columnFraction(axis, missing.first));
+  });
+}
+
+function ticks(axis, width) {
+  const every = labelEvery(axis, width);
+  const marks = [];
+  const end = (axis.times ? axis.duration : (axis.columns - 1) * axis.step) + 1e-9;
+  for (let count = 0; count * every <= end; count += 1) {
+    const time = count * every;
+    const left = fractionAt(axis, time);
+    if (isShown(left)) marks.push(placed(h("span", { text: time === 0 ? "0 s" : String(Math.round(time * 10) / 10) }), left), placed(h("i"), left));
+  }
+  return marks;
+}
+
+/** Robot seconds at a moment of the plan, and the other way round: straight between two waypoints. */
+function between(value, from, to) {
+  if (value >= from.at(-1)) return to.at(-1);
+  const after = clamp(from.findIndex((known) => known >= value), 1, from.length - 1);
+  const share = (value - from[after - 1]) / (from[after] - from[after - 1] || 1);
+  return to[after - 1] + share * (to[after] - to[after - 1]);
+}
+
+/** Whether a plan's own seconds are others than the robot's; those of poses are the robot's already. */
+const hasRobotTimes = (plan) => plan?.poses === null && plan.waypoint_seconds?.length > 1;
+
+/** The second line of the ruler: the robot's seconds, where it is at that moment of the plan. */
+function robotTicks(axis, plan, width) {
+  if (!hasRobotTimes(plan)) return [];
+  const { waypoint_times: planned, waypoint_seconds: takes } = plan;
+  const every = labelEvery({ shown: axis.shown, step: (axis.step * takes.at(-1)) / planned.at(-1) }, width, 72);
+  const marks = [];
+  for (let count = 0; count * every <= takes.at(-1) + 1e-9; count += 1) {
+    const time = count * every;
+    const left = fractionAt(axis, between(time, takes, planned));
+    if (isShown(left)) marks.push(placed(h("span", { class: "on-robot", text: time === 0 ? "0 s" : String(Math.round(time * 10) / 10) }), left));
+  }
+  return marks;
+}
+
+/** In each move of a gait for the robot's clock, from when Stop is heard. */
+const heardMarks = (axis, plan) => (plan?.poses?.heard ?? []).map((time) => [fractionAt(axis, time), time]).filter(([left]) => isShown(left))
+  .map(([left, time]) => placed(h("b", { class: "heard", title: `From ${time.toFixed(1)} s on the robot hears Stop in this move` }), left));
+
+/** Marks of findings; where several fall on one sample the errors lie on top. */
+function findingMarks(axis, verdict) {
+  const placeable = (verdict?.findings ?? []).filter(({ sample, foot }) => sample !== null && foot === null);
+  return placeable.sort((a, b) => (a.severity === "error") - (b.severity === "error"))
+    .map((finding) => placed(h("b", { class: "mark", title: finding.sentence, data: { severity: finding.severity } }), fractionAt(axis, momentOf(axis, finding.sample))));
+}
+
+function loopMark(axis, [start, end]) {
+  const from = Math.max(0, fractionAt(axis, start));
+  return placed(h("b", { class: "loop", title: `Plays from ${start.toFixed(1)} to ${end.toFixed(1)} s over and over (L ends it)` }), from, Math.min(1, fractionAt(axis, end)) - from);
+}
+
+function draw(state, playback, width) {
+  const [axis, plan] = [axisOf(state), shownPlan(state)];
+  const loop = playback.loop && (playback.loop[0] > 0 || playback.loop[1] < playback.duration - 1e-9) ? [loopMark(axis, playback.loop)] : [];
+  const ruler = byId("ruler");
+  ruler.toggleAttribute("data-robot", hasRobotTimes(plan));
+  ruler.replaceChildren(...loop, ...missingMotionMarks(axis, plan), ...ticks(axis, width), ...robotTicks(axis, plan, width), ...heardMarks(axis, plan), ...findingMarks(axis, state.live ? null : state.view?.verdict));
+}
+
+function mountScrubbing(store, playback) {
+  const ruler = byId("ruler");
+  const scrub = (event) => {
+    const box = ruler.getBoundingClientRect();
+    playback.setTime(timeAt(axisOf(store.state), (event.clientX - box.left) / box.width));
+  };
+  ruler.addEventListener("pointerdown", (event) => {
+    ruler.setPointerCapture(event.pointerId);
+    scrub(event);
+  });
+  ruler.addEventListener("pointermove", (event) => {
+    if (ruler.hasPointerCapture(event.pointerId)) scrub(event);
+  });
+}
+
+/** Draws the ruler and keeps it current; it scrubs `playback`. */
+export function mountRuler(store, playback) {
+  let width = byId("ruler").clientWidth;
+  byId("chart-corner").append(h("div", { class: "ruler-names", "aria-hidden": "true" }, h("span", { text: "planned" }), h("span", { class: "on-robot", text: "robot" })));
+  const again = () => draw(store.state, playback, width || 1000);
+  store.watch((state) => [state.view?.id, shownPlan(state), state.view?.verdict, axisKey(state)], again);
+  playback.addEventListener("state", again);
+  new ResizeObserver(([{ contentRect }]) => {
+    width = contentRect.width;
+    again();
+  }).observe(byId("ruler"));
+  mountScrubbing(store, playback);
+}

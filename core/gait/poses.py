@@ -1,0 +1,98 @@
+"""What makes a gait one for the robot's clock: limits of its own, and the poses that a solver has found."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+
+from core.arrays import Floats, frozen_floats
+from core.errors import InputError
+from core.robot.arms import ARM_GAP
+
+POSE_LIMITS = {
+    "slip": (0.00005, 0.005),
+    "shoe_distance": (0.0, 0.06),
+    "arm_distance": (0.0, 0.01),
+}
+"""Least and most of the limits that only such a gait has, m."""
+MOST_POSES = 2000
+_HASH = re.compile(r"[0-9a-f]{64}")
+
+
+@dataclass(frozen=True, eq=False)
+class FoundPoses:
+    """Poses as a solver has found them; the strokes follow by inverse kinematics.
+
+    Args:
+        answers: SHA-256 of what was asked (`core.pose_gaits.gait_poses.asked_of`).
+        step: travel of the body a cycle, m.
+        bodies: (poses, 3) point of the body axis in the actuator plane, m; z above standing feet's platforms.
+        feet: (poses, legs, 3) platform centres, m.
+    """
+
+    answers: str
+    step: float
+    bodies: Floats
+    feet: Floats
+
+    def __post_init__(self) -> None:
+        if not _HASH.fullmatch(self.answers):
+            raise InputError(
+                "poses.found.answers is no SHA-256: 64 digits 0 to 9, a to f. Solve the gait again.",
+                "poses.found.answers",
+            )
+        if not (math.isfinite(self.step) and 0.0 < self.step <= 0.2):
+            raise InputError(
+                f"poses.found.step is {self.step:g} m; it must lie above 0 and up to 0.2 m.",
+                "poses.found.step",
+            )
+        bodies = frozen_floats(self.bodies, (None, 3), "poses.found.bodies")
+        if not 2 <= len(bodies) <= MOST_POSES:
+            raise InputError(
+                f"poses.found has {len(bodies)} poses; it needs 2 to {MOST_POSES}.", "poses.found.bodies"
+            )
+        object.__setattr__(self, "bodies", bodies)
+        object.__setattr__(self, "feet", frozen_floats(self.feet, (len(bodies), None, 3), "poses.found.feet"))
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, FoundPoses):
+            return NotImplemented
+        return (self.answers, self.step) == (other.answers, other.step) and all(
+            a.shape == b.shape and bool((a == b).all())
+            for a, b in ((self.bodies, other.bodies), (self.feet, other.feet))
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+@dataclass(frozen=True)
+class Poses:
+    """What a gait for the robot's clock asks beside the document's own fields, and what was found.
+
+    Margin, clearance and stop bound stand in the document's options, foot order, direction, step and number
+    of cycles in the document itself.
+
+    Args:
+        free_step: the step is that of the fastest walk; the document's step follows from the poses.
+        slip: how far a standing foot may be off its foothold within a move, in x and y; half of it in z, m.
+        shoe_distance: least distance between the middles of two feet, m.
+        arm_distance: least room between the arms of neighbouring legs, m; 0 where they may touch.
+        found: the poses; None where none were found yet.
+    """
+
+    free_step: bool = True
+    slip: float = 0.0005
+    shoe_distance: float = 0.028
+    arm_distance: float = ARM_GAP
+    found: FoundPoses | None = None
+
+    def __post_init__(self) -> None:
+        for name, (least, most) in POSE_LIMITS.items():
+            value = getattr(self, name)
+            if not least <= value <= most:
+                raise InputError(
+                    f"poses.{name} is {value * 1000:g} mm; it must lie between {least * 1000:g} and "
+                    f"{most * 1000:g} mm.",
+                    f"poses.{name}",
+                )

@@ -1,0 +1,113 @@
+"""Gaits for the robot's clock over HTTP: solved behind every edit, undone at once, checked and refused."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from app.documents.gait_json import gait_content
+from core.gait.gait import heading_step
+from core.gait.poses import Poses
+from core.library.library import library
+from core.pose_gaits.gait_poses import new_pose_gait
+from core.robot.model import load_robot
+from tests.support.studio_process import StudioProcess, running_studio, wait_for
+
+LONG = 120.0
+
+
+@pytest.fixture(scope="module")
+def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess]:
+    with running_studio(tmp_path_factory.mktemp("data")) as running:
+        yield running
+
+
+@pytest.fixture(scope="module")
+def gait(studio: StudioProcess) -> str:
+    like = library()["c-gait"].gait.with_options(margin=0.006, stop_bound=1.5)
+    asked = replace(like, step=heading_step(like.orientation, 0.010))
+    document = new_pose_gait("By poses", asked, Poses(free_step=False), load_robot(like.robot))
+    answer = studio.ask("POST", "/api/gaits", gait_content(document))
+    assert answer.status in (200, 201), answer.content
+    made: str = answer.content["id"]
+    return made
+
+
+def view(studio: StudioProcess, gait: str) -> dict[str, Any]:
+    content: dict[str, Any] = studio.ask("GET", f"/api/gaits/{gait}/view").content
+    return content
+
+
+def solved(studio: StudioProcess, gait: str) -> dict[str, Any]:
+    wait_for(lambda: view(studio, gait)["plan"]["source"] == "poses", "the poses are found", LONG)
+    return view(studio, gait)
+
+
+def test_a_new_one_is_solved_by_itself_and_keeps_its_poses(studio: StudioProcess, gait: str) -> None:
+    found = solved(studio, gait)
+    assert found["source"] == "poses"
+    assert found["document"]["poses"]["found"]["step"] == pytest.approx(0.010)
+    plan = found["plan"]
+    assert plan["waypoint_count"] == len(plan["times"]) == len(found["document"]["timeline"]["feet"][0])
+    assert 0.0 < plan["robot_seconds"] - plan["times"][-1] < 0.5  # the first message
+    assert plan["speed_mm_s"] == pytest.approx(10.0 / plan["robot_seconds"], rel=0.02)
+    assert found["undo"] is None
+
+
+def test_an_edit_is_adapted_then_solved_and_undo_needs_no_search(studio: StudioProcess, gait: str) -> None:
+    before = solved(studio, gait)
+    document = before["document"]
+    longer = {**document, "step": [0.012, 0.0, 0.0]}
+    live = studio.ask("POST", f"/api/gaits/{gait}/live", {"document": longer}).content
+    assert live["plan"]["source"] == "adapted"
+    assert live["plan"]["body"][-1][0] == pytest.approx(0.012)
+    answer = studio.ask("PUT", f"/api/gaits/{gait}", longer)
+    assert answer.status == 200, answer.content
+    assert solved(studio, gait)["plan"]["body"][-1][0] == pytest.approx(0.012)
+    back = studio.ask("POST", f"/api/gaits/{gait}/undo").content
+    assert back["plan"]["source"] == "poses"
+    assert back["plan"]["hash"] == before["plan"]["hash"]
+    assert studio.ask("POST", f"/api/gaits/{gait}/check").content["passed"]
+
+
+def test_a_search_is_cancelled_and_begun_again(studio: StudioProcess, gait: str) -> None:
+    document = solved(studio, gait)["document"]
+    answer = studio.ask("PUT", f"/api/gaits/{gait}", {**document, "iterations": 4, "step": [0.020, 0.0, 0.0]})
+    assert answer.status == 200, answer.content
+    assert answer.content["search"]["state"] == "running"
+    cancelled = studio.ask("DELETE", f"/api/gaits/{gait}/search")
+    assert cancelled.content["search"]["state"] == "cancelled"
+    assert studio.ask("DELETE", f"/api/gaits/{gait}/search").status == 409
+    assert view(studio, gait)["plan"]["source"] == "adapted"
+    assert view(studio, gait)["search"]["state"] == "cancelled"
+    again = studio.ask("POST", f"/api/gaits/{gait}/search").content
+    assert again["search"]["state"] == "running"
+    assert solved(studio, gait)["search"] is None
+    assert studio.ask("POST", f"/api/gaits/{gait}/search").status == 409
+    assert studio.ask("POST", f"/api/gaits/{gait}/undo").content["plan"]["source"] == "poses"
+
+
+def test_what_is_out_of_reach_says_why_and_is_not_sent(studio: StudioProcess, gait: str) -> None:
+    document = solved(studio, gait)["document"]
+    answer = studio.ask("PUT", f"/api/gaits/{gait}", {**document, "step": [0.15, 0.0, 0.0]})
+    assert answer.status == 200, answer.content
+
+    def explained() -> bool:
+        poses = view(studio, gait)["plan"]["poses"]
+        return bool(poses and poses["explanation"]) or view(studio, gait)["plan"]["refusal"] is not None
+
+    wait_for(explained, "the search says why there is none", LONG)
+    assert studio.ask("POST", f"/api/gaits/{gait}/approve", {"by": "Ada"}).status >= 400
+    assert studio.ask("POST", f"/api/gaits/{gait}/undo").content["plan"]["source"] == "poses"
+
+
+def test_its_timeline_cannot_be_drawn_on(studio: StudioProcess, gait: str) -> None:
+    document = solved(studio, gait)["document"]
+    feet = ["0" * len(document["timeline"]["feet"][0]), *document["timeline"]["feet"][1:]]
+    timeline = {**document["timeline"], "feet": feet}
+    answer = studio.ask("PUT", f"/api/gaits/{gait}", {**document, "timeline": timeline})
+    assert answer.status == 409
+    assert "follows from foot order" in str(answer.content)

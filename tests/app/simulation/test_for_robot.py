@@ -1,0 +1,41 @@
+"""The gaits of the group “For this robot” walk in physics, as sent and under variations."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from app.bench.physics.fastest import simulation_of
+from core.library.library import Group, group_ids, library
+from core.physics.metrics import report
+from core.physics.problem import SimulationProblem
+from core.pose_gaits.gait_poses import found_gait
+from core.robot.model import load_robot
+from solver_jobs import simulate, simulate_variations
+
+GAITS = group_ids(Group.FOR_ROBOT)
+
+
+def simulation(gait_id: str) -> SimulationProblem:
+    gait = library()[gait_id].gait
+    poses = found_gait(gait, load_robot(gait.robot))
+    assert poses is not None
+    return simulation_of(poses)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("gait_id", GAITS)
+def test_it_goes_as_planned_and_upright(gait_id: str) -> None:
+    problem = simulation(gait_id)
+    figures = report(problem, simulate(problem))
+    assert not figures.fell
+    assert figures.distance >= 0.97 * figures.planned_distance
+    assert abs(np.degrees(figures.heading)) <= 2.0
+    assert np.degrees(figures.max_tilt) <= 1.0
+    assert figures.swing_load.max() == 0.0
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("gait_id", GAITS)
+def test_all_variations_walk(gait_id: str) -> None:
+    assert all(run.walks for run in simulate_variations(simulation(gait_id), 64))

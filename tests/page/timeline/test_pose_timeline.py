@@ -1,0 +1,66 @@
+"""A gait for the robot's clock on the page: uneven samples, its own fields, solved again behind an edit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from tests.support.page.opened import opened_page
+from tests.support.studio_process import StudioProcess
+
+pytestmark = pytest.mark.heavy
+
+
+@pytest.fixture
+def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
+    with opened_page(browser, studio.url, 1440, 900, is_new=True) as opened:
+        expect(opened.get_by_label("Gait name")).to_have_value("Fast C-Gait")
+        yield opened
+
+
+def test_samples_are_as_wide_as_they_last_and_an_edit_is_solved_behind_it(page: Page) -> None:
+    cells = (
+        page.get_by_role("grid", name="Footfall timeline").get_by_role("row").first.get_by_role("gridcell")
+    )
+    expect(cells).to_have_count(27)
+    widths = {round(cells.nth(index).bounding_box()["width"]) for index in range(1, 20)}  # type: ignore[index]
+    assert len(widths) > 1
+    answer = page.get_by_role("status", name="Live answer")
+    expect(answer).to_contain_text("Feasible, checked")
+    expect(answer).to_contain_text("mm/s")
+    expect(page.get_by_label("Phase knots", exact=True)).to_be_hidden()
+    expect(page.get_by_label("Step length")).to_have_value("true")
+    step = page.get_by_label("Step", exact=True)
+    step.fill("20")
+    step.press("Enter")
+    expect(answer).to_contain_text("Adapted, not solved")
+    expect(page.get_by_role("region", name="Search")).to_contain_text("Looking for the fastest motion")
+    expect(page.get_by_label("Step length")).to_have_value("false")
+    expect(answer).to_contain_text("Feasible, checked", timeout=120_000)
+    page.get_by_role("button", name="Undo").click()
+    expect(page.get_by_label("Step length")).to_have_value("true")
+    expect(answer).to_contain_text("Feasible, checked")
+
+
+def test_a_search_is_cancelled_and_begun_again_and_the_timeline_is_not_drawn_on(page: Page) -> None:
+    page.locator("#optimise summary").filter(has_text="More").first.click()
+    cycles = page.get_by_label("Iterations", exact=True)
+    cycles.fill("5")
+    cycles.press("Enter")
+    search = page.get_by_role("region", name="Search")
+    search.get_by_role("button", name="Cancel").click()
+    expect(search).to_contain_text("The search was cancelled.")
+    answer = page.get_by_role("status", name="Live answer")
+    expect(answer).to_contain_text("Adapted")
+    search.get_by_role("button", name="Search again").click()
+    expect(search).to_contain_text("Looking for the fastest motion")
+    page.get_by_role("button", name="Undo").click()
+    expect(search).to_be_hidden()
+    expect(answer).to_contain_text("Feasible, checked")
+    expect(page.get_by_role("button", name="Paint", exact=True)).to_have_attribute("aria-disabled", "true")
+    grid = page.get_by_role("grid", name="Footfall timeline")
+    grid.get_by_role("gridcell", name="foot 1, sample 3: swing", exact=True).click()
+    expect(page.locator("#toasts")).to_contain_text("This timeline follows from the poses")
+    expect(page.get_by_role("button", name="Undo")).to_have_attribute("aria-disabled", "true")

@@ -25,7 +25,7 @@ from core.errors import InputError
 from core.gait.gait import Gait, SequencePart
 from core.gait.held_feet import HeldFeet
 from core.gait.options import GaitOptions
-from core.gait.poses import POSE_LIMITS, FoundPoses, Poses
+from core.gait.poses import POSE_LIMITS, FoundPoses, PinnedPose, Poses
 from core.gait.provenance import Provenance
 from core.gait.recording import Recording
 from core.motion.contact_timeline import ContactTimeline, bits_from_rows, rows_from_bits
@@ -163,7 +163,8 @@ def _to_poses(model: PosesModel | None, feet: int) -> Poses | None:
     if found is not None and any(len(pose) != feet for pose in found.feet):
         raise InputError(f"poses.found.feet needs {feet} feet at each pose.", "poses.found.feet")
     kept = None if found is None else FoundPoses(**found.model_dump())
-    return Poses(model.free_step, model.slip, model.shoe_distance, model.arm_distance, kept)
+    pinned = tuple(PinnedPose(pin.pose, pin.along, pin.sideways) for pin in model.pinned)
+    return Poses(model.free_step, model.slip, model.shoe_distance, model.arm_distance, kept, pinned)
 
 
 def _to_recording(model: RecordingModel | None) -> Recording | None:
@@ -221,6 +222,8 @@ def gait_content(gait: Gait) -> Json:
 def _poses_content(poses: Poses) -> Json:
     found = poses.found
     content = {name: getattr(poses, name) for name in ("free_step", *POSE_LIMITS)}
+    if poses.pinned:
+        content["pinned"] = [vars(pin) for pin in poses.pinned]
     return content | {"found": None if found is None else found_content(found)}
 
 

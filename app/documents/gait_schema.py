@@ -142,6 +142,14 @@ class FoundPosesModel(_Model):
     feet: list[list[tuple[Metres, Metres, Metres]]] = _field("platform centre of each foot at each pose, m")
 
 
+class PinnedPoseModel(_Model):
+    """A pose whose body somebody has put to a place; told from where an even travel has it at that pose."""
+
+    pose: int = _field("its number, counted from 1; neither the first nor the last")
+    along: Metres = _field("in the direction of travel, m")
+    sideways: Metres = _field("to the left of it, m")
+
+
 class PosesModel(_Model):
     """What a gait for the robot's clock asks beside options, order, step and iterations."""
 
@@ -152,6 +160,9 @@ class PosesModel(_Model):
         "arm_distance", "least room between the arms of neighbouring legs, m; 0: they may touch"
     )
     found: FoundPosesModel | None = _field("the poses; null: none were found yet", default=None)
+    pinned: list[PinnedPoseModel] = _field(
+        "where the body is to be at some poses. Left out where none is pinned", default_factory=list
+    )
 
 
 class ProvenanceModel(_Model):

@@ -13,12 +13,13 @@ from core.gait.held_feet import HeldFeet, feet_words
 from core.gait.held_rules import require_swinging, standing_of
 from core.gait.poses import Poses
 from core.motion.contact_timeline import ContactTimeline
-from core.pose_gaits.gait_poses import found_gait, with_pose_timeline
+from core.pose_gaits.gait_poses import found_gait, pose_problem, with_pose_timeline
 from core.robot.model import load_robot
 from core.segments.from_timeline_edit import carried
 
 SAME_STEP = 1e-9
 """Steps that differ by less are the same, m."""
+LET_GO = "The pinned poses were let go, since this gait has other poses now. Undo brings them back."
 SET_ASIDE = "The recorded motion of {file} was set aside; the motion is computed now. Undo brings it back."
 
 
@@ -39,27 +40,34 @@ def normalise(before: Gait, after: Gait) -> tuple[Gait, str | None]:
     if before.sequence or after.sequence:
         return normalise_sequence(before, after), None
     if after.poses is not None:
-        return normalise_poses(before, after, after.poses), None
+        return normalise_poses(before, after, after.poses)
     require_locks(before, after)
     tabled = normalise_table(before, normalise_drawing(before, after))
     changed, notice = normalise_held_feet(*tabled, is_said=before.held != after.held)
     return normalise_results(before, changed, notice)
 
 
-def normalise_poses(before: Gait, after: Gait, poses: Poses) -> Gait:
+def normalise_poses(before: Gait, after: Gait, poses: Poses) -> tuple[Gait, str | None]:
     """Normalises a gait for the robot's clock: the timeline follows, and a step that was set is kept.
+
+    Poses that are pinned are let go where the gait has others now.
 
     Args:
         before: the document as it was.
         after: the document as it was changed.
         poses: of the changed document.
 
+    Returns:
+        The gait, and a sentence where pinned poses were let go.
+
     Raises:
         InputError: it asks for what such a gait cannot have.
         StateError: the timeline was drawn on.
     """
-    model, known = load_robot(after.robot), before.poses
+    model, known, notice = load_robot(after.robot), before.poses, None
     if known is not None:
+        if known.pinned and known.pinned == poses.pinned and _poses_of(before) != _poses_of(after):
+            poses, notice = replace(poses, pinned=()), LET_GO
         is_free = poses.free_step and not (known.free_step and _is_step_set(before, after, poses))
         poses = replace(poses, free_step=is_free)
         # A page that has not seen new poses yet must not bring the old ones back.
@@ -73,7 +81,15 @@ def normalise_poses(before: Gait, after: Gait, poses: Poses) -> Gait:
             "change those.",
             "timeline",
         )
-    return followed
+    return followed, notice
+
+
+def _poses_of(gait: Gait) -> object:
+    """What the numbers and places of a gait's poses hang on: which feet step when, and the way it goes."""
+    bare = None if gait.poses is None else replace(gait.poses, pinned=())
+    problem = pose_problem(replace(gait, poses=bare), load_robot(gait.robot))
+    turn = problem.heading - gait.quarter_turns * np.pi / 2
+    return gait.robot, gait.order, gait.iterations, problem.parts_to_try, problem.move_count, round(turn, 6)
 
 
 def _is_step_set(before: Gait, after: Gait, poses: Poses) -> bool:

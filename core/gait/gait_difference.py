@@ -98,7 +98,18 @@ def _poses(before: Poses | None, after: Poses | None) -> tuple[str, ...]:
         old, new = getattr(before, name) * 1000, getattr(after, name) * 1000
         words = name.replace("_", " ").capitalize()
         sentences += [] if old == new else _change(words, *(f"{text} mm" for text in _apart(old, new)))
+    sentences += _change("Pinned poses:", *(_pinned(poses) for poses in (before, after)))
     return tuple(sentences)
+
+
+def _pinned(poses: Poses) -> str:
+    """Which poses are pinned, and where."""
+    places = (
+        f"{pin.pose} ({abs(pin.along) * 1000:.2f} mm {'behind' if pin.along < 0 else 'ahead'}, "
+        f"{abs(pin.sideways) * 1000:.2f} mm to the {'right' if pin.sideways < 0 else 'left'})"
+        for pin in poses.pinned
+    )
+    return ", ".join(places) or "none"
 
 
 def _yes(poses: Poses | None) -> str:

@@ -17,6 +17,8 @@ POSE_LIMITS = {
 }
 """Least and most of the limits that only such a gait has, m."""
 MOST_POSES = 2000
+MOST_PINNED = 0.03
+"""Farthest that a pinned pose may be from where an even travel has the body, along either axis, m."""
 _HASH = re.compile(r"[0-9a-f]{64}")
 
 
@@ -67,6 +69,34 @@ class FoundPoses:
 
 
 @dataclass(frozen=True)
+class PinnedPose:
+    """A pose whose body somebody has put to a place, which a solver keeps.
+
+    The place is told from where the body were if it travelled evenly, the same way at every pose, so that it
+    goes along with another step.
+
+    Args:
+        pose: counted from 1.
+        along: the direction of travel, m.
+        sideways: to the left of it, m.
+    """
+
+    pose: int
+    along: float
+    sideways: float
+
+    def __post_init__(self) -> None:
+        for name in ("along", "sideways"):
+            value = getattr(self, name)
+            if not abs(value) <= MOST_PINNED:
+                raise InputError(
+                    f"poses.pinned puts the body of pose {self.pose} {value * 1000:g} mm {name}; it must lie "
+                    f"between {-MOST_PINNED * 1000:g} and {MOST_PINNED * 1000:g} mm.",
+                    "poses.pinned",
+                )
+
+
+@dataclass(frozen=True)
 class Poses:
     """What a gait for the robot's clock asks beside the document's own fields, and what was found.
 
@@ -79,6 +109,7 @@ class Poses:
         shoe_distance: least distance between the middles of two feet, m.
         arm_distance: least room between the arms of neighbouring legs, m; 0 where they may touch.
         found: the poses; None where none were found yet.
+        pinned: where the body is to be at some of them, by their numbers.
     """
 
     free_step: bool = True
@@ -86,8 +117,13 @@ class Poses:
     shoe_distance: float = 0.028
     arm_distance: float = ARM_GAP
     found: FoundPoses | None = None
+    pinned: tuple[PinnedPose, ...] = ()
 
     def __post_init__(self) -> None:
+        numbers = [pin.pose for pin in self.pinned]
+        if len(set(numbers)) < len(numbers):
+            raise InputError("poses.pinned names a pose twice; each may stand there once.", "poses.pinned")
+        object.__setattr__(self, "pinned", tuple(sorted(self.pinned, key=lambda pin: pin.pose)))
         for name, (least, most) in POSE_LIMITS.items():
             value = getattr(self, name)
             if not least <= value <= most:

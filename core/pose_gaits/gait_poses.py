@@ -65,6 +65,7 @@ def pose_problem(gait: Gait, model: RobotModel) -> PoseProblem:
             arm_distance=poses.arm_distance,
             stop_bound=LONGEST_STOP if options.stop_bound is None else options.stop_bound,
         ),
+        pinned=poses.pinned,
     )
 
 
@@ -79,6 +80,8 @@ def asked_of(problem: PoseProblem) -> str:
         "cycles": problem.cycles,
         **vars(problem.bounds),
     }
+    if problem.pinned:
+        asked["pinned"] = [vars(pin) for pin in problem.pinned]
     return hashlib.sha256(json.dumps(asked, sort_keys=True).encode()).hexdigest()
 
 
@@ -172,6 +175,8 @@ def drawn_poses(gait: Gait, model: RobotModel) -> PoseGait:
     step = problem.step or (USUAL_STEP if found is None else found.step)
     adapted = None if found is None else _adapted(problem, found, step)
     bodies, feet = _straight(problem, step) if adapted is None else adapted
+    for pin in problem.pinned:
+        bodies[pin.pose - 1, :2] = bodies[0, :2] + problem.pinned_place(pin, step)
     headings = np.zeros(len(bodies))
     strokes = free_strokes(model, feet, BodyPose(bodies, headings))
     return PoseGait(problem, step, bodies, headings, feet, strokes)

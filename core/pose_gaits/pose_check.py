@@ -342,6 +342,12 @@ def _end_findings(gait: PoseGait) -> Iterator[PoseFinding]:
     off = float(np.abs(gait.bodies[-1, :2] - gait.bodies[0, :2] - _asked_travel(gait)).max())
     if off > POSE_TOLERANCE:
         yield _finding("step", None, None, off, "The body ends {} off where it should.")
+    for pin in problem.pinned:
+        away = gait.bodies[pin.pose - 1, :2] - gait.bodies[0, :2] - problem.pinned_place(pin, gait.step)
+        off = float(np.abs(away).max())
+        if off > POSE_TOLERANCE:
+            words = f"The body is {{}} off the place to which pose {pin.pose} is pinned."
+            yield _finding("pinned pose", None, None, off, words)
     off = _end_distance(gait)
     if off > POSE_TOLERANCE:
         ends = "The first and the last pose differ" if problem.cycles is None else "An end is off the stance"

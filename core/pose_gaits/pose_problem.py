@@ -14,10 +14,11 @@ import numpy as np
 
 from core.arrays import Bools, Floats
 from core.errors import InputError
+from core.gait.poses import PinnedPose
 from core.motion.support_polygon import support_polygon
 from core.robot.arms import ARM_GAP
 from core.robot.model import RobotModel
-from core.wire.robot_time import PUBLISHED, TimeLaw, longest_move
+from core.wire.robot_time import PUBLISHED, TimeLaw, deaf_seconds, longest_move
 
 FRACTIONS = (0.15, 0.3, 0.5, 0.7, 0.85)
 """Places within each move at which a solver holds its rows."""
@@ -100,6 +101,7 @@ class PoseProblem:
             the number with which the gait is fastest.
         bounds: the limits.
         law: the robot's time.
+        pinned: where the body is to be at some poses; only where no move is divided, and not at an end.
     """
 
     model: RobotModel
@@ -111,6 +113,7 @@ class PoseProblem:
     parts: int | None = None
     bounds: PoseBounds = field(default_factory=PoseBounds)
     law: TimeLaw = PUBLISHED
+    pinned: tuple[PinnedPose, ...] = ()
 
     def __post_init__(self) -> None:
         legs = self.model.leg_count
@@ -130,6 +133,29 @@ class PoseProblem:
             )
         if self.parts is not None and not 1 <= self.parts <= MOST_PARTS:
             raise InputError(f"parts is {self.parts}; it must lie between 1 and {MOST_PARTS}.", "parts")
+        if self.pinned:
+            self._require_pinned()
+
+    def _require_pinned(self) -> None:
+        """Pinned poses are poses of this gait.
+
+        Raises:
+            InputError: one of them is none that can be moved.
+        """
+        if self.parts_to_try != (1,) or self.turn:
+            raise InputError(
+                f"A stop bound of {self.bounds.stop_bound:g} s may divide moves, so no pose can be pinned "
+                "(poses.pinned). Let the pinned poses go, or choose a stop bound of at least "
+                f"{math.ceil(deaf_seconds(WHOLE_MOVE) * 10) / 10:g} s.",
+                "poses.pinned",
+            )
+        for pin in self.pinned:
+            if not 1 < pin.pose <= self.move_count:
+                raise InputError(
+                    f"poses.pinned names pose {pin.pose}; 2 to {self.move_count} can be pinned: before and "
+                    "after them the robot is in its standard stance.",
+                    "poses.pinned",
+                )
 
     @property
     def largest_move(self) -> float:
@@ -172,6 +198,21 @@ class PoseProblem:
     def floor(self) -> Floats:
         """(poses, legs) least height of each foot, m: 0 on the ground, the clearance in mid-swing."""
         return self.bounds.clearance * swing_shares(self.airborne)
+
+    def pinned_offset(self, pin: PinnedPose) -> Floats:
+        """(2,) from where an even travel has the body at a pinned pose to where it is to be, m."""
+        ahead = np.array([math.cos(self.heading), math.sin(self.heading)])
+        return np.asarray(pin.along * ahead + pin.sideways * np.array([-ahead[1], ahead[0]]))
+
+    def pinned_place(self, pin: PinnedPose, step: float) -> Floats:
+        """(2,) from the body's first place to where it is to be at a pinned pose, m.
+
+        Args:
+            pin: one of `pinned`.
+            step: travel of the body a cycle, m.
+        """
+        share = (pin.pose - 1) / self.move_count
+        return share * step * self.all_cycles * self.travel_direction() + self.pinned_offset(pin)
 
     def required_height(self, move: int, foot: int, share: float) -> float:
         """Least height of a swinging foot at a share of a move, above the plane of the standing feet, m."""

@@ -26,6 +26,7 @@ _OPTIONS = {
     "stop bound": "the stop bound (--stop-bound)",
     "stroke": "the motors' range",
     "slip": "the slip of standing feet (--slip)",
+    "pinned pose": "a pinned pose",
     "coupling": "motors that share an actuator",
 }
 

@@ -162,6 +162,10 @@ class PoseProgram:
         self.program.bound(first[:2], 0.0, 0.0)
         self.program.bound(last[:2] - travel, 0.0, 0.0)
         self.program.bound(last[2] - first[2], 0.0, 0.0)
+        for pin in problem.pinned:
+            even = travel * ((pin.pose - 1) / problem.move_count)
+            away = self.bodies[pin.pose - 1][:2] - even - DM(problem.pinned_offset(pin) * MM)
+            self.program.bound(away, 0.0, 0.0, Row("pinned pose", pin.pose - 1))
         if problem.cycles is not None:
             self.program.bound(first[2], REST_HEIGHT * MM, REST_HEIGHT * MM)
 

@@ -75,11 +75,26 @@ def solve_poses(
     cancelled = [result for result in results if result.status is SolveStatus.CANCELLED]
     solved = [result for result in results if result.gait is not None]
     best = cancelled[0] if cancelled else max(solved, key=_result_speed) if solved else results[0]
+    if best.status is SolveStatus.INFEASIBLE and problem.pinned:
+        results.append(_solved(replace(problem, pinned=()), report, near))
+        best = _without_pinned(problem, best, results[-1])
     return replace(
         best,
         solve_seconds=sum(result.solve_seconds for result in results),
         seconds=sum(result.seconds for result in results),
     )
+
+
+def _without_pinned(problem: PoseProblem, asked: PoseResult, without: PoseResult) -> PoseResult:
+    """A no to pinned poses, with what is known of the same gait when none is pinned."""
+    if without.gait is None:
+        return without
+    poses = ", ".join(str(pin.pose) for pin in problem.pinned)
+    words = (
+        f"No gait was found with the body where it is pinned (at pose {poses}), but one was found without. "
+        "Pin it nearer to where it was, or let it go."
+    )
+    return replace(asked, explanation=(words, NOT_PROVEN))
 
 
 def _result_speed(result: PoseResult) -> float:

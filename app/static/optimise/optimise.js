@@ -13,6 +13,7 @@ import { mountConvergence } from "./convergence.js";
 import { mountIterates } from "./iterates.js";
 import { jobAnswer, liveAnswer, statusLine } from "./live_answer.js";
 import { hasField, optimiserOptions } from "./optimiser_options.js";
+import { pinnedPoses } from "./pinned_poses.js";
 import { poseSearch } from "./pose_search.js";
 import { timingAnswer, timingButton, timingNote } from "./timing.js";
 
@@ -54,7 +55,7 @@ export function mountOptimise(store, edits, goTo) {
   const why = h("p", { class: "why" });
   const changed = h("span", { class: "quiet" });
   section.append(
-    status.element, originLine(store), h("div", { class: "fields" }, robot.element, order.element, ...main.map(({ element }) => element)), error, poseSearch(store), ...answers.map(({ element }) => element),
+    status.element, originLine(store), h("div", { class: "fields" }, robot.element, order.element, ...main.map(({ element }) => element)), error, poseSearch(store), pinnedPoses(store, edits, goTo), ...answers.map(({ element }) => element),
     h("details", { class: "more" }, h("summary", {}, "More", changed), h("div", { class: "fields" }, ...more.map(({ element }) => element))),
     h("div", { class: "solve" }, exactButton(store), timingButton(store)), timingNote(store), timing.element, why);
   store.watch(({ view }) => [Boolean(view?.document.poses)], ({ view }) => setText(why, view?.document.poses ? POSES : TIERS));

@@ -3,13 +3,13 @@
  * The live plan follows; letting go makes one edit.
  */
 
+import { stepLength, stepTurn, withTurn, withWorldStep, worldStep } from "../document/step.js";
 import { clamp } from "../lib/clamp.js";
 import { byId, h, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { shownDocument, shownPlan } from "../state/store.js";
-import { stepLength, stepTurn, withTurn, withWorldStep, worldStep } from "../document/step.js";
+import { ARROWS, SNAP, floorOf, handle, movable, place, snapped } from "./handle.js";
 
-const SNAP = 0.0005;
 const TURN_SNAP = 1;
 const RING_ROOM = 0.022;
 const RING_CORNERS = 64;
@@ -18,7 +18,6 @@ const MOST_TURN = 90;
 const FLATTEST_PX = 40;
 
 const radians = (degrees) => (degrees * Math.PI) / 180;
-const snapped = (value, grid) => Math.round(value / grid) * grid;
 
 /** Where the goal lies and which way the robot looks there, in the scene. */
 function goalOf(document, plan) {
@@ -29,83 +28,7 @@ function goalOf(document, plan) {
   return { x, y, front, heading: front + stepTurn(document) * document.iterations, radius: Math.max(UNKNOWN_RADIUS, ...reach) + RING_ROOM };
 }
 
-function handle(className, name, help) {
-  return h("div", { class: `goal-handle ${className}`, role: "slider", tabindex: "0", "aria-label": name, "aria-description": help, title: `${name}. ${help}`, data: { arrows: "" } });
-}
-
-/**
- * Makes a handle draggable and movable by keys; every change shows the document changed, one edit is made at the end.
- * @param {HTMLElement} element
- * @param {object} store
- * @param {object} edits
- * @param {{begin: Function, drag: Function, key: Function, name: Function}} way `begin(point)` gives what `drag(point, from,
- *   free)` needs, `key(event)` a change or null; changes are functions from document to document
- */
-function movable(element, store, edits, way) {
-  let change = null;
-  let from = null;
-  const show = (next) => {
-    change = next;
-    store.set({ gesture: { apply: next } });
-  };
-  const end = (commit) => {
-    const last = change;
-    [change, from] = [null, null];
-    delete element.dataset.held;
-    if (!last) return false;
-    const before = JSON.stringify(edits.shown().step);
-    store.set({ gesture: null });
-    if (commit && JSON.stringify(edits.shown().step) !== before) edits.edit(last, way.name(last(edits.shown())));
-    return true;
-  };
-  element.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0) return;
-    from = way.begin([event.clientX, event.clientY]);
-    if (!from) return;
-    event.preventDefault();
-    element.focus({ preventScroll: true });
-    element.setPointerCapture(event.pointerId);
-    element.dataset.held = "";
-  });
-  element.addEventListener("pointermove", (event) => {
-    const next = from && way.drag([event.clientX, event.clientY], from, event.altKey);
-    if (next) show(next);
-  });
-  element.addEventListener("pointerup", () => end(true));
-  element.addEventListener("pointercancel", () => end(false));
-  element.addEventListener("keydown", (event) => {
-    const next = event.ctrlKey || event.metaKey || event.altKey ? null : way.key(event);
-    if (!next) return;
-    event.preventDefault();
-    event.stopPropagation();
-    show(next);
-  });
-  element.addEventListener("keyup", (event) => { if (event.key.startsWith("Arrow")) end(true); });
-  element.addEventListener("blur", () => end(true));
-  return () => end(false);
-}
-
-/** The floor as it is seen, in the stage's pixels, and the pointer's place on it. */
-function floorOf(preview) {
-  const view = preview.ground();
-  if (!view) return null;
-  const [stage, frame] = [byId("goal").getBoundingClientRect(), byId("viser").getBoundingClientRect()];
-  const [dx, dy] = [frame.left - stage.left, frame.top - stage.top];
-  return {
-    key: `${view.key} ${dx} ${dy}`,
-    toStage: (at) => {
-      const seen = view.toScreen(at);
-      return seen && [seen[0] + dx, seen[1] + dy];
-    },
-    ofPointer: ([x, y]) => view.toGround([x - frame.left, y - frame.top]),
-  };
-}
-
 const pathOf = (points) => points.map(([x, y], index) => `${index ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
-
-function place(element, [x, y]) {
-  element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
-}
 
 /** Whether the floor is seen flat enough for a place on it to be pointed at. */
 function isVisible(points) {
@@ -144,7 +67,6 @@ function describe(parts, document) {
 }
 
 function stepDrag(edits, preview) {
-  const arrows = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
   return {
     name: (document) => `Goal to ${fixed(stepLength(document) * 1000)} mm`,
     begin(pointer) {
@@ -161,7 +83,7 @@ function stepDrag(edits, preview) {
       return (document) => withWorldStep(document, free ? step : step.map((value) => snapped(value, SNAP)));
     },
     key({ key, shiftKey }) {
-      const way = arrows[key];
+      const way = ARROWS[key];
       if (!way) return null;
       const next = worldStep(edits.shown()).map((value, axis) => value + way[axis] * SNAP * (shiftKey ? 10 : 1));
       return (document) => withWorldStep(document, next);

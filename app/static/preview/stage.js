@@ -10,6 +10,7 @@ import { missingMotionOf } from "../document/missing_motion.js";
 import { mountJogGhost } from "./jog_ghost.js";
 import { latestOnly } from "../lib/latest_only.js";
 import { measured } from "../state/live_plan.js";
+import { mountPoseHandle } from "./pose_handle.js";
 import { Preview } from "./preview.js";
 import { extremes } from "../state/plan_samples.js";
 import { mountTools } from "./stage_tools.js";
@@ -109,7 +110,7 @@ function followPlan(store, playback, preview) {
 function followHand(store, preview) {
   const near = new Set();
   const tell = () => preview.setBusy(near.size > 0 || store.state.gesture !== null);
-  for (const id of ["timeline", "optimise", "goal"]) {
+  for (const id of ["timeline", "optimise", "goal", "pose"]) {
     const note = (kind, on) => () => {
       if (on) near.add(`${id} ${kind}`);
       else near.delete(`${id} ${kind}`);
@@ -147,5 +148,6 @@ export async function mountStage(store, edits, playback) {
   playback.addEventListener("time", ({ detail }) => preview.setTime(detail.time, detail.cause === "clock"));
   followPlan(store, playback, preview);
   mountGoal(store, edits, preview);
+  mountPoseHandle(store, edits, playback, preview);
   return preview;
 }

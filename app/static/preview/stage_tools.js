@@ -16,6 +16,7 @@ const ENTRIES = [
   { key: "traces", text: "Swings and footholds", shown: true, parts: ["traces", "footholds"], help: "Ways of the feet, and a ring where each comes to stand" },
   { key: "reach", text: "Reach of the feet", shown: false, parts: ["reach"], help: "Where each foot can be at the body's present height: outlines on the floor and up to 12 mm over it" },
   { key: "goal", text: "Goal", shown: true, parts: [], help: "The goal to be dragged: it changes the step and the turn. It hides where the floor is seen from its edge" },
+  { key: "pose", text: "Pose", shown: true, parts: [], help: "The body of the pose under the playhead, to be dragged, in a gait for the robot's clock" },
 ];
 
 const NO_PRESSURE = "Not known: this motion has no accelerations. Optimised and live plans have.";
@@ -55,7 +56,7 @@ export function mountTools(store, preview) {
   const requestReach = followReach(store, preview, () => choice.reach);
   const apply = ({ key, parts }) => {
     parts.forEach((part) => preview.show(part, choice[key]));
-    if (key === "goal") byId("goal").hidden = !choice.goal;
+    if (!parts.length) byId(key).hidden = !choice[key];
     if (key === "reach") requestReach();
   };
   const menu = checkMenu({

@@ -11,6 +11,7 @@ import pytest
 from app.gaits.normalise import normalise, normalise_imported
 from core.errors import InputError, StateError
 from core.gait.gait import Gait
+from core.gait.poses import PinnedPose
 from core.library.library import library
 from core.segments.segment_table import SegmentTable
 
@@ -153,3 +154,36 @@ def test_the_timeline_of_a_document_from_elsewhere_follows_its_table() -> None:
     assert notice is not None
     assert "follows the table" in notice
     assert normalise_imported(gait("walk")) == (gait("walk"), None)
+
+
+def test_pinned_poses_go_along_with_a_step_and_are_let_go_with_other_poses() -> None:
+    first = gait("fast-c-gait")
+    assert first.poses is not None
+    pinned = replace(first, poses=replace(first.poses, pinned=(PinnedPose(5, 0.0, 0.001),)))
+    for kept in (
+        replace(pinned, step=(0.02, 0.0, 0.0)),
+        replace(pinned, direction=2),
+        pinned.with_options(stop_bound=1.4),
+    ):
+        changed, notice = normalise(pinned, kept)
+        assert changed.poses is not None
+        assert changed.poses.pinned == (PinnedPose(5, 0.0, 0.001),)
+        assert notice is None
+    for other in (
+        replace(pinned, iterations=2),
+        replace(pinned, order=(2, 1, 3, 4)),
+        replace(pinned, step=(0.0, 0.02, 0.0)),
+        pinned.with_options(stop_bound=1.0),
+    ):
+        changed, notice = normalise(pinned, other)
+        assert changed.poses is not None
+        assert changed.poses.pinned == ()
+        assert notice is not None
+        assert notice.startswith("The pinned poses were let go")
+
+
+def test_a_pose_that_is_pinned_in_the_same_edit_must_be_one_of_the_gait() -> None:
+    first = gait("fast-c-gait")
+    assert first.poses is not None
+    with pytest.raises(InputError, match="names pose 27; 2 to 26"):
+        normalise(first, replace(first, poses=replace(first.poses, pinned=(PinnedPose(27, 0.0, 0.0),))))

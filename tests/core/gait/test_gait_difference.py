@@ -14,7 +14,7 @@ from core.gait.gait import Gait, Orientation, SequencePart, drawn_timeline, with
 from core.gait.gait_difference import OPTION_WORDS, gait_difference
 from core.gait.held_feet import HeldFeet
 from core.gait.options import GaitOptions
-from core.gait.poses import FoundPoses, Poses
+from core.gait.poses import FoundPoses, PinnedPose, Poses
 from core.gait.recording import Recording, RecordingForm
 from core.library.library import library
 from core.motion.heading_profile import HeadingProfile
@@ -112,6 +112,11 @@ def test_what_only_gaits_for_the_robots_clock_ask_is_told_and_found_poses_are_no
         "Arm distance 0.5 mm → 0.0 mm",
     ]
     assert sentences(before, replace(WALK, poses=Poses(found=found))) == []
+    pinned = Poses(pinned=(PinnedPose(9, 0.001, 0.0), PinnedPose(5, -0.001, -0.002)))
+    assert sentences(before, replace(WALK, poses=pinned)) == [
+        "Pinned poses: none → 5 (1.00 mm behind, 2.00 mm to the right), "
+        "9 (1.00 mm ahead, 0.00 mm to the left)"
+    ]
 
 
 def test_steps_are_told_by_length_where_the_way_is_the_same() -> None:

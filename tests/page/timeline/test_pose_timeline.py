@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 import pytest
@@ -63,4 +64,35 @@ def test_a_search_is_cancelled_and_begun_again_and_the_timeline_is_not_drawn_on(
     grid = page.get_by_role("grid", name="Footfall timeline")
     grid.get_by_role("gridcell", name="foot 1, sample 3: swing", exact=True).click()
     expect(page.locator("#toasts")).to_contain_text("This timeline follows from the poses")
+    expect(page.get_by_role("button", name="Undo")).to_have_attribute("aria-disabled", "true")
+
+
+def test_a_pose_that_is_dragged_is_pinned_and_let_go(page: Page) -> None:
+    answer = page.get_by_role("status", name="Live answer")
+    expect(answer).to_contain_text("Feasible, checked")
+    pose = page.get_by_role("slider", name="Pose", exact=True)
+    expect(pose).to_be_hidden()  # the standard stance stays as it is
+    for _ in range(12):
+        page.get_by_role("button", name="Next sample").click()
+    expect(pose).to_have_attribute("aria-valuetext", re.compile("pose 13: "))
+    place = pose.bounding_box()
+    assert place is not None
+    page.mouse.move(place["x"], place["y"])
+    page.mouse.down()
+    page.mouse.move(place["x"] + 3, place["y"] + 4, steps=3)
+    expect(answer).to_contain_text("Adapted, not solved")
+    page.mouse.up()
+    pinned = page.get_by_role("list", name="Pinned poses")
+    expect(pinned.get_by_role("listitem")).to_have_count(1)
+    expect(pose).to_have_attribute("aria-valuetext", re.compile("pose 13, pinned: "))
+    expect(answer).to_contain_text("Feasible, checked", timeout=120_000)
+    expect(page.get_by_role("button", name="Undo")).to_contain_text("Undo pin pose 13")
+    pose.focus()
+    page.keyboard.press("ArrowUp")
+    expect(answer).to_contain_text("Adapted, not solved")
+    pinned.get_by_role("button", name="Let pose 13 go").click()
+    expect(pinned.get_by_role("listitem")).to_have_count(0)
+    for _ in range(3):
+        page.get_by_role("button", name="Undo").click()
+    expect(answer).to_contain_text("Feasible, checked")
     expect(page.get_by_role("button", name="Undo")).to_have_attribute("aria-disabled", "true")

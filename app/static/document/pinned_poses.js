@@ -1,0 +1,53 @@
+/**
+ * Pinned poses of a gait for the robot's clock: places to which somebody has put the body. They are told from where the
+ * body were if it travelled evenly, the same way at every pose, so that they go along with another step.
+ */
+
+import { fixed } from "../lib/format.js";
+
+/** Farthest that a body may be put from there along either axis, m. */
+const FARTHEST = 0.03;
+
+const within = (value) => Math.min(Math.max(value, -FARTHEST), FARTHEST);
+
+const distance = (metres) => `${fixed(Math.abs(metres) * 1000)} mm`;
+
+/** The pinned poses of a document. */
+export const pinnedOf = ({ poses }) => poses?.pinned ?? [];
+
+/** One of them, by its number counted from 1; null where it is not pinned. */
+export const pinOf = (document, pose) => pinnedOf(document).find((pin) => pin.pose === pose) ?? null;
+
+/** The document with a pose pinned, m along the way and to its left. */
+export function withPinned(document, pose, [along, sideways]) {
+  const others = pinnedOf(document).filter((pin) => pin.pose !== pose);
+  const pinned = [...others, { pose, along: within(along), sideways: within(sideways) }].sort((one, other) => one.pose - other.pose);
+  return { ...document, poses: { ...document.poses, pinned } };
+}
+
+/** The document with a pose let go. */
+export function withoutPinned(document, pose) {
+  return { ...document, poses: { ...document.poses, pinned: pinnedOf(document).filter((pin) => pin.pose !== pose) } };
+}
+
+/**
+ * The way that a plan's body takes, for places on it.
+ * @param {number[][]} bodies the body's place at each pose, m
+ * @returns {{even: (index: number) => number[], toOffset: Function, toFloor: Function}} `even(index)` where an even travel has
+ *   the body, `toOffset` from a difference in x and y to [along, sideways] and `toFloor` back
+ */
+export function wayOf(bodies) {
+  const [first, last] = [bodies[0], bodies.at(-1)];
+  const [dx, dy] = [last[0] - first[0], last[1] - first[1]];
+  const length = Math.hypot(dx, dy) || 1;
+  const [ux, uy] = [dx / length, dy / length];
+  return {
+    even: (index) => [first[0] + (dx * index) / (bodies.length - 1), first[1] + (dy * index) / (bodies.length - 1)],
+    toOffset: ([x, y]) => [x * ux + y * uy, y * ux - x * uy],
+    toFloor: ([along, sideways]) => [along * ux - sideways * uy, along * uy + sideways * ux],
+  };
+}
+
+/** Where a pinned pose is, for a person. */
+export const pinWords = ({ along, sideways }) =>
+  `${distance(along)} ${along < 0 ? "behind" : "ahead"}, ${distance(sideways)} to the ${sideways < 0 ? "right" : "left"}`;

@@ -123,7 +123,8 @@ class Verdict:
         waypoints_hash: content hash of the waypoints that were checked.
         findings: what was found, errors first.
         margins: the distance to the limit of each rule, also where nothing was found.
-        costs: what stop bound and merging cost in robot seconds; empty where only waypoints are known.
+        costs: what stop bound and merging cost in robot seconds; empty where only waypoints are
+            known, or where they are sent as they are.
         notes: sentences on what the figures leave out.
         robot_hash: of the robot's parameters, so that a verdict on other parameters is another one.
     """

@@ -138,7 +138,7 @@ def trajectory_of(gait: Gait) -> Trajectory:
 
 
 def poses_of(gait: Gait) -> PoseGait:
-    """The poses that the document has for what it asks; where it has none they are looked for now.
+    """The poses that the document has for what it asks; where it has none they are searched for now.
 
     Raises:
         InfeasibleError: none were found.
@@ -148,7 +148,9 @@ def poses_of(gait: Gait) -> PoseGait:
     found = found_gait(gait, model)
     if found is not None and check_poses(found).confirmed:
         return found
-    note(f"The poses of “{gait.name}” were found for something else; they are looked for anew.")
+    is_bare = gait.poses is None or gait.poses.found is None
+    why = "has no poses yet" if is_bare else "asks something else than its poses were found for"
+    note(f"“{gait.name}” {why}; they are searched for now.")
     result = solve_poses(pose_problem(gait, model))
     if result.gait is not None:
         return result.gait

@@ -270,12 +270,14 @@ _WORDS_ALONE = ("name", "notes", "provenance")
 """Fields that no motion depends on."""
 _SENDING = ("merge", "stop_bound")
 """Options of how a motion is sent, which it does not depend on."""
+_OF_POSES = ("margin", "clearance", "stop_bound")
+"""Options that a gait with poses asks; the others do nothing there."""
 
 
 def motion_hash(gait: Gait) -> str:
     """SHA-256 of everything in the document that a motion depends on: all but name, notes and provenance."""
     content = {key: value for key, value in gait_content(gait).items() if key not in _WORDS_ALONE}
-    if gait.poses is None:  # poses are made for a stop bound
+    if gait.poses is None:
         content["options"] = {key: value for key, value in content["options"].items() if key not in _SENDING}
     # A gait without a recorded motion keeps the hash under which earlier results of it are kept.
     recording = content.pop("recorded")
@@ -293,6 +295,7 @@ def motion_hash(gait: Gait) -> str:
 def _asked_poses(content: Json, poses: Poses) -> Json:
     """What a gait with poses asks; the poses that were found, a free step and the timeline follow from it."""
     asked = {key: value for key, value in content.items() if key != "timeline"}
+    asked["options"] = {name: content["options"][name] for name in _OF_POSES}
     asked["poses"] = {key: value for key, value in content["poses"].items() if key != "found"}
     if poses.free_step:
         length = float(np.hypot(*content["step"][:2])) or 1.0
@@ -302,6 +305,8 @@ def _asked_poses(content: Json, poses: Poses) -> Json:
 
 def sent_hash(gait: Gait) -> str:
     """SHA-256 of everything in the document that its waypoints depend on: the motion, and how it is sent."""
+    if gait.poses is not None:
+        return motion_hash(gait)
     sending = {name: getattr(gait.options, name) for name in _SENDING}
     return hashlib.sha256(f"{motion_hash(gait)}{json.dumps(sending, sort_keys=True)}".encode()).hexdigest()
 

@@ -28,10 +28,10 @@ class KnownTimes:
             gait: its present document.
             is_original: whether it is as it came with the program.
         """
+        if is_original and gait_id in library_times():
+            return library_times()[gait_id]
         sent, times = self._known.get(gait_id, (None, None))
-        if times is not None and sent == sent_hash(gait):
-            return times
-        return library_times().get(gait_id) if is_original else None
+        return times if times is not None and sent == sent_hash(gait) else None
 
     def last(self, gait_id: str) -> tuple[str, RobotTimes] | None:
         """What was taken over last for a gait; another value where its line in a list may change."""

@@ -1,4 +1,4 @@
-"""Searches for the poses of gaits for the robot's clock, behind every edit.
+"""Searches for the poses of gaits for the robot's clock, after every edit.
 
 Only the command queue's thread calls this; `on_answer` is called from a thread of the solver's.
 """
@@ -143,6 +143,13 @@ class PoseSearches:
             raise StateError("No search for this gait's poses is running.", "search")
         running.search.cancel()
         self._ended[gait_id] = _state("cancelled", running.motion, _CANCELLED)
+
+    def forget(self, gait_id: str) -> None:
+        """Ends the search of a gait that is gone."""
+        running = self._running.pop(gait_id, None)
+        if running is not None:
+            running.search.cancel()
+        self._ended.pop(gait_id, None)
 
     def again(self, gait_id: str) -> None:
         """Lets a search begin again that was cancelled or broke off.

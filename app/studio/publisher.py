@@ -35,7 +35,7 @@ class Publisher:
         plans: makes the plan that a view needs.
         simulations: the simulations that are kept.
         job_repository: the list of jobs.
-        planned: told of each gait that is shown, with its plan; gives the state of a search behind it.
+        planned: told of each gait that is shown, with its plan; gives the state of its search.
     """
 
     def __init__(

@@ -118,12 +118,13 @@ def _playing(record: TrialRecord, lap: int) -> list[float]:
 
 
 def _row(source: str, record: TrialRecord, motion: FootTrack) -> Json:
-    """Mean figures of a motion, and how far its feet are from the tracked ones on the average."""
+    """Mean figures of a motion, how long it takes, and how far its feet are from the tracked ones."""
     mean = movement_content(mean_movement(foot_movements(motion, record.expected)))
     keys = ("distance", "angle_deg", "error_percent", "net_distance", "net_angle_deg", "net_error_percent")
     gaps = foot_gaps(record.track, record.ends, motion) * 1000.0 if motion is not record.track else None
     return {
         "source": source,
+        "seconds": float(motion.times[record.ends[-1] if motion is record.track else -1] - motion.times[0]),
         **{key: mean[key] for key in keys},
         "gap_mm": None if gaps is None else float(gaps.mean()),
         "gaps_mm": None if gaps is None else gaps.tolist(),

@@ -24,6 +24,7 @@ class Asked:
         motor_speed: limit of each motor's speed, m/s.
         motor_acceleration: limit of each motor's acceleration, m/s².
         held: feet that are in the air at the ends on purpose.
+        sent_whole: whether its waypoints are sent as they are, neither merged nor cut.
     """
 
     turn: float | None = None
@@ -32,6 +33,7 @@ class Asked:
     motor_speed: float | None = None
     motor_acceleration: float | None = None
     held: HeldFeet = field(default_factory=HeldFeet)
+    sent_whole: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +102,7 @@ def asked_of(gait: Gait) -> Asked:
         return Asked(turn=turn, held=gait.held)
     options = gait.options
     if gait.poses is not None:
-        return Asked(turn=turn, margin=max(options.margin, 0.0))
+        return Asked(turn=turn, margin=max(options.margin, 0.0), sent_whole=True)
     end = options.plane_height if options.end_plane_height is None else options.end_plane_height
     return Asked(
         turn=turn,

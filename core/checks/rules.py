@@ -63,8 +63,8 @@ def check_plan(plan: CheckedPlan, simulated: Simulated | None = None) -> Verdict
     verdict = _verdict(plan.model, plan.waypoints, [*findings, *check_origin(plan)], outcomes)
     notes = [acceleration_note(plan), simulation_note(simulated)]
     if plan.way is not None:
-        costs = send_costs(plan.model, plan.trajectory, plan.way)
-        verdict = replace(verdict, costs=costs)
+        if not plan.asked.sent_whole:
+            verdict = replace(verdict, costs=send_costs(plan.model, plan.trajectory, plan.way))
         notes += [still_note(plan), "" if plan.model.is_coupled else SLACK_NOTE]
     return replace(verdict, notes=tuple(filter(None, notes)))
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from core.arrays import Bools, Floats
 from core.errors import InputError
-from core.gait.poses import PinnedPose
+from core.gait.poses import POSE_LIMITS, PinnedPose
 from core.motion.support_polygon import support_polygon
 from core.robot.arms import ARM_GAP
 from core.robot.model import RobotModel
@@ -42,9 +42,7 @@ POSE_BOUNDS: Mapping[str, tuple[float, float]] = MappingProxyType(
     {
         "margin": (0.0, 0.05),
         "clearance": (LEAST_CLEARANCE, 0.015),
-        "slip": (0.00005, 0.005),
-        "shoe_distance": (0.0, 0.06),
-        "arm_distance": (0.0, 0.01),
+        **POSE_LIMITS,
         "stop_bound": (0.8, 10.0),
     }
 )

@@ -160,6 +160,7 @@ async def delete_gait(gait_id: str, studio: TheStudio) -> Json:
 
     def delete() -> Json:
         instead = studio.gaits.delete(gait_id)
+        studio.pose_searches.forget(gait_id)
         if instead is not None:
             studio.publisher.publish_soon(instead.id)
         studio.publisher.publish_list()

@@ -39,6 +39,7 @@ function inShort(view) {
   const plan = view?.plan;
   if (!plan?.waypoint_count) return "";
   const { waypoint_count: count, times, robot_seconds: takes, every_knot_seconds: every, stop_seconds: stop } = plan;
+  if (view.document.poses) return `${timesText(view)}. ${count} waypoints, one a pose. Stop acts within ${seconds(stop)} s.`;
   const instead = Math.abs(every - takes) >= 0.5 ? ` (with one a knot: ${fixed(every, 0)} s)` : "";
   const lasts = timesText(view) || `About ${fixed(takes, 0)} s on the robot`;
   return `${lasts}. ${count} waypoints of ${times.length} knots${instead}. Stop acts within ${seconds(stop)} s.`;
@@ -47,10 +48,13 @@ function inShort(view) {
 /** Builds the two fields and the line of what they cost. */
 export function sendingFields(store, edits) {
   const fields = FIELDS.map((field) => numberField(store, edits, field));
+  const [merge] = fields;
   const line = h("p", { class: "why" });
   store.watch(({ view, pending, gesture }) => [view, pending, gesture], (state) => {
     const document = shownDocument(state);
-    if (document) fields.forEach((field) => field.show(document));
+    if (!document) return;
+    fields.forEach((field) => field.show(document));
+    merge.element.hidden = Boolean(document.poses);
   });
   store.watch(({ view }) => [view], ({ view }) => { line.textContent = inShort(view); });
   return h("div", { class: "sending", role: "group", "aria-label": "How it is sent" }, h("div", { class: "fields" }, ...fields.map(({ element }) => element)), line);

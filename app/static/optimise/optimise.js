@@ -17,7 +17,7 @@ import { pinnedPoses } from "./pinned_poses.js";
 import { poseSearch } from "./pose_search.js";
 import { timingAnswer, timingButton, timingNote } from "./timing.js";
 
-const POSES = "Each edit is answered at once by the last motion, adapted; the fastest one is looked for behind it.";
+const POSES = "Each edit is answered at once by the last motion, adapted; the fastest one is searched for meanwhile.";
 const nameOf = (element) => element.querySelector("[aria-label]").getAttribute("aria-label");
 
 const TIERS = "Every edit is answered live. Optimise runs the exact tier, which also chooses footholds and heights.";
@@ -85,11 +85,11 @@ export function mountOptimise(store, edits, goTo) {
 const withoutShortMargin = (plan) => (plan?.live?.status === "infeasible" ? { ...plan, balance: null } : plan);
 
 /** What differs from the usual under the fold, so that it is not forgotten. */
-function moreInShort({ iterations, direction, options, held, poses }) {
+function moreInShort({ direction, options, held, poses }) {
   if (poses) return direction > 1 ? `: direction ${direction}` : "";
   const parts = [
     options.workspace !== "stroke" && "cylinder", options.cost !== "goal" && "effort",
-    iterations > 1 && `${iterations} iterations`, direction > 1 && `direction ${direction}`, options.boundary === "periodic" && "cycle",
+    direction > 1 && `direction ${direction}`, options.boundary === "periodic" && "cycle",
     options.friction !== null && "friction", options.motor_speed !== null && "motor speed", options.motor_acceleration !== null && "motor acceleration",
     options.turning === "return" && "turns at the end", held && "feet held up",
   ].filter(Boolean);

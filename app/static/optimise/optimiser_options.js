@@ -32,6 +32,8 @@ const STEP = [
     read: stepTurn, write: withTurn },
 ];
 
+const ITERATIONS = { label: "Iterations", name: "Iterations", unit: "", min: 1, max: 20, step: 1, decimals: 0, whole: true, help: "How often every foot steps", ...property("iterations") };
+
 /** The step once more, by its shares along the axes. */
 const SHARES = [
   { label: "Step x", name: "Step x", help: "Its share along the scene's x axis", ...axis(0) },
@@ -62,7 +64,6 @@ const CHOICES = [
 ];
 
 const MORE_NUMBERS = [
-  { label: "Iterations", name: "Iterations", unit: "", min: 1, max: 20, step: 1, decimals: 0, whole: true, help: "How often every foot steps", ...property("iterations") },
   SAMPLE_TIME,
   { label: "Body", name: "Body speed", unit: "mm/s", min: 1, max: 60, step: 1, decimals: 1, help: "Largest speed of the body", ...option("body_speed", 1000) },
   { label: "Motors", name: "Motor speed", unit: "mm/s", min: 1, max: 60, step: 1, decimals: 1, empty: "free", fallback: 20,
@@ -154,7 +155,7 @@ export function optimiserOptions(store, edits, makeNew) {
   return {
     robot: robotField(edits, makeNew),
     order: orderField(store, edits),
-    main: [...STEP.map(number), ...POSE_CHOICES.map(choice), ...phaseFields(store, edits), ...LIMITS.map(number)],
+    main: [...STEP.map(number), ...POSE_CHOICES.map(choice), number(ITERATIONS), ...phaseFields(store, edits), ...LIMITS.map(number)],
     more: [...POSE_NUMBERS.map(number), ...SHARES.map(number), ...CHOICES.map(choice), ...MORE_NUMBERS.map(number), ...MORE_CHOICES.map(choice), ...heldFields(store, edits), notesField(store, edits)],
   };
 }

@@ -13,7 +13,7 @@ function showNote(store, edits) {
   const note = byId("edit-note");
   const { refused, view } = store.state;
   const plan = shownPlan(store.state);
-  // An adapted motion may be out of reach; the search behind it says whether the gait is.
+  // An adapted motion may be out of reach; its search says whether the gait is.
   const refusal = plan?.live?.status === "infeasible" || plan?.source === "adapted" ? null : plan?.refusal?.sentence;
   const sentence = refused ?? refusal ?? view?.notice ?? null;
   if (!sentence) return note.replaceChildren();

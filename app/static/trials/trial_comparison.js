@@ -18,12 +18,12 @@ export const comparisonApi = {
   band: (ids) => request("GET", `/api/trials/band?${new URLSearchParams(ids.map((id) => ["trial", id]))}`),
 };
 
-const HELP = "Mean of the feet from first to last frame, angles on the platform. The last column is how far the feet are on the average from where the camera saw them, at the same share of each iteration";
+const HELP = "Seconds from first to last frame, as planned, in physics and on the robot. Mean of the feet from first to last frame, angles on the platform. The last column is how far the feet are on the average from where the camera saw them, at the same share of each iteration";
 
 function figures({ rows }) {
-  const cells = (row) => [fixed(row.net_distance, 2), fixed(row.net_angle_deg, 1), fixed(row.net_error_percent, 0), fixed(row.gap_mm, 1)];
+  const cells = (row) => [fixed(row.seconds, 1), fixed(row.net_distance, 2), fixed(row.net_angle_deg, 1), fixed(row.net_error_percent, 0), fixed(row.gap_mm, 1)];
   const apart = ({ gaps_mm: gaps }) => (gaps ? gaps.map((gap, foot) => `foot ${foot + 1}: ${fixed(gap, 1)} mm`).join(", ") : null);
-  return captionedTable({ class: "run-table trial-comparison", title: HELP }, "Planned, simulated, tracked, first to last", ["", "cm", "angle °", "error %", "feet mm"],
+  return captionedTable({ class: "run-table trial-comparison", title: HELP }, "Planned, simulated, tracked, first to last", ["", "s", "cm", "angle °", "error %", "feet mm"],
     rows.map((row) => h("tr", { title: apart(row) }, h("th", { scope: "row" }, legend([row.source])), ...cells(row).map((text) => h("td", { text })))));
 }
 

@@ -179,6 +179,7 @@ def _beside_table(rows: Sequence[Mapping[str, Any]]) -> str:
         (
             row["source"],
             [
+                number(row["seconds"], 1),
                 number(row["net_distance"], 2),
                 number(row["net_angle_deg"], 1),
                 number(row["net_error_percent"], 0),
@@ -187,7 +188,7 @@ def _beside_table(rows: Sequence[Mapping[str, Any]]) -> str:
         )
         for row in rows
     ]
-    head = ["", "cm", "angle °", "error %", "feet from tracked, mm"]
+    head = ["", "s", "cm", "angle °", "error %", "feet from tracked, mm"]
     return table("Mean of the feet, first to last frame, angles on the platform", head, cells)
 
 

@@ -1,4 +1,4 @@
-"""Gaits for the robot's clock over HTTP: solved behind every edit, undone at once, checked and refused."""
+"""Gaits for the robot's clock over HTTP: solved after every edit, undone at once, checked and refused."""
 
 from __future__ import annotations
 
@@ -70,7 +70,9 @@ def test_an_edit_is_adapted_then_solved_and_undo_needs_no_search(studio: StudioP
     back = studio.ask("POST", f"/api/gaits/{gait}/undo").content
     assert back["plan"]["source"] == "poses"
     assert back["plan"]["hash"] == before["plan"]["hash"]
-    assert studio.ask("POST", f"/api/gaits/{gait}/check").content["passed"]
+    verdict = studio.ask("POST", f"/api/gaits/{gait}/check").content
+    assert verdict["passed"]
+    assert verdict["costs"] == []  # nothing is merged or cut
 
 
 def test_a_search_is_cancelled_and_begun_again(studio: StudioProcess, gait: str) -> None:
@@ -111,3 +113,20 @@ def test_its_timeline_cannot_be_drawn_on(studio: StudioProcess, gait: str) -> No
     answer = studio.ask("PUT", f"/api/gaits/{gait}", {**document, "timeline": timeline})
     assert answer.status == 409
     assert "follows from foot order" in str(answer.content)
+
+
+def test_merging_is_nothing_to_it_and_a_pinned_pose_is_refused_where_there_is_none(
+    studio: StudioProcess, gait: str
+) -> None:
+    before = solved(studio, gait)
+    document = before["document"]
+    merged = {**document, "options": {**document["options"], "merge": 0.001}}
+    assert studio.ask("PUT", f"/api/gaits/{gait}", merged).status == 200
+    after = view(studio, gait)
+    assert after["plan"]["source"] == "poses"
+    assert after["plan"]["hash"] == before["plan"]["hash"]
+    poses = {**document["poses"], "pinned": [{"pose": 1, "along": 0.0, "sideways": 0.0}]}
+    refused = studio.ask("PUT", f"/api/gaits/{gait}", {**document, "poses": poses})
+    assert refused.status == 422
+    assert "names pose 1" in str(refused.content)
+    assert view(studio, gait)["revision"] == after["revision"]

@@ -1,4 +1,4 @@
-"""A gait for the robot's clock on the page: uneven samples, its own fields, solved again behind an edit."""
+"""A gait for the robot's clock on the page: uneven samples, its own fields, solved again after an edit."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
         yield opened
 
 
-def test_samples_are_as_wide_as_they_last_and_an_edit_is_solved_behind_it(page: Page) -> None:
+def test_samples_are_as_wide_as_they_last_and_an_edit_is_solved_after_it(page: Page) -> None:
     cells = (
         page.get_by_role("grid", name="Footfall timeline").get_by_role("row").first.get_by_role("gridcell")
     )

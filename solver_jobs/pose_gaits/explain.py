@@ -36,16 +36,18 @@ Run = Callable[..., Attempt]
 """Calls IPOPT (see `solve_poses`)."""
 
 
-def explained(problem: PoseProblem, program: PoseProgram, run: Run) -> tuple[str, ...]:
+def explained(
+    problem: PoseProblem, program: PoseProgram, run: Run, farthest: Attempt | None
+) -> tuple[str, ...]:
     """Sentences for a problem for which no start led to a gait.
 
     Args:
         problem: what was asked.
         program: of the problem, whose search begins with a short step.
         run: calls IPOPT.
+        farthest: the search for the longest step; None where the step is free.
     """
-    if problem.step is not None:
-        farthest = run(program.program.start, FARTHEST)
+    if problem.step is not None and farthest is not None:
         step = float(farthest.values[program.step_place])
         if farthest.converged and step < problem.step * MM:
             sentence = (

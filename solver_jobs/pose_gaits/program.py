@@ -15,6 +15,9 @@ from solver_jobs.nlp.monitor import Monitor
 MOST_ITERATIONS = 300
 ACCEPTED = frozenset({"Solve_Succeeded", "Solved_To_Acceptable_Level"})
 """Return statuses of IPOPT that give an answer; the independent checker says what it is worth."""
+DIVERGED = 1e14
+"""Dual infeasibility of a run that leads nowhere: runs that converged came to 4e12, most stayed below 1e6. A
+few steps later a factorisation of such numbers may take minutes, in which nothing can end it."""
 CHECK_EVERY = 2
 """Iterations between two questions whether to stop."""
 
@@ -161,6 +164,7 @@ class Program:
         begin, looks = time.perf_counter(), itertools.count(1)
         self._monitor.listener = lambda values, figures: (
             keep_on()
+            and figures["inf_du"] < DIVERGED
             and next(looks) * CHECK_EVERY < most_iterations
             and time.perf_counter() - begin < most_seconds
         )

@@ -13,7 +13,7 @@ from core.pose_gaits.pose_problem import SHORTEST_MOVE, PoseProblem
 from core.pose_gaits.start_motion import MM, PosesStart
 from core.robot.arms import arm_gaps
 from solver_jobs.pose_gaits.arms import NEAR, ArmPlace, Plane, near_arms
-from solver_jobs.pose_gaits.explain import NOT_PROVEN, explained
+from solver_jobs.pose_gaits.explain import FARTHEST, NOT_PROVEN, explained
 from solver_jobs.pose_gaits.pose_program import SLACKS, ArmRows, PoseProgram, Weights
 from solver_jobs.pose_gaits.program import MOST_ITERATIONS, Attempt
 from solver_jobs.results.motion import SolveStatus
@@ -71,12 +71,16 @@ def solve_poses(
         report: called between and within the stages.
         near: poses to begin with instead of several starts; they need not answer the problem.
     """
-    results = [_solved(replace(problem, parts=parts), report, near) for parts in problem.parts_to_try]
+    results: list[PoseResult] = []
+    for parts in problem.parts_to_try:
+        # A reason takes long to find, and is told only where there is no gait at all.
+        needs_reason = parts == problem.parts_to_try[-1] and all(result.gait is None for result in results)
+        results.append(_solved(replace(problem, parts=parts), report, near, needs_reason=needs_reason))
     cancelled = [result for result in results if result.status is SolveStatus.CANCELLED]
     solved = [result for result in results if result.gait is not None]
-    best = cancelled[0] if cancelled else max(solved, key=_result_speed) if solved else results[0]
+    best = cancelled[0] if cancelled else max(solved, key=_result_speed) if solved else results[-1]
     if best.status is SolveStatus.INFEASIBLE and problem.pinned:
-        results.append(_solved(replace(problem, pinned=()), report, near))
+        results.append(_solved(replace(problem, pinned=()), report, near, needs_reason=True))
         best = _without_pinned(problem, best, results[-1])
     return replace(
         best,
@@ -101,10 +105,10 @@ def _result_speed(result: PoseResult) -> float:
     return 0.0 if result.gait is None else result.gait.speed
 
 
-def _solved(problem: PoseProblem, report: Report, near: PoseGait | None) -> PoseResult:
+def _solved(problem: PoseProblem, report: Report, near: PoseGait | None, *, needs_reason: bool) -> PoseResult:
     """The search with a given number of parts."""
     fits = near is not None and np.array_equal(near.problem.airborne, problem.airborne)
-    search = _Search(problem, report, near if fits else None)
+    search = _Search(problem, report, near if fits else None, needs_reason)
     try:
         return search.result()
     except _Cancelled:
@@ -114,9 +118,14 @@ def _solved(problem: PoseProblem, report: Report, near: PoseGait | None) -> Pose
 class _Search:
     """One search; it keeps what is known for its reports."""
 
-    def __init__(self, problem: PoseProblem, report: Report, near: PoseGait | None) -> None:
+    def __init__(
+        self, problem: PoseProblem, report: Report, near: PoseGait | None, needs_reason: bool
+    ) -> None:
         self.problem = problem
         self._near = near
+        self._needs_reason = needs_reason
+        self._short: PoseProgram | None = None
+        self._farthest: Attempt | None = None
         self._report = report
         self._begin = time.perf_counter()
         self._solve_seconds = 0.0
@@ -130,10 +139,7 @@ class _Search:
         self._tell("Building the program", 0.0)
         program, best = self._found()
         if best is None:
-            self._tell("Looking for the reason", 0.8)
-            short = program if self.problem.step is None else PoseProgram(self.problem, STEP_GUESS)
-            sentences = explained(self.problem, short, self._run(short))
-            return self.ended(SolveStatus.INFEASIBLE, sentences)
+            return self.ended(SolveStatus.INFEASIBLE, self._reason(self._short or program))
         apart = self._with_arms_apart(program, best)
         if apart is None and self._near is not None:
             self._near = None  # other starts may lead to arms that keep apart
@@ -159,6 +165,12 @@ class _Search:
         explanation = ("The independent check does not confirm the gait that was found.", *sentences)
         return self.ended(SolveStatus.FAILED, explanation)
 
+    def _reason(self, program: PoseProgram) -> tuple[str, ...]:
+        if not self._needs_reason:
+            return ()
+        self._tell("Looking for the reason", 0.8)
+        return explained(self.problem, program, self._run(program), self._farthest)
+
     def _found(self) -> tuple[PoseProgram, Attempt | None]:
         """The program and its fastest gait: beside the poses that are known, else of several starts."""
         if self._near is not None:
@@ -169,7 +181,25 @@ class _Search:
             if attempt.converged:
                 return program, attempt
         program = PoseProgram(self.problem, self.problem.step or STEP_GUESS)
-        return program, self._fastest(program)
+        if self.problem.step is None:
+            return program, self._fastest(program)
+        self._tell("Solving", 0.1)
+        attempt = self._run(program)(program.program.start, FASTEST, step=self._step)
+        return (program, attempt) if attempt.converged else self._of_farthest()
+
+    def _of_farthest(self) -> tuple[PoseProgram, Attempt | None]:
+        """A gait with the step that is set, by way of the longest step; None where that is too short.
+
+        Of 60 steps that an even start did not reach, other starts reached none.
+        """
+        self._tell("Looking for the longest step", 0.4)
+        self._short = program = PoseProgram(self.problem, STEP_GUESS)
+        run = self._run(program)
+        self._farthest = farthest = run(program.program.start, FARTHEST)
+        if not farthest.converged or farthest.values[program.step_place] < (self.problem.step or 0.0) * MM:
+            return program, None
+        attempt = run(farthest.values, FASTEST, step=self._step)
+        return program, attempt if attempt.converged else None
 
     def ended(self, status: SolveStatus, explanation: tuple[str, ...]) -> PoseResult:
         seconds = time.perf_counter() - self._begin
@@ -233,25 +263,20 @@ class _Search:
         return None if step is None else (step * MM, step * MM)
 
     def _fastest(self, program: PoseProgram) -> Attempt | None:
-        """The fastest of several starts; None where none converges."""
+        """With a free step the fastest of several starts; None where none converges."""
         run = self._run(program)
         found: list[Attempt] = []
         for number in range(STARTS):
             self._tell(f"Solving, start {number + 1}", 0.1 + 0.2 * number)
             start = _moved_start(program, number)
-            if self.problem.step is not None:
-                attempt = run(start, FASTEST, step=self._step)
-            else:
-                if self.problem.cycles is not None:  # a long way from a poor start often fails
-                    short = run(start, FREE, step=(LEAST_STEP, STEP_GUESS * MM))
-                    start = short.values if short.converged else start
-                attempt = run(start, FREE)
+            if self.problem.cycles is not None:  # a long way from a poor start often fails
+                short = run(start, FREE, step=(LEAST_STEP, STEP_GUESS * MM))
+                start = short.values if short.converged else start
+            attempt = run(start, FREE)
             if attempt.converged:
                 found.append(attempt)
                 fastest = max(found, key=lambda one: _speed(program, one))
                 self._tell(f"Solved, start {number + 1}", 0.1 + 0.2 * number, _speed(program, fastest))
-                if self.problem.step is not None:
-                    break
         return max(found, key=lambda one: _speed(program, one)) if found else None
 
     def _with_arms_apart(self, program: PoseProgram, best: Attempt) -> tuple[PoseProgram, Attempt] | None:
@@ -360,8 +385,7 @@ def _moved_start(program: PoseProgram, number: int) -> Floats:
     for place in program.body_places:
         disturbed[place : place + 2] = True
     moved = start + np.where(disturbed, noise, 0.0)
-    if program.problem.step is None:
-        moved[program.step_place] += 8.0 * number
+    moved[program.step_place] += 8.0 * number
     return moved
 
 

@@ -6,7 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from core.gait.gait import Orientation
 from core.gait.options import OPTION_BOUNDS, GaitOptions
-from core.gait.poses import POSE_LIMITS, Poses
+from core.gait.poses import MOST_PINNED, POSE_LIMITS, Poses
 from core.gait.recording import RecordingForm
 from core.motion.heading_profile import HeadingProfile
 from core.problem.motion_problem import Boundary, Cost, Workspace
@@ -131,6 +131,9 @@ class RecordingModel(_Model):
     assumed: list[str] = _field("what reading the file assumed, a sentence each", default_factory=list)
 
 
+_PINNED_BOUNDS: dict[str, Any] = {"minimum": -MOST_PINNED, "maximum": MOST_PINNED}
+
+
 class FoundPosesModel(_Model):
     """Poses as a solver has found them; the motors go straight from one to the next."""
 
@@ -143,11 +146,13 @@ class FoundPosesModel(_Model):
 
 
 class PinnedPoseModel(_Model):
-    """A pose whose body somebody has put to a place; told from where an even travel has it at that pose."""
+    """A pose whose body position is fixed, as an offset from where an even travel has the body."""
 
-    pose: int = _field("its number, counted from 1; neither the first nor the last")
-    along: Metres = _field("in the direction of travel, m")
-    sideways: Metres = _field("to the left of it, m")
+    pose: int = _field(
+        "its number, counted from 1; neither the first nor the last", json_schema_extra={"minimum": 2}
+    )
+    along: Metres = _field("in the direction of travel, m", json_schema_extra=_PINNED_BOUNDS)
+    sideways: Metres = _field("to the left of it, m", json_schema_extra=_PINNED_BOUNDS)
 
 
 class PosesModel(_Model):

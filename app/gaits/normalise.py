@@ -19,7 +19,10 @@ from core.segments.from_timeline_edit import carried
 
 SAME_STEP = 1e-9
 """Steps that differ by less are the same, m."""
-LET_GO = "The pinned poses were let go, since this gait has other poses now. Undo brings them back."
+LET_GO = (
+    "The pinned poses were removed, because foot order, cycles, direction of travel, stop bound or robot "
+    "changed. Undo brings them back."
+)
 SET_ASIDE = "The recorded motion of {file} was set aside; the motion is computed now. Undo brings it back."
 
 
@@ -31,7 +34,8 @@ def normalise(before: Gait, after: Gait) -> tuple[Gait, str | None]:
         after: the document as it was changed.
 
     Returns:
-        The gait, and a sentence where its segment table or its recorded motion was set aside.
+        The gait, and a sentence where its segment table or its recorded motion was set aside, or where
+        pinned poses were removed.
 
     Raises:
         StateError: a locked cell would change.
@@ -85,7 +89,7 @@ def normalise_poses(before: Gait, after: Gait, poses: Poses) -> tuple[Gait, str 
 
 
 def _poses_of(gait: Gait) -> object:
-    """What the numbers and places of a gait's poses hang on: which feet step when, and the way it goes."""
+    """Key that changes when pose numbers or positions lose their meaning."""
     bare = None if gait.poses is None else replace(gait.poses, pinned=())
     problem = pose_problem(replace(gait, poses=bare), load_robot(gait.robot))
     turn = problem.heading - gait.quarter_turns * np.pi / 2

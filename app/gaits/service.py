@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from app.common.json import Json
+from app.documents.gait_json import motion_hash
 from app.documents.stored_gait import stored_gait
 from app.gaits.approvals import ApprovalRequest, Approvals, approval_record, approved, is_confirmed
 from app.gaits.known_times import KnownTimes
@@ -35,6 +36,8 @@ from core.findings import Verdict
 from core.gait.gait import Gait, drawn_timeline
 from core.library.library import library
 from core.library.sequence import derived
+from core.pose_gaits.gait_poses import found_gait
+from core.robot.model import load_robot
 
 _SCRIPT = Author()
 
@@ -256,10 +259,19 @@ class GaitService:
     def _edited(
         self, open_gait: OpenGait, gait: Gait, label: str, author: Author, notice: str | None = None
     ) -> OpenGait:
+        gait = self._with_known_poses(gait)
         require_line(gait)
         version = self.versions.due(open_gait)
         history = open_gait.history.edited(gait_text(gait), label, author, self._others(author))
         return self._put(open_gait.changed(history.pruned(), gait, notice), version)
+
+    def _with_known_poses(self, gait: Gait) -> Gait:
+        """The document with poses that were found for exactly what it asks, where its own are others."""
+        if gait.poses is None or found_gait(gait, load_robot(gait.robot)) is not None:
+            return gait
+        motion = motion_hash(gait)
+        content = self._database.result(motion)
+        return gait if content is None else with_result(gait, motion, content)
 
     def _others(self, author: Author) -> frozenset[str]:
         return self._connected() - {author.page}

@@ -80,10 +80,8 @@ def merged_gait(present: Gait, step: UndoResult) -> Gait:
             _require_recorded(present, gait, step)
             whole, notice = normalise(present, gait)
             if notice is not None or replace(whole, provenance=gait.provenance) != gait:
-                raise StateError(
-                    "The timeline would no longer agree with the segment table or the feet held up.",
-                    "history",
-                )
+                disagree = "The timeline would no longer agree with the segment table or the feet held up."
+                raise StateError(notice or disagree, "history")
             return whole
     except FootfallError as error:
         raise StateError(

@@ -221,12 +221,14 @@ def _poses_view(plan: Plan) -> Json:
     """What a gait for the robot's clock has beside its motion.
 
     `heard` has a time in each move, s: the robot hears a Stop from then on, since its first ramp has ended.
+    `pinnable` says whether a pose can be pinned.
     """
     heard = np.zeros(0) if plan.poses is None else heard_times(plan.poses)
     return {
         "solved": plan.source is PlanSource.POSES,
         "explanation": list(plan.infeasible),
         "heard": np.round(heard, 3).tolist(),
+        "pinnable": plan.poses is None or not plan.poses.problem.may_divide,
     }
 
 

@@ -1,7 +1,8 @@
 """Makes the plan of a gait: the motion that is shown, checked and sent."""
 
 import hashlib
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
@@ -30,7 +31,7 @@ from core.gait.recording import Recording, RecordingForm
 from core.motion.balance import balance_margins
 from core.motion.support_polygon import stability_margins
 from core.motion.trajectory import Trajectory
-from core.pose_gaits.gait_poses import drawn_poses, found_gait, gait_of_poses, pose_problem
+from core.pose_gaits.gait_poses import asked_of, drawn_poses, found_gait, gait_of_poses, pose_problem
 from core.pose_gaits.pose_check import check_poses, motion_along
 from core.pose_gaits.pose_gait import PoseGait
 from core.problem.initial_guess import initial_guess
@@ -45,6 +46,10 @@ from core.wire.waypoints import Waypoints
 from solver_jobs import MotionResult, SolveStatus
 
 ADAPTED_NOTE = "The last poses, adapted to what is asked now; they are not solved, and cannot be sent."
+_OPTION_NAME = re.compile(r" \(--[a-z-]+\)")
+"""What the command line calls an option, in a reason; a document has no such names."""
+PIN_SEEN = 1e-6
+"""A pinned pose that is drawn this far from its place is drawn nearer, m."""
 AS_PLANNED = GaitOptions(merge=0.0, stop_bound=None)
 """One waypoint a knot."""
 
@@ -216,14 +221,24 @@ def pose_plan(gait: Gait, model: RobotModel, result: Json | None) -> Plan:
     """
     found = found_gait(gait, model)
     kept = None if result is None else result.get("found")
-    if found is None and kept is not None:
-        found = gait_of_poses(pose_problem(gait, model), FoundPoses(**kept))
+    problem = pose_problem(gait, model)
+    if found is None and kept is not None and kept["answers"] == asked_of(problem):
+        found = gait_of_poses(problem, FoundPoses(**kept))
     if found is not None and check_poses(found).confirmed:
         return _of_poses(PlanSource.POSES, _poses_note(found), found)
     is_infeasible = result is not None and result.get("status") == SolveStatus.INFEASIBLE
-    why = tuple(result.get("explanation", ())) if result is not None and is_infeasible else ()
-    note = " ".join(why) or ADAPTED_NOTE
-    return replace(_of_poses(PlanSource.ADAPTED, note, drawn_poses(gait, model)), infeasible=why)
+    told = result.get("explanation", ()) if result is not None and is_infeasible else ()
+    why = tuple(_OPTION_NAME.sub("", sentence) for sentence in told)
+    drawn = drawn_poses(gait, model)
+    note = " ".join(why) or " ".join((ADAPTED_NOTE, *_pins_out_of_reach(drawn)))
+    return replace(_of_poses(PlanSource.ADAPTED, note, drawn), infeasible=why)
+
+
+def _pins_out_of_reach(drawn: PoseGait) -> Iterator[str]:
+    for pin in drawn.problem.pinned:
+        away = drawn.bodies[pin.pose - 1, :2] - drawn.bodies[0, :2]
+        if np.abs(away - drawn.problem.pinned_place(pin, drawn.step)).max() > PIN_SEEN:
+            yield f"No rod is long enough for where pose {pin.pose} is pinned; it is drawn nearer."
 
 
 def _of_poses(source: PlanSource, note: str, poses: PoseGait) -> Plan:

@@ -13,7 +13,7 @@ from app.plans.plan import Plan
 from core.gait.gait import Gait
 from core.gait.poses import FoundPoses
 from core.gait.provenance import Provenance
-from core.pose_gaits.gait_poses import gait_of_poses, pose_problem, with_poses
+from core.pose_gaits.gait_poses import asked_of, gait_of_poses, pose_problem, with_poses
 from core.robot.model import load_robot
 
 EXACT = "nlp"
@@ -52,10 +52,12 @@ def with_result(gait: Gait, motion: str, content: Json) -> Gait:
         motion: hash of what was asked.
         content: the result as it is kept; of older ones the provenance is not known.
     """
-    if gait.poses is not None and content.get("found") is not None and motion_hash(gait) == motion:
-        model = load_robot(gait.robot)
-        solved = gait_of_poses(pose_problem(gait, model), FoundPoses(**content["found"]))
-        return with_poses(gait, solved)
+    found = content.get("found")
+    if gait.poses is not None and found is not None and motion_hash(gait) == motion:
+        problem = pose_problem(gait, load_robot(gait.robot))
+        if found["answers"] != asked_of(problem):  # of an earlier program, which asked otherwise
+            return gait
+        return with_poses(gait, gait_of_poses(problem, FoundPoses(**found)))
     kept = content.get("provenance")
     if kept is None or gait.recorded is not None or asked_hash(gait) != motion:
         return gait

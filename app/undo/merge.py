@@ -22,7 +22,7 @@ MISSING: Final = object()
 _CELLS = (("timeline", "feet"), ("timeline", "locked"))
 """Where a string holds a cell a character."""
 
-_WHOLE: tuple[Path, ...] = (("order",), ("held", "start"), ("held", "end"))
+_WHOLE: tuple[Path, ...] = (("order",), ("held", "start"), ("held", "end"), ("poses", "pinned"))
 """Lists that make sense as a whole only."""
 
 _BESIDE: tuple[Path, ...] = (("provenance",), ("poses", "found"))
@@ -193,6 +193,8 @@ def _words(row: Path, paths: list[Path]) -> list[str]:
             return ["the segment table"]
         case ("held", "start" | "end" as end):
             return [f"the feet held at the {end}"]
+        case ("poses", "pinned"):
+            return ["the pinned poses"]
         case ("held",):
             return ["the held feet"]
         case ("step", int(axis)):

@@ -70,10 +70,10 @@ class FoundPoses:
 
 @dataclass(frozen=True)
 class PinnedPose:
-    """A pose whose body somebody has put to a place, which a solver keeps.
+    """A pose whose body position a person has fixed.
 
-    The place is told from where the body were if it travelled evenly, the same way at every pose, so that it
-    goes along with another step.
+    The position is an offset from where the body would be if it moved evenly, the same way at every pose, so
+    that it stays meaningful when the step changes.
 
     Args:
         pose: counted from 1.

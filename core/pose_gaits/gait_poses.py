@@ -24,6 +24,8 @@ LONGEST_STOP = 10.0
 """Stop bound where the document has none, s."""
 ROUNDED = 9
 """Decimals of a metre with which poses are kept."""
+DRAWN_SHARES = 101
+"""Places on the way to a pinned pose that are tried where no rod is long enough for it."""
 USUAL_STEP = 0.030
 """Step of a drawing where none is known, m."""
 
@@ -165,7 +167,8 @@ def _divided(problem: PoseProblem, found: FoundPoses | None) -> PoseProblem:
 def drawn_poses(gait: Gait, model: RobotModel) -> PoseGait:
     """Poses for what a gait asks, drawn at once and solved by nobody: the last ones, adapted.
 
-    Where foot order or number of cycles differ, they are drawn anew: the body goes on evenly.
+    Where foot order or number of cycles differ, they are drawn anew: the body goes on evenly. A pinned pose
+    for whose place no rod is long enough is drawn as near to it as the rods allow.
 
     Raises:
         InputError: the gait asks for what it cannot have, or a foot is so far away that no rod is that long.
@@ -176,10 +179,28 @@ def drawn_poses(gait: Gait, model: RobotModel) -> PoseGait:
     adapted = None if found is None else _adapted(problem, found, step)
     bodies, feet = _straight(problem, step) if adapted is None else adapted
     for pin in problem.pinned:
-        bodies[pin.pose - 1, :2] = bodies[0, :2] + problem.pinned_place(pin, step)
+        pose, place = pin.pose - 1, bodies[0, :2] + problem.pinned_place(pin, step)
+        bodies[pose, :2] = _within_reach(model, feet[pose], bodies[pose], place)
     headings = np.zeros(len(bodies))
     strokes = free_strokes(model, feet, BodyPose(bodies, headings))
+    if np.isnan(strokes).any():
+        pose, leg, _ = np.argwhere(np.isnan(strokes))[0]
+        raise InputError(
+            f"At pose {pose + 1} no rod is long enough for foot {leg + 1}; take a shorter step.",
+            "step",
+        )
     return PoseGait(problem, step, bodies, headings, feet, strokes)
+
+
+def _within_reach(model: RobotModel, feet: Floats, body: Floats, place: Floats) -> Floats:
+    """(2,) the point on the way of a body to a place that is nearest to it and still within reach, m."""
+    shares = np.linspace(1.0, 0.0, DRAWN_SHARES)[:, None]
+    bodies = np.repeat(body[None], DRAWN_SHARES, axis=0)
+    bodies[:, :2] = shares * place + (1.0 - shares) * body[:2]
+    pose = BodyPose(bodies, np.zeros(DRAWN_SHARES))
+    strokes = free_strokes(model, np.repeat(feet[None], DRAWN_SHARES, axis=0), pose)
+    reached = ~np.isnan(strokes).any(axis=(1, 2))
+    return np.asarray(bodies[int(reached.argmax()), :2])
 
 
 def _straight(problem: PoseProblem, step: float) -> tuple[Floats, Floats]:

@@ -138,9 +138,11 @@ class PoseProblem:
         """Pinned poses are poses of this gait.
 
         Raises:
-            InputError: one of them is none that can be moved.
+            InputError: a pinned pose does not exist, or is an end.
         """
-        if self.parts_to_try != (1,) or self.turn:
+        if self.turn:
+            raise InputError("A gait that turns cannot have pinned poses (poses.pinned).", "poses.pinned")
+        if self.may_divide or self.parts not in (None, 1):
             raise InputError(
                 f"A stop bound of {self.bounds.stop_bound:g} s may divide moves, so no pose can be pinned "
                 "(poses.pinned). Let the pinned poses go, or choose a stop bound of at least "
@@ -150,8 +152,8 @@ class PoseProblem:
         for pin in self.pinned:
             if not 1 < pin.pose <= self.move_count:
                 raise InputError(
-                    f"poses.pinned names pose {pin.pose}; 2 to {self.move_count} can be pinned: before and "
-                    "after them the robot is in its standard stance.",
+                    f"poses.pinned names pose {pin.pose}; 2 to {self.move_count} can be pinned: "
+                    "where the gait begins and ends is given.",
                     "poses.pinned",
                 )
 
@@ -165,7 +167,12 @@ class PoseProblem:
         """Numbers of parts that may be fastest; more than one where the stop bound leaves short moves."""
         if self.parts is not None:
             return (self.parts,)
-        return (1,) if self.largest_move >= WHOLE_MOVE else (1, 2)
+        return (1, 2) if self.may_divide else (1,)
+
+    @property
+    def may_divide(self) -> bool:
+        """Whether the stop bound leaves such short moves that dividing them may make the gait faster."""
+        return self.largest_move < WHOLE_MOVE
 
     @property
     def all_cycles(self) -> int:

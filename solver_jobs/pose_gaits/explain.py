@@ -26,7 +26,6 @@ _OPTIONS = {
     "stop bound": "the stop bound (--stop-bound)",
     "stroke": "the motors' range",
     "slip": "the slip of standing feet (--slip)",
-    "pinned pose": "a pinned pose",
     "coupling": "motors that share an actuator",
 }
 
@@ -37,7 +36,7 @@ Run = Callable[..., Attempt]
 
 
 def explained(
-    problem: PoseProblem, program: PoseProgram, run: Run, farthest: Attempt | None
+    problem: PoseProblem, program: PoseProgram, run: Run, longest: tuple[PoseProgram, Attempt] | None
 ) -> tuple[str, ...]:
     """Sentences for a problem for which no start led to a gait.
 
@@ -45,15 +44,16 @@ def explained(
         problem: what was asked.
         program: of the problem, whose search begins with a short step.
         run: calls IPOPT.
-        farthest: the search for the longest step; None where the step is free.
+        longest: the longest step that was found, with its program; None where none was looked for or found.
     """
-    if problem.step is not None and farthest is not None:
-        step = float(farthest.values[program.step_place])
-        if farthest.converged and step < problem.step * MM:
+    if problem.step is not None and longest is not None:
+        of, farthest = longest
+        step = float(farthest.values[of.step_place])
+        if step < problem.step * MM:
             sentence = (
                 f"A step of {problem.step * MM:.4g} mm a cycle (--step) is too long: with these limits the "
                 f"longest that was found is {np.floor(step * 10) / 10:.1f} mm. It is held back by "
-                f"{_holding_back(program, farthest)}."
+                f"{_holding_back(of, farthest)}."
             )
             return (sentence, NOT_PROVEN)
     sentences = tuple(_helpful(problem, program, run))

@@ -165,7 +165,7 @@ class PoseProgram:
         for pin in problem.pinned:
             even = travel * ((pin.pose - 1) / problem.move_count)
             away = self.bodies[pin.pose - 1][:2] - even - DM(problem.pinned_offset(pin) * MM)
-            self.program.bound(away, 0.0, 0.0, Row("pinned pose", pin.pose - 1))
+            self.program.bound(away, 0.0, 0.0)
         if problem.cycles is not None:
             self.program.bound(first[2], REST_HEIGHT * MM, REST_HEIGHT * MM)
 

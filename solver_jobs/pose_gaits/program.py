@@ -147,7 +147,7 @@ class Program:
         most_iterations: int = MOST_ITERATIONS,
         most_seconds: float = np.inf,
     ) -> Attempt:
-        """Calls IPOPT once.
+        """Calls IPOPT once; a run that diverges is ended.
 
         Args:
             parameters: of the cost.

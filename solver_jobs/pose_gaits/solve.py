@@ -72,16 +72,19 @@ def solve_poses(
         near: poses to begin with instead of several starts; they need not answer the problem.
     """
     results: list[PoseResult] = []
+    longest: Longest = []
     for parts in problem.parts_to_try:
-        # A reason takes long to find, and is told only where there is no gait at all.
-        needs_reason = parts == problem.parts_to_try[-1] and all(result.gait is None for result in results)
-        results.append(_solved(replace(problem, parts=parts), report, near, needs_reason=needs_reason))
+        # Finding a reason is slow, so it is looked for only if no number of parts gave a gait.
+        is_last = parts == problem.parts_to_try[-1] and all(result.gait is None for result in results)
+        needs_reason = is_last and not problem.pinned
+        results.append(_solved(replace(problem, parts=parts), report, near, longest, needs_reason))
     cancelled = [result for result in results if result.status is SolveStatus.CANCELLED]
     solved = [result for result in results if result.gait is not None]
-    best = cancelled[0] if cancelled else max(solved, key=_result_speed) if solved else results[-1]
+    failed = [result for result in results if result.status is SolveStatus.FAILED]
+    best = [*cancelled, *sorted(solved, key=_result_speed, reverse=True), *failed, results[-1]][0]
     if best.status is SolveStatus.INFEASIBLE and problem.pinned:
-        results.append(_solved(replace(problem, pinned=()), report, near, needs_reason=True))
-        best = _without_pinned(problem, best, results[-1])
+        results.append(_solved_without_pinned(problem, report, near))
+        best = _pinned_answer(problem, best, results[-1])
     return replace(
         best,
         solve_seconds=sum(result.solve_seconds for result in results),
@@ -89,26 +92,50 @@ def solve_poses(
     )
 
 
-def _without_pinned(problem: PoseProblem, asked: PoseResult, without: PoseResult) -> PoseResult:
-    """A no to pinned poses, with what is known of the same gait when none is pinned."""
-    if without.gait is None:
+def _solved_without_pinned(problem: PoseProblem, report: Report, near: PoseGait | None) -> PoseResult:
+    """The same problem with no pose pinned; its progress is none of the gait that was asked."""
+
+    def said(progress: PoseProgress) -> bool:
+        return report(replace(progress, stage="Searching without the pinned poses", speed=None))
+
+    return _solved(replace(problem, pinned=()), said, near, [], needs_reason=True)
+
+
+def _pinned_answer(problem: PoseProblem, asked: PoseResult, without: PoseResult) -> PoseResult:
+    """Explains an infeasible result by that of the same problem without pinned poses."""
+    if without.status in (SolveStatus.INFEASIBLE, SolveStatus.CANCELLED):
         return without
     poses = ", ".join(str(pin.pose) for pin in problem.pinned)
-    words = (
-        f"No gait was found with the body where it is pinned (at pose {poses}), but one was found without. "
-        "Pin it nearer to where it was, or let it go."
+    but_without = ", but one was found without" if without.gait is not None else ""
+    sentence = (
+        f"No gait was found with the body where it is pinned (at pose {poses}){but_without}. Pin it nearer "
+        "to where it was, or let it go."
     )
-    return replace(asked, explanation=(words, NOT_PROVEN))
+    return replace(asked, explanation=(sentence, NOT_PROVEN))
 
 
 def _result_speed(result: PoseResult) -> float:
     return 0.0 if result.gait is None else result.gait.speed
 
 
-def _solved(problem: PoseProblem, report: Report, near: PoseGait | None, *, needs_reason: bool) -> PoseResult:
-    """The search with a given number of parts."""
+Longest = list[tuple[PoseProgram, Attempt]]
+"""Searches for the longest step that converged, each with its program."""
+
+
+def _solved(
+    problem: PoseProblem, report: Report, near: PoseGait | None, longest: Longest, needs_reason: bool
+) -> PoseResult:
+    """The search with a given number of parts.
+
+    Args:
+        problem: what is asked.
+        report: told of the progress.
+        near: poses to begin with.
+        longest: what earlier searches know of the longest step; this one adds its own.
+        needs_reason: whether an infeasible result is to be explained.
+    """
     fits = near is not None and np.array_equal(near.problem.airborne, problem.airborne)
-    search = _Search(problem, report, near if fits else None, needs_reason)
+    search = _Search(problem, report, near if fits else None, longest, needs_reason)
     try:
         return search.result()
     except _Cancelled:
@@ -119,13 +146,17 @@ class _Search:
     """One search; it keeps what is known for its reports."""
 
     def __init__(
-        self, problem: PoseProblem, report: Report, near: PoseGait | None, needs_reason: bool
+        self,
+        problem: PoseProblem,
+        report: Report,
+        near: PoseGait | None,
+        longest: Longest,
+        needs_reason: bool,
     ) -> None:
         self.problem = problem
         self._near = near
+        self._longest = longest
         self._needs_reason = needs_reason
-        self._short: PoseProgram | None = None
-        self._farthest: Attempt | None = None
         self._report = report
         self._begin = time.perf_counter()
         self._solve_seconds = 0.0
@@ -139,7 +170,7 @@ class _Search:
         self._tell("Building the program", 0.0)
         program, best = self._found()
         if best is None:
-            return self.ended(SolveStatus.INFEASIBLE, self._reason(self._short or program))
+            return self.ended(SolveStatus.INFEASIBLE, self._reason(program))
         apart = self._with_arms_apart(program, best)
         if apart is None and self._near is not None:
             self._near = None  # other starts may lead to arms that keep apart
@@ -169,7 +200,8 @@ class _Search:
         if not self._needs_reason:
             return ()
         self._tell("Looking for the reason", 0.8)
-        return explained(self.problem, program, self._run(program), self._farthest)
+        longest = max(self._longest, key=lambda known: known[1].values[known[0].step_place], default=None)
+        return explained(self.problem, program, self._run(program), longest)
 
     def _found(self) -> tuple[PoseProgram, Attempt | None]:
         """The program and its fastest gait: beside the poses that are known, else of several starts."""
@@ -193,10 +225,13 @@ class _Search:
         Of 60 steps that an even start did not reach, other starts reached none.
         """
         self._tell("Looking for the longest step", 0.4)
-        self._short = program = PoseProgram(self.problem, STEP_GUESS)
+        program = PoseProgram(self.problem, STEP_GUESS)
         run = self._run(program)
-        self._farthest = farthest = run(program.program.start, FARTHEST)
-        if not farthest.converged or farthest.values[program.step_place] < (self.problem.step or 0.0) * MM:
+        farthest = run(program.program.start, FARTHEST)
+        if not farthest.converged:
+            return program, None
+        self._longest.append((program, farthest))
+        if farthest.values[program.step_place] < (self.problem.step or 0.0) * MM:
             return program, None
         attempt = run(farthest.values, FASTEST, step=self._step)
         return program, attempt if attempt.converged else None

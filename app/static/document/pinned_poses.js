@@ -1,12 +1,15 @@
 /**
- * Pinned poses of a gait for the robot's clock: places to which somebody has put the body. They are told from where the
- * body were if it travelled evenly, the same way at every pose, so that they go along with another step.
+ * Pinned poses of a gait for the robot's clock, whose body position a person has fixed. A position is an offset from where
+ * the body would be if it moved evenly, the same way at every pose, so that it stays meaningful when the step changes.
  */
 
 import { fixed } from "../lib/format.js";
 
 /** Farthest that a body may be put from there along either axis, m. */
 const FARTHEST = 0.03;
+
+/** Whether a pinned pose is as far away as it can be. */
+export const isFarthest = ({ along, sideways }) => [along, sideways].some((value) => Math.abs(value) >= FARTHEST);
 
 const within = (value) => Math.min(Math.max(value, -FARTHEST), FARTHEST);
 
@@ -31,20 +34,19 @@ export function withoutPinned(document, pose) {
 }
 
 /**
- * The way that a plan's body takes, for places on it.
+ * An even travel of a plan's body.
  * @param {number[][]} bodies the body's place at each pose, m
- * @returns {{even: (index: number) => number[], toOffset: Function, toFloor: Function}} `even(index)` where an even travel has
- *   the body, `toOffset` from a difference in x and y to [along, sideways] and `toFloor` back
+ * @returns {{at: (index: number) => number[], toOffset: (difference: number[]) => number[]}} `at` is where it has the body at
+ *   a pose, `toOffset` turns a difference in x and y into [along, sideways]
  */
-export function wayOf(bodies) {
+export function evenTravel(bodies) {
   const [first, last] = [bodies[0], bodies.at(-1)];
   const [dx, dy] = [last[0] - first[0], last[1] - first[1]];
   const length = Math.hypot(dx, dy) || 1;
   const [ux, uy] = [dx / length, dy / length];
   return {
-    even: (index) => [first[0] + (dx * index) / (bodies.length - 1), first[1] + (dy * index) / (bodies.length - 1)],
+    at: (index) => [first[0] + (dx * index) / (bodies.length - 1), first[1] + (dy * index) / (bodies.length - 1)],
     toOffset: ([x, y]) => [x * ux + y * uy, y * ux - x * uy],
-    toFloor: ([along, sideways]) => [along * ux - sideways * uy, along * uy + sideways * ux],
   };
 }
 

@@ -10,6 +10,9 @@ export const SNAP = 0.0005;
 
 export const snapped = (value, grid) => Math.round(value / grid) * grid;
 
+/** A pointer that is held down moves a handle only once it has gone this far, px. */
+const LEAST_PX = 3;
+
 /** A handle; `help` says what dragging and keys do. */
 export function handle(className, name, help) {
   return h("div", { class: `goal-handle ${className}`, role: "slider", tabindex: "0", "aria-label": name, "aria-description": help, title: `${name}. ${help}`, data: { arrows: "" } });
@@ -26,6 +29,7 @@ export function handle(className, name, help) {
 export function movable(element, store, edits, way) {
   let change = null;
   let from = null;
+  let pressed = null;
   const show = (next) => {
     change = next;
     store.set({ gesture: { apply: next } });
@@ -42,7 +46,8 @@ export function movable(element, store, edits, way) {
   };
   element.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
-    from = way.begin([event.clientX, event.clientY]);
+    pressed = [event.clientX, event.clientY];
+    from = way.begin(pressed);
     if (!from) return;
     event.preventDefault();
     element.focus({ preventScroll: true });
@@ -50,7 +55,8 @@ export function movable(element, store, edits, way) {
     element.dataset.held = "";
   });
   element.addEventListener("pointermove", (event) => {
-    const next = from && way.drag([event.clientX, event.clientY], from, event.altKey);
+    const isNear = !change && from && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) < LEAST_PX;
+    const next = from && !isNear && way.drag([event.clientX, event.clientY], from, event.altKey);
     if (next) show(next);
   });
   element.addEventListener("pointerup", () => end(true));

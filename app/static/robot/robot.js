@@ -81,11 +81,14 @@ function build(store) {
   const reset = attempt(async () => {
     if (await confirmAction("Reset the robot?", "Reset moves all 12 motors to 0.5 mm, at full speed and at the same time.", "Move all motors to 0.5 mm")) await act(store, "reset")();
   });
+  const arm = attempt(async () => {
+    if (await needOperator(store, "Everyone sees who arms the robot and is in control of it.")) await act(store, "arm")();
+  });
   return {
     ports, connect,
     dot: h("span", { class: "dot" }), word: h("b"), sentence: h("p"),
     disconnect: robotButton(store, "Disconnect", "disconnect"),
-    arm: robotButton(store, "Arm", "arm", { help: "Allow this robot to be moved from here" }),
+    arm: robotButton(store, "Arm", "arm", { act: arm, help: "Allow this robot to be moved from here" }),
     pause: robotButton(store, "Pause robot", "pause", { help: "Stands still at the next pose with all feet down" }),
     resume: robotButton(store, "Resume robot", "resume"),
     clear: robotButton(store, "Clear", "clear", { help: "Acknowledge the stop or fault; nothing moves" }),

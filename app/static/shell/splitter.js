@@ -78,7 +78,7 @@ export function mountSplitter() {
   const lower = byId("chart").parentElement;
   const edge = h("div", { class: "lower-edge", role: "separator", tabindex: "0", "aria-orientation": "horizontal", "aria-label": "Height of timeline and plots",
     "aria-description": HELP, title: `Height of timeline and plots. ${HELP}`, data: { arrows: "" } });
-  document.querySelector(".middle").append(edge);
+  document.querySelector(".lower").prepend(edge);
   let height = recalledHeight();
   const show = () => {
     apply(lower, height);

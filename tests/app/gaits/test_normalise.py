@@ -179,7 +179,7 @@ def test_pinned_poses_go_along_with_a_step_and_are_let_go_with_other_poses() -> 
         assert changed.poses is not None
         assert changed.poses.pinned == ()
         assert notice is not None
-        assert notice.startswith("The pinned poses were let go")
+        assert notice.startswith("The pinned poses were removed")
 
 
 def test_a_pose_that_is_pinned_in_the_same_edit_must_be_one_of_the_gait() -> None:

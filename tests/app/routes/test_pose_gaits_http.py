@@ -130,3 +130,35 @@ def test_merging_is_nothing_to_it_and_a_pinned_pose_is_refused_where_there_is_no
     assert refused.status == 422
     assert "names pose 1" in str(refused.content)
     assert view(studio, gait)["revision"] == after["revision"]
+
+
+def test_an_edit_back_to_what_was_solved_before_takes_its_poses_and_step(
+    studio: StudioProcess, gait: str
+) -> None:
+    before = solved(studio, gait)["document"]
+    free = {**before, "poses": {**before["poses"], "free_step": True}}
+    assert studio.ask("PUT", f"/api/gaits/{gait}", free).status == 200
+    first = solved(studio, gait)["document"]
+    wider = {**first, "options": {**first["options"], "margin": 0.008}}
+    assert studio.ask("PUT", f"/api/gaits/{gait}", wider).status == 200
+    second = solved(studio, gait)["document"]
+    assert second["step"] != first["step"]
+    back = {**second, "options": first["options"]}
+    assert studio.ask("PUT", f"/api/gaits/{gait}", back).status == 200
+    now = view(studio, gait)
+    assert now["plan"]["source"] == "poses"
+    assert now["document"]["step"] == first["step"]
+    assert now["document"]["poses"] == first["poses"]
+    assert studio.ask("POST", f"/api/gaits/{gait}/check").content["passed"]
+
+
+def test_a_pose_that_is_pinned_far_away_is_drawn_nearer_and_the_search_says_no(
+    studio: StudioProcess, gait: str
+) -> None:
+    document = solved(studio, gait)["document"]
+    poses = {**document["poses"], "pinned": [{"pose": 5, "along": 0.03, "sideways": 0.03}]}
+    answer = studio.ask("PUT", f"/api/gaits/{gait}", {**document, "poses": poses})
+    assert answer.status == 200, answer.content
+    assert "where pose 5 is pinned; it is drawn nearer." in answer.content["plan"]["note"]
+    wait_for(lambda: bool(view(studio, gait)["plan"]["poses"]["explanation"]), "the search says no", LONG)
+    assert "at pose 5" in view(studio, gait)["plan"]["note"]

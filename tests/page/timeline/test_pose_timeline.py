@@ -90,7 +90,7 @@ def test_a_pose_that_is_dragged_is_pinned_and_let_go(page: Page) -> None:
     pose.focus()
     page.keyboard.press("ArrowUp")
     expect(answer).to_contain_text("Adapted, not solved")
-    pinned.get_by_role("button", name="Let pose 13 go").click()
+    pinned.get_by_role("button", name="Let go of pose 13").click()
     expect(pinned.get_by_role("listitem")).to_have_count(0)
     for _ in range(3):
         page.get_by_role("button", name="Undo").click()

@@ -71,7 +71,7 @@ def test_a_pose_that_is_dragged_is_pinned_and_let_go(page: Page) -> None:
     answer = page.get_by_role("status", name="Live answer")
     expect(answer).to_contain_text("Feasible, checked")
     pose = page.get_by_role("slider", name="Pose", exact=True)
-    expect(pose).to_be_hidden()  # the standard stance stays as it is
+    expect(page.locator("#pose")).to_have_attribute("data-off", "")  # the standard stance stays as it is
     for _ in range(12):
         page.get_by_role("button", name="Next sample").click()
     expect(pose).to_have_attribute("aria-valuetext", re.compile("pose 13: "))
@@ -96,3 +96,28 @@ def test_a_pose_that_is_dragged_is_pinned_and_let_go(page: Page) -> None:
         page.get_by_role("button", name="Undo").click()
     expect(answer).to_contain_text("Feasible, checked")
     expect(page.get_by_role("button", name="Undo")).to_have_attribute("aria-disabled", "true")
+
+
+def test_a_pose_that_is_dragged_too_far_is_drawn_nearer_and_a_click_moves_nothing(page: Page) -> None:
+    answer = page.get_by_role("status", name="Live answer")
+    expect(answer).to_contain_text("Feasible, checked")
+    pose = page.get_by_role("slider", name="Pose", exact=True)
+    undo = page.get_by_role("button", name="Undo")
+    for _ in range(12):
+        page.get_by_role("button", name="Next sample").click()
+    expect(pose).to_have_attribute("aria-valuetext", re.compile("pose 13: "))
+    place = pose.bounding_box()
+    assert place is not None
+    page.mouse.move(place["x"], place["y"])
+    page.mouse.down()
+    page.mouse.move(place["x"] + 1, place["y"])
+    page.mouse.up()
+    expect(undo).to_have_attribute("aria-disabled", "true")
+    page.mouse.down()
+    page.mouse.move(place["x"] + 150, place["y"] - 150, steps=4)
+    expect(page.get_by_role("status", name="Plan")).to_contain_text("it is drawn nearer")
+    expect(page.locator("#pose")).not_to_have_attribute("data-off", "")
+    page.keyboard.press("Escape")
+    page.mouse.up()
+    expect(answer).to_contain_text("Feasible, checked")
+    expect(undo).to_have_attribute("aria-disabled", "true")

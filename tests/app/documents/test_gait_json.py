@@ -12,6 +12,7 @@ from hypothesis import given
 from app.documents.gait_json import asked_hash, gait_content, motion_hash, parse_gait, require_size
 from core.errors import InputError
 from core.gait.gait import Gait
+from core.gait.poses import PinnedPose
 from core.gait.provenance import Provenance
 from core.gait.recording import Recording, RecordingForm
 from core.library.library import library
@@ -43,6 +44,18 @@ def test_words_and_provenance_do_not_change_the_motion() -> None:
     assert renamed.provenance == PROVENANCE
     assert motion_hash(renamed) == motion_hash(gait)
     assert motion_hash(longer) != motion_hash(renamed)
+
+
+def test_pinned_poses_come_back_and_are_another_question() -> None:
+    gait = library()["fast-c-gait"].gait
+    assert gait.poses is not None
+    pins = (PinnedPose(5, 0.001, -0.002), PinnedPose(9, 0.0, 0.0035))
+    pinned = replace(gait, poses=replace(gait.poses, pinned=pins))
+    assert parse_gait(json.dumps(gait_content(pinned))) == pinned
+    assert "pinned" not in gait_content(gait)["poses"]
+    assert len({motion_hash(gait), motion_hash(pinned)}) == len({asked_hash(gait), asked_hash(pinned)}) == 2
+    assert motion_hash(gait.with_options(merge=0.001)) == motion_hash(gait)
+    assert motion_hash(gait.with_options(stop_bound=1.4)) != motion_hash(gait)
 
 
 def test_a_recorded_motion_is_another_motion_and_no_other_question() -> None:

@@ -1,4 +1,4 @@
-"""Searches for poses behind the edits: one a gait, cancelled, begun again, not repeated where they fail."""
+"""Searches for poses after edits: one a gait, cancelled, begun again, not repeated where they fail."""
 
 from __future__ import annotations
 
@@ -107,3 +107,12 @@ def test_a_cancelled_one_that_answers_late_forgets_no_newer_one(
     assert len(solver.searches) == 2
     with pytest.raises(StateError, match="was cancelled or broke off"):
         searches.again("fast")
+
+
+def test_the_search_of_a_gait_that_is_gone_ends(searches: PoseSearches, solver: Solver) -> None:
+    looked_at(searches)
+    searches.forget("fast")
+    assert solver.searches[0].is_cancelled
+    with pytest.raises(StateError, match="No search"):
+        searches.cancel("fast")
+    searches.forget("fast")

@@ -168,3 +168,15 @@ def test_places_are_named_as_a_person_counts() -> None:
     many = (("a",), ("b",), ("c",), ("d",))
     assert place_words(many) == "the a, the b and 2 more places"
     assert place_words(((),)) == "the document"
+
+
+def test_pinned_poses_are_merged_as_a_whole_and_never_by_their_place_in_the_list() -> None:
+    def pinned(*poses: tuple[int, float]) -> dict[str, Any]:
+        pins = [{"pose": pose, "along": 0.0, "sideways": sideways} for pose, sideways in poses]
+        return {"poses": {"slip": 0.0005, "pinned": pins}}
+
+    moved_back = merge(pinned((5, 0.0015)), pinned((5, 0.001)), pinned((9, 0.0015)))
+    assert moved_back.conflicts == (("poses", "pinned"),)
+    assert moved_back.content == pinned((9, 0.0015))
+    assert place_words(moved_back.conflicts) == "the pinned poses"
+    assert merge(pinned((5, 0.0015)), pinned((5, 0.001)), pinned((5, 0.0015))).content == pinned((5, 0.001))

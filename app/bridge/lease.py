@@ -34,7 +34,7 @@ class Person:
         """The name for a sentence's beginning."""
         if self.is_script:
             return f"A script of {self.name}" if self.name else "A script"
-        return self.name or "Somebody without a name"
+        return self.name or "An unnamed operator"
 
 
 @dataclass(frozen=True)
@@ -140,7 +140,7 @@ class Lease:
         if now.holder is None:
             return self._become(who)
         if now.holder.page == who.page:
-            raise StateError("You hold the robot already.", "lease")
+            raise StateError("You are in control already.", "lease")
         if now.can_be_taken:
             raise StateError(refusal(now), "lease")
         if now.asker is not None and now.asker.page != who.page:
@@ -230,9 +230,9 @@ class Lease:
     def _require_holder(self, who: Person) -> None:
         now = self.now
         if now.holder is None:
-            raise StateError("Nobody holds the robot. Connect it or arm it to hold it.", "lease")
+            raise StateError("No one is in control. Connect or arm the robot to take control.", "lease")
         if now.holder.page != who.page:
-            raise StateError(f"{now.holder.title} holds the robot, and decides who gets it.", "lease")
+            raise StateError(f"{now.holder.title} is in control, and decides who gets it.", "lease")
 
 
 def refusal(now: Holding) -> str:
@@ -242,13 +242,13 @@ def refusal(now: Holding) -> str:
         now: somebody holds the robot.
     """
     if now.holder is None:
-        return "Nobody holds the robot."
+        return "No one is in control."
     title = now.holder.title
     if now.holder.is_script:
-        return f"{title} holds the robot. Take it over, or wait until the script is done."
+        return f"{title} is in control. Take over, or wait until the script is done."
     if now.is_gone:
-        return f"{title} holds the robot and has been gone for {now.away:.0f} s. Take it over first."
-    return f"{title} holds the robot. Ask {now.holder.name or 'them'} for it; Stop works for everybody."
+        return f"{title} is in control and has been gone for {now.away:.0f} s. Take it over first."
+    return f"{title} is in control. Ask {now.holder.name or 'them'} for it; Stop works for everybody."
 
 
 def policy(holder: Person) -> str:

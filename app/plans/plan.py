@@ -337,10 +337,7 @@ def _manual_note(slip: float) -> str:
 
 
 def _live_note(answer: VerifiedResult) -> str:
-    return (
-        f"Solved by the live tier in {answer.result.solve_seconds * 1000:.0f} ms; every constraint is "
-        f"confirmed, largest violation {answer.check.max_violation:.1e}."
-    )
+    return f"Live plan, {answer.result.solve_seconds * 1000:.0f} ms, all limits met."
 
 
 def _held_note(gait: Gait, model: RobotModel) -> str:

@@ -9,7 +9,7 @@ from app.common.json import Json
 from app.plans.plan import Plan
 from app.robot.views import stop_seconds
 from core.errors import StateError
-from core.wire.robot_time import estimate_seconds, largest_moves, longest_start_move, stop_time
+from core.wire.robot_time import PUBLISHED, estimate_seconds, largest_moves, longest_start_move, stop_time
 from core.wire.waypoint_merging import WaypointPlan
 from core.wire.waypoints import Waypoints
 
@@ -34,7 +34,7 @@ def run_summary(plan: Plan, run_range: RunRange, snapshot: RobotSnapshot, reason
         )
     run_range.require_fit(way.waypoints, way.hold_ok)
     sent = sent_waypoints(way.waypoints, run_range)
-    distance_mm, moves = _start(sent, snapshot, longest_start_move(way.waypoints) * 1000.0)
+    distance_mm, moves, start_seconds = _start(sent, snapshot, longest_start_move(way.waypoints) * 1000.0)
     return {
         "waypoints": sent.count,
         "waypoints_hash": way.waypoints.content_hash,
@@ -44,6 +44,7 @@ def run_summary(plan: Plan, run_range: RunRange, snapshot: RobotSnapshot, reason
         "why_not_repeated": why_not_repeated(way.waypoints),
         "start_distance_mm": distance_mm,
         "start_moves": moves,
+        "start_seconds": start_seconds,
         "estimated_seconds": estimate_seconds(sent),
         "largest_move_mm": float(largest_moves(sent).max(initial=0.0)) * 1000.0,
         "stop_seconds": round(stop_seconds(sent, snapshot, way.waypoints), 2),
@@ -76,17 +77,20 @@ def unwired(plan: Plan) -> str | None:
     )
 
 
-def _start(sent: Waypoints, snapshot: RobotSnapshot, longest_mm: float) -> tuple[float | None, int | None]:
-    """Farthest motor's way to the start pose in mm, and the messages that it takes."""
+def _start(
+    sent: Waypoints, snapshot: RobotSnapshot, longest_mm: float
+) -> tuple[float | None, int | None, float | None]:
+    """Farthest motor's way to the start pose in mm, its messages, and their expected seconds."""
     if snapshot.strokes is None:
-        return None, None
+        return None, None, None
     first_mm = tuple(float(h) for h in sent.strokes_mm[0])
     here_mm = tuple(h * 1000.0 for h in snapshot.strokes)
     distance_mm = max(abs(a - b) for a, b in zip(first_mm, here_mm, strict=False))
-    moves = None
-    if len(here_mm) == len(first_mm):
-        moves = len(start_targets(here_mm, first_mm, longest_mm))
-    return distance_mm, moves
+    if len(here_mm) != len(first_mm):
+        return distance_mm, None, None
+    moves = len(start_targets(here_mm, first_mm, longest_mm))
+    seconds = moves * PUBLISHED.move_seconds(distance_mm / 1000.0 / moves) if moves else 0.0
+    return distance_mm, moves, float(seconds)
 
 
 def _beginnings(way: WaypointPlan) -> list[Json]:

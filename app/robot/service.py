@@ -15,6 +15,7 @@ from app.emulator.emulated_robot import EmulatedRobot, start_emulator
 from app.emulator.faults import Fault
 from app.gaits.open_gait import OpenGait
 from app.plans.plan import Plan
+from app.robot.measured import MeasuredRobot, measured_robot
 from app.robot.operator_lease import OperatorLease, TellPage
 from app.robot.ports import RobotPorts
 from app.robot.recorded_bridge import RecordedBridge, RecordedRun
@@ -24,6 +25,7 @@ from app.runs.plan_json import run_plan_content
 from app.store.database import Database
 from app.undo.history import Author
 from core.errors import StateError
+from core.runs.pose import RanPlan
 
 MOST_SHOWN = 200
 """Changes of state that a page shows."""
@@ -210,8 +212,13 @@ class RobotService:
             raise StateError(reason, "robot")
         run_plan = RunPlan(waypoints, approval, way.hold_ok, run_range)
         content = run_plan_content(plan, way, approval)
-        origin = RunOrigin(secrets.token_hex(6), open_gait.id, open_gait.gait.name, waypoints, way.times)
+        ran = None if plan.trajectory is None else RanPlan(plan.model, waypoints, way.times, plan.trajectory)
+        origin = RunOrigin(secrets.token_hex(6), open_gait.id, open_gait.gait.name, waypoints, way.times, ran)
         self._recorded_bridge.send(run_plan, RecordedRun(origin, content), by)
+
+    def measured(self) -> MeasuredRobot:
+        """The robot by its last measured strokes, where its run is on the plan; see `app.robot.measured`."""
+        return measured_robot(self.bridge.snapshot, self._recorded_bridge.origin)
 
     def run_summary(self, open_gait: OpenGait, plan: Plan, run_range: RunRange = WHOLE) -> Json:
         """What a person should know before they press Send; see `app.robot.run_summary`."""

@@ -1,6 +1,7 @@
 """What is shown of the robot: JSON content from the bridge's snapshot."""
 
 from dataclasses import asdict, dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -9,6 +10,7 @@ from app.bridge.stop_confirmation import STOP_LIMIT
 from app.common.json import Json
 from app.emulator.motors import TRAVEL_MM
 from core.arrays import Floats
+from core.runs.pose import RanPlan
 from core.wire import robot_time
 from core.wire.messages import RESET_MM
 from core.wire.waypoints import Waypoints
@@ -33,6 +35,13 @@ class RunOrigin:
     waypoints: Waypoints
     times: Floats
     """(count,) the plan's time of each waypoint, s."""
+    plan: RanPlan | None = None
+    """With the motion that the waypoints were made from; None where it is not known."""
+
+    @cached_property
+    def estimates(self) -> Floats:
+        """(count,) expected seconds of each waypoint on the robot."""
+        return robot_time.move_estimates(self.waypoints)
 
 
 LEAVING = f"Disconnecting: the line is closed when the robot stands still, or after {STOP_LIMIT:.0f} s."
@@ -126,6 +135,7 @@ def _run_view(shown: RobotSnapshot, run: RunProgress, known: RunOrigin | None) -
         "gait_name": None,
         "waypoints_hash": None,
         "plan_time": None,
+        "seconds_left": None,
     }
     if known is not None:
         content |= {
@@ -133,8 +143,17 @@ def _run_view(shown: RobotSnapshot, run: RunProgress, known: RunOrigin | None) -
             "gait_name": known.gait_name,
             "waypoints_hash": known.waypoints.content_hash,
             "plan_time": float(known.times[run.waypoint_reached]),
+            "seconds_left": round(_seconds_left(run, known), 2),
         }
     return content
+
+
+def _seconds_left(run: RunProgress, known: RunOrigin) -> float:
+    """Expected time from the last waypoint reached to the end of all iterations, s."""
+    # The iteration is that of the last waypoint sent, which may be the first of the next one.
+    ahead = run.iterations - run.iteration + (run.waypoint_reached > run.waypoint_sent)
+    rest = known.estimates[run.waypoint_reached + 1 :].sum()
+    return float(rest + ahead * known.estimates.sum())
 
 
 def _commanded_mm(run: RunProgress, known: RunOrigin) -> list[float]:

@@ -2,6 +2,7 @@
 
 import { byId, painted } from "./lib/dom.js";
 import { listen } from "./state/server_events.js";
+import { mountDrawers } from "./shell/drawers.js";
 import { mountGaits, selectAfterHello } from "./shell/gait_list.js";
 import { createStore } from "./state/store.js";
 import { report } from "./lib/toasts.js";
@@ -21,6 +22,7 @@ async function listEarly(store) {
 }
 
 const store = createStore();
+mountDrawers(store);
 mountGaits(store);
 listen(store, () => selectAfterHello(store));
 

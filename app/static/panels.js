@@ -9,6 +9,7 @@ import { mountSequenceBand } from "./sequence/sequence_band.js";
 import { mountSimulate } from "./check/simulate.js";
 import { mountStage } from "./preview/stage.js";
 import { mountTrialEntry } from "./lab/entry.js";
+import { mountNextActs } from "./steps/next_act.js";
 import { mountVersions } from "./shell/versions.js";
 
 /**
@@ -28,8 +29,9 @@ export function mountPanels({ store, edits, playback, goTo, gaitTools }) {
   });
   const countdown = mountRobot(store, edits, playback);
   mountVersions(store, edits);
-  const trials = mountTrialEntry(store, () => runs());
-  const runs = mountRuns(store, trials);
+  const trials = mountTrialEntry(store);
+  const runs = mountRuns(store);
+  mountNextActs(store);
   mountStage(store, edits, playback);
   return { segments: segments.escape, sequence: sequence.cancel, countdown, runs: () => runs() || trials() };
 }

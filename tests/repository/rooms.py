@@ -96,6 +96,7 @@ ORDER: dict[str, tuple[str, ...]] = {
         "app/static/document",
         "app/static/state",
         "app/static/shell",
+        "app/static/steps",
         "app/static/timeline",
         "app/static/plots",
         "app/static/optimise",

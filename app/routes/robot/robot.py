@@ -6,6 +6,7 @@ from dataclasses import replace
 from enum import StrEnum
 from typing import Annotated, Literal
 
+import numpy as np
 from fastapi import APIRouter, Body, Response
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
@@ -13,6 +14,7 @@ from starlette.concurrency import run_in_threadpool
 from app.bridge.run_range import RunRange
 from app.common.json import Json
 from app.emulator.faults import Fault
+from app.scene.poses import pose_frames
 from app.studio.studio import Studio
 from app.undo.history import Author
 from app.web.dependencies import MOST_NAME, RequestBody, TheAuthor, TheStudio, on_planned
@@ -75,6 +77,18 @@ def named(author: Author, actor_body: ActorBody | None) -> Author:
     """Who does it: the name in the body goes before that of the page."""
     named = actor_body is not None and "by" in actor_body.model_fields_set and is_visible(actor_body.by)
     return replace(author, name=actor_body.by) if actor_body is not None and named else author
+
+
+@router.get("/poses", response_class=Response)
+async def measured_poses(studio: TheStudio) -> Response:
+    """The robot in a run by its measured strokes, as one pose of all nodes; binary, laid out as a plan's."""
+
+    def blob() -> bytes:
+        now = studio.robot.measured()
+        alone = (np.zeros(1), now.com_world[None], np.array([now.heading]), now.feet_world[None])
+        return pose_frames(now.model, *alone).to_bytes()
+
+    return Response(await run_in_threadpool(blob), media_type="application/octet-stream")
 
 
 @router.get("")

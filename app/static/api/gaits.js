@@ -127,6 +127,7 @@ export const api = {
   deleteRun: (id) => request("DELETE", `/api/runs/${encodeURIComponent(id)}`),
   restoreRun: (id) => request("POST", `/api/runs/${encodeURIComponent(id)}/restore`),
   jogGhost: async (target) => (await answer("POST", "/api/robot/jog/ghost", target)).arrayBuffer(),
+  measuredPoses: async () => (await answer("GET", "/api/robot/poses")).arrayBuffer(),
   robot: (verb, body = {}) => request("POST", `/api/robot/${verb}`, body),
 };
 

@@ -3,8 +3,9 @@
 import { api } from "../api/gaits.js";
 import { approvalHistory } from "./approvals.js";
 import { byId, h, onPress, setAllowed } from "../lib/dom.js";
-import { clockTime, counted, fixed, lowered, readable, ruleName, shortHash } from "../lib/format.js";
+import { capital, counted, fixed, readable, ruleName, shortHash } from "../lib/format.js";
 import { needOperator } from "../state/operator.js";
+import { openedStep, openStep } from "../steps/steps.js";
 import { costTable, sendingFields } from "./sending.js";
 import { checkGone } from "../state/store.js";
 import { attempt, toast } from "../lib/toasts.js";
@@ -24,7 +25,7 @@ function marginList(margins) {
     return [h("dt", { text: ruleName(rule), title: "How far the worst place stays from this rule's limit" }),
       h("dd", { text: shown.value, data: margin < 0 ? { broken: "" } : {} }), h("dd", { class: "unit", text: shown.unit })];
   });
-  return [h("h3", { text: "Room left to each limit" }), h("dl", { class: "margins" }, ...rows)];
+  return [h("h3", { text: "Margin to limits" }), h("dl", { class: "margins" }, ...rows)];
 }
 
 const warningsOf = (verdict) => (verdict?.findings ?? []).filter(({ severity }) => severity === "warning");
@@ -32,30 +33,30 @@ const warningsOf = (verdict) => (verdict?.findings ?? []).filter(({ severity }) 
 function summary(view, before) {
   const { verdict } = view;
   if (!verdict) {
-    const text = view.revoked ? `Not checked: ${lowered(view.revoked)} Check it again.` : before?.word === "approved" ? "Not checked: the gait changed, and its approval is gone. Check it again."
-      : before ? `Not checked: ${checkGone(view, before)}. Check it again.` : "Not checked yet. Check tries every rule on the waypoints that would be sent.";
-    return h("p", { class: "box-note", data: { tone: before || view.revoked ? "caution" : "plain" }, text });
+    const text = view.revoked ? `${view.revoked} Check it again.` : before?.word === "approved" ? "The gait changed, and its approval is gone. Check it again."
+      : before ? `${capital(checkGone(view, before))}. Check it again.` : "Check tries every rule on the waypoints that would be sent.";
+    return h("p", { class: before || view.revoked ? "box-note" : "why", data: { tone: before || view.revoked ? "caution" : "plain" }, text });
   }
   const warnings = warningsOf(verdict).length;
   const errors = verdict.findings.length - warnings;
+  if (!errors && !warnings) return "";
   const counts = [errors && counted(errors, "error"), warnings && counted(warnings, "warning")].filter(Boolean).join(", ");
-  const text = verdict.passed ? `Passed${counts ? `, with ${counts}` : ": no findings"}.` : `Failed: ${counts}. Errors block approval.`;
-  return h("p", { class: "box-note", data: { tone: !verdict.passed ? "bad" : warnings ? "caution" : "good" } }, h("b", { text }));
+  const text = verdict.passed ? `${counts} to look at before approval.` : `${counts}. Errors block approval.`;
+  return h("p", { class: "box-note", data: { tone: verdict.passed ? "caution" : "bad" } }, h("b", { text }));
 }
 
 function approvalBox({ approval }) {
   if (!approval) return "";
   return h("dl", { class: "box-note summary", data: { tone: "good" } },
-    h("dt", { text: "Approved by" }), h("dd", {}, h("b", { text: approval.by })), h("dt", { text: "when" }), h("dd", { text: clockTime(approval.when), title: approval.when }),
-    h("dt", { text: "waypoints" }), h("dd", { class: "mono", text: shortHash(approval.waypoints_hash), title: approval.waypoints_hash }),
-    h("dt", { text: "verdict" }), h("dd", { class: "mono", text: shortHash(approval.verdict_hash), title: approval.verdict_hash }),
-    ...(approval.warnings.length ? [h("dt", { text: "warnings seen" }), h("dd", { text: approval.warnings.length, title: approval.warnings.join("\n") })] : []));
+    h("dt", { text: "Waypoints" }), h("dd", { class: "mono", text: shortHash(approval.waypoints_hash), title: approval.waypoints_hash }),
+    h("dt", { text: "Verdict" }), h("dd", { class: "mono", text: shortHash(approval.verdict_hash), title: approval.verdict_hash }),
+    ...(approval.warnings.length ? [h("dt", { text: "Warnings seen" }), h("dd", { text: approval.warnings.length, title: approval.warnings.join("\n") })] : []));
 }
 
 function whyNotCheck({ view, pending }) {
   if (!view) return "No gait is selected.";
   if (pending.length) return "The last edit is not accepted yet.";
-  if (view.plan?.live?.status === "infeasible") return "There is no motion to check: the live tier finds none. Optimise says what is missing and offers ways out.";
+  if (view.plan?.live?.status === "infeasible") return "There is no motion to check. The Design step says what is missing and offers ways out.";
   if (!view.plan || view.plan.refusal) return view.plan?.refusal?.sentence ?? "There is no plan to check. Optimise first.";
   return null;
 }
@@ -94,6 +95,7 @@ async function approve(store) {
   const approval = await api.approve(selected, by, view.verdict.hash, store.state.seenWarnings === view.verdict.hash);
   if (store.state.selected !== selected || store.state.view?.revision !== view.revision) return;
   store.set({ view: { ...store.state.view, approval, revoked: null }, checked: { ...store.state.checked, [selected]: { word: "approved", revision: store.state.view.revision } } });
+  if (openedStep() === "check") openStep("run");
 }
 
 async function check(store) {
@@ -106,14 +108,15 @@ async function check(store) {
 
 /** Builds the section; `goTo` shows a finding's place. */
 export function mountCheck(store, edits, goTo) {
-  const checkButton = h("button", { class: "primary wide", text: "Check" });
-  const approveButton = h("button", { class: "wide", text: "Approve" });
+  const checkButton = h("button", { id: "act-check", text: "Check" });
+  const approveButton = h("button", { id: "act-approve", text: "Approve" });
   const why = h("p", { class: "why" });
   const [head, body, foot] = [h("div"), h("div", { class: "findings" }), h("div")];
   onPress(checkButton, attempt(() => check(store)), (reason) => toast(reason));
   onPress(approveButton, attempt(() => approve(store)), (reason) => toast(reason));
   const tick = warningTick(store);
-  byId("check").append(sendingFields(store, edits), checkButton, head, tick.element, approveButton, why, foot, body, approvalHistory(store));
+  byId("foot-check").append(tick.element, h("div", { class: "solve" }, checkButton, approveButton), why);
+  byId("check").append(head, sendingFields(store, edits), body, foot, approvalHistory(store));
 
   store.watch(({ view, pending, checked, seenWarnings }) => [view, pending.length, checked, seenWarnings], (state) => {
     tick.show(state);

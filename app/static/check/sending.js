@@ -11,9 +11,9 @@ const option = (name, factor = 1) => ({
 });
 
 const FIELDS = [
-  { label: "Merge", name: "Merge waypoints within", unit: "mm", min: 0, max: 5, step: 0.1, decimals: 2, ...option("merge", 1000),
+  { label: "Merge within", name: "Merge waypoints within", unit: "mm", min: 0, max: 5, step: 0.1, decimals: 2, ...option("merge", 1000),
     help: "Leaves out waypoints that lie so near the motors' straight way. The robot stops at each waypoint, so fewer are quicker; it takes 1 mm for arrived anyway. 0 sends one waypoint a knot" },
-  { label: "Bound", name: "Stop bound", unit: "s", min: 0.8, max: 10, step: 0.1, decimals: 2, empty: "none", fallback: 1, ...option("stop_bound"),
+  { label: "Stop within", name: "Stop bound", unit: "s", min: 0.8, max: 10, step: 0.1, decimals: 2, empty: "none", fallback: 1, ...option("stop_bound"),
     help: "The robot hears Stop only between moves. Long moves are cut so that it is deaf for no longer than this; each cut costs time. Empty: moves stay whole" },
 ];
 
@@ -29,7 +29,7 @@ function costRow(cost) {
 /** The cost of bound and merging in robot seconds, from the verdict; nothing without a verdict. */
 export function costTable(verdict) {
   if (!verdict?.costs?.length) return [];
-  const head = ["Bound", `Merged, ${fixed(verdict.costs[0].merge * 1000)} mm`, "One a knot", "Stop in"];
+  const head = ["Stop within", `Merged within ${fixed(verdict.costs[0].merge * 1000)} mm`, "Every sample", "Stop in"];
   return [h("h3", { text: "Time on the robot" }),
     h("table", { class: "costs", "aria-label": "Time on the robot" }, h("thead", {}, h("tr", {}, ...head.map((text) => h("th", { scope: "col", text })))), h("tbody", {}, ...verdict.costs.map(costRow))),
     ...verdict.notes.map((text) => h("p", { class: "why", text }))];
@@ -40,7 +40,7 @@ function inShort(view) {
   if (!plan?.waypoint_count) return "";
   const { waypoint_count: count, times, robot_seconds: takes, every_knot_seconds: every, stop_seconds: stop } = plan;
   if (view.document.poses) return `${timesText(view)}. ${count} waypoints, one a pose. Stop acts within ${seconds(stop)} s.`;
-  const instead = Math.abs(every - takes) >= 0.5 ? ` (with one a knot: ${fixed(every, 0)} s)` : "";
+  const instead = Math.abs(every - takes) >= 0.5 ? ` (with every sample: ${fixed(every, 0)} s)` : "";
   const lasts = timesText(view) || `About ${fixed(takes, 0)} s on the robot`;
   return `${lasts}. ${count} waypoints of ${times.length} knots${instead}. Stop acts within ${seconds(stop)} s.`;
 }

@@ -4,12 +4,14 @@ import { api } from "../api/gaits.js";
 import { byId, h, onPress, setAllowed, setAttribute, setText } from "../lib/dom.js";
 import { fixed, mm } from "../lib/format.js";
 import { attempt, report, toast } from "../lib/toasts.js";
-import { followSimulation, simulationJob, simulationOf, simulationOver } from "../plots/simulation.js";
+import { followSimulation, simulationJob, simulationOf, simulationOver } from "../state/simulation.js";
+import { openedStep, openStep } from "../steps/steps.js";
+import { simulateState } from "../steps/step_states.js";
 import { reportParts } from "./simulation_report.js";
 
 const VARIATIONS = 64;
 const HELP = "Runs exactly the waypoints that would be sent, with the firmware's timing, in a model with masses, friction and bending legs";
-const AXIS = "The simulated robot goes by its own clock. Plots and 3D show it on the plan's: arrivals at their waypoints' times, straight between them.";
+const AXIS = "Simulation runs in robot time; results are aligned to the plan's time axis.";
 
 function whyNot(state) {
   const { view, pending } = state;
@@ -72,27 +74,44 @@ function standing(state) {
   if (!view?.simulation) return ["Not simulated yet. Simulate says whether the robot walks, tips, slips or lacks force, before anything moves.", "plain"];
   if (!view.simulation.fresh) return ["The gait changed since: these figures are of an older version. Simulate again.", "caution"];
   if (!simulation) return ["The simulation is being fetched.", "plain"];
-  return view.plan?.source === "draft" ? ["This motion is only drawn: it cannot be sent, and physics says what would come of it.", "caution"] : null;
+  return view.plan?.source === "draft" ? ["Not sendable: this shows what would happen if the robot tried it.", "caution"] : null;
 }
 
 /** Builds the section; `goToTime` brings the playhead to a time of the plan. */
 export function mountSimulate(store, goToTime) {
-  const run = h("button", { class: "primary", text: "Simulate" });
+  const run = h("button", { id: "act-simulate", text: "Simulate" });
   const vary = h("button", { text: `${VARIATIONS} variations` });
   const { select, element: sets } = setChooser(store);
   const progress = progressPart();
   const [note, figures, map] = [h("p", { class: "box-note" }), h("div", { class: "simulated" }), robustness()];
-  const press = (variations) => attempt(() => api.simulate(store.state.selected, select.value || null, variations));
+  let begun = null;
+  const press = (variations) => attempt(async () => {
+    const { selected } = store.state;
+    await api.simulate(selected, select.value || null, variations);
+    begun = variations ? null : selected;
+  });
   onPress(run, press(0), (why) => toast(why));
   onPress(vary, press(VARIATIONS), (why) => toast(why));
-  byId("simulate").append(sets, h("div", { class: "solve" }, run, vary), progress.element, note, figures, map.element, h("p", { class: "why", text: AXIS }));
+  byId("foot-simulate").append(h("div", { class: "solve" }, run, vary));
+  byId("simulate").append(sets, progress.element, note, figures, map.element, h("p", { class: "why", text: AXIS }));
   followSimulation(store);
 
-  store.watch(({ jobs, view, pending, selected }) => [jobs, view, pending.length, selected], (state) => {
+  /** Opens the next step where what was begun here has come out well and is looked at. Variations are to be read. */
+  function goOn(state) {
+    if (begun === null || simulationJob(state)) return;
+    const { mark } = simulateState(state);
+    if (mark === "running") return;
+    if (mark === "done" && begun === state.selected && openedStep() === "simulate") openStep("check");
+    if (mark !== "old" && mark !== "none") begun = null;
+  }
+
+  store.watch(({ jobs, view, pending, selected, simulation, live }) => [jobs, view, pending.length, selected, simulation, live], (state) => {
     const why = whyNot(state);
     setAllowed(run, why, HELP);
+    run.classList.toggle("primary", simulateState(state).mark !== "done");
     setAllowed(vary, why, `The same with ${VARIATIONS} seeded variations: friction, masses, motor speed, one weak motor, 1° of slope, softer legs`);
     progress.show(simulationJob(state));
+    goOn(state);
   });
   store.watch((state) => [simulationOf(state), simulationOver(state), state.view, state.jobs, state.selected], (state) => {
     const [simulation, words] = [simulationOf(state), standing(state)];

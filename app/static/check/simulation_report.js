@@ -3,7 +3,7 @@
 import { figureTable, footName } from "../lib/tables.js";
 import { h } from "../lib/dom.js";
 import { MOTORS, fixed, mm } from "../lib/format.js";
-import { planTimeOf } from "../plots/simulation.js";
+import { planTimeOf } from "../state/simulation.js";
 
 const degrees = (radians, decimals = 1) => fixed((radians * 180) / Math.PI, decimals);
 
@@ -54,14 +54,6 @@ function findingItem(simulation, finding, goToTime) {
     h("span", { class: "where" }, finding.time !== null && goTo(simulation, finding.time, goToTime, finding.rule.replaceAll("_", " "), " of the plan")));
 }
 
-/** Word and tone of a simulation. */
-function simulationText({ report, findings }) {
-  if (report.fell) return ["Falls over", "bad"];
-  if (report.ended_early) return ["Ended early", "bad"];
-  if (findings.some(({ severity }) => severity === "error")) return ["Tips", "bad"];
-  return findings.length ? ["Walks, with warnings", "caution"] : ["Walks", "good"];
-}
-
 /**
  * A simulation's figures.
  * @param {object} simulation as the studio keeps it
@@ -70,10 +62,8 @@ function simulationText({ report, findings }) {
  */
 export function reportParts(simulation, goToTime) {
   const { report, findings, physics } = simulation;
-  const [word, tone] = simulationText(simulation);
   return [
-    h("div", { class: "simulated-line", role: "status", "aria-label": "Simulated" }, h("span", { class: "dot", data: { tone } }), h("b", { text: word }),
-      h("span", { class: "quiet number", text: physics.title, title: `Friction ${fixed(physics.friction, 2)}; ran ${fixed(report.realtime_factor, 0)} × as fast as the robot` })),
+    h("p", { class: "quiet number simulated-line", role: "status", "aria-label": "Simulated", text: physics.title, title: `Friction ${fixed(physics.friction, 2)}; ran ${fixed(report.realtime_factor, 0)} × as fast as the robot` }),
     ...(report.ended_early ? [h("p", { class: "why", text: report.ended_early })] : []),
     wholeTable(simulation, goToTime), feetTable(simulation),
     ...(findings.length ? [h("ul", { class: "findings", role: "list", "aria-label": "Found in the simulation" }, ...findings.map((finding) => findingItem(simulation, finding, goToTime)))] : []),

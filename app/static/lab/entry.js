@@ -1,13 +1,12 @@
-/** The buttons that open the Trials panel, which is loaded when it is first opened. */
+/** The drawer of trials, which is loaded when it is first opened. */
 
 import { byId, h } from "../lib/dom.js";
 import { attempt, report } from "../lib/toasts.js";
-
-const HELP = "What the real robot did: foot tracks beside their plan, iteration by iteration, and gaits compared";
+import { drawerIsOpen, onDrawer, openDrawer } from "../shell/drawers.js";
 
 /** The cameras under the robot's section: a list that opens, and is read then. */
 function cameraGroup(store, open) {
-  const element = h("details", { class: "more" }, h("summary", { text: "Cameras" }));
+  const element = h("details", { class: "more after-run" }, h("summary", { text: "Cameras" }));
   let list = null;
   element.addEventListener("toggle", attempt(async () => {
     if (!element.open) return;
@@ -22,19 +21,21 @@ function cameraGroup(store, open) {
 }
 
 /**
- * Builds the links under the runs and under the robot.
+ * Fills the drawer of trials when it is opened, and builds the link under the robot.
  * @param {object} store
- * @param {() => void} opening called when the panel opens
  * @returns {() => boolean} what Esc does
  */
-export function mountTrialEntry(store, opening) {
-  let [loading, panel] = [null, null];
+export function mountTrialEntry(store) {
+  let [loading, panel, isGoing] = [null, null, false];
 
   async function open(wanted = null) {
+    isGoing = true;
+    openDrawer("trials");
+    isGoing = false;
     try {
       loading ??= import("./panel.js").then(({ mountTrials }) => mountTrials(store));
       panel = await loading;
-      opening();
+      if (!drawerIsOpen("trials")) return;
       if (wanted) panel.go(wanted);
       else panel.open();
     } catch (error) {
@@ -43,11 +44,8 @@ export function mountTrialEntry(store, opening) {
     }
   }
 
-  const link = (text) => h("button", { class: "link", text, title: HELP, on: { click: () => open() } });
-  byId("jobs").parentElement.append(h("div", { class: "runs-head" }, h("h2", { text: "Trials" }), link("All trials")));
-  const below = link("Trials of the real robot");
-  below.classList.add("runs-way");
-  byId("robot").append(below, cameraGroup(store, open));
+  onDrawer("trials", { opened: () => { if (!isGoing) open(); }, closed: () => panel?.closed() });
+  byId("robot").append(cameraGroup(store, open));
   store.watch(({ trialWanted }) => [trialWanted], ({ trialWanted }) => {
     if (!trialWanted) return;
     store.set({ trialWanted: null });

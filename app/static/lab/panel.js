@@ -1,10 +1,10 @@
 /** The Trials panel: the list of trials, the gaits compared, new trials, and one trial with its plan. */
 
-import { h, icon } from "../lib/dom.js";
+import { byId, h, icon } from "../lib/dom.js";
+import { drawerIsOpen, openDrawer } from "../shell/drawers.js";
 import { selectGait } from "../shell/gait_list.js";
 import { ticket } from "../lib/latest_only.js";
 import { runIsOn } from "../state/store.js";
-import { openTab } from "../lib/tabs.js";
 import { attempt, toast } from "../lib/toasts.js";
 import { trialBand } from "../trials/trial_band.js";
 import { trialDetail } from "../trials/trial_detail.js";
@@ -22,8 +22,7 @@ function addStyles() {
 function buildPanel() {
   const body = h("div", { class: "runs-body" });
   const close = h("button", { class: "plain icon-only", "aria-label": "Close trials", title: "Close (Esc)" }, icon("close"));
-  const panel = h("section", { class: "runs-panel", "aria-label": "Trials", hidden: true }, h("header", {}, h("h2", { text: "Trials" }), close), body);
-  document.querySelector("aside.right").append(panel);
+  byId("drawer-trials").append(h("header", {}, h("h2", { text: "Trials" }), close), body);
   const begin = ticket();
   let left = () => {};
 
@@ -37,34 +36,33 @@ function buildPanel() {
   function show(content, onLeave = () => {}) {
     leaveContent();
     left = onLeave;
-    panel.hidden = false;
-    document.body.toggleAttribute("data-runs", true);
+    openDrawer("trials");
     body.replaceChildren(content);
     body.scrollTop = 0;
   }
 
-  function leave() {
+  const leave = () => drawerIsOpen("trials") && openDrawer(null);
+
+  /** Ends what the content does; the drawer is closed. */
+  function closed() {
     begin();
-    if (panel.hidden) return false;
     leaveContent();
-    panel.hidden = true;
-    document.body.toggleAttribute("data-runs", false);
-    return true;
+    body.replaceChildren();
   }
 
   close.addEventListener("click", leave);
-  document.querySelector('[role="tablist"][aria-label="Inspector"]').addEventListener("click", leave);
-  return { begin, show, leave };
+  return { begin, show, leave, closed };
 }
 
 /**
  * Builds the panel, closed.
  * @param {object} store
- * @returns {{open: () => void, go: (wanted: object) => void, leave: () => boolean}} `leave` closes it; true where it was open
+ * @returns {{open: () => void, go: (wanted: object) => void, leave: () => boolean, closed: () => void}} `leave` closes its drawer; true where
+ *   it was open; `closed` is called when the drawer was closed
  */
 export function mountTrials(store) {
   addStyles();
-  const { begin, show, leave } = buildPanel();
+  const { begin, show, leave, closed } = buildPanel();
   const tracks = tracksParts(store, attempt((gait) => selectGait(store, gait)));
   const page = { store, show, begin, all: () => all(), one: (id) => one(id) };
 
@@ -106,11 +104,10 @@ export function mountTrials(store) {
 
   /** Opens a trial, a video, a camera's picture or its setup for another part of the page. */
   function go({ trial, video, camera, setup }) {
-    openTab("robot");
     if (trial) one(trial);
     else if (video) oneVideo(video);
     else if (camera) look(camera);
     else if (setup) setUp(setup);
   }
-  return { open: () => { openTab("robot"); all(); }, go, leave };
+  return { open: () => all(), go, leave, closed };
 }

@@ -1,15 +1,32 @@
 /**
- * Questions to the user. They float and do not lock the page, because Stop must stay within reach.
+ * Questions to the user. A dialog locks the page but for Stop, which lies over its scrim and can be reached by Tab.
  */
 
 import { byId, h } from "./dom.js";
+
+/** Everything beside the dialog and Stop. */
+const others = () => [...document.body.children].filter(({ id }) => !["dialogs", "announcer"].includes(id)).flatMap((part) => (part.contains(byId("stop")) ? [...part.children].filter(({ id }) => id !== "stop") : [part]));
+
+let locked = [];
+
+function lock() {
+  if (locked.length) return;
+  locked = others().filter((part) => !part.inert);
+  locked.forEach((part) => { part.inert = true; });
+}
+
+function unlock() {
+  locked.forEach((part) => { part.inert = false; });
+  locked = [];
+}
 
 /** Opens what `build(close)` makes; resolves to what `close` is given, or to null after Escape. */
 export function openDialog(build) {
   return new Promise((resolve) => {
     const before = document.activeElement;
     const close = (value) => {
-      dialog.remove();
+      byId("dialogs").replaceChildren();
+      unlock();
       before?.focus?.();
       resolve(value);
     };
@@ -19,7 +36,8 @@ export function openDialog(build) {
       event.preventDefault();
       close(null);
     });
-    byId("dialogs").replaceChildren(dialog);
+    byId("dialogs").replaceChildren(h("div", { class: "scrim", "aria-hidden": "true" }), dialog);
+    lock();
     (dialog.querySelector("input") ?? dialog.querySelector("button")).focus();
   });
 }
@@ -28,7 +46,7 @@ export function openDialog(build) {
 export function dialogFrame(title, close, accept, ...content) {
   const id = "dialog-title";
   const submit = (event) => { event.preventDefault(); accept(); };
-  return h("div", { class: "dialog", role: "dialog", "aria-labelledby": id },
+  return h("div", { class: "dialog", role: "dialog", "aria-modal": "true", "aria-labelledby": id },
     h("form", { on: { submit } }, h("h3", { id, text: title }), ...content));
 }
 
@@ -39,7 +57,7 @@ export function askName(title, sentence, value = "") {
     const accept = () => { if (input.value.trim()) close(input.value.trim()); };
     return dialogFrame(title, close, accept, h("p", { class: "quiet", text: sentence }), input,
       h("div", { class: "buttons" },
-        h("button", { type: "button", text: "Not now", on: { click: () => close(null) } }),
+        h("button", { type: "button", text: "Cancel", on: { click: () => close(null) } }),
         h("button", { type: "submit", class: "primary", text: "Continue" })));
   });
 }

@@ -65,14 +65,5 @@ export function onPress(button, act, explain = () => {}) {
   });
 }
 
-/** A dot, a word: the short form of a state. */
-export function stateParts(tone, name, word) {
-  return [
-    h("span", { class: "dot", data: { tone } }),
-    h("span", { class: "name quiet", text: name }),
-    h("span", { class: "word", text: word }),
-  ];
-}
-
 /** Resolves when the current changes have been painted. */
 export const painted = () => new Promise((resume) => { requestAnimationFrame(() => setTimeout(resume)); });

@@ -1,59 +1,17 @@
-/** The optimiser's answer for the shown gait: the live tier's state in a line, what is missing, and remedies. */
+/** The optimiser's answer for the shown gait: the state of its plan, what is missing, and remedies. */
 
-import { byId, h, setAttribute, setText } from "../lib/dom.js";
-import { fixed, mm } from "../lib/format.js";
+import { byId, h, setAttribute } from "../lib/dom.js";
+import { fixed } from "../lib/format.js";
 import { jobOf } from "../shell/job_list.js";
 import { shownPlan } from "../state/store.js";
 
-const TEXTS = {
-  live: ["Feasible", "good"], optimised: ["Optimised", "good"], manual: ["By hand", "good"], sequence: ["Sequence", "good"], iterate: ["An iteration, not the plan", "caution"],
-  recorded: ["Recorded", "good"], poses: ["Feasible", "good"],
-};
 const FAMILIES = {
   body_torque: "Balance", margin: "Margin", workspace: "Reach", foot_speed: "Speed", body_speed: "Body speed", clearance: "Clearance",
   body_height: "Body height", boundary: "Start and goal", motor_speed: "Motor speed", motor_acceleration: "Acceleration", friction: "Friction",
   shoe_distance: "Shoes",
 };
 const SHOWN_MISSING = 3;
-const ROUNDING_M = 1e-6;
 const FOR_EVERY_MOTION = /^This is proven/;
-
-/** Word and tone of a plan's state. */
-export function planState(plan) {
-  if (!plan) return ["No plan", "quiet"];
-  if (plan.live?.status === "infeasible") return ["Infeasible", "bad"];
-  if (plan.poses?.explanation.length) return ["Infeasible", "bad"];
-  if (plan.source === "adapted") return ["Adapted, not solved", "caution"];
-  if (!plan.times.length) return ["No motion", "bad"];
-  if (plan.source === "draft" && plan.parts?.length && !plan.parts.some((part) => part.broke_off)) return ["Infeasible", "bad"];
-  if (plan.source === "draft") return ["No answer", "caution"];
-  if (plan.source === "recorded" && plan.refusal) return ["Recorded, out of reach", "bad"];
-  if (plan.source === "manual" && plan.refusal) return ["By hand, out of reach", "bad"];
-  if (plan.source === "manual" && plan.balance < -ROUNDING_M) return ["By hand, off balance", "caution"];
-  return TEXTS[plan.source] ?? [plan.source, "quiet"];
-}
-
-const TIER = { live: "live", optimised: "exact", poses: "" };
-
-/** The live line: dot, word, margin and time. */
-export function statusLine() {
-  const [dot, word, margin, time] = [h("span", { class: "dot" }), h("b"), h("span", { class: "number" }), h("span", { class: "number quiet", "aria-hidden": "true" })];
-  const element = h("div", { class: "live-line", role: "status", "aria-label": "Live answer" }, dot, word, margin, time);
-  return {
-    element,
-    show(plan) {
-      const [text, tone] = planState(plan);
-      dot.dataset.tone = tone;
-      setText(word, tone === "good" && plan?.source in TIER ? `${text}, checked` : text);
-      setText(margin, plan && plan.balance !== null && plan.times.length && text !== "Infeasible" ? `${mm(plan.balance)} mm` : "");
-      margin.title = "Least distance of the balance point from the edge of the support polygon";
-      margin.dataset.toneText = plan?.balance < 0 ? "bad" : "";
-      const tier = plan?.source === "poses" ? `${fixed(plan.speed_mm_s ?? 0, 2)} mm/s` : TIER[plan?.source] ?? (plan?.live ? "live" : "");
-      // The exact tier's time stands in the line of origin, where there is room for it.
-      setText(time, tier === "live" && plan.seconds !== null ? `${tier} ${fixed(plan.seconds * 1000, 0)} ms` : tier);
-    },
-  };
-}
 
 /** The feet of an entry, counted from 1. */
 const feetOf = ({ feet }) => (feet.length === 0 ? "" : feet.length === 1 ? `foot ${feet[0] + 1}` : `edge ${feet.map((foot) => foot + 1).join("–")}`);
@@ -140,6 +98,8 @@ export function liveAnswer(edits, goTo) {
   };
 }
 
+const TITLES = { infeasible: "Optimise found no motion either", failed: "Optimise failed", interrupted: "Optimise was interrupted" };
+
 /** The box with the exact tier's refusal. */
 export function jobAnswer() {
   const element = h("div", { class: "box-note", hidden: true });
@@ -152,7 +112,7 @@ export function jobAnswer() {
       if (!bad) return;
       const sentences = (job.result?.explanation ?? []).filter((sentence) => sentence !== job.sentence);
       setAttribute(element, "data-tone", job.state === "failed" ? "bad" : "caution");
-      element.replaceChildren(h("h4", { text: `Exact tier: ${job.state}` }), h("p", { text: job.sentence }), ...sentences.map((text) => h("p", { text })));
+      element.replaceChildren(h("h4", { text: TITLES[job.state] }), h("p", { text: job.sentence }), ...sentences.map((text) => h("p", { text })));
     },
   };
 }

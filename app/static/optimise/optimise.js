@@ -11,7 +11,7 @@ import { presetFor } from "../shell/new_gait.js";
 import { shownDocument, shownPlan } from "../state/store.js";
 import { mountConvergence } from "./convergence.js";
 import { mountIterates } from "./iterates.js";
-import { jobAnswer, liveAnswer, statusLine } from "./live_answer.js";
+import { jobAnswer, liveAnswer } from "./live_answer.js";
 import { hasField, optimiserOptions } from "./optimiser_options.js";
 import { pinnedPoses } from "./pinned_poses.js";
 import { poseSearch } from "./pose_search.js";
@@ -20,10 +20,10 @@ import { timingAnswer, timingButton, timingNote } from "./timing.js";
 const POSES = "Each edit is answered at once by the last motion, adapted; the fastest one is searched for meanwhile.";
 const nameOf = (element) => element.querySelector("[aria-label]").getAttribute("aria-label");
 
-const TIERS = "Every edit is answered live. Optimise runs the exact tier, which also chooses footholds and heights.";
+const TIERS = "The plan follows your edits. Optimise also improves footholds and body height.";
 
 function exactButton(store) {
-  const button = h("button", { class: "primary wide", text: "Optimise" });
+  const button = h("button", { class: "wide", text: "Optimise" });
   onPress(button, attempt(async () => {
     const { id } = await api.optimise(store.state.selected);
     store.set({ shownJob: id });
@@ -46,7 +46,6 @@ export function mountOptimise(store, edits, goTo) {
   const show = (id) => selectGait(store, id);
   const { robot, order, main, more } = optimiserOptions(store, edits, attempt((other, document) => makeGait(store, show, presetFor(other, document))));
   const fields = [robot, order, ...main, ...more];
-  const status = statusLine();
   const goToMissing = ({ first, last, feet }) => goTo({ sample: Math.floor((first + last) / 2), foot: feet.length === 1 ? feet[0] : null });
   const answers = [liveAnswer(edits, goToMissing), jobAnswer()];
   const timing = timingAnswer(store, edits);
@@ -55,9 +54,9 @@ export function mountOptimise(store, edits, goTo) {
   const why = h("p", { class: "why" });
   const changed = h("span", { class: "quiet" });
   section.append(
-    status.element, originLine(store), h("div", { class: "fields" }, robot.element, order.element, ...main.map(({ element }) => element)), error, poseSearch(store), pinnedPoses(store, edits, goTo), ...answers.map(({ element }) => element),
+    h("div", { class: "fields" }, robot.element, order.element, ...main.map(({ element }) => element)), error, poseSearch(store), pinnedPoses(store, edits, goTo), ...answers.map(({ element }) => element),
     h("details", { class: "more" }, h("summary", {}, "More", changed), h("div", { class: "fields" }, ...more.map(({ element }) => element))),
-    h("div", { class: "solve" }, exactButton(store), timingButton(store)), timingNote(store), timing.element, why);
+    h("div", { class: "solve" }, exactButton(store), timingButton(store)), timingNote(store), timing.element, why, noteLine(store), originLine(store));
   store.watch(({ view }) => [Boolean(view?.document.poses)], ({ view }) => setText(why, view?.document.poses ? POSES : TIERS));
   mountConvergence(store, section);
   const iterates = mountIterates(store, section);
@@ -73,16 +72,12 @@ export function mountOptimise(store, edits, goTo) {
     error.hidden = !state.formError;
     error.textContent = state.formError ?? "";
   });
-  store.watch((state) => [shownPlan(state)], (state) => status.show(withoutShortMargin(shownPlan(state))));
   // A refusal is of the document that was edited; another one, or a later version, is not concerned.
   store.watch(({ selected, view }) => [selected, view?.revision], () => store.set({ formError: null }));
   store.watch((state) => [shownPlan(state), state.remedies, state.jobs, state.shownJob], (state) => answers.forEach((answer) => answer.show(state)));
   store.watch(({ jobs, selected, view }) => [jobs, selected, view?.document], (state) => timing.show(state));
   return { cancel: () => fields.some((field) => field.cancel?.()) || iterates.leave() };
 }
-
-/** An infeasible plan shows no margin, which would read as what is missing. */
-const withoutShortMargin = (plan) => (plan?.live?.status === "infeasible" ? { ...plan, balance: null } : plan);
 
 /** What differs from the usual under the fold, so that it is not forgotten. */
 function moreInShort({ direction, options, held, poses }) {
@@ -94,6 +89,16 @@ function moreInShort({ direction, options, held, poses }) {
     options.turning === "return" && "turns at the end", held && "feet held up",
   ].filter(Boolean);
   return parts.length ? `: ${parts.join(", ")}` : "";
+}
+
+/** What there is to say of the plan beside its figures. */
+function noteLine(store) {
+  const element = h("p", { class: "why", role: "status", "aria-label": "Plan" });
+  store.watch((state) => [shownPlan(state), state.view === null], (state) => {
+    const plan = shownPlan(state);
+    setText(element, plan ? plan.note.replace(/^\w+: /, "") : state.view ? "No plan: optimise this gait to see it move." : "");
+  });
+  return element;
 }
 
 const QUIET = { text: "", title: null, tone: null };

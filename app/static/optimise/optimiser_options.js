@@ -41,18 +41,18 @@ const SHARES = [
 ];
 
 const SAMPLE_TIME = {
-  label: "Sample", name: "Sample time", unit: "s", min: 0.05, max: 5, step: 0.05, decimals: 3, help: "Time between two samples of the timeline: the same drawing, faster or slower",
+  label: "Sample time", name: "Sample time", unit: "s", min: 0.05, max: 5, step: 0.05, decimals: 3, help: "Time between two samples of the timeline: the same drawing, faster or slower",
   read: ({ timeline }) => timeline.sample_time, write: (document, value) => ({ ...document, timeline: { ...document.timeline, sample_time: value } }),
 };
 
 const LIMITS = [
-  { label: "Height", name: "Body height", unit: "mm", min: 53, max: 60.5, step: 0.5, decimals: 2,
+  { label: "Body height", name: "Body height", unit: "mm", min: 53, max: 60.5, step: 0.5, decimals: 2,
     help: "Height of the motors' plane over the standing feet at the start", ...option("plane_height", 1000) },
-  { label: "At end", name: "End height", unit: "mm", min: 53, max: 60.5, step: 0.5, decimals: 2, empty: "same", fallback: 53.5,
+  { label: "End height", name: "End height", unit: "mm", min: 53, max: 60.5, step: 0.5, decimals: 2, empty: "same", fallback: 53.5,
     help: "The same at the goal; empty as at the start", ...option("end_plane_height", 1000) },
   { label: "Clearance", name: "Clearance", unit: "mm", min: 0, max: 15, step: 0.5, decimals: 2,
     help: "How high the highest point of each swing is at least", ...option("clearance", 1000) },
-  { label: "Margin", name: "Stability margin", unit: "mm", min: 0, max: 30, step: 0.5, decimals: 2,
+  { label: "Stability margin", name: "Stability margin", unit: "mm", min: 0, max: 30, step: 0.5, decimals: 2,
     help: "Least distance of the centre of pressure from the support polygon's edge", ...option("margin", 1000) },
 ];
 
@@ -60,15 +60,15 @@ const CHOICES = [
   { label: "Reach", name: "Workspace", options: [["stroke", "stroke"], ["cylinder", "cylinder"]],
     help: "Workspace. stroke: what the motors truly reach; cylinder: the paper's simpler, smaller space", ...word("workspace") },
   { label: "Cost", name: "Cost", options: [["goal", "goal"], ["goal+effort", "effort"]],
-    help: "What is minimised by the exact tier. goal: distance to the goal; effort: the legs' forces as well", ...word("cost") },
+    help: "What Optimise minimises. goal: distance to the goal; effort: the legs' forces as well", ...word("cost") },
 ];
 
 const MORE_NUMBERS = [
   SAMPLE_TIME,
-  { label: "Body", name: "Body speed", unit: "mm/s", min: 1, max: 60, step: 1, decimals: 1, help: "Largest speed of the body", ...option("body_speed", 1000) },
-  { label: "Motors", name: "Motor speed", unit: "mm/s", min: 1, max: 60, step: 1, decimals: 1, empty: "free", fallback: 20,
+  { label: "Body speed", name: "Body speed", unit: "mm/s", min: 1, max: 60, step: 1, decimals: 1, help: "Largest speed of the body", ...option("body_speed", 1000) },
+  { label: "Motor speed", name: "Motor speed", unit: "mm/s", min: 1, max: 60, step: 1, decimals: 1, empty: "free", fallback: 20,
     help: "Largest speed of a motor; empty for no limit", ...option("motor_speed", 1000) },
-  { label: "Accel.", name: "Motor acceleration", unit: "mm/s²", min: 1, max: 1000, step: 5, decimals: 1, empty: "free", fallback: 100,
+  { label: "Motor acceleration", name: "Motor acceleration", unit: "mm/s²", min: 1, max: 1000, step: 5, decimals: 1, empty: "free", fallback: 100,
     help: "Largest acceleration of a motor; empty for no limit", ...option("motor_acceleration", 1000) },
   { label: "Friction", name: "Friction", unit: "", min: 0.05, max: 2, step: 0.05, decimals: 2, empty: "free", fallback: 0.5,
     help: "Coefficient of each foot's friction cone; empty for no limit", ...option("friction") },
@@ -81,14 +81,14 @@ const limit = (name) => ({
 
 /** What only a gait for the robot's clock has. */
 const POSE_CHOICES = [
-  { label: "Length", name: "Step length", options: [["true", "fastest"], ["false", "as set"]],
+  { label: "Step length", name: "Step length", options: [["true", "fastest"], ["false", "as set"]],
     help: "fastest: the step with which the walk is fastest; as set: the step above",
     read: ({ poses }) => String(poses?.free_step ?? false), write: (document, value) => ({ ...document, poses: { ...document.poses, free_step: value === "true" } }) },
 ];
 const POSE_NUMBERS = [
   { label: "Slip", name: "Slip", unit: "mm", min: 0.05, max: 5, step: 0.1, decimals: 2, help: "How far a standing foot may leave its foothold within a move, since motors that go straight do not keep it exactly", ...limit("slip") },
-  { label: "Shoes", name: "Shoe distance", unit: "mm", min: 0, max: 60, step: 0.5, decimals: 1, help: "Least distance between the middles of two feet; a shoe is 25 mm across", ...limit("shoe_distance") },
-  { label: "Arms", name: "Arm distance", unit: "mm", min: 0, max: 10, step: 0.5, decimals: 1, help: "Least room between the arms of neighbouring legs; 0 where they may touch", ...limit("arm_distance") },
+  { label: "Shoe distance", name: "Shoe distance", unit: "mm", min: 0, max: 60, step: 0.5, decimals: 1, help: "Least distance between the middles of two feet; a shoe is 25 mm across", ...limit("shoe_distance") },
+  { label: "Arm distance", name: "Arm distance", unit: "mm", min: 0, max: 10, step: 0.5, decimals: 1, help: "Least room between the arms of neighbouring legs; 0 where they may touch", ...limit("arm_distance") },
 ];
 
 /** The other fields that such a gait has as well. */
@@ -135,9 +135,9 @@ function phaseFields(store, edits) {
   const knots = { unit: "knots", step: 1, decimals: 0, whole: true, fallback: 5, unsaid: "as drawn by hand" };
   const asDrawn = (name) => ({ read: (document) => (isDrawn(document) ? document.options[name] : null) });
   return [
-    { label: "Phases", name: "Phase knots", min: 2, max: 50, help: "Length of each stance phase and of each swing. Another length draws the timeline anew",
+    { label: "Phase length", name: "Phase knots", min: 2, max: 50, help: "Length of each stance phase and of each swing. Another length draws the timeline anew",
       ...knots, ...asDrawn("phase_knots"), act: (value) => redraw({ phase_knots: value }) },
-    { label: "Closing", name: "Closing knots", min: 0, max: 100, help: "Stance after the last swing. Another length draws the timeline anew",
+    { label: "Final stance", name: "Closing knots", min: 0, max: 100, help: "Stance after the last swing. Another length draws the timeline anew",
       ...knots, ...asDrawn("closing_knots"), act: (value) => redraw({ closing_knots: value }) },
   ].map((field) => numberField(store, edits, field));
 }

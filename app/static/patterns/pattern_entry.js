@@ -3,7 +3,8 @@
 import { actionMenu } from "../lib/action_menu.js";
 import { byId } from "../lib/dom.js";
 import { runIsOn } from "../state/store.js";
-import { onTab, openTab } from "../lib/tabs.js";
+import { onStep } from "../steps/steps.js";
+import { onView, openedView, openView } from "../timeline/views.js";
 import { report } from "../lib/toasts.js";
 
 const KEY = "footfall.patterns.open";
@@ -45,14 +46,17 @@ export function mountPatternEntry(store, page) {
     }
   }
 
-  onTab((name) => {
+  onView((name) => {
     isOpen = name === "patterns";
     remembersOpen(isOpen);
     if (isOpen) open();
     else panel?.close();
   });
 
-  const go = (mode) => { wanted = mode; openTab("patterns"); };
+  // A step is shown where the search has its fields.
+  onStep(() => { if (openedView() === "patterns") openView("cells"); });
+
+  const go = (mode) => { wanted = mode; openView("patterns"); };
   const menu = actionMenu({ name: "Pattern", help: "Footfall patterns found by a solver, beginning with this gait", entries: ENTRIES.map(({ mode, ...entry }) => ({ ...entry, act: () => go(mode) })) });
   byId("gait-tools").append(menu.element);
 
@@ -60,7 +64,7 @@ export function mountPatternEntry(store, page) {
   store.watch(({ view }) => [Boolean(view)], ({ view, robot }) => {
     if (!view || !first) return;
     first = false;
-    if (remembersOpen() && !runIsOn(robot)) openTab("patterns");
+    if (remembersOpen() && !runIsOn(robot)) openView("patterns");
   });
   return { cancel: () => isOpen && Boolean(panel?.cancel()) };
 }

@@ -121,7 +121,7 @@ export async function mountPatterns(store, page) {
   patternPlayhead(store, problem, page.playback, lower.lanes);
   const fields = patternFields(store, problem, lock);
   const actions = patternActions(store, problem, page);
-  const panel = h("div", { class: "pattern-panel", role: "tabpanel", id: "patterns", "aria-labelledby": "tab-patterns" },
+  const panel = h("div", { class: "pattern-panel", role: "tabpanel", id: "patterns", "aria-labelledby": "view-patterns" },
     h("div", { class: "pattern-scroll" }, fields.element, ...patternResult(problem, search, (hovered) => problem.set({ hovered })), ...patternRules(problem)), actions.element);
   await withStyles();
   byId("chart").after(lower.element);

@@ -1,7 +1,7 @@
 /** Measured and simulated curves over the planned ones, on the plan's time axis. */
 
 import { acrossOf, pathOf } from "./curves.js";
-import { simulationOver, traceOf } from "./simulation.js";
+import { simulationOver, traceOf } from "../state/simulation.js";
 
 /** The strips of a run: its rows, and how many values of a row belong to a foot; none for the body. */
 const OVER = { strokes: { of: "measured_mm", aFoot: 3 }, heights: { of: "foot_heights_mm", aFoot: 1 }, margin: { of: "margins_mm", aFoot: 0 } };

@@ -7,7 +7,7 @@ import { HEIGHT, WIDTH, acrossOf, indexAt, pathOf, rangeOf, scaleOf } from "./cu
 import { byId, h, setText, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { measuredCurves, measuredRange, oversOf, runOver } from "./measured.js";
-import { simulationOver } from "./simulation.js";
+import { simulationOver } from "../state/simulation.js";
 import { shownDocument, shownPlan } from "../state/store.js";
 import { stripCanvas } from "./strip_canvas.js";
 import { STRIPS, ownerOf } from "./strips.js";

@@ -5,7 +5,7 @@ import { checkMenu } from "../lib/check_menu.js";
 import { recalled, remember } from "../lib/remembered.js";
 import { byId } from "../lib/dom.js";
 import { latestOnly } from "../lib/latest_only.js";
-import { simulationOver } from "../plots/simulation.js";
+import { simulationOver } from "../state/simulation.js";
 
 const KINDS = {
   before: { text: "Before the last edit", help: "The gait as it was before the last edit, at the same time; while you drag, as it is without the drag" },

@@ -67,6 +67,7 @@ const VIEWS = {
 export class Preview extends EventTarget {
   #client;
   #table = null;
+  #measured = null;
   #pose = null;
   #shown = null;
   #robot;
@@ -154,6 +155,12 @@ export class Preview extends EventTarget {
 
   setGhost(kind, buffer) {
     this.#ghosts.set(kind, buffer);
+    this.#request();
+  }
+
+  /** Draws the robot by a pose of its own instead of the plan's; null goes back to the plan. */
+  setMeasured(buffer) {
+    this.#measured = buffer && new PoseTable(buffer);
     this.#request();
   }
 
@@ -282,7 +289,8 @@ export class Preview extends EventTarget {
       if (this.#bodyNode) this.#client.push(this.#extras());
       return;
     }
-    this.#table.sample(this.#time, this.#pose);
+    const source = this.#measured?.robot === this.#table.robot ? this.#measured : this.#table;
+    source.sample(this.#time, this.#pose);
     if (this.route === "server") {
       if (this.#serverRoute.send(this.#table.nodes, this.#pose)) this.posesShown += 1;
       return;

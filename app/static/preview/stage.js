@@ -1,9 +1,7 @@
 /** The 3D preview's frame: loads a plan's poses once, follows the playhead, shows the state of the plan. */
 
-import { planState } from "../optimise/live_answer.js";
 import { api } from "../api/gaits.js";
 import { byId, h, painted, setText } from "../lib/dom.js";
-import { fixed, mm } from "../lib/format.js";
 import { mountGhosts } from "./ghosts.js";
 import { mountGoal } from "./goal.js";
 import { missingMotionOf } from "../document/missing_motion.js";
@@ -11,10 +9,10 @@ import { mountJogGhost } from "./jog_ghost.js";
 import { latestOnly } from "../lib/latest_only.js";
 import { measured } from "../state/live_plan.js";
 import { mountPoseHandle } from "./pose_handle.js";
+import { mountMeasuredRobot } from "../robot/measured_robot.js";
 import { Preview } from "./preview.js";
-import { extremes } from "../state/plan_samples.js";
 import { mountTools } from "./stage_tools.js";
-import { checkGone, shownPlan } from "../state/store.js";
+import { shownPlan } from "../state/store.js";
 
 function message(text) {
   byId("stage-message").hidden = !text;
@@ -28,44 +26,6 @@ async function openPreview(dark) {
   preview.setDark(dark.matches);
   message(null);
   return preview;
-}
-
-function verdictText(view, before) {
-  if (view.approval) return ["approved", "good"];
-  if (view.verdict) return view.verdict.passed ? ["checked", "good"] : ["check failed", "bad"];
-  if (view.revoked && !view.revoked.startsWith("The gait changed")) return ["approval gone", "caution"];
-  if (view.revoked || before?.word === "approved") return ["approval gone: the gait changed", "caution"];
-  return [before ? `check gone: ${checkGone(view, before)}` : "not checked", before ? "caution" : "quiet"];
-}
-
-/** The verdict on the plan, unless something else is shown. */
-function checkText(state, plan) {
-  if (state.iterate) return null;
-  if (plan !== state.view.plan) return ["edit under way", "quiet"];
-  return verdictText(state.view, state.checked[state.view.id]);
-}
-
-const MARGIN_HELP = "Least distance from the edge of the support polygon: of the centre of pressure where the motion is solved, else of the centre of mass";
-
-function planNote(state) {
-  const plan = shownPlan(state);
-  const { view } = state;
-  if (!plan) return view ? [h("div", { class: "sentence", text: "No plan: optimise this gait to see it move." })] : [];
-  if (!plan.times.length) {
-    return [h("div", {}, h("b", { text: "No motion", data: { toneText: "bad" } }), " · the reason stands at the timeline")];
-  }
-  const { strokes } = extremes(plan);
-  const failed = plan === view.plan && view.verdict && !view.verdict.passed;
-  const [word, tone] = failed ? ["Check failed", "bad"] : planState(plan);
-  const infeasible = planState(plan)[0] === "Infeasible";
-  const checked = failed || infeasible ? null : checkText(state, plan);
-  // Of the nearest motion to one that there is not, no figure may look like the plan's.
-  const margin = !infeasible && plan.balance !== null;
-  const figures = h("div", { class: "figures" }, h("b", { text: word, data: { toneText: tone } }),
-    margin && " · ", margin && h("span", { text: `margin ${mm(plan.balance)} mm`, title: MARGIN_HELP, data: { toneText: plan.balance < 0 ? "bad" : "" } }),
-    strokes && !infeasible && ` · strokes ${fixed(strokes[0])}…${fixed(strokes[1])} mm`,
-    checked && " · ", checked && h("span", { text: checked[0], data: { toneText: checked[1] } }));
-  return [figures, h("div", { class: "sentence", text: plan.note.replace(/^\w+: /, ""), title: plan.note })];
 }
 
 function mountLegend(store) {
@@ -110,7 +70,7 @@ function followPlan(store, playback, preview) {
 function followHand(store, preview) {
   const near = new Set();
   const tell = () => preview.setBusy(near.size > 0 || store.state.gesture !== null);
-  for (const id of ["timeline", "optimise", "goal", "pose"]) {
+  for (const id of ["timeline", "design", "goal", "pose"]) {
     const note = (kind, on) => () => {
       if (on) near.add(`${id} ${kind}`);
       else near.delete(`${id} ${kind}`);
@@ -127,11 +87,6 @@ function followHand(store, preview) {
 /** Opens the preview; without it the page works and shows a message. */
 export async function mountStage(store, edits, playback) {
   mountLegend(store);
-  store.watch((state) => [state.view, state.checked, shownPlan(state)], (state) => byId("plan-note").replaceChildren(...planNote(state)));
-  store.watch(({ connected, greeted }) => [connected, greeted], ({ connected, greeted }) => {
-    byId("banner").hidden = connected || !greeted;
-    setText(byId("banner"), connected ? "" : "Connection to the studio lost: what stands here may be old. Trying again; Stop is tried all the same.");
-  });
   let preview;
   try {
     preview = await openPreview(matchMedia("(prefers-color-scheme: dark)"));
@@ -141,6 +96,7 @@ export async function mountStage(store, edits, playback) {
   }
   preview.addEventListener("opening", () => message("The 3D scene of this robot is being loaded."));
   preview.addEventListener("ready", () => message(null));
+  mountMeasuredRobot(store, preview);
   mountTools(store, preview);
   mountGhosts(store, preview);
   mountJogGhost(store, preview, playback);

@@ -21,7 +21,7 @@ function choose(store, change) {
 }
 
 function placeName({ waypoint, time }) {
-  return waypoint === 0 ? "its beginning" : `no. ${waypoint + 1}, at ${fixed(time)} s`;
+  return waypoint === 0 ? "first waypoint" : `waypoint ${waypoint + 1}, at ${fixed(time)} s`;
 }
 
 /** The beginning that is nearest to a time on the plan. */
@@ -41,7 +41,7 @@ function showBeginnings(select, places) {
 export function runRangePart(store, playback) {
   const from = h("select", { "aria-label": "Run from", title: "Waypoints with all feet down; the robot goes there slowly first" });
   const times = h("input", { type: "number", min: "1", max: String(MOST_ITERATIONS), step: "1", value: "1", "aria-label": "Times to run" });
-  const element = h("div", { class: "run-range" }, h("label", {}, h("span", { text: "From" }), from), h("label", {}, h("span", { text: "×" }), times));
+  const element = h("div", { class: "run-range" }, h("label", {}, h("span", { text: "Start at" }), from), h("label", {}, h("span", { text: "Repeat" }), times));
   from.addEventListener("change", () => {
     const { beginnings } = store.state.runSummary;
     choose(store, { first: from.value === HERE ? nearestTo(beginnings, playback.time).waypoint : Number(from.value) });

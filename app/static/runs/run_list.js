@@ -49,7 +49,7 @@ const plain = (values) => values.map((value) => ({ value, text: value }));
 /**
  * Builds the list.
  * @param {(id: string) => void} open
- * @returns {{element: HTMLElement, refresh: () => Promise<void>}}
+ * @returns {{element: HTMLElement, refresh: () => Promise<object[]|null>}} `refresh` resolves to the runs that are listed
  */
 export function runList(open) {
   const [gait, state, operator] = [choice("Gait of the runs", "Only runs of this gait"), choice("Result of the runs", "Only runs that ended so"), choice("Operator of the runs", "Only runs that this person sent")];
@@ -64,7 +64,7 @@ export function runList(open) {
   const load = attempt(async (offset) => {
     const isOld = begin();
     const answer = await api.runs(wanted(offset));
-    if (isOld()) return;
+    if (isOld()) return null;
     shown = offset ? [...shown, ...answer.runs] : answer.runs;
     fill(gait, "Every gait", answer.gaits.map(({ id, name }) => ({ value: id, text: name })));
     fill(state, "Every result", plain(answer.states));
@@ -72,6 +72,7 @@ export function runList(open) {
     list.replaceChildren(...shown.map((run) => runRow(run, open)));
     setText(count, answer.total ? counted(answer.total, "run") : noRuns(answer));
     setAttribute(more, "hidden", shown.length >= answer.total);
+    return shown;
   });
 
   for (const field of [gait, state, operator, since.input, until.input]) field.addEventListener("change", () => load(0));

@@ -1,16 +1,15 @@
-/** Runs that were kept: the newest under the jobs, all of them in a panel, and one laid over the plan. */
+/** Runs that were kept: all of them in a drawer, and one laid over the plan. */
 
 import { api } from "../api/gaits.js";
-import { byId, h, icon, setText } from "../lib/dom.js";
+import { byId, h, icon } from "../lib/dom.js";
 import { ticket } from "../lib/latest_only.js";
-import { openTab } from "../lib/tabs.js";
-import { attempt, report } from "../lib/toasts.js";
+import { attempt } from "../lib/toasts.js";
+import { drawerIsOpen, onDrawer, openDrawer } from "../shell/drawers.js";
 import { selectGait } from "../shell/gait_list.js";
 import { planIsOn, runIsOn } from "../state/store.js";
 import { runDetail } from "./run_detail.js";
-import { runList, runRow } from "./run_list.js";
+import { runList } from "./run_list.js";
 
-const NEWEST = 3;
 const AGAIN_MS = 400;
 /** A run's end reaches the record within a moment of the robot's own. */
 const MOST_TRIES = 10;
@@ -25,19 +24,20 @@ function standing(store, run) {
   return "Measured strokes stand over the planned ones in the plots.";
 }
 
-function mountPanel(store, opening) {
+/** The drawer's content: all runs, or one of them. */
+function mountPanel(store) {
   const body = h("div", { class: "runs-body" });
   const close = h("button", { class: "plain icon-only", "aria-label": "Close runs", title: "Close (Esc)" }, icon("close"));
-  const panel = h("section", { class: "runs-panel", id: "runs", "aria-label": "Runs", hidden: true }, h("header", {}, h("h2", { text: "Runs" }), close), body);
-  document.querySelector("aside.right").append(panel);
+  byId("drawer-runs").append(h("header", {}, h("h2", { text: "Runs" }), close), body);
   const list = runList((id) => open(id));
   const begin = ticket();
   let follow = () => {};
+  let isOpening = false;
 
   function show(content) {
-    opening();
-    panel.hidden = false;
-    document.body.toggleAttribute("data-runs", true);
+    isOpening = true;
+    openDrawer("runs");
+    isOpening = false;
     body.replaceChildren(content);
     body.scrollTop = 0;
   }
@@ -45,22 +45,13 @@ function mountPanel(store, opening) {
   function all() {
     begin();
     store.set({ run: null });
-    openTab("robot");
     show(list.element);
     return list.refresh();
   }
 
-  function leave() {
-    begin();
-    if (panel.hidden) return false;
-    store.set({ run: null });
-    panel.hidden = true;
-    document.body.toggleAttribute("data-runs", false);
-    return true;
-  }
+  const leave = () => drawerIsOpen("runs") && openDrawer(null);
 
   const open = attempt(async (id) => {
-    openTab("robot");
     const isOld = begin();
     const run = await api.keptRun(id);
     if (isOld()) return;
@@ -75,35 +66,24 @@ function mountPanel(store, opening) {
   });
 
   close.addEventListener("click", leave);
+  onDrawer("runs", { opened: () => { if (!isOpening) all(); }, closed: () => { begin(); store.set({ run: null }); } });
   store.watch(({ selected, view, gaits }) => [selected, view?.plan?.waypoints_hash, gaits], () => follow());
-  document.querySelector('[role="tablist"][aria-label="Inspector"]').addEventListener("click", leave);
-  return { all, open, leave };
+  return { all, leave, isAtList: () => drawerIsOpen("runs") && body.contains(list.element), refresh: list.refresh };
 }
 
-/** Builds the newest runs under the jobs; `opening` is called when their panel opens. Returns what Esc does. */
-export function mountRuns(store, opening = () => {}) {
-  const panel = mountPanel(store, opening);
+/** Builds the drawer of runs. Returns what Esc does. */
+export function mountRuns(store) {
+  const panel = mountPanel(store);
   mountTrace(store);
-  const list = h("ul", { class: "runs-newest", role: "list", "aria-label": "Newest runs" });
-  const more = h("button", { class: "link", text: "All runs", title: "Every run that was kept: filter, compare, files", on: { click: panel.all } });
-  const empty = h("p", { class: "teach" });
-  byId("robot").append(h("button", { class: "link runs-way", text: "Runs that were kept", title: more.title, on: { click: panel.all } }));
-  byId("jobs-empty").after(h("div", { class: "runs-head" }, h("h2", { text: "Runs" }), more), list, empty);
-
   const begin = ticket();
 
+  /** Reads the list again until the record of the run that has ended is whole. */
   async function refresh(tries = 0) {
     const isOld = begin();
-    try {
-      const { runs } = await api.runs({ most: NEWEST });
-      if (isOld()) return;
-      list.replaceChildren(...runs.map((run) => runRow(run, panel.open)));
-      setText(empty, runs.length ? "" : "No run yet. What the robot does is kept here.");
-      empty.hidden = runs.length > 0;
-      if (runs[0]?.state === "running" && !runIsOn(store.state.robot) && tries < MOST_TRIES) setTimeout(() => { if (!isOld()) refresh(tries + 1); }, AGAIN_MS);
-    } catch (error) {
-      report(error);
-    }
+    if (!panel.isAtList()) return;
+    const runs = await panel.refresh();
+    if (isOld()) return;
+    if (runs?.[0]?.state === "running" && !runIsOn(store.state.robot) && tries < MOST_TRIES) setTimeout(() => { if (!isOld()) refresh(tries + 1); }, AGAIN_MS);
   }
 
   store.watch(({ robot }) => [runIsOn(robot)], ({ robot }) => { if (runIsOn(robot)) panel.leave(); });

@@ -96,7 +96,7 @@ export function mountSegments(store, edits) {
     if (!panel.hidden) drawDefinitions(sheet);
   }
 
-  new ResizeObserver(() => grid.style.setProperty("--view", `${byId("sections").clientHeight}px`)).observe(byId("sections"));
+  new ResizeObserver(() => grid.style.setProperty("--view", `${byId("segments").clientHeight}px`)).observe(byId("segments"));
   new ResizeObserver(() => {
     grid.style.setProperty("--note", `${note.offsetHeight}px`);
     if (input.hasFocus()) document.activeElement.scrollIntoView({ block: "nearest" });

@@ -5,7 +5,7 @@ import { freeName } from "../document/gait_names.js";
 import { added, isSequence } from "../document/sequence_edits.js";
 import { byId, h, onPress, setAllowed } from "../lib/dom.js";
 import { counted, fixed, mm } from "../lib/format.js";
-import { openTab } from "../lib/tabs.js";
+import { openStep } from "../steps/steps.js";
 import { attempt, toast } from "../lib/toasts.js";
 import { selectGait } from "../shell/gait_list.js";
 import { jobIsOn } from "../shell/job_list.js";
@@ -73,7 +73,7 @@ async function createSequence(store) {
   const { gaits, selected } = store.state;
   const view = await api.sequence({ name: freeName(store.state, "Sequence"), parts: [{ gait: selected ?? gaits[0].id }] });
   await selectGait(store, view.id);
-  openTab("segments");
+  openStep("design");
 }
 
 /** What the Optimise section offers for a sequence: the exact tier for its parts. */
@@ -84,7 +84,7 @@ function exactParts(store) {
     if (!isSequence(view?.document)) return;
     const busy = jobs.some((job) => job.gait === view.id && jobIsOn(job)) && "Its parts are being optimised. Cancel the jobs or wait for them.";
     const open = view.plan.parts.some(({ source }) => ["live", "draft"].includes(source));
-    setAllowed(button, busy || (pending.length ? "The last edit is not accepted yet." : open ? null : ALL_EXACT), "Run the exact tier for each part that has no exact motion yet");
+    setAllowed(button, busy || (pending.length ? "The last edit is not accepted yet." : open ? null : ALL_EXACT), "Run Optimise for each part that has no optimised motion yet");
   });
   return h("div", { class: "sequence-only" }, button, h("p", { class: "why", text: OPTIMISE }));
 }
@@ -110,7 +110,6 @@ export function mountSequence(store, edits, playback, gaitTools) {
     const on = isSequence(document_);
     document.body.toggleAttribute("data-sequence", on);
     byId("sequence").hidden = !on;
-    byId("tab-segments").textContent = on ? "Sequence" : "Segments";
     if (!on) return;
     const plan = shownPlan(state);
     rows.show(state);
@@ -123,7 +122,7 @@ export function mountSequence(store, edits, playback, gaitTools) {
     trouble.textContent = sentence ?? "";
   });
   // A sequence is edited by its parts, so that they come first where a person turns to one.
-  store.watch(({ view }) => [view?.id], ({ view, robot }) => { if (isSequence(view?.document) && !runIsOn(robot)) openTab("segments"); });
+  store.watch(({ view }) => [view?.id], ({ view, robot }) => { if (isSequence(view?.document) && !runIsOn(robot)) openStep("design"); });
   return { cancel: () => rows.cancel() || between.cancel() };
 }
 
@@ -133,13 +132,13 @@ const option = (name, factor = 1) => ({
 });
 
 const FIELDS = [
-  { label: "Body", name: "Body speed between parts", unit: "mm/s", min: 1, max: 60, step: 1, decimals: 1,
+  { label: "Body speed", name: "Body speed between parts", unit: "mm/s", min: 1, max: 60, step: 1, decimals: 1,
     help: "Largest speed of the body where it moves over standing feet, or with them", ...option("body_speed", 1000) },
   { label: "Clearance", name: "Clearance between parts", unit: "mm", min: 0, max: 15, step: 0.5, decimals: 2,
     help: "How high a foot rises at least where it steps to another place", ...option("clearance", 1000) },
-  { label: "Margin", name: "Stability margin between parts", unit: "mm", min: 0, max: 30, step: 0.5, decimals: 2,
+  { label: "Stability margin", name: "Stability margin between parts", unit: "mm", min: 0, max: 30, step: 0.5, decimals: 2,
     help: "Least distance of the centre of pressure from the support polygon's edge while feet step", ...option("margin", 1000) },
-  { label: "Phases", name: "Phase knots between parts", unit: "knots", min: 2, max: 50, step: 1, decimals: 0,
+  { label: "Phase length", name: "Phase knots between parts", unit: "knots", min: 2, max: 50, step: 1, decimals: 0,
     help: "Length of each stance and of each swing of those steps", ...option("phase_knots") },
 ];
 

@@ -6,6 +6,7 @@ import { byId, h, setAttribute, setText } from "../lib/dom.js";
 import { fixed, timesText } from "../lib/format.js";
 import { attempt, clearOfGait, report, toast } from "../lib/toasts.js";
 import { acceptView } from "../state/store.js";
+import { closeOverStage } from "./drawers.js";
 
 const KEY = "footfall.gait";
 
@@ -169,7 +170,10 @@ export function mountGaits(store) {
     const id = target.closest("[data-gait]")?.dataset.gait;
     const unreadable = store.state.gaits.find((gait) => gait.id === id && gait.problem);
     if (unreadable) showWaysOut(store, unreadable);
-    else if (id) selectGait(store, id);
+    else if (id) {
+      selectGait(store, id);
+      closeOverStage();
+    }
   });
   list.addEventListener("dblclick", ({ target }) => {
     const id = target.closest("[data-gait]")?.dataset.gait;

@@ -62,7 +62,7 @@ async function pick(store, id) {
   const { selectGait } = await import("./gait_list.js");
   if (store.state.gaits.some((gait) => gait.id === job.gait)) await selectGait(store, job.gait);
   if (!isSimulation(job)) store.set({ shownJob: id });
-  byId(isSimulation(job) ? "tab-simulate" : "tab-optimise").click();
+  byId(isSimulation(job) ? "tab-simulate" : "tab-design").click();
   return undefined;
 }
 

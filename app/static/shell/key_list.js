@@ -14,6 +14,7 @@ const GROUPS = {
     ["Ctrl+Z", "Undo"],
     ["Ctrl+Y", "Redo; Ctrl+Shift+Z as well"],
     ["Ctrl+S", "Save"],
+    ["[ ]", "Fold the drawer, fold the inspector; a step opens it again"],
     ["?", "This list"],
   ],
   "Cells of the timeline": [
@@ -80,5 +81,5 @@ export function showKeys() {
     dialog.classList.add("keys");
     return dialog;
   });
-  byId("dialogs").firstElementChild.scrollTop = 0;
+  byId("dialogs").querySelector(".dialog").scrollTop = 0;
 }

@@ -2,6 +2,7 @@
 
 import { dialogOpen } from "../lib/dialogs.js";
 import { byId } from "../lib/dom.js";
+import { foldDrawer } from "./drawers.js";
 import { showKeys } from "./key_list.js";
 import { runIsOn } from "../state/store.js";
 import { stopRobot } from "./topbar.js";
@@ -36,6 +37,8 @@ function onTimeline(event, { store, actions, zoom }) {
   return ownsLetters(event.target) ? null : (byKey[event.key.toLowerCase()] ?? null);
 }
 
+const foldInspector = () => document.body.toggleAttribute("data-inspector-folded");
+
 function plain(event, page) {
   const { playback, store } = page;
   const far = event.shiftKey ? 10 : 1;
@@ -44,7 +47,8 @@ function plain(event, page) {
     Home: () => playback.toStart(), End: () => playback.toEnd(),
   };
   if (event.key === " " && !ownsSpace(event.target, event.shiftKey)) return () => playback.toggle();
-  if (event.key === "?") return showKeys;
+  const folds = { "?": showKeys, "[": foldDrawer, "]": foldInspector }[event.key];
+  if (folds) return folds;
   const does = store.state.view && onTimeline(event, page);
   if (does) return does;
   return event.target.closest?.("select, [role=gridcell], [role=tab], [role=menu], [data-arrows]") ? null : (byKey[event.key] ?? null);

@@ -152,7 +152,7 @@ export async function askNewGait(preset) {
     };
     const dialog = dialogFrame("New gait", close, accept, h("p", { class: "quiet", text: preset.sentence ?? "Its feet step one after the other; the timeline can be drawn on afterwards." }),
       ...parts.rows.map(({ element }) => element), parts.note, general,
-      h("div", { class: "buttons" }, h("button", { type: "button", text: "Not now", on: { click: () => close(null) } }), create));
+      h("div", { class: "buttons" }, h("button", { type: "button", text: "Cancel", on: { click: () => close(null) } }), create));
     dialog.classList.add("new-gait");
     dialog.querySelector("form").noValidate = true;
     return dialog;

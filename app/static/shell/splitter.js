@@ -76,7 +76,7 @@ function mountDragging(edge, now, setTo, keep) {
 /** Puts the edge over the lower part. */
 export function mountSplitter() {
   const lower = byId("chart").parentElement;
-  const edge = h("div", { class: "lower-edge", role: "separator", tabindex: "0", "aria-orientation": "horizontal", "aria-label": "Height of timeline and plots",
+  const edge = h("div", { class: "edge lower-edge", role: "separator", tabindex: "0", "aria-orientation": "horizontal", "aria-label": "Height of timeline and plots",
     "aria-description": HELP, title: `Height of timeline and plots. ${HELP}`, data: { arrows: "" } });
   document.querySelector(".lower").prepend(edge);
   let height = recalledHeight();

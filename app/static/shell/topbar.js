@@ -2,7 +2,7 @@
 
 import { sendStop } from "../api/gaits.js";
 import { ownSteps } from "../api/author.js";
-import { byId, h, onPress, setAllowed, setAttribute, setText, stateParts } from "../lib/dom.js";
+import { byId, h, onPress, setAllowed, setAttribute, setText } from "../lib/dom.js";
 import { NOT_TAKEN, takeOverStop } from "./early_stop.js";
 import { sendToStudio } from "../state/server_events.js";
 import { clockTime, lowered, seconds } from "../lib/format.js";
@@ -88,7 +88,7 @@ function mountName(store, edits) {
     show();
     input.size = Math.max(4, input.value.length);
     setAttribute(input, "title", view ? `Name of the gait. Its file stays gaits/${view.id}.json under another name too` : null);
-    const state = !view ? "" : refused ? "· drawing not accepted" : unfit ? "· table does not fit" : pending.length ? "· saving the edit" : view.edited ? "· edited, kept" : "· saved";
+    const state = !view ? "" : refused ? "Drawing not accepted" : unfit ? "Table does not fit" : pending.length ? "Saving" : "Saved";
     setText(byId("saved-state"), state);
     setAttribute(byId("saved-state"), "title", view ? `${unfit ? `${UNFIT} ` : ""}${savedHelp(view)}` : null);
   });
@@ -121,23 +121,32 @@ function mountHistory(store, edits) {
   });
 }
 
+/** A dot and a word; the word alone may be left to readers. */
+function showState(element, tone, word, isQuiet) {
+  element.replaceChildren(h("span", { class: "dot", data: { tone } }), h("span", { class: "word", text: word }));
+  element.classList.toggle("hidden-text", isQuiet);
+}
+
 function mountStates(store) {
   const sentence = h("span", { class: "hidden-text" });
   const [link, robot, operator] = ["link", "robot-status", "operator"].map(byId);
   store.watch(({ robot: now, connected, selected }) => [now?.link, now?.robot, now?.emulated, now?.device, now?.run?.gait_name, connected, selected], ({ robot: now, connected, selected }) => {
-    link.replaceChildren(...stateParts(connected ? linkTone(now) : "bad", "Link", connected ? (now?.link ?? "unknown") : "no studio"));
+    const isReady = connected && now?.link === "ready";
+    showState(link, connected ? linkTone(now) : "bad", connected ? (now?.link ?? "unknown") : "no studio", isReady);
+    showState(robot, robotTone(now), `${now?.robot ?? "unknown"}${runIsOn(now) && now.run?.gait_name && now.run.gait !== selected ? `: ${now.run.gait_name}` : ""}`, !isReady);
+    robot.append(sentence);
     setAttribute(link, "title", now ? `${now.emulated ? "Emulated robot" : "Robot"} at ${now.device}` : null);
     document.querySelector(".states").toggleAttribute("data-stale", !connected);
-    robot.replaceChildren(...stateParts(robotTone(now), "Robot", `${now?.robot ?? "unknown"}${runIsOn(now) && now.run?.gait_name && now.run.gait !== selected ? `: ${now.run.gait_name}` : ""}`), sentence);
   });
   store.watch(({ robot: now }) => [now?.sentence, now?.stop_text, now?.lease?.page, now?.lease?.is_gone], ({ robot: now }) => {
     const words = [now?.sentence, now?.stop_text, holderSentence(now)].filter(Boolean).join(" ");
-    setText(sentence, words);
+    setText(sentence, ` ${words}`);
     setAttribute(robot, "title", words || null);
   });
   store.watch((state) => [state.operator], (state) => {
-    operator.replaceChildren(h("span", { class: "name quiet", text: "Operator" }), h("b", { text: state.operator || "not named" }));
+    operator.replaceChildren(h("span", { class: "initial", "aria-hidden": "true", text: state.operator ? state.operator.charAt(0).toUpperCase() : "?" }), h("span", { class: "name", text: state.operator || "Your name" }));
     operator.toggleAttribute("data-named", Boolean(state.operator));
+    setAttribute(operator, "aria-label", state.operator ? `Operator ${state.operator}` : "Operator not named");
     operator.title = "Your name, kept with approvals and runs. Click to change it.";
   });
 }

@@ -2,13 +2,12 @@
 
 import { api } from "../api/gaits.js";
 import { pageId } from "../api/author.js";
-import { confirmAction } from "../lib/dialogs.js";
-import { h, onPress, setText } from "../lib/dom.js";
+import { h, onPress, setAttribute, setText } from "../lib/dom.js";
 import { needOperator } from "./operator.js";
 import { acceptRobot, runIsOn } from "./store.js";
 import { attempt, toast } from "../lib/toasts.js";
 
-const FREE = "Nobody holds the robot. Whoever connects or arms it holds it then.";
+const FREE = "No one is in control. Connecting or arming gives you control.";
 
 const isMine = (lease) => lease?.page === pageId();
 const isTaken = (lease) => Boolean(lease?.page);
@@ -23,25 +22,46 @@ export function whyNotHeld(robot) {
 export function holderSentence(robot) {
   const lease = robot?.lease;
   if (!isTaken(lease)) return "";
-  if (isMine(lease)) return "You hold the robot.";
-  return lease.is_gone ? `${lease.name} holds the robot, but is gone.` : `${lease.name} holds the robot.`;
+  if (isMine(lease)) return "You are in control.";
+  return lease.is_gone ? `${lease.name} left without releasing control.` : `${lease.name} is in control.`;
 }
 
 /** Asks for the robot, gives it, keeps it, takes it over or lets it go, in the name of who sits here. */
 function handOver(store, act) {
   return attempt(async () => {
-    if (!(await needOperator(store, "Others see who holds the robot."))) return;
+    if (!(await needOperator(store, "Others see who is in control."))) return;
     acceptRobot(store, await api.lease(act, store.state.operator));
   });
 }
 
-function takeOver(store) {
-  return attempt(async () => {
-    const { robot } = store.state;
-    const run = robot.robot === "paused" ? " The run stays paused until you resume it." : runIsOn(robot) ? " The run goes on, and is yours to pause." : "";
-    const sentence = `${robot.lease.name} cannot move the robot any more.${run} Look at the robot before you go on.`;
-    if (await confirmAction("Take the robot over?", sentence, "Take it over")) await handOver(store, "take")();
+/** The question before a take-over, in the panel, with what becomes of the run. */
+function takeOverQuestion(store) {
+  const sentence = h("p");
+  const [yes, no] = [h("button", { class: "primary", text: "Take it over" }), h("button", { text: "Cancel" })];
+  const element = h("div", { class: "box-note", role: "group", "aria-label": "Take over", data: { tone: "caution" }, hidden: true }, sentence, h("div", { class: "buttons" }, yes, no));
+  let opener = null;
+  const close = () => {
+    element.hidden = true;
+    opener?.focus();
+  };
+  onPress(yes, async () => {
+    close();
+    await handOver(store, "take")();
   });
+  onPress(no, close);
+  element.addEventListener("keydown", (event) => { if (event.key === "Escape" && !runIsOn(store.state.robot)) close(); });
+  return {
+    element,
+    open({ currentTarget }) {
+      const { robot } = store.state;
+      const run = robot.robot === "paused" ? " The run stays paused until you resume it." : runIsOn(robot) ? " The run goes on, and is yours to pause." : "";
+      setText(sentence, `${robot.lease.name} cannot move the robot any more.${run} Look at the robot before you go on.`);
+      opener = currentTarget;
+      element.hidden = false;
+      no.focus();
+    },
+    show: (isOffered) => { if (!isOffered) setAttribute(element, "hidden", true); },
+  };
 }
 
 function build(store) {
@@ -50,19 +70,20 @@ function build(store) {
     onPress(element, act);
     return element;
   };
+  const question = takeOverQuestion(store);
   return {
-    sentence: h("p"), policy: h("p", { class: "why" }),
+    question, sentence: h("p"), policy: h("p", { class: "why" }),
     ask: button("Ask for it", handOver(store, "ask")),
-    take: button("Take over", takeOver(store)),
+    take: button("Take over", question.open),
     give: button("Give it", handOver(store, "give")),
     keep: button("Keep it", handOver(store, "keep")),
-    release: button("Let it go", handOver(store, "release")),
+    release: button("Release control", handOver(store, "release")),
   };
 }
 
 function words(lease, robot) {
   if (!isTaken(lease)) return FREE;
-  if (isMine(lease) && lease.asker) return `You hold the robot. ${lease.asker.name} asks for it.`;
+  if (isMine(lease) && lease.asker) return `You are in control. ${lease.asker.name} asks for it.`;
   if (lease.asker?.page === pageId()) return `${holderSentence(robot)} You have asked for it; wait for the answer.`;
   return holderSentence(robot);
 }
@@ -76,6 +97,7 @@ function show(parts, robot) {
   setText(parts.give, `Give it to ${lease?.asker?.name ?? ""}`);
   parts.release.hidden = !mine || Boolean(lease.asker) || runIsOn(robot);
   parts.take.hidden = !taken || mine || !lease.can_be_taken;
+  parts.question.show(!parts.take.hidden);
   parts.ask.hidden = !taken || mine || lease.can_be_taken || lease.asker?.page === pageId();
 }
 
@@ -85,9 +107,9 @@ function tell(store) {
   store.watch(({ robot }) => [robot?.lease?.page, robot?.lease?.asker?.page], ({ robot }) => {
     const now = robot?.lease ?? null;
     const isRequested = isMine(now) && now.asker && now.asker.page !== before?.asker?.page;
-    if (isRequested) toast(`${now.asker.name} asks for the robot. Give or keep it in the Robot panel.`, { of: "studio" });
-    if (isMine(now) && isTaken(before) && !isMine(before)) toast("You hold the robot now.", { of: "studio" });
-    if (isMine(before) && isTaken(now) && !isMine(now)) toast(`${now.name} holds the robot now.`, { of: "studio" });
+    if (isRequested) toast(`${now.asker.name} asks for the robot. Give or keep it in the Run step.`, { of: "studio" });
+    if (isMine(now) && isTaken(before) && !isMine(before)) toast("You are in control now.", { of: "studio" });
+    if (isMine(before) && isTaken(now) && !isMine(now)) toast(`${now.name} is in control now.`, { of: "studio" });
     before = now;
   });
 }
@@ -97,6 +119,6 @@ export function leasePart(store) {
   const parts = build(store);
   store.watch(({ robot }) => [robot?.lease, robot?.robot, robot?.run?.phase], ({ robot }) => show(parts, robot));
   tell(store);
-  return h("div", { class: "lease", role: "group", "aria-label": "Who holds the robot" }, parts.sentence,
-    h("div", { class: "buttons" }, parts.ask, parts.take, parts.give, parts.keep, parts.release), parts.policy);
+  return h("div", { class: "lease", role: "group", "aria-label": "Who is in control" }, parts.sentence,
+    h("div", { class: "buttons" }, parts.ask, parts.take, parts.give, parts.keep, parts.release), parts.question.element, parts.policy);
 }

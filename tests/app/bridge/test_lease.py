@@ -45,7 +45,7 @@ def test_the_first_deed_takes_the_robot_and_its_doer_goes_on(lease: Lease) -> No
 @pytest.mark.parametrize("is_idle", [True, False])
 def test_another_page_is_refused_with_the_holders_name_and_what_to_do(lease: Lease, is_idle: bool) -> None:
     lease.admit(ADA, is_idle=is_idle)
-    with pytest.raises(StateError, match=r"Ada holds the robot\. Ask Ada for it; Stop works for everybody"):
+    with pytest.raises(StateError, match=r"Ada is in control\. Ask Ada for it; Stop works for everybody"):
         lease.admit(GRACE, is_idle=is_idle)
     assert holder(lease) == "Ada"
 
@@ -56,7 +56,7 @@ def test_the_robot_of_a_holder_is_theirs_unless_they_are_gone_and_its_line_is_lo
 ) -> None:
     lease.admit(ADA, is_idle=True)
     clock.time += GONE_SECONDS + 1.0 if is_gone else 0.0
-    with pytest.raises(StateError, match="Ada holds"):
+    with pytest.raises(StateError, match="Ada is in control"):
         lease.admit(GRACE, is_idle=True, is_away=is_away)
 
 
@@ -72,7 +72,7 @@ def test_who_connects_after_a_lost_line_holds_the_robot_of_one_who_is_gone(
 def test_only_the_holder_lets_the_robot_go_for_everybody(lease: Lease) -> None:
     lease.admit(ADA, is_idle=True)
     lease.ask(GRACE)
-    with pytest.raises(StateError, match="Ada holds"):
+    with pytest.raises(StateError, match="Ada is in control"):
         lease.drop(GRACE)
     lease.drop(ADA)
     assert holder(lease) is None
@@ -80,7 +80,7 @@ def test_only_the_holder_lets_the_robot_go_for_everybody(lease: Lease) -> None:
 
 def test_two_tabs_of_one_person_are_two(lease: Lease) -> None:
     lease.admit(ADA, is_idle=True)
-    with pytest.raises(StateError, match="Ada holds"):
+    with pytest.raises(StateError, match="Ada is in control"):
         lease.admit(Person("b", "Ada"), is_idle=True)
 
 
@@ -94,12 +94,12 @@ def test_who_asks_is_given_the_robot_by_its_holder(lease: Lease) -> None:
     lease.admit(ADA, is_idle=True)
     lease.ask(GRACE)
     assert lease.now.asker == GRACE
-    with pytest.raises(StateError, match="Ada holds the robot, and decides"):
+    with pytest.raises(StateError, match="Ada is in control, and decides"):
         lease.give(GRACE)
     lease.give(ADA)
     assert holder(lease) == "Grace"
     assert lease.now.asker is None
-    with pytest.raises(StateError, match="Grace holds"):
+    with pytest.raises(StateError, match="Grace is in control"):
         lease.admit(ADA, is_idle=True)
 
 
@@ -148,7 +148,7 @@ def test_signs_of_life_keep_the_robot_and_a_reload_does_not_lose_it(lease: Lease
         assert not lease.heard("g")
         assert not lease.heard("a")
         assert not lease.note_gone()
-    with pytest.raises(StateError, match="Ada holds"):
+    with pytest.raises(StateError, match="Ada is in control"):
         lease.take(GRACE)
 
 
@@ -157,7 +157,7 @@ def test_a_holder_who_is_gone_is_noticed_once_and_may_be_followed(lease: Lease, 
     clock.time = GONE_SECONDS + 1.0
     assert lease.note_gone()
     assert not lease.note_gone()
-    with pytest.raises(StateError, match=r"Ada holds the robot and has been gone for 16 s\. Take it over"):
+    with pytest.raises(StateError, match=r"Ada is in control and has been gone for 16 s\. Take it over"):
         lease.admit(GRACE, is_idle=False)
     with pytest.raises(StateError, match="Take it over"):
         lease.ask(GRACE)
@@ -178,7 +178,7 @@ def test_a_holder_who_comes_back_still_holds_the_robot(lease: Lease, clock: Cloc
 
 def test_a_script_holds_the_robot_only_while_it_is_armed_or_moves(lease: Lease, clock: Clock) -> None:
     lease.admit(SCRIPT, is_idle=True)
-    with pytest.raises(StateError, match=r"A script holds the robot\. Take it over, or wait"):
+    with pytest.raises(StateError, match=r"A script is in control\. Take over, or wait"):
         lease.admit(ADA, is_idle=False)
     clock.time = 10 * GONE_SECONDS
     assert not lease.note_gone()
@@ -188,7 +188,7 @@ def test_a_script_holds_the_robot_only_while_it_is_armed_or_moves(lease: Lease, 
 
 def test_a_script_cannot_be_asked_so_it_may_be_taken_over(lease: Lease) -> None:
     lease.admit(Person("api", "Alan", is_script=True), is_idle=False)
-    with pytest.raises(StateError, match="A script of Alan holds the robot"):
+    with pytest.raises(StateError, match="A script of Alan is in control"):
         lease.ask(ADA)
     lease.take(ADA)
     assert holder(lease) == "Ada"
@@ -196,7 +196,7 @@ def test_a_script_cannot_be_asked_so_it_may_be_taken_over(lease: Lease) -> None:
 
 @pytest.mark.parametrize("act", ["give", "keep", "release"])
 def test_nobody_can_hand_over_what_nobody_holds(lease: Lease, act: str) -> None:
-    with pytest.raises(StateError, match="Nobody holds the robot"):
+    with pytest.raises(StateError, match="No one is in control"):
         getattr(lease, act)(ADA)
 
 

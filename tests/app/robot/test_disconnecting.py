@@ -121,7 +121,7 @@ def test_who_disconnects_meanwhile_waits_for_the_same_and_nobody_connects(
 
 def test_who_only_looks_on_cannot_disconnect(robot: RobotService, port: PtyPort) -> None:
     stopping(robot, port)
-    with pytest.raises(StateError, match="Ada holds the robot"):
+    with pytest.raises(StateError, match="Ada is in control"):
         robot.disconnect(GRACE)
     assert not robot.view()["disconnecting"]
 

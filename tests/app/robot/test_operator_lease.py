@@ -49,7 +49,7 @@ def test_a_looker_on_moves_nothing_and_can_stop(studio: StudioProcess, ask: Subm
     for verb in ("arm", "pause", "resume", "reset", "disconnect"):
         refused = ask(verb, GRACE)
         assert refused.status == 409
-        assert refused.content["error"].startswith("Ada holds the robot. Ask Ada for it")
+        assert refused.content["error"].startswith("Ada is in control. Ask Ada for it")
     refused = ask("send", GRACE, gait="walk")
     assert (refused.status, refused.content["where"]) == (409, "lease")
     assert ask("arm", ADA).content["robot"] == "armed"
@@ -79,7 +79,7 @@ def test_a_script_needs_no_page_and_holds_the_robot_while_it_is_armed(
     assert ask("arm", by="Alan").content["lease"]["name"] == "A script of Alan"
     refused = ask("reset", ADA)
     assert refused.status == 409
-    assert "Take it over" in refused.content["error"]
+    assert "Take over" in refused.content["error"]
     assert ask("lease/take", ADA).content["lease"]["name"] == "Ada"
     assert ask("reset").status == 409
 
@@ -255,7 +255,7 @@ def test_a_robot_whose_line_was_lost_is_the_next_persons_once_its_holder_is_gone
     try:
         with service.held_by(ada):
             pass
-        with pytest.raises(StateError, match="Ada holds"), service.held_by(grace):
+        with pytest.raises(StateError, match="Ada is in control"), service.held_by(grace):
             pass
         time[0] += GONE_SECONDS + 1.0
         assert service.view()["page"] is None

@@ -12,7 +12,7 @@ from app.bridge.states import JogProgress, LinkState, RobotSnapshot, RobotState,
 from app.emulator.profiles import ProfileName
 from app.robot.run_summary import sent_waypoints
 from app.robot.views import RunOrigin, robot_view, run_end, stop_seconds
-from core.wire.robot_time import LONGEST_SCAN, OVERRUN, ramp_time
+from core.wire.robot_time import LONGEST_SCAN, OVERRUN, estimate_seconds, ramp_time
 from tests.support.virtual_robot import VirtualRobot, make_plan
 
 RUN = RunProgress("r", "Ada", RunPhase.STREAMING, 3, 3, 3, 9.0)
@@ -81,3 +81,21 @@ def test_the_stop_time_of_a_jog_is_that_of_its_longest_move_and_it_is_not_paused
     assert robot_view(MOVING, "robot", None)["allowed"]["pause"] is None
     paused = replace(MOVING, robot=RobotState.PAUSED)
     assert "A run is paused" in robot_view(paused, "robot", None)["allowed"]["jog"]
+
+
+def test_the_time_left_falls_to_nothing_over_all_iterations() -> None:
+    waypoints = make_plan(ROWS_MM[1:]).waypoints
+    origin = RunOrigin("r", "walk", "Walk", waypoints, waypoints.durations)
+    count = waypoints.count
+    order = [(lap, index) for lap in (1, 2) for index in range(count)]
+    left = []
+    for reached, (_, index) in enumerate(order, start=1):
+        # The next waypoint is on its way, of the last one there is none.
+        lap, sent = order[min(reached, len(order) - 1)]
+        run = replace(
+            RUN, reached=reached, waypoint_reached=index, waypoint_sent=sent, iteration=lap, iterations=2
+        )
+        left.append(robot_view(replace(MOVING, run=run), "robot", origin)["run"]["seconds_left"])
+    assert left[-1] == 0.0
+    assert all(later < earlier for earlier, later in pairwise(left))
+    assert left[0] == pytest.approx(estimate_seconds(waypoints) * 2 - origin.estimates[0], abs=0.02)

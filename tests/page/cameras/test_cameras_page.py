@@ -13,6 +13,7 @@ from app.emulator.emulated_robot import EmulatedRobot
 from tests.app.routes.test_cameras_http import walked
 from tests.app.routes.test_videos_http import SETUP, TRACK
 from tests.page.shell.test_accessibility import serious_findings
+from tests.support.page.drawers import open_drawer
 from tests.support.page.opened import look, opened_page
 from tests.support.studio_process import StudioProcess, running_studio
 from tests.support.trials.rendered import SIZE, write_video
@@ -66,7 +67,7 @@ def camera(page: Page, name: str) -> Locator:
 
 
 def open_cameras(page: Page) -> None:
-    page.get_by_role("button", name="All trials").click()
+    open_drawer(page, "Trials")
     panel(page).get_by_role("button", name="Cameras").click()
 
 
@@ -93,7 +94,7 @@ def test_a_run_is_recorded_and_its_note_leads_to_the_trial_with_its_figures(
     assert 0.2 < float(mean.inner_text()) < 2.0
     expect(panel(page)).to_contain_text("tracked with “under the glass”, version 1")
 
-    page.get_by_role("list", name="Newest runs").locator(f"[data-run='{run}']").click()
+    open_drawer(page, "Runs").locator(f"[data-run='{run}']").click()
     recorded = page.get_by_role("group", name="Recorded with this run")
     recorded.get_by_role("button", name="Recording of glass").click()
     expect(panel(page).get_by_role("button", name="Open its trial")).to_be_visible()

@@ -14,6 +14,7 @@ from app.vision.video_io import jpeg
 from tests.app.routes.test_videos_http import SETUP
 from tests.app.vision.test_lens import CORNERS, seen_from
 from tests.page.shell.test_accessibility import serious_findings
+from tests.support.page.drawers import open_drawer
 from tests.support.page.late_answers import LateRequests
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess, wait_for
@@ -69,7 +70,7 @@ def click_pixel(page: Page, pixel: tuple[float, float]) -> None:
 
 
 def send_video(page: Page, video: Path) -> None:
-    page.get_by_role("button", name="All trials").click()
+    open_drawer(page, "Trials")
     panel(page).get_by_role("button", name="From a video…").click()
     panel(page).get_by_label("Video file").set_input_files(video)
     expect(panel(page).get_by_role("button", name="New setup…")).to_be_visible()
@@ -120,6 +121,7 @@ def test_a_tracking_that_nobody_follows_offers_its_trial_and_its_video_leads_the
     kept = studio.ask("POST", "/api/videos?name=aside.avi", video.read_bytes() + b"\0").content["id"]
     order = {"setup": setup, "name": "tracked aside", "expected_cm": 1.0}
     studio.ask("POST", f"/api/videos/{kept}/track", order)
+    open_drawer(page, "Jobs")
     expect(page.get_by_role("button", name="Tracking aside.avi")).to_be_visible()
     page.get_by_role("button", name="Open the trial").click()
     published = panel(page).get_by_role("table", name="Movement as published")
@@ -144,13 +146,13 @@ def test_a_file_on_its_way_goes_on_where_its_panel_is_left_until_it_is_cancelled
     page: Page, video: Path
 ) -> None:
     page.route("**/api/videos?name=*", lambda route: None)
-    page.get_by_role("button", name="All trials").click()
+    open_drawer(page, "Trials")
     panel(page).get_by_role("button", name="From a video…").click()
     panel(page).get_by_label("Video file").set_input_files(video)
     expect(panel(page).get_by_role("button", name="Cancel upload")).to_be_visible()
     page.keyboard.press("Escape")
     expect(panel(page)).to_be_hidden()
-    page.get_by_role("button", name="All trials").click()
+    open_drawer(page, "Trials")
     panel(page).get_by_role("button", name="From a video…").click()
     panel(page).get_by_role("button", name="Cancel upload").click()
     expect(panel(page).get_by_label("Video file")).to_be_enabled()
@@ -158,7 +160,7 @@ def test_a_file_on_its_way_goes_on_where_its_panel_is_left_until_it_is_cancelled
 
 
 def test_videos_that_come_late_take_no_later_form_away(page: Page) -> None:
-    page.get_by_role("button", name="All trials").click()
+    open_drawer(page, "Trials")
     late = LateRequests(page, "GET", "/api/videos$")
     panel(page).get_by_role("button", name="From a video…").click()
     wait_for(lambda: late.count > 0, "the list of videos is asked for")
@@ -234,7 +236,7 @@ def test_a_lens_is_found_from_pictures_of_a_board_and_straightens_what_is_shown(
 def test_a_file_that_is_no_video_is_refused_with_a_sentence(page: Page, tmp_path: Path) -> None:
     path = tmp_path / "notes.mp4"
     path.write_text("no video")
-    page.get_by_role("button", name="All trials").click()
+    open_drawer(page, "Trials")
     panel(page).get_by_role("button", name="From a video…").click()
     panel(page).get_by_label("Video file").set_input_files(path)
     expect(page.get_by_role("alert").filter(has_text="notes.mp4")).to_be_visible()

@@ -9,6 +9,7 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Locator, Page, expect
 
+from tests.support.page.drawers import open_drawer
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess
 
@@ -39,11 +40,14 @@ def panel(page: Page) -> Locator:
 
 def test_a_gait_is_simulated_shown_over_its_plan_and_stale_after_an_edit(page: Page) -> None:
     expect(panel(page)).to_contain_text("Not simulated yet.")
-    panel(page).get_by_role("button", name="Simulate", exact=True).click()
+    page.get_by_role("button", name="Simulate", exact=True).click()
+    open_drawer(page, "Jobs")
     jobs = page.get_by_role("list", name="Jobs", exact=True)
     expect(jobs.get_by_role("listitem")).to_contain_text("Walk 10 mm")
+    expect(page.get_by_role("tab", name="Check & approve", selected=True)).to_be_visible()
+    expect(page.get_by_role("status", name="Verdict")).to_contain_text("Simulated walks")
+    page.get_by_role("tab", name="Simulate").click()
     words = panel(page).get_by_role("status", name="Simulated")
-    expect(words).to_contain_text(re.compile("^Walks"))
     expect(words).to_contain_text("Robot on the scales, 0.570 kg")
     row = panel(page).get_by_role("row", name=re.compile("^Largest tilt"))
     expect(row).to_contain_text("°")
@@ -68,9 +72,10 @@ def test_a_gait_is_simulated_shown_over_its_plan_and_stale_after_an_edit(page: P
 
 def test_a_simulation_is_cancelled_and_a_reload_brings_the_last_one_back(page: Page) -> None:
     expect(panel(page).get_by_role("status", name="Simulated")).to_be_visible()
-    panel(page).get_by_role("button", name="64 variations").click()
+    page.get_by_role("button", name="64 variations").click()
     panel(page).get_by_role("button", name="Cancel simulation").click()
     expect(panel(page).get_by_role("button", name="Cancel simulation")).to_be_hidden()
+    open_drawer(page, "Jobs")
     expect(page.get_by_role("list", name="Jobs", exact=True)).to_contain_text("cancelled")
     expect(panel(page).get_by_role("list", name="Variations")).to_be_hidden()
 

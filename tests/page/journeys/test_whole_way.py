@@ -62,12 +62,13 @@ def change_a_footfall_and_take_it_back(page: Page) -> None:
 
 
 def optimise_check_and_approve(page: Page) -> None:
-    page.get_by_role("tab", name="Optimise").click()
+    page.get_by_role("tab", name="Design").click()
     page.get_by_role("button", name="Optimise", exact=True).click()
+    page.get_by_role("button", name="Jobs", exact=True).click()
     jobs = page.get_by_role("list", name="Jobs")
     expect(jobs.get_by_text(re.compile("done", re.I)).first).to_be_visible()
     look(page, "optimised")
-    page.get_by_role("tab", name="Check").click()
+    page.get_by_role("tab", name="Check & approve").click()
     page.get_by_role("button", name="Check", exact=True).click()
     approve = page.get_by_role("button", name="Approve", exact=True)
     expect(approve).to_be_enabled()
@@ -75,7 +76,8 @@ def optimise_check_and_approve(page: Page) -> None:
     approve.click()
     page.get_by_role("textbox", name="Your name").fill("Ada")
     page.keyboard.press("Enter")
-    expect(page.get_by_role("tabpanel", name="Check")).to_contain_text(re.compile("Approved by.*Ada"))
+    expect(page.get_by_role("tab", name="Run", selected=True)).to_be_visible()
+    expect(page.get_by_role("status", name="Verdict")).to_contain_text("Approved by Ada")
 
 
 def say_who_you_are(page: Page, name: str) -> None:
@@ -85,7 +87,7 @@ def say_who_you_are(page: Page, name: str) -> None:
 
 
 def go_the_robots_way(page: Page) -> None:
-    page.get_by_role("tab", name="Robot").click()
+    page.get_by_role("tab", name="Run").click()
     expect(page.get_by_text(re.compile("about 8 s")).first).to_be_visible()
     look(page, "before-connecting")
     page.get_by_role("button", name="Connect", exact=True).click()
@@ -110,7 +112,7 @@ def test_from_opening_the_page_to_the_robots_measured_strokes(
     page.reload()
     status = page.get_by_role("status", name="Robot")
     expect(status).to_contain_text("moving")
-    page.get_by_role("tab", name="Robot").click()
+    page.get_by_role("tab", name="Run").click()
     look(page, "running")
     expect(status).to_contain_text("done")
     look(page, "done")
@@ -131,12 +133,12 @@ def test_from_opening_the_page_to_the_robots_measured_strokes(
 def edit_while_the_robot_moves(page: Page) -> None:
     later = page.get_by_role("status", name="Later edit")
     expect(later).to_be_hidden()
-    page.get_by_role("tab", name="Optimise").click()
+    page.get_by_role("tab", name="Design").click()
     step = page.get_by_role("spinbutton", name="Step", exact=True)
     step.fill("9")
     step.press("Enter")
+    page.get_by_role("tab", name="Run").click()
     expect(later).to_have_text("The run goes on with the approved version; what you see is a later edit.")
-    page.get_by_role("tab", name="Robot").click()
     look(page, "edited while it runs")
 
 

@@ -10,6 +10,7 @@ from playwright.sync_api import Browser, Route, expect
 
 from app.store.database import Database
 from core.vision.track_csv import format_track_csv
+from tests.support.page.drawers import open_drawer
 from tests.support.page.opened import look, opened_page
 from tests.support.studio_process import StudioProcess, running_studio
 from tests.support.trials.synthetic_walks import keep_course
@@ -39,7 +40,7 @@ def test_a_course_runs_in_the_background_and_can_be_cancelled(
     browser: Browser, studio: StudioProcess
 ) -> None:
     with opened_page(browser, studio.url, 1280, 720, has_scene=False) as page:
-        page.get_by_role("button", name="All trials").click()
+        open_drawer(page, "Trials")
         panel = page.get_by_role("region", name="Trials")
         panel.get_by_role("button", name="Learn from trials").click()
         expect(panel.get_by_role("checkbox", name="trial of nothing")).to_be_disabled()
@@ -75,7 +76,7 @@ def test_a_course_is_asked_for_again_only_where_the_studio_does_not_answer(
     with opened_page(browser, studio.url, 1024, 768, has_scene=False) as page:
         page.route("**/api/learning", lambda route: route.fulfill(json={"courses": [on]}))
         page.route("**/api/learning/made", answer)
-        page.get_by_role("button", name="All trials").click()
+        open_drawer(page, "Trials")
         panel = page.get_by_role("region", name="Trials")
         panel.get_by_role("button", name="Learn from trials").click()
         progress = panel.get_by_role("status", name="Learning")
@@ -88,7 +89,7 @@ def test_what_was_learned_is_kept_chosen_in_simulate_deleted_and_brought_back(
     browser: Browser, studio: StudioProcess
 ) -> None:
     with opened_page(browser, studio.url, 1024, 768, has_scene=False) as page:
-        page.get_by_role("button", name="All trials").click()
+        open_drawer(page, "Trials")
         panel = page.get_by_role("region", name="Trials")
         panel.get_by_role("button", name="Learn from trials").click()
         panel.get_by_role("button", name="3 trials of 3 gaits").click()

@@ -59,7 +59,7 @@ def test_holding_feet_up_makes_a_motion_of_a_gait_that_ends_in_the_air(
     wait_for(lambda: held(studio, made["Lifted"]) == {"start": [], "end": [1, 4]}, "held up", 60)
     field.press("Tab")
     expect(field).to_have_value("1 4")
-    expect(page.get_by_text("Feasible, checked")).to_be_visible()
+    expect(page.get_by_text("Plan margin")).to_be_visible()
     expect(page.get_by_text("Feet 1 and 4 are held up at the end.").first).to_be_attached()
 
 

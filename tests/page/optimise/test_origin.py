@@ -17,7 +17,7 @@ pytestmark = pytest.mark.heavy
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     with opened_page(browser, studio.url, 1280, 800, has_scene=False) as opened:
-        expect(opened.get_by_role("status", name="Live answer")).to_contain_text("Feasible")
+        expect(opened.get_by_role("status", name="Verdict")).to_contain_text("Plan margin")
         yield opened
 
 
@@ -48,12 +48,12 @@ def test_a_trajectory_is_chosen_with_its_companion_and_optimise_replaces_it(
     choose_files(page, files)
     expect(page.get_by_label("Gait name")).to_have_value("tuesday")
     expect(origin(page)).to_have_text("Recorded in tuesday.csv; Optimise replaces it.")
-    expect(page.get_by_role("status", name="Live answer")).to_contain_text("Recorded")
+    expect(page.get_by_role("status", name="Verdict")).to_contain_text("Plan recorded")
     assert studio.blob("/api/gaits/tuesday/export/csv") == files[0]["buffer"]
     assert studio.blob("/api/gaits/tuesday/export/companion") == files[1]["buffer"]
     page.get_by_role("button", name="Optimise", exact=True).click()
     expect(page.get_by_title("The recorded motion of tuesday.csv was set aside")).to_be_visible()
-    expect(origin(page)).not_to_contain_text("Recorded")
+    expect(origin(page)).not_to_contain_text("Plan recorded")
     page.get_by_role("button", name=re.compile("^Undo")).click()
     expect(origin(page)).to_have_text("Recorded in tuesday.csv; Optimise replaces it.")
 

@@ -37,8 +37,8 @@ def search(page: Page) -> Page:
     )
     page.reload()
     choose_gait(page, "Walk 10 mm")
-    page.get_by_role("tab", name="Patterns").click()
-    expect(page.get_by_role("tabpanel", name="Patterns")).to_be_visible()
+    page.get_by_role("tab", name="Pattern search").click()
+    expect(page.get_by_role("tabpanel", name="Pattern search")).to_be_visible()
     return page
 
 
@@ -120,7 +120,7 @@ def test_cursors_stay_while_a_new_gait_is_not_yet_in_the_list(
         late = LateList(other)
         other.goto(studio.url)
         choose_gait(other, "Walk 10 mm")
-        other.get_by_role("tab", name="Patterns").click()
+        other.get_by_role("tab", name="Pattern search").click()
         solved(other)
         cursor(other, "A").focus()
         press(other, *["ArrowRight"] * 6)
@@ -213,7 +213,7 @@ def test_what_walks_has_a_playhead_and_the_chosen_pattern_outlasts_its_gait(sear
     expect(search.locator(".pattern-playhead")).to_be_hidden()
     search.get_by_role("button", name="Make gait").click()
     expect(search.get_by_label("Gait name")).to_have_value("Walk 10 mm to Amble 10 mm")
-    for tab in ("Optimise", "Patterns"):
+    for tab in ("Cells", "Pattern search"):
         search.get_by_role("tab", name=tab).click()
     expect(best.get_by_role("option").nth(2)).to_have_attribute("aria-selected", "true")
     assert rows(search) == chosen
@@ -233,7 +233,7 @@ def test_a_gait_for_some_limbs_walks_and_is_made(search: Page, studio: StudioPro
     search.get_by_role("button", name="Walk it").click()
     expect(search.get_by_role("button", name="Stop walking")).to_be_visible()
     expect(search.get_by_role("button", name="Pause")).to_be_visible()
-    expect(search.get_by_role("status", name="Plan")).to_contain_text("Feasible")
+    expect(search.get_by_role("status", name="Verdict")).to_contain_text("margin")
     search.get_by_role("button", name="Stop walking").click()
     second = search.get_by_role("listbox", name="Best patterns").get_by_role("option").nth(1)
     second.click()
@@ -244,7 +244,7 @@ def test_a_gait_for_some_limbs_walks_and_is_made(search: Page, studio: StudioPro
     assert rows(search) == chosen
     made = studio.ask("GET", "/api/gaits/4-limbs-of-6").content
     assert made["held"] == {"start": [3, 6], "end": [3, 6]}
-    expect(search.get_by_role("status", name="Plan")).to_contain_text("Feasible")
+    expect(search.get_by_role("status", name="Verdict")).to_contain_text("Plan margin")
 
 
 def test_a_drawing_is_completed_by_one_edit(search: Page, studio: StudioProcess) -> None:
@@ -317,7 +317,7 @@ def test_a_reload_keeps_gaits_cursors_and_rules(search: Page) -> None:
     search.get_by_label("Length", exact=True).fill("24")
     solved(search)
     search.reload()
-    expect(search.get_by_role("tab", name="Patterns")).to_have_attribute("aria-selected", "true")
+    expect(search.get_by_role("tab", name="Pattern search")).to_have_attribute("aria-selected", "true")
     expect(cursor(search, "B")).to_have_attribute("aria-valuetext", text or "")
     expect(search.get_by_label("Gait B", exact=True)).to_have_value("quadruped-wave-1")
     expect(search.get_by_role("switch", name="Workloads differ by: on")).not_to_be_checked()
@@ -333,6 +333,6 @@ def test_no_kind_of_pattern_has_a_serious_finding(search: Page, scheme: str) -> 
         # On a busy machine the time limit may come before the proof.
         solved(search, re.compile("^(Optimal|Feasible)"))
         assert serious_findings(search, SEARCH) == [], f"{kind}, {scheme}"
-    search.get_by_role("tab", name="Optimise").click()
+    search.get_by_role("tab", name="Design").click()
     expect(search.get_by_role("grid", name="Footfall timeline")).to_be_visible()
-    expect(search.get_by_role("tabpanel", name="Patterns")).to_be_hidden()
+    expect(search.get_by_role("tabpanel", name="Pattern search")).to_be_hidden()

@@ -130,7 +130,7 @@ def test_two_pages_on_different_robots_each_see_their_own(
 
 
 def test_with_a_gpu_the_robot_throws_a_shadow(browser: Browser, studio: StudioProcess) -> None:
-    page = browser.new_page(viewport={"width": 640, "height": 480})
+    page = browser.new_page(viewport={"width": 1024, "height": 640})
     # Only what the page takes from it is tried here: this machine may have no GPU.
     page.add_init_script(
         "Object.defineProperty(window, 'footfallSoftwareDrawing', { get: () => false, set: () => {} })"

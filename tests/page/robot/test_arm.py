@@ -15,14 +15,14 @@ pytestmark = pytest.mark.heavy
 
 def test_a_name_is_asked_for_before_the_robot_is_armed(browser: Browser, studio: StudioProcess) -> None:
     with opened_page(browser, studio.url, 1280, 900, has_scene=False) as page:
-        page.get_by_role("tab", name="Robot").click()
+        page.get_by_role("tab", name="Run").click()
         page.get_by_role("button", name="Connect", exact=True).click()
         status = page.get_by_role("status", name="Robot")
         expect(status).to_contain_text("disarmed")
         arm = page.get_by_role("button", name="Arm", exact=True)
         arm.click()
         asked = page.get_by_role("dialog", name="Who is working here?")
-        asked.get_by_role("button", name="Not now").click()
+        asked.get_by_role("button", name="Cancel").click()
         expect(status).to_contain_text("disarmed")
         arm.click()
         asked.get_by_label("Your name").fill("Ada")

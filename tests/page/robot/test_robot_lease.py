@@ -39,7 +39,7 @@ def press(page: Page, button: str | re.Pattern[str]) -> None:
 
 
 def says_who_holds(page: Page, words: str) -> None:
-    held = page.get_by_role("group", name="Who holds the robot")
+    held = page.get_by_role("group", name="Who is in control")
     expect(held).to_contain_text(words)
 
 
@@ -50,25 +50,25 @@ def is_state(page: Page, state: str) -> None:
 def test_a_second_tab_looks_on_is_given_the_robot_and_the_first_can_still_stop(
     ada: Page, grace: Page
 ) -> None:
-    says_who_holds(grace, "Nobody holds the robot.")
+    says_who_holds(grace, "No one is in control.")
     press(ada, "Connect")
     is_state(ada, "disarmed")
-    says_who_holds(ada, "You hold the robot.")
-    says_who_holds(grace, "Ada holds the robot.")
+    says_who_holds(ada, "You are in control.")
+    says_who_holds(grace, "Ada is in control.")
     arm = grace.get_by_role("button", name="Arm", exact=True)
     expect(arm).to_have_attribute("aria-disabled", "true")
-    expect(arm).to_have_attribute("title", re.compile("^Ada holds the robot. Ask Ada for it"))
+    expect(arm).to_have_attribute("title", re.compile("^Ada is in control. Ask Ada for it"))
     look(grace, "lease-looking-on")
     press(grace, "Ask for it")
     says_who_holds(ada, "Grace asks for it.")
     look(ada, "lease-asked")
     press(ada, "Give it to Grace")
-    says_who_holds(grace, "You hold the robot.")
+    says_who_holds(grace, "You are in control.")
     press(grace, "Arm")
     is_state(ada, "\\barmed")
     grace.reload()
-    grace.get_by_role("tab", name="Robot").click()
-    says_who_holds(grace, "You hold the robot.")
+    grace.get_by_role("tab", name="Run").click()
+    says_who_holds(grace, "You are in control.")
     press(ada, "Stop")
     is_state(grace, "stopp(ed|ing)")
     is_state(ada, "stopped")
@@ -76,7 +76,7 @@ def test_a_second_tab_looks_on_is_given_the_robot_and_the_first_can_still_stop(
     press(grace, "Clear")
     is_state(grace, "disarmed")
     press(grace, "Disconnect")
-    says_who_holds(ada, "Nobody holds the robot.")
+    says_who_holds(ada, "No one is in control.")
 
 
 @pytest.fixture

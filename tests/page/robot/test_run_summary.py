@@ -28,7 +28,7 @@ def test_the_names_stand_in_one_line_beside_a_long_reason(
     with opened_page(browser, studio.url, width, height, has_scene=False) as page:
         page.route("**/api/gaits/*/run?*", altered)
         page.reload()
-        page.get_by_role("tab", name="Robot", exact=True).click()
+        page.get_by_role("tab", name="Run").click()
         expect(page.get_by_text("To the start pose")).to_be_visible()
         rows = page.locator("#robot dl.summary")
         expect(rows.get_by_text("with the slowest scan known")).to_be_visible()

@@ -18,11 +18,11 @@ def test_the_stop_bound_says_what_it_costs_and_a_change_takes_the_approval(
     assert studio.ask("POST", "/api/gaits/walk/approve", {"by": "Ada", "accept_warnings": True}).status == 200
     before = studio.ask("GET", "/api/gaits/walk/view").content
     with opened_page(browser, studio.url, 1280, 720, has_scene=False) as page:
-        page.get_by_role("tab", name="Check").click()
+        page.get_by_role("tab", name="Check & approve").click()
         table = page.get_by_role("table", name="Time on the robot")
         expect(table.get_by_role("row")).to_have_count(4)
         expect(table.locator("tr[aria-current] th")).to_have_text("1.0 s ✓")
-        expect(page.get_by_text("Approved by")).to_be_visible()
+        expect(page.get_by_role("status", name="Verdict")).to_contain_text("Approved by Ada")
         bound = page.get_by_role("spinbutton", name="Stop bound", exact=True)
         bound.fill("")
         bound.press("Enter")

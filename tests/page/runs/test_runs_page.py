@@ -11,6 +11,7 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Locator, Page, expect
 
 from app.store.database import Database
+from tests.support.page.drawers import open_drawer
 from tests.support.page.late_answers import LateAnswers
 from tests.support.page.opened import opened_page
 from tests.support.ran_robot import keep_run
@@ -36,12 +37,8 @@ def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess]:
 @pytest.fixture
 def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
     with opened_page(browser, studio.url, 1280, 800, has_scene=False) as opened:
-        expect(newest(opened)).to_have_count(3)
+        expect(opened.get_by_label("Gait name")).not_to_have_value("")
         yield opened
-
-
-def newest(page: Page) -> Locator:
-    return page.get_by_role("list", name="Newest runs").get_by_role("listitem")
 
 
 def listed(page: Page) -> Locator:
@@ -53,7 +50,7 @@ def panel(page: Page) -> Locator:
 
 
 def test_a_run_is_found_by_who_sent_it(page: Page) -> None:
-    page.get_by_role("button", name="All runs").press("Enter")
+    open_drawer(page, "Runs")
     expect(listed(page)).to_have_count(3)
     expect(listed(page).first).to_contain_text(re.compile(r"error 0\.\d\d mm"))
     page.get_by_label("Operator of the runs").select_option("Bob")
@@ -61,12 +58,13 @@ def test_a_run_is_found_by_who_sent_it(page: Page) -> None:
     page.get_by_label("Runs until").fill("2020-01-01")
     expect(panel(page)).to_contain_text("No run is like that.")
     page.keyboard.press("Escape")
-    page.get_by_role("tab", name="Optimise").click()
+    page.get_by_role("tab", name="Design").click()
     expect(panel(page)).to_be_hidden()
 
 
 def test_a_run_lies_over_the_plan_with_its_errors_and_its_note(page: Page, studio: StudioProcess) -> None:
-    newest(page).nth(1).get_by_role("button").click()
+    open_drawer(page, "Runs")
+    listed(page).nth(1).get_by_role("button").click()
     expect(page.get_by_label("Gait name")).to_have_value("Manual walk, v0")
     expect(page.locator(".measured-key")).to_have_count(2)  # strokes and foot heights
     expect(panel(page)).to_contain_text("Bob")
@@ -87,14 +85,15 @@ def test_a_run_lies_over_the_plan_with_its_errors_and_its_note(page: Page, studi
     panel(page).get_by_label("Compare with").select_option(index=1)
     times = panel(page).get_by_role("table", name="Times, s")
     expect(times.get_by_role("row", name=re.compile("duration"))).to_contain_text("0.0")  # the same run twice
-    found = Axe().run(page, context={"include": [[".runs-panel"]]}).response["violations"]
+    found = Axe().run(page, context={"include": [["#drawer-runs"]]}).response["violations"]
     assert [one["id"] for one in found if one["impact"] in ("serious", "critical")] == []
     panel(page).get_by_role("button", name="Close runs").click()
     expect(page.locator(".measured-key")).to_have_count(0)
 
 
 def test_the_run_that_was_opened_last_stays_and_a_closed_panel_lays_nothing_over_the_plan(page: Page) -> None:
-    rows = newest(page)
+    open_drawer(page, "Runs")
+    rows = listed(page)
     first = rows.nth(0).locator("button").get_attribute("data-run")
     late = LateAnswers(page, "GET", f"/api/runs/{first}$")
     rows.nth(0).get_by_role("button").click()
@@ -106,6 +105,7 @@ def test_the_run_that_was_opened_last_stays_and_a_closed_panel_lays_nothing_over
     page.evaluate("() => new Promise(requestAnimationFrame)")
     expect(panel(page)).to_contain_text("Bob")
     late = LateAnswers(page, "GET", f"/api/runs/{first}/strokes")
+    panel(page).get_by_role("button", name="All runs").click()
     rows.nth(0).get_by_role("button").click()
     wait_for(lambda: late.count == 1, "its strokes are on their way")
     panel(page).get_by_role("button", name="Close runs").click()
@@ -115,7 +115,8 @@ def test_the_run_that_was_opened_last_stays_and_a_closed_panel_lays_nothing_over
 
 
 def test_a_deleted_run_comes_back(page: Page) -> None:
-    newest(page).first.get_by_role("button").click()
+    open_drawer(page, "Runs")
+    listed(page).first.get_by_role("button").click()
     panel(page).get_by_role("button", name="Delete").click()
     expect(listed(page)).to_have_count(2)
     page.locator(".toast").get_by_role("button", name="Undo").click()

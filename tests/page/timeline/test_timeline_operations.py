@@ -199,7 +199,7 @@ def test_samples_come_and_go_at_the_focused_cell(timeline: TimelinePage) -> None
 
 def test_without_a_selection_the_whole_timeline_is_meant(timeline: TimelinePage) -> None:
     gait = timeline.open("Whole")
-    timeline.page.get_by_role("button", name="Mirror", exact=True).click()
+    timeline.item("Mirror").click()
     timeline.becomes(gait, FOUR[1], FOUR[0], FOUR[3], FOUR[2])
     timeline.last_edit("Mirror the whole timeline")
     timeline.item("Rotate by 90°").click()
@@ -225,7 +225,7 @@ def test_repeating_the_whole_is_more_iterations(timeline: TimelinePage) -> None:
 
 def test_a_stretch_takes_a_factor_and_keeps_every_swing(timeline: TimelinePage) -> None:
     gait = timeline.open("Factor")
-    timeline.page.get_by_role("button", name="Stretch…").click()
+    timeline.item("Stretch…").click()
     asked = timeline.page.get_by_role("dialog", name="Stretch")
     asked.get_by_label("Factor").fill("1.5")
     expect(asked.get_by_label("New length")).to_have_value("36")

@@ -198,7 +198,7 @@ def test_space_plays_arrows_step_and_no_letter_asks_the_robot(timeline: Timeline
     timeline.open("Letters")
     sent: list[str] = []
     page.on("request", lambda request: sent.append(request.url))
-    page.locator("body").click(position={"x": 640, "y": 20})
+    page.locator("#step-title").click()
     clock = page.locator("#clock b")
     timeline.press("Home", "ArrowRight")
     expect(clock).to_have_text("0.4")

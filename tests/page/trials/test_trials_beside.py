@@ -11,6 +11,7 @@ from playwright.sync_api import Browser, FilePayload, Locator, Page, expect
 
 from core.vision.track_csv import format_track_csv
 from tests.core.vision.test_image_header import picture
+from tests.support.page.drawers import open_drawer
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess
 from tests.support.trials.tracks import stepping_track
@@ -37,7 +38,7 @@ def add_trial(studio: StudioProcess, name: str, step: float = 0.0085, **more: An
 
 
 def open_trials(page: Page) -> Locator:
-    page.get_by_role("button", name="All trials").click()
+    open_drawer(page, "Trials")
     return page.get_by_role("region", name="Trials")
 
 

@@ -9,6 +9,7 @@ import pytest
 from playwright.sync_api import Browser, Route, expect
 
 from core.vision.track_csv import format_track_csv
+from tests.support.page.drawers import open_drawer
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess
 from tests.support.trials.tracks import stepping_track
@@ -28,7 +29,7 @@ def test_a_track_is_added_compared_moved_deleted_and_brought_back(
 ) -> None:
     with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
         expect(page.get_by_label("Gait name")).not_to_have_value("")  # the distance is that of the shown gait
-        page.get_by_role("button", name="All trials").click()
+        open_drawer(page, "Trials")
         panel = page.get_by_role("region", name="Trials")
         expect(panel.get_by_text("No trial yet.")).to_be_visible()
         panel.get_by_role("button", name="Add trials…").click()
@@ -63,7 +64,7 @@ def test_the_whole_line_of_an_iterations_end_is_dragged_and_lies_where_the_hand_
     body = {"name": "dragged", "csv": csv, "expected_cm": 2.0, "iterations": 2}
     trial = studio.ask("POST", "/api/trials", body).content
     with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
-        page.get_by_role("button", name="All trials").click()
+        open_drawer(page, "Trials")
         panel = page.get_by_role("region", name="Trials")
         panel.get_by_role("button", name=re.compile("^dragged")).click()
         expect(panel.get_by_role("status", name="Physics")).to_contain_text("is not known of this trial")
@@ -98,7 +99,7 @@ def test_where_pictures_come_unevenly_the_ends_of_iterations_stand_at_their_time
 
     with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
         page.route("**/paths", slower_and_slower)
-        page.get_by_role("button", name="All trials").click()
+        open_drawer(page, "Trials")
         panel = page.get_by_role("region", name="Trials")
         panel.get_by_role("button", name=re.compile("^uneven")).click()
         expect(panel.get_by_role("status", name="Physics")).to_contain_text("is not known of this trial")
@@ -120,7 +121,7 @@ def test_a_trial_that_is_changed_elsewhere_is_followed_and_what_was_typed_stays(
     trial = studio.ask("POST", "/api/trials", {"name": "shared", "csv": csv, "expected_cm": 1.0}).content
     at = f"/api/trials/{trial['id']}"
     with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
-        page.get_by_role("button", name="All trials").click()
+        open_drawer(page, "Trials")
         panel = page.get_by_role("region", name="Trials")
         panel.get_by_role("button", name=re.compile("^shared")).click()
         note = panel.get_by_label("Note", exact=True)

@@ -104,4 +104,4 @@ def choose(page: Page, name: str) -> None:
     alone = re.compile(f"^{re.escape(name)}(?!,)")  # and not one of its other foot orders
     page.get_by_role("list", name="Gaits").get_by_role("button", name=alone).click()
     expect(page.get_by_label("Gait name")).to_have_value(name)
-    expect(page.get_by_role("status", name="Live answer")).to_contain_text("Feasible")
+    expect(page.get_by_role("status", name="Verdict")).to_contain_text("Plan margin")

@@ -12,4 +12,4 @@ def name(page: Page, person: str) -> None:
     page.get_by_role("button", name=re.compile("Operator")).click()
     page.get_by_role("textbox", name="Your name").fill(person)
     page.keyboard.press("Enter")
-    page.get_by_role("tab", name="Robot").click()
+    page.get_by_role("tab", name="Run").click()

@@ -2,7 +2,7 @@
 
 import { api } from "../api/gaits.js";
 import { latestOnly } from "../lib/latest_only.js";
-import { shownPlan } from "../state/store.js";
+import { shownPlan } from "./store.js";
 import { report } from "../lib/toasts.js";
 
 const SIMULATE = "simulate";
@@ -61,4 +61,12 @@ export function followSimulation(store) {
     if (simulation && simulation.key !== key) store.set({ simulation: null });
     if (key) offer(key);
   });
+}
+
+/** Word and tone of a simulation. */
+export function simulationText({ report, findings }) {
+  if (report.fell) return ["Falls over", "bad"];
+  if (report.ended_early) return ["Ended early", "bad"];
+  if (findings.some(({ severity }) => severity === "error")) return ["Tips", "bad"];
+  return findings.length ? ["Walks, with warnings", "caution"] : ["Walks", "good"];
 }

@@ -1,0 +1,34 @@
+/** Without the studio everything but Stop and looking is off, and the page says why; edits that were not sent are kept. */
+
+import { byId, setText } from "../lib/dom.js";
+
+/** A studio that is back within this time was only out of breath. */
+const PATIENCE_MS = 1000;
+const PARTS = ["#drawers", "#sections", ".inspector-foot", "#tools", "#timeline", "#segments", ".gait-pill", ".history", "#operator", "#goal", "#pose"];
+const SENTENCE = "No connection to the studio. All but Stop is off until it is back; Stop is tried all the same.";
+
+function sentence({ pending, left }) {
+  const unsent = pending.length + left.length;
+  return unsent ? `${SENTENCE} ${unsent === 1 ? "One edit was" : `${unsent} edits were`} not sent yet: kept here, and sent then.` : SENTENCE;
+}
+
+/** Switches the parts off while the studio does not answer, and says so. */
+export function mountOffline(store) {
+  const banner = byId("banner");
+  let timer = null;
+  const setOff = (isOff) => {
+    document.body.toggleAttribute("data-offline", isOff);
+    for (const part of PARTS) document.querySelector(part).inert = isOff;
+  };
+  store.watch(({ connected, greeted, pending, left }) => [connected, greeted, pending.length, left.length], (state) => {
+    const isLost = !state.connected && state.greeted;
+    banner.hidden = !isLost;
+    setText(banner, isLost ? sentence(state) : "");
+    if (isLost) timer ??= setTimeout(() => setOff(true), PATIENCE_MS);
+    else {
+      clearTimeout(timer);
+      timer = null;
+      setOff(false);
+    }
+  });
+}

@@ -1,0 +1,22 @@
+/** What there is to say of a plan in a word. */
+
+const TEXTS = {
+  live: ["Plan found", "good"], optimised: ["Optimised", "good"], manual: ["By hand", "good"], sequence: ["Sequence", "good"], iterate: ["An iteration, not the plan", "caution"],
+  recorded: ["Recorded", "good"], poses: ["Plan found", "good"],
+};
+const ROUNDING_M = 1e-6;
+
+/** Word and tone of a plan's state. */
+export function planState(plan) {
+  if (!plan) return ["No plan", "quiet"];
+  if (plan.live?.status === "infeasible") return ["No motion", "bad"];
+  if (plan.poses?.explanation.length) return ["No motion", "bad"];
+  if (plan.source === "adapted") return ["Adapted, not solved", "caution"];
+  if (!plan.times.length) return ["No motion", "bad"];
+  if (plan.source === "draft" && plan.parts?.length && !plan.parts.some((part) => part.broke_off)) return ["No motion", "bad"];
+  if (plan.source === "draft") return ["No answer", "caution"];
+  if (plan.source === "recorded" && plan.refusal) return ["Recorded, out of reach", "bad"];
+  if (plan.source === "manual" && plan.refusal) return ["By hand, out of reach", "bad"];
+  if (plan.source === "manual" && plan.balance < -ROUNDING_M) return ["By hand, off balance", "caution"];
+  return TEXTS[plan.source] ?? [plan.source, "quiet"];
+}

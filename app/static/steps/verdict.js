@@ -1,0 +1,95 @@
+/** The verdict strip: the only place that says where the shown gait stands. Each part opens its step. */
+
+import { planState } from "../state/plan_state.js";
+import { byId, h, setAttribute, setText } from "../lib/dom.js";
+import { capital, fixed, lowered, mm } from "../lib/format.js";
+import { simulationOver } from "../state/simulation.js";
+import { shownPlan } from "../state/store.js";
+import { approvalState, checkState, simulateState, stepStates } from "./step_states.js";
+import { openStep } from "./steps.js";
+
+const MARGIN_HELP = "Margin: least distance of the balance point from the edge of the support polygon. Of the centre of pressure where the motion is solved, else of the centre of mass.";
+
+const NONE = "–";
+/** Said by the mark alone. */
+const USUAL = "Plan found";
+
+/** What is known of the plan: mark, figure and the sentence on hover. */
+function planPart(state) {
+  const plan = shownPlan(state);
+  if (!plan) return { mark: "none", figure: state.view ? "none yet" : NONE, help: "No plan: optimise this gait to see it move." };
+  const { mark } = stepStates(state).design;
+  const [word] = planState(plan);
+  const isMotion = plan.times.length > 0 && word !== "No motion";
+  const margin = isMotion && plan.balance !== null ? `margin ${mm(plan.balance)} mm` : null;
+  const figure = [word === USUAL && margin ? null : lowered(word), margin].filter(Boolean).join(", ");
+  return { mark, figure, tone: isMotion && plan.balance !== null && plan.balance < 0 ? "bad" : null, help: [`${word}.`, plan.note, isMotion ? MARGIN_HELP : ""].filter(Boolean).join(" ") };
+}
+
+function robotPart(state) {
+  const plan = shownPlan(state);
+  const { view } = state;
+  const seconds = plan === view?.plan ? plan?.robot_seconds : null;
+  if (!seconds) return { figure: NONE, help: "Time and speed on the robot are not known yet." };
+  const speed = view.speed ? `  ${fixed(view.speed * 1000, 2)} mm/s` : "";
+  return { figure: `${fixed(seconds)} s${speed}`, help: `On the robot the motion takes about ${fixed(seconds)} s${view.speed ? `, which is ${fixed(view.speed * 1000, 2)} mm/s` : ""}. It leaves out the way to the start pose.` };
+}
+
+function simulatedPart(state) {
+  const { mark, word } = simulateState(state);
+  const variations = mark === "done" || mark === "failed" ? simulationOver(state)?.variations : null;
+  const walking = variations?.runs.filter(({ walks }) => walks).length;
+  const figure = mark === "none" ? NONE : variations ? `${walking}/${variations.count} ${word}` : word;
+  return { mark, figure, help: mark === "none" ? "Not simulated yet." : `${capital(word)}.${variations ? ` ${walking} of ${variations.count} variations walk.` : ""}` };
+}
+
+function checkedPart(state) {
+  const { mark, word } = checkState(state);
+  return { mark, figure: mark === "none" ? NONE : word, help: mark === "none" ? "Not yet checked for sending." : `Check before sending: ${word}.` };
+}
+
+function approvedPart(state) {
+  const { mark, word } = approvalState(state);
+  return { mark, figure: mark === "none" ? NONE : word, help: mark === "none" ? "Not approved yet." : `Approval: ${word}.` };
+}
+
+const PARTS = [
+  { name: "Plan", step: "design", of: planPart },
+  { name: "On the robot", step: "design", of: robotPart },
+  { name: "Simulated", step: "simulate", of: simulatedPart },
+  { name: "Checked", step: "check", of: checkedPart },
+  { name: "Approved", step: "check", of: approvedPart },
+];
+
+function build({ name, step, of }) {
+  const [mark, figure] = [h("span", { class: "step-mark", "aria-hidden": "true" }), h("b")];
+  const element = h("button", { class: "verdict-part", on: { click: () => openStep(step) } }, mark, h("span", { class: "quiet", text: name }), " ", figure);
+  return { element, show(state) {
+    const { mark: kind = null, figure: text, help, tone = null } = of(state);
+    mark.hidden = kind === null;
+    setAttribute(mark, "data-mark", kind);
+    setText(figure, text);
+    setAttribute(figure, "data-tone-text", tone);
+    setAttribute(element, "title", help);
+  } };
+}
+
+/** What is shown instead of the gait's plan, in a few words. */
+function previewText({ iterate, preview, view, live, gesture, pending }) {
+  if (iterate) return "An iteration, not the plan";
+  if (preview) return "Preview";
+  if (view && (gesture || pending.length || (live && live.plan !== view.plan))) return "Edit under way";
+  return "";
+}
+
+/** Builds the strip and keeps it current. */
+export function mountVerdict(store) {
+  const parts = PARTS.map(build);
+  const preview = h("span", { class: "verdict-preview" });
+  byId("verdict").append(...parts.map(({ element }) => element), preview);
+  const watched = ({ view, jobs, simulation, selected, live, checked, pending, gesture, iterate, preview: shown }) => [view, jobs, simulation, selected, live, checked, pending.length, gesture === null, iterate, shown === null];
+  store.watch(watched, (state) => {
+    parts.forEach((part) => part.show(state));
+    setText(preview, previewText(state));
+  });
+}

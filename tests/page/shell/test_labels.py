@@ -1,0 +1,131 @@
+"""No text of the page is cut or lies on another one, in any state and size; a failure leaves a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from app.emulator.emulated_robot import EmulatedRobot
+from tests.support.page.drawers import open_drawer
+from tests.support.page.labels import label_problems, require_whole_labels
+from tests.support.page.opened import leave_scene_out
+from tests.support.patience import patient_robot
+from tests.support.studio_process import StudioProcess, running_studio, wait_for
+
+pytestmark = pytest.mark.heavy
+SPEED = 5.0
+SIZES = ((1280, 720, 1.0), (1440, 900, 1.0), (1920, 1080, 1.0), (820, 1180, 1.0), (640, 360, 2.0))
+"""Width and height in CSS px, and device pixels a CSS px: the last is 1280 × 720 at 200 %."""
+
+
+@pytest.fixture
+def robot() -> Iterator[EmulatedRobot]:
+    with patient_robot(SPEED) as emulated:
+        yield emulated
+
+
+@pytest.fixture
+def studio(tmp_path: Path, robot: EmulatedRobot) -> Iterator[StudioProcess]:
+    with running_studio(tmp_path, "--robot", robot.device) as running:
+        yield running
+
+
+@pytest.fixture(params=SIZES, ids=lambda size: f"{size[0]}x{size[1]}")
+def page(browser: Browser, studio: StudioProcess, request: pytest.FixtureRequest) -> Iterator[Page]:
+    width, height, scale = request.param
+    context = browser.new_context(
+        viewport={"width": width, "height": height}, device_scale_factor=scale, reduced_motion="reduce"
+    )
+    opened = context.new_page()
+    leave_scene_out(opened)
+    opened.goto(studio.url)
+    expect(opened.get_by_role("status", name="Verdict")).to_contain_text("margin")
+    expect(opened.get_by_role("button", name="Simulate", exact=True)).to_be_visible()
+    yield opened
+    context.close()
+
+
+def press(page: Page, name: str) -> None:
+    button = page.get_by_role("button", name=name, exact=True)
+    expect(button).not_to_have_attribute("aria-disabled", "true")
+    button.click()
+
+
+def choose(page: Page, name: str) -> None:
+    """Shows a gait of the list, and closes a drawer that lay over the stage."""
+    if page.get_by_role("list", name="Gaits").is_hidden():
+        open_drawer(page, "Gaits")
+    page.get_by_label("Find a gait").fill(name)
+    page.get_by_role("list", name="Gaits").get_by_role("button", name=name).first.click()
+    expect(page.get_by_label("Gait name")).to_have_value(name)
+    if page.get_by_label("Find a gait").is_visible():
+        page.get_by_label("Find a gait").fill("")
+
+
+def test_no_label_is_cut_and_no_two_texts_overlap(page: Page, studio: StudioProcess, tmp_path: Path) -> None:
+    def look(state: str) -> None:
+        require_whole_labels(page, state, tmp_path)
+
+    look("design")
+    for name in ("Jobs", "Runs", "Trials", "Gaits"):
+        open_drawer(page, name)
+        look(f"drawer {name}")
+    page.get_by_role("button", name="Close gaits").click()
+    for view in ("Segments", "Pattern search", "Cells"):
+        page.get_by_role("tab", name=view).click()
+        look(f"view {view}")
+    for step in ("Simulate", "Check & approve", "Run", "Design"):
+        page.get_by_role("tab", name=step).click()
+        look(f"step {step}")
+    press(page, "Simulate")
+    expect(page.get_by_role("tab", name="Check & approve", selected=True)).to_be_visible()
+    look("simulated")
+    press(page, "Check")
+    expect(page.get_by_role("status", name="Verdict")).to_contain_text("Checked passed")
+    look("checked")
+    press(page, "Approve")
+    page.get_by_role("textbox", name="Your name").fill("Ada")
+    look("asked for a name")
+    press(page, "Continue")
+    expect(page.get_by_role("tab", name="Run", selected=True)).to_be_visible()
+    look("approved")
+    press(page, "Connect")
+    expect(page.get_by_role("status", name="Robot")).to_contain_text("disarmed")
+    look("connected")
+    press(page, "Arm")
+    expect(page.get_by_role("status", name="Robot")).to_contain_text("armed")
+    look("armed")
+    page.get_by_role("button", name="Send to robot").click()
+    wait_for(lambda: (studio.robot()["run"] or {}).get("reached", 0) > 2, "the robot walks", 60)
+    look("moving")
+    page.get_by_role("button", name="Stop", exact=True).click()
+    wait_for(lambda: studio.robot()["robot"] == "stopped", "it stands still")
+    expect(page.get_by_role("button", name="Clear", exact=True)).to_be_visible()
+    look("stopped")
+    open_drawer(page, "Runs").locator(".run-row").first.click()
+    expect(page.get_by_role("button", name="All runs")).to_be_visible()
+    look("a run")
+    page.get_by_role("button", name="Close runs").click()
+    choose(page, "Walk 10 mm")
+    page.get_by_role("tab", name="Design").click()
+    look("a drawn gait")
+    length = page.get_by_role("spinbutton", name="Step", exact=True)
+    length.fill("30")
+    length.press("Enter")
+    expect(page.get_by_role("status", name="Verdict")).to_contain_text("no motion")
+    look("no motion")
+    page.get_by_role("button", name="Undo").click()
+    choose(page, "Manual walk, v0")
+    page.get_by_role("tab", name="Segments").click()
+    look("segment table")
+
+
+def test_a_cut_and_an_overlap_would_be_found(page: Page) -> None:
+    page.evaluate("document.querySelector('#save').style.cssText = 'width: 20px; overflow: hidden'")
+    page.evaluate("document.querySelector('#tab-check').style.marginLeft = '-90px'")
+    problems = label_problems(page)
+    assert any(line.startswith("cut: Save") for line in problems)
+    assert any(line.startswith("overlap: ") for line in problems)

@@ -1,0 +1,33 @@
+"""Measures on a page whether a text is cut, or lies on another one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from playwright.sync_api import Page
+
+MEASURE = Path(__file__).with_suffix(".js").read_text()
+
+
+def label_problems(page: Page) -> list[str]:
+    """A line for each text that is cut or lies on another one; a gait's name may end in an ellipsis."""
+    problems: list[str] = page.evaluate(MEASURE)
+    return problems
+
+
+def require_whole_labels(page: Page, state: str, folder: Path) -> None:
+    """Fails with a picture where a text is cut or lies on another one, in light and in dark.
+
+    Args:
+        page: as it is.
+        state: what it shows, for the message and the picture's name.
+        folder: where the picture is kept.
+    """
+    for scheme in ("light", "dark"):
+        page.emulate_media(color_scheme="dark" if scheme == "dark" else "light")
+        problems = label_problems(page)
+        if problems:
+            picture = folder / f"{state.replace(' ', '-')}-{scheme}.png"
+            page.screenshot(path=picture)
+            raise AssertionError(f"{state}, {scheme}: {problems}; see {picture}")
+    page.emulate_media(color_scheme="light")

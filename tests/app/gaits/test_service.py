@@ -259,7 +259,7 @@ def test_a_drawn_gait_is_solved_approved_and_its_approval_survives_a_restart(
 ) -> None:
     service = solving(tmp_path, database)
     assert service.plan(WALK).source is PlanSource.LIVE
-    assert "live tier" in service.plan(WALK).note
+    assert "Live plan" in service.plan(WALK).note
     service.check(WALK)
     approval = service.approve(WALK, ApprovalRequest("Ada", accept_warnings=True)).approval
     assert approval is not None

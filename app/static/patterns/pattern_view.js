@@ -123,7 +123,15 @@ export async function mountPatterns(store, page) {
   const actions = patternActions(store, problem, page);
   const panel = h("div", { class: "pattern-panel", role: "tabpanel", id: "patterns", "aria-labelledby": "view-patterns" },
     h("div", { class: "pattern-scroll" }, fields.element, ...patternResult(problem, search, (hovered) => problem.set({ hovered })), ...patternRules(problem)), actions.element);
+  const setOpen = (on) => {
+    open = on;
+    document.body.toggleAttribute("data-patterns", on);
+    setAttribute(panel, "hidden", !on);
+    setAttribute(lower.element, "hidden", !on);
+  };
   await withStyles();
+  // Another view may have been opened meanwhile.
+  setOpen(false);
   byId("chart").after(lower.element);
   document.querySelector("aside.right").append(panel);
 
@@ -137,12 +145,6 @@ export async function mountPatterns(store, page) {
   problem.watch((state) => Object.values(state), render);
   store.watch((state) => [state.view, state.pending, state.gaits, state.iterate], render);
 
-  const setOpen = (on) => {
-    open = on;
-    document.body.toggleAttribute("data-patterns", on);
-    setAttribute(panel, "hidden", !on);
-    setAttribute(lower.element, "hidden", !on);
-  };
   return {
     open(mode) {
       setOpen(true);

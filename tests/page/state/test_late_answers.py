@@ -209,6 +209,7 @@ def test_edits_wait_while_the_studio_does_not_answer_and_undo_takes_back_the_las
 ) -> None:
     gait = made(studio, "Waiting")
     choose(page, "Waiting")
+    page.get_by_role("tab", name="Design").click()
     to_studio = re.compile(f"/api/gaits/{gait}")
     page.route(to_studio, lambda route: route.abort())
     fill(page, "Stability margin", "1")
@@ -217,7 +218,7 @@ def test_edits_wait_while_the_studio_does_not_answer_and_undo_takes_back_the_las
     fill(page, "Clearance", "5")
     page.get_by_role("button", name="Undo", exact=True).first.click()
     expect(page.get_by_role("spinbutton", name="Clearance", exact=True)).to_have_value("4")
-    expect(page.locator("#saved-state")).to_have_text("· saving the edit")
+    expect(page.locator("#saved-state")).to_have_text("Saving")
     assert studio.document(gait)["options"]["margin"] == 0.004
     page.unroute(to_studio)
     expect(page.locator("#saved-state")).to_have_text("Saved")

@@ -1,11 +1,11 @@
-"""The robot in a run by its measured strokes: body and feet, as far as strokes tell."""
+"""The robot in a run, its body and feet computed from the measured strokes."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from app.bridge.states import RobotSnapshot
-from app.robot.views import RunOrigin
+from app.robot.views import RUNNING, RunOrigin
 from core.arrays import Floats
 from core.errors import StateError
 from core.robot.model import RobotModel
@@ -33,7 +33,7 @@ def measured_robot(snapshot: RobotSnapshot, origin: RunOrigin | None) -> Measure
     """The robot by its last strokes, with the plan's standing feet on the ground.
 
     Args:
-        snapshot: with strokes and a run.
+        snapshot: with strokes and a run that is on.
         origin: of that run.
 
     Raises:
@@ -41,7 +41,15 @@ def measured_robot(snapshot: RobotSnapshot, origin: RunOrigin | None) -> Measure
     """
     run, strokes = snapshot.run, snapshot.strokes
     plan = None if origin is None else origin.plan
-    if run is None or strokes is None or origin is None or plan is None or origin.run_id != run.run_id:
+    is_on = snapshot.robot in RUNNING
+    if (
+        not is_on
+        or run is None
+        or strokes is None
+        or origin is None
+        or plan is None
+        or origin.run_id != run.run_id
+    ):
         raise StateError("No run of a gait is on, so there is no measured robot to show.", "run")
     times = origin.times[[run.waypoint_reached]]
     motion = measured_motion(plan, np.reshape(strokes, (1, -1, 3)), times, times)

@@ -36,7 +36,7 @@ class RunOrigin:
     times: Floats
     """(count,) the plan's time of each waypoint, s."""
     plan: RanPlan | None = None
-    """With the motion that the waypoints were made from; None where it is not known."""
+    """The motion that the waypoints were made from; None where it is not known."""
 
     @cached_property
     def estimates(self) -> Floats:
@@ -124,6 +124,7 @@ def _run_view(shown: RobotSnapshot, run: RunProgress, known: RunOrigin | None) -
     content: Json = {
         "id": run.run_id,
         "phase": run.phase.value if shown.robot in RUNNING else "ended",
+        "end": None if shown.robot in RUNNING else run_end(shown, run),
         "sent": run.sent,
         "reached": run.reached,
         "count": run.count,

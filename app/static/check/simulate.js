@@ -5,7 +5,9 @@ import { byId, h, onPress, setAllowed, setAttribute, setText } from "../lib/dom.
 import { fixed, mm } from "../lib/format.js";
 import { attempt, report, toast } from "../lib/toasts.js";
 import { followSimulation, simulationJob, simulationOf, simulationOver } from "../state/simulation.js";
+import { shownPlan } from "../state/store.js";
 import { openedStep, openStep } from "../steps/steps.js";
+import { jobIsOn } from "../shell/job_list.js";
 import { simulateState } from "../steps/step_states.js";
 import { reportParts } from "./simulation_report.js";
 
@@ -86,9 +88,9 @@ export function mountSimulate(store, goToTime) {
   const [note, figures, map] = [h("p", { class: "box-note" }), h("div", { class: "simulated" }), robustness()];
   let begun = null;
   const press = (variations) => attempt(async () => {
-    const { selected } = store.state;
-    await api.simulate(selected, select.value || null, variations);
-    begun = variations ? null : selected;
+    const { selected, view } = store.state;
+    const { id } = await api.simulate(selected, select.value || null, variations);
+    begun = variations ? null : { id, gait: selected, plan: view.plan.hash };
   });
   onPress(run, press(0), (why) => toast(why));
   onPress(vary, press(VARIATIONS), (why) => toast(why));
@@ -98,11 +100,14 @@ export function mountSimulate(store, goToTime) {
 
   /** Opens the next step where what was begun here has come out well and is looked at. Variations are to be read. */
   function goOn(state) {
-    if (begun === null || simulationJob(state)) return;
+    const job = begun && state.jobs.find(({ id }) => id === begun.id);
+    if (!job || jobIsOn(job)) return;
+    const isStill = job.state === "done" && begun.gait === state.selected && begun.plan === shownPlan(state)?.hash;
     const { mark } = simulateState(state);
-    if (mark === "running") return;
-    if (mark === "done" && begun === state.selected && openedStep() === "simulate") openStep("check");
-    if (mark !== "old" && mark !== "none") begun = null;
+    // Its result comes a moment after its end.
+    if (isStill && mark !== "done" && mark !== "failed") return;
+    if (isStill && mark === "done" && openedStep() === "simulate") openStep("check");
+    begun = null;
   }
 
   store.watch(({ jobs, view, pending, selected, simulation, live }) => [jobs, view, pending.length, selected, simulation, live], (state) => {

@@ -3,6 +3,7 @@
  */
 
 import { byId, h } from "./dom.js";
+import { setInert } from "./inert.js";
 
 /** Everything beside the dialog and Stop. */
 const others = () => [...document.body.children].filter(({ id }) => !["dialogs", "announcer"].includes(id)).flatMap((part) => (part.contains(byId("stop")) ? [...part.children].filter(({ id }) => id !== "stop") : [part]));
@@ -11,12 +12,12 @@ let locked = [];
 
 function lock() {
   if (locked.length) return;
-  locked = others().filter((part) => !part.inert);
-  locked.forEach((part) => { part.inert = true; });
+  locked = others();
+  locked.forEach((part) => setInert(part, "dialog", true));
 }
 
 function unlock() {
-  locked.forEach((part) => { part.inert = false; });
+  locked.forEach((part) => setInert(part, "dialog", false));
   locked = [];
 }
 
@@ -66,7 +67,7 @@ export function askName(title, sentence, value = "") {
 export function confirmAction(title, sentence, label) {
   return openDialog((close) => dialogFrame(title, close, () => close(true), h("p", { text: sentence }),
     h("div", { class: "buttons" },
-      h("button", { type: "button", text: "Leave it", on: { click: () => close(null) } }),
+      h("button", { type: "button", text: "Cancel", on: { click: () => close(null) } }),
       h("button", { type: "submit", class: "primary", "data-robot": true, text: label }))));
 }
 

@@ -1,6 +1,7 @@
 /** The pattern search: its controls in the right column, and in the lower part the gaits with the pattern between them. */
 
 import { byId, h, setAttribute, setText, svg } from "../lib/dom.js";
+import { setInert } from "../lib/inert.js";
 import { counted } from "../lib/format.js";
 import { toast } from "../lib/toasts.js";
 import { shownDocument } from "../state/store.js";
@@ -123,17 +124,22 @@ export async function mountPatterns(store, page) {
   const actions = patternActions(store, problem, page);
   const panel = h("div", { class: "pattern-panel", role: "tabpanel", id: "patterns", "aria-labelledby": "view-patterns" },
     h("div", { class: "pattern-scroll" }, fields.element, ...patternResult(problem, search, (hovered) => problem.set({ hovered })), ...patternRules(problem)), actions.element);
+  const inspector = byId("inspector");
+  const covered = [".inspector-head", ".sections", ".inspector-foot"].map((part) => inspector.querySelector(part));
   const setOpen = (on) => {
     open = on;
     document.body.toggleAttribute("data-patterns", on);
     setAttribute(panel, "hidden", !on);
     setAttribute(lower.element, "hidden", !on);
+    // The panel lies over the step.
+    for (const part of covered) setInert(part, "patterns", on);
   };
   await withStyles();
   // Another view may have been opened meanwhile.
   setOpen(false);
   byId("chart").after(lower.element);
-  document.querySelector("aside.right").append(panel);
+  inspector.append(panel);
+  byId("view-patterns").setAttribute("aria-controls", "patterns");
 
   const render = () => {
     if (!open) return;

@@ -92,7 +92,7 @@ function moving(store, own, body) {
 }
 
 /**
- * Builds the group of the Robot panel.
+ * Builds its group in the step Run.
  * @returns {HTMLElement}
  */
 export function jogPart(store, edits) {

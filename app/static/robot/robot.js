@@ -99,11 +99,11 @@ function assemble({ store, edits, playback }, parts, send) {
   const connect = way(1, parts.ports.offer, h("div", { class: "device" }, parts.ports.element, parts.connect.button, parts.disconnect.button), parts.connectNote);
   const arm = way(2, h("div", { class: "buttons" }, parts.arm.button, parts.clear.button, parts.reset.button), parts.armNote);
   const start = way(3, parts.summary, runRangePart(store, playback));
-  const before = h("div", { class: "before-run" }, h("div", { class: "robot-state" }, parts.dot, parts.word, parts.sentence), leasePart(store), parts.last,
+  const before = h("div", { class: "before-run" }, h("div", { class: "robot-state" }, parts.dot, parts.word, parts.sentence), parts.last,
     h("ol", { class: "steps", role: "list", "aria-label": "The robot's way" }, connect, arm, start));
   const strokes = h("div", { class: "measured-strokes" }, h("h3", {}, "Strokes", h("span", { text: "bar measured, line target, mm" })), parts.bars.element);
-  const more = h("div", { class: "after-run" }, jogPart(store, edits), robotLog(store), robotFaults(store));
-  byId("robot").append(before, runningPart(store), parts.record, strokes, more);
+  const more = h("div", { class: "after-run" }, jogPart(store, edits), robotFaults(store));
+  byId("robot").append(leasePart(store), before, runningPart(store), parts.record, strokes, robotLog(store), more);
   byId("foot-run").append(h("div", { class: "before-run" }, send.element, parts.sendNote), parts.stopText);
   return { connect, arm, start };
 }
@@ -150,7 +150,8 @@ function lastRun(robot) {
 }
 
 function whyNotSend(state) {
-  const { robot, view, runSummary } = state;
+  const { robot, view, runSummary, connected } = state;
+  if (!connected) return "The studio does not answer.";
   if (runSummary?.unwired && runSummary.waypoints_hash === view?.plan?.waypoints_hash) return runSummary.unwired;
   if (!robot) return "The studio has not answered yet.";
   if (!view?.approval) return "Check and approve the gait first.";
@@ -195,7 +196,7 @@ export function mountRobot(store, edits, playback) {
     const target = jog?.wired ? jog.target_mm : null;
     parts.bars.show(robot?.strokes_mm ?? null, target ?? commandedStrokes(robot, view));
   });
-  store.watch(({ robot, view, runSummary, selected, runRange }) => [robot, view, runSummary, selected, runRange], (state) => {
+  store.watch(({ robot, view, runSummary, selected, runRange, connected }) => [robot, view, runSummary, selected, runRange, connected], (state) => {
     const reason = whyNotSend(state);
     send.allow(reason);
     setText(parts.sendNote, reason ?? "Hold for a second, or click for a countdown.");

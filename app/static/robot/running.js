@@ -1,4 +1,4 @@
-/** What stands in the Run step while a plan is carried out: time left, progress, Pause; nothing else but the strokes. */
+/** The step Run while a plan is carried out: time left, progress, Pause. */
 
 import { api } from "../api/gaits.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
@@ -50,14 +50,14 @@ export function runningPart(store) {
   const element = h("div", { class: "running", role: "group", "aria-label": "Run", hidden: true },
     h("p", { class: "time-left number" }, left, h("span", { class: "quiet", text: " left" })), h("div", { class: "progress" }, bar),
     h("p", { class: "run-figures number" }, done, poses), now, later, pause.button, resume.button, h("p", { class: "why", text: PAUSE_HELP }));
-  let known = { seconds: null, at: 0, elapsed: 0 };
+  let known = { seconds: null, at: 0, elapsed: 0, isStart: false };
 
-  /** The robot speaks at each pose; between two of them the page's own clock counts down. */
+  /** The studio's figures come at each pose; between two of them the page's own clock counts. The way to the start pose is not in the time left. */
   function tick() {
     const { robot } = store.state;
     if (!planIsOn(robot)) return;
     const since = robot.robot === "moving" ? (performance.now() - known.at) / 1000 : 0;
-    const rest = known.seconds === null ? null : Math.max(known.seconds - since, 0);
+    const rest = known.seconds === null ? null : Math.max(known.seconds - (known.isStart ? 0 : since), 0);
     setText(left, rest === null ? "–" : `${fixed(rest)} s`);
     setText(done, `${seconds(known.elapsed + since)} s so far`);
   }
@@ -66,7 +66,7 @@ export function runningPart(store) {
     element.hidden = !planIsOn(robot);
     if (element.hidden) return;
     const { run } = robot;
-    known = { seconds: run.seconds_left ?? null, at: performance.now(), elapsed: run.elapsed ?? 0 };
+    known = { seconds: run.seconds_left ?? null, at: performance.now(), elapsed: run.elapsed ?? 0, isStart: run.phase === "start pose" };
     bar.style.transform = `scaleX(${run.count ? run.reached / run.count : 0})`;
     const again = run.iterations > 1 ? `iteration ${run.iteration} of ${run.iterations}, ` : "";
     setText(poses, `${again}pose ${run.reached} of ${run.count}`);

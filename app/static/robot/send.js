@@ -9,6 +9,8 @@ import { announce, toast } from "../lib/toasts.js";
 const HOLD_MS = 1000;
 const COUNTDOWN_S = 3;
 
+const isInReach = (element) => element.checkVisibility() && !element.closest("[inert]");
+
 /**
  * @param {object} options
  * @param {() => Promise<boolean>} options.prepare asked before the countdown: the operator's name is known
@@ -52,9 +54,11 @@ export function sendControl({ prepare, send }) {
     countdown.scrollIntoView({ block: "nearest" });
     announce(`Sending in ${COUNTDOWN_S} seconds.`);
     timer = setInterval(() => {
+      // Where Cancel cannot be seen or pressed any more, nothing is sent.
+      if (!isInReach(countdown)) return cancel();
       const left = COUNTDOWN_S - (performance.now() - begun) / 1000;
-      if (left <= 0) finish();
-      else setText(number, String(Math.ceil(left)));
+      if (left <= 0) return finish();
+      return setText(number, String(Math.ceil(left)));
     }, 100);
   }
 

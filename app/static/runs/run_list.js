@@ -18,7 +18,7 @@ const figures = (run) => [
 ].filter(Boolean).join(" · ");
 
 /** A run in a list: gait, result, who, when, duration and largest error. */
-export function runRow(run, open) {
+function runRow(run, open) {
   const when = clockTime(run.started);
   const button = h("button", { class: "run-row", title: `${run.sentence || "Show this run over the plan"} ${Number.isFinite(run.errors?.largest_mm) ? `Largest error of a motor: ${fixed(run.errors.largest_mm, 2)} mm.` : ""}`.trim(), data: { run: run.id }, on: { click: () => open(run.id) } },
     h("span", { class: "run-line" }, h("span", { class: "dot", data: { tone: runTone(run) } }), h("b", { text: run.gait_name }), h("span", { class: "word", text: run.state })),

@@ -14,8 +14,8 @@ import { acceptView, runIsOn, shownDocument, shownPlan } from "../state/store.js
 import { partRows } from "./sequence_rows.js";
 
 const TEACH = "Each part begins where the one before has ended: feet stay, body and heading go on. One check and one approval are for all of it.";
-const OPTIMISE = "A sequence is made of its parts' motions, which follow every edit live. The exact tier solves each part for itself, with all its repetitions.";
-const ALL_EXACT = "Each part has its exact motion, or is made by hand or recorded.";
+const OPTIMISE = "A sequence is made of its parts' motions, which follow every edit live. Optimise parts also improves the footholds of each part, with all its repetitions.";
+const ALL_EXACT = "Each part is optimised, made by hand or recorded.";
 
 function totals() {
   const element = h("dl", { class: "summary", "aria-label": "The whole sequence" });
@@ -76,7 +76,7 @@ async function createSequence(store) {
   openStep("design");
 }
 
-/** What the Optimise section offers for a sequence: the exact tier for its parts. */
+/** What a sequence is offered: to optimise its parts. */
 function exactParts(store) {
   const button = h("button", { class: "primary wide", text: "Optimise parts" });
   onPress(button, attempt(() => api.optimiseParts(store.state.selected)), (why) => toast(why));

@@ -29,20 +29,22 @@ function show(name) {
   setAttribute(document.body, "data-drawer", name);
 }
 
-/** Opens a drawer; null closes the one that is open. Returns whether anything changed. */
-export function openDrawer(name) {
+/** Opens a drawer; null closes the one that is open. Returns whether anything changed. `isKept`: whether this browser remembers it. */
+export function openDrawer(name, { isKept = true } = {}) {
   const before = current;
   if (before === name) return false;
+  const hadFocus = byId("drawers").contains(document.activeElement);
   show(name);
   if (before) followers[before]?.closed();
   if (name) followers[name]?.opened();
-  remember(KEY, { name: name ?? "" });
+  if (hadFocus && !document.activeElement.checkVisibility()) byId(`rail-${before}`).focus();
+  if (isKept) remember(KEY, { name: name ?? "" });
   return true;
 }
 
 /** Closes a drawer that lies over the stage. */
 export function closeOverStage() {
-  if (!matchMedia(ROOMY).matches) openDrawer(null);
+  if (!matchMedia(ROOMY).matches) openDrawer(null, { isKept: false });
 }
 
 /** Folds the open drawer, or opens the one that was open last. */
@@ -53,7 +55,7 @@ export function foldDrawer() {
 }
 
 function closeButton(name) {
-  return h("button", { class: "plain icon-only", "aria-label": `Close ${name}`, title: "Close", on: { click: () => { openDrawer(null); byId(`rail-${name}`).focus(); } } }, icon("close"));
+  return h("button", { class: "plain icon-only", "aria-label": `Close ${name}`, title: "Close", on: { click: () => openDrawer(null) } }, icon("close"));
 }
 
 /** Opens the drawer that was open before; where nobody has chosen yet, the gaits in a roomy window. */

@@ -10,7 +10,7 @@ const HELP = "Drag it, or use the arrow keys; double click or Enter for the usua
 
 /**
  * An edge that sets a size of the page.
- * @param {{name: string, variable: () => string, usual: () => number, least: number, most: () => number, place: HTMLElement, size: () => number,
+ * @param {{name: string, variable: () => string, least: number, most: () => number, size: () => number,
  *   grows: 1|-1, axis: "x"|"y", edge: HTMLElement}} options `grows`: 1 where the size grows with the pointer's place
  */
 function mountEdge({ name, variable, least, most, size, grows, axis, edge }) {
@@ -75,6 +75,6 @@ export function mountEdges() {
   const isWide = () => ["runs", "trials"].includes(document.body.dataset.drawer);
   const rest = (own) => window.innerWidth - LEAST_STAGE_PX - byId("rail-gaits").offsetWidth - own;
   mountEdge({ name: "drawer", variable: () => (isWide() ? "--drawer-wider" : "--drawer-wide"), least: 232, most: () => Math.min(560, rest(inspector.offsetWidth)), size: () => drawers.offsetWidth, grows: 1, axis: "x", edge: drawerEdge });
-  mountEdge({ name: "inspector", variable: () => "--right", least: 320, most: () => Math.min(560, rest(document.body.dataset.drawer ? drawers.offsetWidth : 0)), size: () => inspector.offsetWidth, grows: -1, axis: "x", edge: inspectorEdge });
-  mountEdge({ name: "sheet", variable: () => "--sheet", least: 120, most: () => window.innerHeight * 0.6, size: () => inspector.offsetHeight, grows: -1, axis: "y", edge: handle });
+  mountEdge({ name: "inspector", variable: () => "--right-kept", least: 320, most: () => Math.min(560, rest(document.body.dataset.drawer ? drawers.offsetWidth : 0)), size: () => inspector.offsetWidth, grows: -1, axis: "x", edge: inspectorEdge });
+  mountEdge({ name: "sheet", variable: () => "--sheet-kept", least: 120, most: () => window.innerHeight * 0.6, size: () => inspector.offsetHeight, grows: -1, axis: "y", edge: handle });
 }

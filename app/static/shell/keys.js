@@ -39,6 +39,9 @@ function onTimeline(event, { store, actions, zoom }) {
 
 const foldInspector = () => document.body.toggleAttribute("data-inspector-folded");
 
+/** Keys that only look: they work without the studio too. */
+const LOOKS = new Set([" ", "ArrowLeft", "ArrowRight", "Home", "End", "?", "[", "]"]);
+
 function plain(event, page) {
   const { playback, store } = page;
   const far = event.shiftKey ? 10 : 1;
@@ -65,13 +68,16 @@ export function mountKeys(page) {
     if (runIsOn(store.state.robot)) {
       stopRobot(store);
       event.preventDefault();
-    } else if (!dialogOpen() && escapes.some((attempt) => attempt())) {
+    } else if (!dialogOpen() && !event.target.closest?.("[data-own-escape]") && escapes.some((attempt) => attempt())) {
       event.preventDefault();
     }
   }
 
   function press(event) {
     if (event.key === "Escape") return escape(event);
+    if (dialogOpen()) return undefined;
+    const isOff = "offline" in document.body.dataset;
+    if (isOff && (event.ctrlKey || event.metaKey || !LOOKS.has(event.key))) return undefined;
     if (event.ctrlKey || event.metaKey) {
       const act = withControl(event, page);
       if (!act) return undefined;

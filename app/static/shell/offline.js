@@ -1,10 +1,14 @@
 /** Without the studio everything but Stop and looking is off, and the page says why; edits that were not sent are kept. */
 
 import { byId, setText } from "../lib/dom.js";
+import { setInert } from "../lib/inert.js";
 
 /** A studio that is back within this time was only out of breath. */
 const PATIENCE_MS = 1000;
-const PARTS = ["#drawers", "#sections", ".inspector-foot", "#tools", "#timeline", "#segments", ".gait-pill", ".history", "#operator", "#goal", "#pose"];
+const PARTS = [
+  "#drawers", ".rail", ".inspector-head", "#sections", ".inspector-foot", ".pattern-panel", "#tools", "#timeline", "#parts", "#segments", ".pattern-view",
+  ".gait-pill", ".history", "#operator", "#goal", "#pose", "#file-notice",
+];
 const SENTENCE = "No connection to the studio. All but Stop is off until it is back; Stop is tried all the same.";
 
 function sentence({ pending, left }) {
@@ -18,7 +22,7 @@ export function mountOffline(store) {
   let timer = null;
   const setOff = (isOff) => {
     document.body.toggleAttribute("data-offline", isOff);
-    for (const part of PARTS) document.querySelector(part).inert = isOff;
+    for (const part of document.querySelectorAll(PARTS.join())) setInert(part, "offline", isOff);
   };
   store.watch(({ connected, greeted, pending, left }) => [connected, greeted, pending.length, left.length], (state) => {
     const isLost = !state.connected && state.greeted;

@@ -82,13 +82,13 @@ function nameField(store, edits) {
 
 function mountName(store, edits) {
   const { input, show } = nameField(store, edits);
-  store.watch((state) => [state.view, state.pending, state.refused, state.segmentDrafts], (now) => {
-    const { view, pending, refused } = now;
+  store.watch((state) => [state.view, state.pending, state.refused, state.segmentDrafts, state.connected], (now) => {
+    const { view, pending, refused, connected } = now;
     const unfit = segmentDraftOf(now).steps.length > 0;
     show();
     input.size = Math.max(4, input.value.length);
     setAttribute(input, "title", view ? `Name of the gait. Its file stays gaits/${view.id}.json under another name too` : null);
-    const state = !view ? "" : refused ? "Drawing not accepted" : unfit ? "Table does not fit" : pending.length ? "Saving" : "Saved";
+    const state = !view ? "" : refused ? "Drawing not accepted" : unfit ? "Table does not fit" : pending.length ? (connected ? "Saving" : "Not sent") : "Saved";
     setText(byId("saved-state"), state);
     setAttribute(byId("saved-state"), "title", view ? `${unfit ? `${UNFIT} ` : ""}${savedHelp(view)}` : null);
   });
@@ -146,7 +146,7 @@ function mountStates(store) {
   store.watch((state) => [state.operator], (state) => {
     operator.replaceChildren(h("span", { class: "initial", "aria-hidden": "true", text: state.operator ? state.operator.charAt(0).toUpperCase() : "?" }), h("span", { class: "name", text: state.operator || "Your name" }));
     operator.toggleAttribute("data-named", Boolean(state.operator));
-    setAttribute(operator, "aria-label", state.operator ? `Operator ${state.operator}` : "Operator not named");
+    setAttribute(operator, "aria-label", state.operator ? `Operator ${state.operator}` : "Your name. Operator not named");
     operator.title = "Your name, kept with approvals and runs. Click to change it.";
   });
 }

@@ -38,7 +38,7 @@ function handOver(store, act) {
 function takeOverQuestion(store) {
   const sentence = h("p");
   const [yes, no] = [h("button", { class: "primary", text: "Take it over" }), h("button", { text: "Cancel" })];
-  const element = h("div", { class: "box-note", role: "group", "aria-label": "Take over", data: { tone: "caution" }, hidden: true }, sentence, h("div", { class: "buttons" }, yes, no));
+  const element = h("div", { class: "box-note", role: "group", "aria-label": "Take over", data: { tone: "caution", ownEscape: "" }, hidden: true }, sentence, h("div", { class: "buttons" }, yes, no));
   let opener = null;
   const close = () => {
     element.hidden = true;
@@ -114,11 +114,16 @@ function tell(store) {
   });
 }
 
-/** Builds the part of the Robot panel that shows who holds the robot. */
+/** Builds the part of the step Run that shows who is in control. While a run is on it is there for whoever has to act on it. */
 export function leasePart(store) {
   const parts = build(store);
   store.watch(({ robot }) => [robot?.lease, robot?.robot, robot?.run?.phase], ({ robot }) => show(parts, robot));
   tell(store);
-  return h("div", { class: "lease", role: "group", "aria-label": "Who is in control" }, parts.sentence,
+  const element = h("div", { class: "lease", role: "group", "aria-label": "Who is in control" }, parts.sentence,
     h("div", { class: "buttons" }, parts.ask, parts.take, parts.give, parts.keep, parts.release), parts.question.element, parts.policy);
+  store.watch(({ robot }) => [robot?.lease], ({ robot }) => {
+    const lease = robot?.lease;
+    element.toggleAttribute("data-to-decide", isTaken(lease) && (!isMine(lease) || Boolean(lease.asker)));
+  });
+  return element;
 }

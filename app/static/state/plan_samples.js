@@ -1,18 +1,6 @@
-/** Extreme figures of a plan, and the robot's time and commanded strokes on it. */
+/** The robot's time and commanded strokes on a plan. */
 
 import { clamp } from "../lib/clamp.js";
-
-const finite = (values) => values.filter((value) => value !== null && Number.isFinite(value));
-
-/** Smallest margin (m), least and greatest stroke (mm) of a plan, null where it has none. */
-export function extremes(plan) {
-  const margins = finite(plan?.margin ?? []);
-  const strokes = finite(plan?.strokes_mm?.flat() ?? []);
-  return {
-    margin: margins.length ? Math.min(...margins) : null,
-    strokes: strokes.length ? [Math.min(...strokes), Math.max(...strokes)] : null,
-  };
-}
 
 /**
  * The robot's time on the plan, s: from the server, else from the waypoints that it reached.

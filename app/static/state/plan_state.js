@@ -1,4 +1,4 @@
-/** What there is to say of a plan in a word. */
+/** The state of a plan in a word or two, with its tone. */
 
 const TEXTS = {
   live: ["Plan found", "good"], optimised: ["Optimised", "good"], manual: ["By hand", "good"], sequence: ["Sequence", "good"], iterate: ["An iteration, not the plan", "caution"],
@@ -14,9 +14,9 @@ export function planState(plan) {
   if (plan.source === "adapted") return ["Adapted, not solved", "caution"];
   if (!plan.times.length) return ["No motion", "bad"];
   if (plan.source === "draft" && plan.parts?.length && !plan.parts.some((part) => part.broke_off)) return ["No motion", "bad"];
-  if (plan.source === "draft") return ["No answer", "caution"];
+  if (plan.source === "draft") return ["No answer", "bad"];
   if (plan.source === "recorded" && plan.refusal) return ["Recorded, out of reach", "bad"];
   if (plan.source === "manual" && plan.refusal) return ["By hand, out of reach", "bad"];
-  if (plan.source === "manual" && plan.balance < -ROUNDING_M) return ["By hand, off balance", "caution"];
+  if (plan.source === "manual" && plan.balance < -ROUNDING_M) return ["By hand, off balance", "bad"];
   return TEXTS[plan.source] ?? [plan.source, "quiet"];
 }

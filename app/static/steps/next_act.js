@@ -1,15 +1,18 @@
-/** The one primary button at the foot of the first two steps: it names the next act on the way to the robot and does it. */
+/**
+ * The primary button at the foot of a step whose own act is not the next one: it names the next act on the way to the robot and
+ * does it. An approval is given where its rules are read: there the button leads to them.
+ */
 
 import { byId, h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { toast } from "../lib/toasts.js";
-import { approvalState, checkState, simulateState } from "./step_states.js";
+import { approvalState, checkState, gaitParts, simulateState } from "./step_states.js";
 import { openStep } from "./steps.js";
 
 /** Each act: the step where it takes place, its button's text, the button that does it, and a line below. */
 const ACTS = {
   simulate: { step: "simulate", text: "Simulate", button: "act-simulate", help: "Physics tries exactly what would be sent." },
   check: { step: "check", text: "Check", button: "act-check", help: "Every rule with its margin, then your approval." },
-  approve: { step: "check", text: "Approve", button: "act-approve", help: "The check has passed. Your approval lets it be sent." },
+  approve: { step: "check", text: "Go to approval", button: null, help: "Your approval lets it be sent." },
   run: { step: "run", text: "Go to Run", button: null, help: "Approved. Connect, arm and send." },
 };
 
@@ -28,21 +31,21 @@ function nextButton(store, step) {
     const { step: where, button: id } = ACTS[nextAct(store.state)];
     openStep(where);
     if (id) byId(id).click();
+    else if (where === "check") byId("act-approve").focus();
   }, toast);
-  const watched = ({ view, jobs, simulation, selected, live, checked, pending, gesture }) => [view, jobs, simulation, selected, live, checked, pending.length, gesture === null];
-  store.watch(watched, (state) => {
+  store.watch(gaitParts, (state) => {
     const act = ACTS[nextAct(state)];
     setText(button, act.text);
     setText(help, act.help);
     const reason = act.button ? byId(act.button).getAttribute("aria-description") : null;
     setAllowed(button, reason, act.help);
-    // Where the step has the button itself, it is not offered twice.
-    element.hidden = act.step === step;
+    // Where the step has the button itself, it is not offered twice; who checks first may simulate later.
+    element.hidden = act.step === step || (step === "check" && act !== ACTS.run);
   });
   return element;
 }
 
 /** Builds the buttons; the acts' own buttons are there already. */
 export function mountNextActs(store) {
-  for (const step of ["design", "simulate"]) byId(`foot-${step}`).append(nextButton(store, step));
+  for (const step of ["design", "simulate", "check"]) byId(`foot-${step}`).append(nextButton(store, step));
 }

@@ -1,4 +1,4 @@
-/** How far the shown gait is on its way to the robot: the state of each step, from which tabs, strip and buttons speak. */
+/** How far the shown gait is on its way to the robot: the state of each step, for tabs, strip and buttons. */
 
 import { planState } from "../state/plan_state.js";
 import { simulationJob, simulationOf, simulationOver, simulationText } from "../state/simulation.js";
@@ -9,11 +9,17 @@ import { lowered } from "../lib/format.js";
 /** Marks of a state: `done`, `running` (with a share), `old` (out of date), `failed`, `none` (not yet). */
 const state = (mark, word, share = null) => ({ mark, word, share });
 
+/** The parts of the store that a state depends on, but for those of the robot. */
+export const gaitParts = ({ view, jobs, simulation, selected, live, checked, pending, gesture, iterate, preview, poseSearch, seenWarnings }) => [
+  view, jobs, simulation, selected, live, checked, pending.length, gesture === null, iterate, preview === null, poseSearch?.state, seenWarnings,
+];
+
 const MARK_OF = { good: "done", caution: "old", bad: "failed", quiet: "none" };
 
 function designState(now) {
   const busy = now.jobs.some((job) => job.gait === now.selected && ["optimise", "timing"].includes(job.kind) && jobIsOn(job));
   if (busy) return state("running", "being optimised", 0.25);
+  if (now.view?.search?.state === "running" && !now.view.plan?.times.length) return state("running", "being searched", 0.25);
   const [word, tone] = planState(shownPlan(now));
   return state(MARK_OF[tone], lowered(word));
 }
@@ -55,7 +61,7 @@ export function checkState(now) {
 export function approvalState(now) {
   const { view, checked } = now;
   if (view?.approval && !isEdited(now)) return state("done", `by ${view.approval.by}`);
-  if (view?.approval || view?.revoked || (view && checked[view.id]?.word === "approved")) return state("old", "gone: the gait changed");
+  if (view?.approval || view?.revoked || (view && checked[view.id]?.word === "approved")) return state("old", "gone");
   return state("none", "not yet");
 }
 
@@ -69,15 +75,16 @@ function checkAndApprovalState(now) {
 
 const RUN_MARKS = { done: "done", fault: "failed", stopped: "failed", lost: "failed", interrupted: "failed" };
 
-function runState({ robot, view, selected }) {
+function runState(now) {
+  const { robot, view, selected } = now;
   const run = robot?.run;
   if (planIsOn(robot)) {
-    const word = run.gait === selected ? robot.robot : `${robot.robot}: ${run.gait_name}`;
+    const word = run.gait === selected || !run.gait_name ? robot.robot : `${robot.robot}: ${run.gait_name}`;
     return state("running", word, run.count ? run.reached / run.count : 0);
   }
-  const last = run?.gait ? { ...run, state: run.reached === run.count ? "done" : "stopped" } : robot?.previous_run;
+  const last = run?.gait ? { ...run, state: run.end } : robot?.previous_run;
   if (!last || !view || last.gait !== selected) return state("none", "not yet");
-  if (last.waypoints_hash !== view.plan?.waypoints_hash) return state("old", "ran before this edit");
+  if (last.waypoints_hash !== view.plan?.waypoints_hash || isEdited(now)) return state("old", "ran before this edit");
   return state(RUN_MARKS[last.state] ?? "none", last.state);
 }
 

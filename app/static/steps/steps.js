@@ -3,7 +3,7 @@
  */
 
 import { byId, h, setAttribute, setText } from "../lib/dom.js";
-import { stepStates } from "./step_states.js";
+import { gaitParts, stepStates } from "./step_states.js";
 
 /** Each step with the line under its title in the inspector. */
 const STEPS = {
@@ -15,18 +15,19 @@ const STEPS = {
 const NAMES = Object.keys(STEPS);
 
 let current = NAMES[0];
-let onOpened = () => {};
+const followers = [];
 
 /** The step that the inspector shows: `design`, `simulate`, `check` or `run`. */
 export const openedStep = () => current;
 
 /** Calls `act` with the name of each step that is opened. */
 export function onStep(act) {
-  onOpened = act;
+  followers.push(act);
 }
 
 /** Shows a step in the inspector. */
 export function openStep(name) {
+  const hadFocus = document.activeElement?.closest("#sections, .inspector-foot, .pipeline");
   current = name;
   setAttribute(document.body, "data-step", name);
   setAttribute(document.body, "data-inspector-folded", null);
@@ -39,7 +40,9 @@ export function openStep(name) {
   setText(byId("step-title"), STEPS[name].title);
   setText(byId("step-help"), STEPS[name].help);
   byId("sections").scrollTop = 0;
-  onOpened(name);
+  // What had the focus is hidden now, or another step's tab.
+  if (hadFocus && (hadFocus.matches(".pipeline") || !document.activeElement.checkVisibility())) byId(`tab-${name}`).focus();
+  followers.forEach((act) => act(name));
 }
 
 function mountTab(name, index) {
@@ -63,7 +66,7 @@ function mountTab(name, index) {
 export function mountSteps(store) {
   const tabs = Object.fromEntries(NAMES.map((name, index) => [name, mountTab(name, index)]));
   openStep(current);
-  const watched = ({ view, jobs, robot, simulation, selected, live, checked, pending, gesture }) => [view, jobs, robot?.run, robot?.robot, robot?.previous_run, simulation, selected, live, checked, pending.length, gesture === null];
+  const watched = ({ robot, ...state }) => [...gaitParts(state), robot?.run, robot?.robot, robot?.previous_run];
   store.watch(watched, (state) => {
     for (const [name, { mark, word, share }] of Object.entries(stepStates(state))) {
       const { tab, mark: disc } = tabs[name];

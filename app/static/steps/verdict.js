@@ -4,12 +4,14 @@ import { planState } from "../state/plan_state.js";
 import { byId, h, setAttribute, setText } from "../lib/dom.js";
 import { capital, fixed, lowered, mm } from "../lib/format.js";
 import { simulationOver } from "../state/simulation.js";
+import { announce } from "../lib/toasts.js";
 import { shownPlan } from "../state/store.js";
-import { approvalState, checkState, simulateState, stepStates } from "./step_states.js";
+import { approvalState, checkState, gaitParts, simulateState, stepStates } from "./step_states.js";
 import { openStep } from "./steps.js";
 
 const MARGIN_HELP = "Margin: least distance of the balance point from the edge of the support polygon. Of the centre of pressure where the motion is solved, else of the centre of mass.";
 
+const SETTLED_MS = 1000;
 const NONE = "–";
 /** Said by the mark alone. */
 const USUAL = "Plan found";
@@ -50,7 +52,8 @@ function checkedPart(state) {
 
 function approvedPart(state) {
   const { mark, word } = approvalState(state);
-  return { mark, figure: mark === "none" ? NONE : word, help: mark === "none" ? "Not approved yet." : `Approval: ${word}.` };
+  const help = mark === "none" ? "Not approved yet." : mark === "old" ? (state.view?.revoked ?? "The gait changed, and its approval is gone.") : `Approval: ${word}.`;
+  return { mark, figure: mark === "none" ? NONE : word, help };
 }
 
 const PARTS = [
@@ -82,14 +85,30 @@ function previewText({ iterate, preview, view, live, gesture, pending }) {
   return "";
 }
 
+/** Announces what has changed of the states once nothing changes any more: a drag would be read out at every step. */
+function announcer() {
+  let [announced, timer] = [null, null];
+  return (state) => {
+    clearTimeout(timer);
+    timer = setTimeout(() => {
+      const { design, simulate } = stepStates(state);
+      const words = { Plan: design.word, Simulated: simulate.word, Checked: checkState(state).word, Approved: approvalState(state).word };
+      const changed = Object.entries(words).filter(([name, word]) => announced && announced[name] !== word);
+      if (changed.length) announce(`${changed.map(([name, word]) => `${name}: ${word}`).join(". ")}.`);
+      announced = words;
+    }, SETTLED_MS);
+  };
+}
+
 /** Builds the strip and keeps it current. */
 export function mountVerdict(store) {
+  const announceChange = announcer();
   const parts = PARTS.map(build);
   const preview = h("span", { class: "verdict-preview" });
   byId("verdict").append(...parts.map(({ element }) => element), preview);
-  const watched = ({ view, jobs, simulation, selected, live, checked, pending, gesture, iterate, preview: shown }) => [view, jobs, simulation, selected, live, checked, pending.length, gesture === null, iterate, shown === null];
-  store.watch(watched, (state) => {
+  store.watch(gaitParts, (state) => {
     parts.forEach((part) => part.show(state));
+    announceChange(state);
     setText(preview, previewText(state));
   });
 }

@@ -38,7 +38,7 @@ export function walkFields(store, kept = {}) {
     const step = wantedCm(view) / (view?.document?.iterations || 1);
     if (!isTyped && iterations.input.valueAsNumber > 0) expected.input.value = Number((step * iterations.input.valueAsNumber).toFixed(2));
   });
-  const over = h("select", { "aria-label": "Laid over", title: "The plan that the tracks are compared with; it is kept with the trial" });
+  const over = h("select", { "aria-label": "Compare with plan", title: "The plan that the tracks are compared with; it is kept with the trial" });
   const option = (value, text) => h("option", { value, text });
   let [runs, touched] = [[], false];
 
@@ -60,7 +60,7 @@ export function walkFields(store, kept = {}) {
   over.addEventListener("change", () => { touched = true; });
   for (const kind of ["pointerdown", "focus"]) over.addEventListener(kind, () => fill(over.value));
   return {
-    labels: [expected.label, iterations.label, h("label", {}, h("span", { text: "Laid over" }), over)],
+    labels: [expected.label, iterations.label, h("label", {}, h("span", { text: "Compare with plan" }), over)],
     values() {
       const [kind, id] = over.value.split(/:(.*)/);
       return { expected_cm: expected.input.valueAsNumber, iterations: iterations.input.valueAsNumber, ...(id ? { [kind]: id } : {}) };

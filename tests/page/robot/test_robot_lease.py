@@ -157,6 +157,53 @@ def test_a_run_is_begun_at_a_later_pose_and_repeated(ada: Page, studio: StudioPr
     wait_for(lambda: studio.robot()["link"] == "disconnected", "the line is closed")
 
 
+def test_a_countdown_ends_where_its_cancel_is_out_of_sight(ada: Page, studio: StudioProcess) -> None:
+    approve(studio)
+    press(ada, "Connect")
+    is_state(ada, "disarmed")
+    press(ada, "Arm")
+    is_state(ada, "\\barmed")
+    press(ada, "Send to robot")
+    countdown = ada.get_by_role("group", name="Countdown")
+    expect(countdown).to_be_visible()
+    ada.get_by_role("tab", name="Design").click()
+    expect(ada.locator("#announcer")).to_have_text("Sending is cancelled.")
+    ada.get_by_role("tab", name="Run").click()
+    expect(countdown).to_be_hidden()
+    assert studio.robot()["robot"] == "armed"
+    press(ada, "Disconnect")
+    wait_for(lambda: studio.robot()["link"] == "disconnected", "the line is closed")
+
+
+def test_who_looks_on_asks_for_control_of_a_run_in_the_step_run(
+    ada: Page, grace: Page, studio: StudioProcess
+) -> None:
+    approve(studio)
+    press(ada, "Connect")
+    is_state(ada, "disarmed")
+    press(ada, "Arm")
+    is_state(ada, "\\barmed")
+    begun = {"gait": "walk", "by": "Ada", "iterations": 20}
+    assert ada.evaluate(
+        """async (body) => (await import("/static/api/gaits.js")).api.robot("send", body).then(() => true)""",
+        begun,
+    )
+    is_state(grace, "moving")
+    says_who_holds(grace, "Ada is in control.")
+    press(grace, "Ask for it")
+    says_who_holds(ada, "Grace asks for it.")
+    press(ada, "Give it to Grace")
+    expect(grace.get_by_role("button", name="Pause robot")).not_to_have_attribute("aria-disabled", "true")
+    log = grace.get_by_text("What happened")
+    expect(log).to_be_visible()
+    press(grace, "Stop")
+    is_state(grace, "stopped")
+    press(grace, "Clear")
+    is_state(grace, "disarmed")
+    press(grace, "Disconnect")
+    wait_for(lambda: studio.robot()["link"] == "disconnected", "the line is closed")
+
+
 def test_a_board_that_hung_up_is_offered_where_it_is_now_and_not_connected_by_itself(
     ada: Page, studio: StudioProcess, robot: EmulatedRobot
 ) -> None:

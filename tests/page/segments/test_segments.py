@@ -253,7 +253,7 @@ def test_a_manual_plan_that_cannot_be_carried_out_is_not_green(page: Page) -> No
     )
     assert said == [
         ["By hand", "good"],
-        ["By hand, off balance", "caution"],
+        ["By hand, off balance", "bad"],
         ["By hand, out of reach", "bad"],
     ]
 

@@ -1,5 +1,6 @@
 /** Actions on a pattern: show it walking in 3D, make a gait of it, or draw it into the open gait. */
 
+import { openView } from "../timeline/views.js";
 import { capital } from "../lib/format.js";
 import { api } from "../api/gaits.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
@@ -67,10 +68,12 @@ export function patternActions(store, problem, { edits, playback, show }) {
       const { document } = await api.patternDocument(body());
       await edits.edit((now) => ({ ...now, timeline: { ...now.timeline, feet: document.timeline.feet }, ...(document.held ? { held: document.held } : {}) }), LABEL, { drawing: true, gait });
       announce("The drawing is completed. Undo takes it back.");
+      openView("cells");
       return;
     }
     const view = await api.patternGait(body());
     await show(view.id);
+    openView("cells");
     document.querySelector('#gaits [aria-current="true"]')?.scrollIntoView({ block: "nearest" });
     toast(`${view.name} is made and open.${adviceFor(view.plan, problem.state)}`, { of: "studio" });
   });

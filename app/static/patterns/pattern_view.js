@@ -123,9 +123,10 @@ export async function mountPatterns(store, page) {
   const fields = patternFields(store, problem, lock);
   const actions = patternActions(store, problem, page);
   const panel = h("div", { class: "pattern-panel", role: "tabpanel", id: "patterns", "aria-labelledby": "view-patterns" },
+    h("header", { class: "inspector-head" }, h("h2", { text: "Pattern search" }), h("p", { class: "quiet", text: "Who stands when. Another step or view closes it." })),
     h("div", { class: "pattern-scroll" }, fields.element, ...patternResult(problem, search, (hovered) => problem.set({ hovered })), ...patternRules(problem)), actions.element);
   const inspector = byId("inspector");
-  const covered = [".inspector-head", ".sections", ".inspector-foot"].map((part) => inspector.querySelector(part));
+  const covered = [".inspector-head", ".sections", ".inspector-foot"].map((part) => inspector.querySelector(`:scope > ${part}`));
   const setOpen = (on) => {
     open = on;
     document.body.toggleAttribute("data-patterns", on);

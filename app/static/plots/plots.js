@@ -68,8 +68,8 @@ function footTags({ series }, across, scale) {
   });
 }
 
-/** Draws a strip, with measured or simulated curves over it; returns what the pointer needs. */
-function draw(row, content, across, count, axis, overs, rules) {
+/** Draws a strip, with measured or simulated curves over it, which may be named there; returns what the pointer needs. */
+function draw(row, content, across, count, axis, { overs, rules, isNamed }) {
   const { low = null, high = null, wanted = null, floor = null, most = 0 } = content;
   const ranges = [rangeOf(content.series, count), ...overs.map(measuredRange)];
   const range = [Math.min(...ranges.map(([least]) => least)), Math.max(...ranges.map(([, greatest]) => greatest))];
@@ -80,7 +80,7 @@ function draw(row, content, across, count, axis, overs, rules) {
     ...limits.map((value) => line(scale(value), "limit")), ...(floor === null ? [] : [line(scale(floor), "floor")]),
     ...(wanted === null ? [] : [line(scale(wanted), "wanted")]));
   row.canvas.show({ bands: missing(content, across), rules, curves: [...curvesOf(content, across, scale, overs.length > 0), ...overs.flatMap((over) => measuredCurves(over, axis, scale))], clips: beyond(content, scale, range) });
-  row.strip.replaceChildren(lines, row.canvas.element, ...limits.map((value) => tick(value, scale)), ...(content.tags ? footTags(content, across, scale) : []), ...(overs.length ? [h("span", { class: "measured-key", text: [...overs.map(({ word }) => word), "planned dotted"].join(", ") })] : []));
+  row.strip.replaceChildren(lines, row.canvas.element, ...limits.map((value) => tick(value, scale)), ...(content.tags ? footTags(content, across, scale) : []), ...(isNamed ? [h("span", { class: "measured-key", text: [...overs.map(({ word }) => word), "planned dotted"].join(", ") })] : []));
   row.strip.setAttribute("aria-label", summary(row.kind, range, limits));
   return { content, scale };
 }
@@ -122,11 +122,18 @@ function render(rows, state) {
   const across = acrossOf(axis, plan.times);
   const rules = rulesOf(axis, plan);
   const { options } = shownDocument(state);
+  // The lines are named in the first strip that has them.
+  let isNamed = false;
   for (const row of rows) {
     if (row.strip.hidden) continue;
     const content = row.kind.of(plan, options);
-    if (content) row.drawn = draw(row, content, across, plan.times.length, axis, oversOf(state, row.kind.key), rules);
-    else showSentence(row, row.kind.lack);
+    if (!content) {
+      showSentence(row, row.kind.lack);
+      continue;
+    }
+    const overs = oversOf(state, row.kind.key);
+    row.drawn = draw(row, content, across, plan.times.length, axis, { overs, rules, isNamed: overs.length > 0 && !isNamed });
+    isNamed ||= overs.length > 0;
   }
 }
 

@@ -6,6 +6,7 @@ import { byId, h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { capital, counted, fixed, seconds, shortHash } from "../lib/format.js";
 import { ticket } from "../lib/latest_only.js";
 import { attempt, report, toast } from "../lib/toasts.js";
+import { openDrawer } from "../shell/drawers.js";
 import { robotTone } from "../shell/topbar.js";
 import { leasePart, whyNotHeld } from "../state/lease.js";
 import { needOperator } from "../state/operator.js";
@@ -57,7 +58,7 @@ function summaryRows({ runSummary: run, view, selected }) {
   if (!run || run.gait !== selected || !view) return [];
   const row = (name, value, options = {}) => [h("dt", { text: name }), h("dd", { text: value, ...options })];
   const isKnown = run.start_distance_mm !== null && run.start_distance_mm !== undefined;
-  const moves = run.start_moves ? ` in ${counted(run.start_moves, "move")}${run.start_seconds ? `, ${fixed(run.start_seconds, 0)} s of it` : ""}` : "";
+  const moves = run.start_moves ? `, ${counted(run.start_moves, "move")}${run.start_seconds ? `, ${fixed(run.start_seconds, 0)} s` : ""}` : "";
   const checked = checkedStopText(run);
   return [
     ...row("Gait", view.document.name),
@@ -86,9 +87,10 @@ function build(store) {
     arm: robotButton(store, "Arm", "arm", { act: arm, help: "Allow this robot to be moved from here" }),
     clear: robotButton(store, "Clear", "clear", { help: "Acknowledge the stop or fault; nothing moves" }),
     reset: robotButton(store, "Reset", "reset", { act: reset, help: "Moves all motors to 0.5 mm" }),
-    connectNote: h("p", { class: "why" }), armNote: h("p", { class: "why" }), sendNote: h("p", { class: "why" }),
+    armed: h("span"), connectNote: h("p", { class: "why" }), armNote: h("p", { class: "why" }), sendNote: h("p", { class: "why" }),
     summary: h("dl", { class: "summary" }),
     last: h("p", { class: "why number" }),
+    runs: h("button", { class: "link", text: "Open Runs", title: "Every run that was kept: look at one, or compare two", hidden: true, on: { click: () => openDrawer("runs") } }),
     record: h("p", { class: "why", role: "status", "aria-label": "Record", data: { toneText: "caution" } }),
     bars: strokeBars(),
     stopText: h("p", { class: "stop-text", title: STOP_HELP }),
@@ -96,32 +98,41 @@ function build(store) {
 }
 
 function assemble({ store, edits, playback }, parts, send) {
-  const connect = way(1, parts.ports.offer, h("div", { class: "device" }, parts.ports.element, parts.connect.button, parts.disconnect.button), parts.connectNote);
-  const arm = way(2, h("div", { class: "buttons" }, parts.arm.button, parts.clear.button, parts.reset.button), parts.armNote);
+  const connect = way(1, parts.ports.offer, h("div", { class: "device" }, parts.ports.element, parts.disconnect.button), parts.connectNote);
+  const arm = way(2, h("div", { class: "buttons" }, parts.armed, parts.reset.button), parts.armNote);
   const start = way(3, parts.summary, runRangePart(store, playback));
-  const before = h("div", { class: "before-run" }, h("div", { class: "robot-state" }, parts.dot, parts.word, parts.sentence), parts.last,
+  const before = h("div", { class: "before-run" }, h("div", { class: "robot-state" }, parts.dot, parts.word, parts.sentence), parts.last, parts.runs,
     h("ol", { class: "steps", role: "list", "aria-label": "The robot's way" }, connect, arm, start));
   const strokes = h("div", { class: "measured-strokes" }, h("h3", {}, "Strokes", h("span", { text: "bar measured, line target, mm" })), parts.bars.element);
   const more = h("div", { class: "after-run" }, jogPart(store, edits), robotFaults(store));
-  byId("robot").append(leasePart(store), before, runningPart(store), parts.record, strokes, robotLog(store), more);
-  byId("foot-run").append(h("div", { class: "before-run" }, send.element, parts.sendNote), parts.stopText);
+  byId("robot").append(leasePart(store), before, runningPart(store), parts.record, strokes, more, robotLog(store));
+  const acts = h("div", { class: "solve" }, parts.connect.button, parts.clear.button, parts.arm.button);
+  byId("foot-run").append(h("div", { class: "before-run" }, acts, send.element, parts.sendNote), parts.stopText);
   return { connect, arm, start };
 }
 
-function showSteps(ways, robot) {
+/** Whether the last run, of the shown waypoints, came to its end. */
+const hasRun = ({ robot, selected, view }) => robot?.robot === "done" && robot.run?.gait === selected && robot.run.waypoints_hash === view?.plan?.waypoints_hash;
+
+function showSteps(parts, ways, state) {
+  const { robot } = state;
   const ready = robot?.link === "ready";
   const armed = ready && !["unknown", "disarmed", "stopped", "fault", "done"].includes(robot.robot);
-  const done = robot?.robot === "done";
-  const on = planIsOn(robot);
-  const marks = { connect: ready, arm: armed, start: on || done };
+  const marks = { connect: ready, arm: armed, start: planIsOn(robot) || (armed && hasRun(state)) };
   const next = Object.keys(marks).find((name) => !marks[name]);
+  setText(parts.armed, armed ? "Armed: it moves when a run is sent." : "Not armed.");
+  const mayClear = robot?.allowed?.clear === null;
+  parts.connect.button.classList.toggle("primary", next === "connect" && !mayClear);
+  parts.clear.button.classList.toggle("primary", mayClear);
+  parts.arm.button.classList.toggle("primary", next === "arm" && !mayClear);
   for (const [name, element] of Object.entries(ways)) {
     element.toggleAttribute("data-done", marks[name]);
     element.toggleAttribute("data-next", name === next);
   }
 }
 
-function showRobot(parts, ways, robot) {
+function showRobot(parts, ways, state) {
+  const { robot } = state;
   const ready = ["ready", "connecting"].includes(robot?.link);
   const on = runIsOn(robot);
   parts.dot.dataset.tone = robotTone(robot);
@@ -135,11 +146,12 @@ function showRobot(parts, ways, robot) {
   setText(parts.connectNote, ready ? (robot.link === "connecting" ? CONNECT_WARNING : "") : CONNECT_WARNING);
   setText(parts.armNote, ready && !on ? (whyNotHeld(robot) ?? (robot.robot === "armed" ? "" : robot.allowed?.arm ?? "")) : "");
   setText(parts.last, lastRun(robot));
+  parts.runs.hidden = !lastRun(robot);
   parts.clear.button.hidden = robot?.allowed?.clear !== null;
   byId("run").toggleAttribute("data-running", planIsOn(robot));
   byId("foot-run").toggleAttribute("data-running", planIsOn(robot));
   setText(parts.record, robot?.record_trouble ?? "");
-  showSteps(ways, robot);
+  showSteps(parts, ways, state);
 }
 
 /** The last run in a line: how far it came, and how long it took. */
@@ -191,7 +203,7 @@ export function mountRobot(store, edits, playback) {
   });
   const parts = build(store);
   const ways = assemble({ store, edits, playback }, parts, send);
-  store.watch(({ robot }) => [robot], ({ robot }) => showRobot(parts, ways, robot));
+  store.watch(({ robot, selected, view }) => [robot, selected, view?.plan], (state) => showRobot(parts, ways, state));
   store.watch(({ robot, view, jog }) => [robot?.strokes_mm, robot?.run, view?.plan, jog?.target_mm], ({ robot, view, jog }) => {
     const target = jog?.wired ? jog.target_mm : null;
     parts.bars.show(robot?.strokes_mm ?? null, target ?? commandedStrokes(robot, view));

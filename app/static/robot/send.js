@@ -91,6 +91,7 @@ export function sendControl({ prepare, send }) {
     cancel,
     allow(why) {
       reason = why;
+      button.classList.toggle("primary", !why);
       setAllowed(button, why, "Hold for a second, or click for a countdown that can be cancelled");
       if (!why) return;
       cancel();

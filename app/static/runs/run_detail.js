@@ -58,6 +58,7 @@ function comparing(run, others, tables) {
   select.addEventListener("change", () => {
     const other = others.find(({ id }) => id === select.value);
     tables.replaceChildren(...(other ? comparison(run, other) : errorTables(run.errors)));
+    tables.scrollIntoView({ block: "nearest" });
   });
   return h("label", { class: "run-against quiet" }, "Compare with ", select);
 }

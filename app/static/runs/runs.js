@@ -106,7 +106,7 @@ function isCurrent(trace, { robot, view, run: open }) {
 }
 
 /** Keeps `trace` in the store while a run is on and until something else is looked at; a page that comes later begins where the run is then. */
-function mountTrace(store) {
+export function mountTrace(store) {
   store.watch(({ robot, view, run: open }) => [robot?.run?.phase, robot?.run?.id, robot?.run?.reached, view?.plan, open], (state) => {
     const { robot, trace } = state;
     if (!isCurrent(trace, state)) {

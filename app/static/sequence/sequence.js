@@ -78,7 +78,7 @@ async function createSequence(store) {
 
 /** What a sequence is offered: to optimise its parts. */
 function exactParts(store) {
-  const button = h("button", { class: "primary wide", text: "Optimise parts" });
+  const button = h("button", { class: "wide", text: "Optimise parts" });
   onPress(button, attempt(() => api.optimiseParts(store.state.selected)), (why) => toast(why));
   store.watch((state) => [state.jobs, state.view, state.pending.length], ({ jobs, view, pending }) => {
     if (!isSequence(view?.document)) return;

@@ -41,7 +41,7 @@ function simulatedPart(state) {
   const { mark, word } = simulateState(state);
   const variations = mark === "done" || mark === "failed" ? simulationOver(state)?.variations : null;
   const walking = variations?.runs.filter(({ walks }) => walks).length;
-  const figure = mark === "none" ? NONE : variations ? `${walking}/${variations.count} ${word}` : word;
+  const figure = mark === "none" ? NONE : variations ? `${walking}/${variations.count}` : word;
   return { mark, figure, help: mark === "none" ? "Not simulated yet." : `${capital(word)}.${variations ? ` ${walking} of ${variations.count} variations walk.` : ""}` };
 }
 

@@ -128,6 +128,7 @@ def test_cursors_stay_while_a_new_gait_is_not_yet_in_the_list(
         shown = rows(other)
         other.get_by_role("button", name="Make gait").click()
         expect(other.get_by_label("Gait name")).to_have_value("Walk 10 mm to Amble 10 mm")
+        search_again(other)
         expect(cursor(other, "A")).to_have_attribute("aria-valuenow", "7")
         assert late.count > 0, "the list was held back"
         late.let_go()
@@ -213,8 +214,7 @@ def test_what_walks_has_a_playhead_and_the_chosen_pattern_outlasts_its_gait(sear
     expect(search.locator(".pattern-playhead")).to_be_hidden()
     search.get_by_role("button", name="Make gait").click()
     expect(search.get_by_label("Gait name")).to_have_value("Walk 10 mm to Amble 10 mm")
-    for tab in ("Cells", "Pattern search"):
-        search.get_by_role("tab", name=tab).click()
+    search_again(search)
     expect(best.get_by_role("option").nth(2)).to_have_attribute("aria-selected", "true")
     assert rows(search) == chosen
     search.get_by_role("button", name="Delete", exact=True).click()
@@ -240,6 +240,7 @@ def test_a_gait_for_some_limbs_walks_and_is_made(search: Page, studio: StudioPro
     chosen = rows(search)
     search.get_by_role("button", name="Make gait").click()
     expect(search.get_by_label("Gait name")).to_have_value("4 limbs of 6")
+    search_again(search)
     expect(second).to_have_attribute("aria-selected", "true")
     assert rows(search) == chosen
     made = studio.ask("GET", "/api/gaits/4-limbs-of-6").content
@@ -263,11 +264,18 @@ def test_a_drawing_is_completed_by_one_edit(search: Page, studio: StudioProcess)
     undo = search.get_by_role("button", name=re.compile("^Undo"))
     expect(undo).to_have_attribute("title", re.compile("Undo: Complete the drawing"))
     assert studio.ask("GET", "/api/gaits/half-drawn").content["timeline"]["feet"] == done
+    search_again(search)
     nothing = re.compile("^Nothing to complete")
     complete = search.get_by_role("button", name="Complete the drawing")
     expect(complete).to_have_attribute("title", nothing)
     undo.click()
     wait_for(lambda: studio.ask("GET", "/api/gaits/half-drawn").content["timeline"]["feet"] == feet, "undone")
+
+
+def search_again(page: Page) -> None:
+    """What was made is shown in its cells; opens the search once more."""
+    expect(page.get_by_role("tab", name="Cells")).to_have_attribute("aria-selected", "true")
+    page.get_by_role("tab", name="Pattern search").click()
 
 
 def is_request(asked: str, request: Request) -> bool:

@@ -93,7 +93,7 @@ def test_a_pattern_search_that_was_left_before_it_had_loaded_stays_closed(page: 
     expect(panel).to_be_hidden()
     page.get_by_role("tab", name="Pattern search").click()
     expect(panel).to_be_visible()
-    for covered in (".inspector-head", "#sections", ".inspector-foot"):
+    for covered in ("#inspector > .inspector-head", "#sections", ".inspector-foot"):
         expect(page.locator(covered)).to_have_attribute("inert", "")
     page.get_by_role("tab", name="Cells").click()
     expect(page.locator("#sections")).not_to_have_attribute("inert", "")

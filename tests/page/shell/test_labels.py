@@ -92,6 +92,9 @@ def test_no_label_is_cut_and_no_two_texts_overlap(page: Page, studio: StudioProc
     press(page, "Continue")
     expect(page.get_by_role("tab", name="Run", selected=True)).to_be_visible()
     look("approved")
+    strip = page.get_by_role("status", name="Verdict").bounding_box()
+    assert strip is not None
+    assert strip["height"] <= 44, "the verdict strip is one row"
     press(page, "Connect")
     expect(page.get_by_role("status", name="Robot")).to_contain_text("disarmed")
     look("connected")

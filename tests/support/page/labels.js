@@ -56,6 +56,15 @@
   for (const input of document.querySelectorAll("input:not([type=checkbox]):not([type=range]):not([type=file])")) {
     if (isShown(input) && input.value && input.id !== "gait-name" && input.scrollWidth > input.clientWidth + 1) problems.push(`cut: ${input.getAttribute("aria-label")} with “${input.value}”`);
   }
+  const pen = document.createElement("canvas").getContext("2d");
+  for (const select of document.querySelectorAll("select")) {
+    if (!isShown(select) || !select.selectedOptions.length) continue;
+    const style = getComputedStyle(select);
+    pen.font = style.font;
+    // The arrow takes its share beside the padding.
+    const room = select.clientWidth - parseFloat(style.paddingLeft) - parseFloat(style.paddingRight) - 16;
+    if (pen.measureText(select.selectedOptions[0].text).width > room + near) problems.push(`cut: ${select.getAttribute("aria-label")} with “${select.selectedOptions[0].text}”`);
+  }
   const covers = (element, other, box) => {
     for (let one = element; one && !one.contains(other); one = one.parentElement) {
       const own = one.getBoundingClientRect();

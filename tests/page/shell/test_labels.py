@@ -104,6 +104,9 @@ def test_no_label_is_cut_and_no_two_texts_overlap(page: Page, studio: StudioProc
     page.get_by_role("button", name="Send to robot").click()
     wait_for(lambda: (studio.robot()["run"] or {}).get("reached", 0) > 2, "the robot walks", 60)
     look("moving")
+    press(page, "Pause robot")
+    expect(page.get_by_role("button", name="Resume robot")).to_be_visible()
+    look("pausing")
     page.get_by_role("button", name="Stop", exact=True).click()
     wait_for(lambda: studio.robot()["robot"] == "stopped", "it stands still")
     expect(page.get_by_role("button", name="Clear", exact=True)).to_be_visible()
@@ -128,7 +131,7 @@ def test_no_label_is_cut_and_no_two_texts_overlap(page: Page, studio: StudioProc
 
 def test_a_cut_and_an_overlap_would_be_found(page: Page) -> None:
     page.evaluate("document.querySelector('#save').style.cssText = 'width: 20px; overflow: hidden'")
-    page.evaluate("document.querySelector('#tab-check').style.marginLeft = '-90px'")
+    page.evaluate("document.querySelector('#tab-check').style.marginLeft = '-180px'")
     problems = label_problems(page)
     assert any(line.startswith("cut: Save") for line in problems)
     assert any(line.startswith("overlap: ") for line in problems)

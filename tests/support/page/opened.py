@@ -1,4 +1,4 @@
-"""A page of the studio that must not throw."""
+"""A page of the studio that must not throw, and has nothing to say on the console."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from urllib.parse import urljoin
 
-from playwright.sync_api import Browser, BrowserContext, Page, expect
+from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, expect
 
 from tests.support.chromium import FLAT_WORDS, LONG_MS, chromium_path
 
@@ -21,6 +21,8 @@ WALK = (
     "try { localStorage.getItem('footfall.gait') ?? localStorage.setItem('footfall.gait', 'walk') } catch {}"
 )
 """As if the drawn walk was used last, where no gait is remembered: most tests are about drawn gaits."""
+NOT_OURS = ("Failed to load resource", "WebSocket connection to", "THREE.", "[.WebGL")
+"""How messages of the browser about the network begin, and those of the 3D client."""
 NO_FRAME = "Object.defineProperty(HTMLIFrameElement.prototype, 'src', { set() {}, get: () => '' })"
 """Lighter than an answer in the place of the server's, which has every request pass through Playwright."""
 
@@ -44,6 +46,7 @@ def opened_page(
             leave_scene_out(page)
         problems: list[str] = []
         page.on("pageerror", lambda error: problems.append(str(error)))
+        page.on("console", lambda message: problems.extend(said_by_us(message)))
         page.goto(url)
         try:
             yield page
@@ -51,6 +54,12 @@ def opened_page(
             print("The page said:", page.locator("#toasts").all_inner_texts())  # noqa: T201
             raise
     assert problems == []
+
+
+def said_by_us(message: ConsoleMessage) -> list[str]:
+    """An error or warning on the console; not of a refused request, nor of the 3D client."""
+    is_ours = "/viser/" not in message.location["url"] and not message.text.startswith(NOT_OURS)
+    return [message.text] if is_ours and message.type in ("error", "warning") else []
 
 
 @contextmanager

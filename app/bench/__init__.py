@@ -19,6 +19,7 @@ from app.bench.robot.telemetry import bench_telemetry
 from app.bench.solvers.edits import bench_edits
 from app.bench.solvers.exact import bench_exact, bench_growth
 from app.bench.solvers.frontier import bench_frontier
+from app.bench.solvers.gentle import bench_gentle
 from app.bench.solvers.kinematics import bench_kinematics
 from app.bench.solvers.live import bench_live
 from app.bench.solvers.timing import bench_timing
@@ -34,6 +35,7 @@ BENCHMARKS: dict[str, Benchmark] = {
     "live": bench_live,
     "exact": bench_exact,
     "growth": bench_growth,
+    "gentle": bench_gentle,
     "trajectories": bench_trajectories,
     "frontier": bench_frontier,
     "timing": bench_timing,

@@ -356,6 +356,9 @@ def _held_note(gait: Gait, model: RobotModel) -> str:
 
 
 def _optimised_note(result: Json) -> str:
+    # Results of earlier versions do not say it; all of them are optimal.
+    if not result.get("optimal", True):
+        return " ".join(result["explanation"])
     return (
         f"Optimised in {result['iterations']} iterations, {result['solve_seconds'] * 1000:.0f} ms; every "
         f"constraint confirmed, largest violation {result['max_violation']:.1e}."

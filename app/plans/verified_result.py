@@ -37,6 +37,7 @@ class VerifiedResult:
         """The figures as JSON content."""
         figures = {
             "status": self.status.value,
+            "optimal": self.status is SolveStatus.SOLVED and self.result.optimal,
             "iterations": self.result.iteration_count,
             "objective": self.result.objective,
             "solve_seconds": self.result.solve_seconds,

@@ -30,6 +30,13 @@ class Cost(StrEnum):
     """Distance of every state to the goal, T (3.4)."""
     GOAL_EFFORT = "goal+effort"
     """The same and the internal forces, T (3.3)."""
+    GENTLE = "gentle"
+    """½ Σ (‖v_b‖² + s Σ ‖v_f‖²) over every knot, with the small share s of the feet: the body moves evenly
+    over the time there is."""
+
+
+GENTLE_FOOT_SHARE = 0.01
+"""Share of the feet's speeds beside the body's in `Cost.GENTLE`, which would leave open how feet swing."""
 
 
 class Boundary(StrEnum):

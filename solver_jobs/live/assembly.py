@@ -7,7 +7,7 @@
 import numpy as np
 
 from core.arrays import Floats
-from core.problem.motion_problem import MotionProblem
+from core.problem.motion_problem import GENTLE_FOOT_SHARE, Cost, MotionProblem
 from solver_jobs.live.linearisation import MM, Linearisation, linearise
 from solver_jobs.live.qp import QuadraticProgram, stacked
 from solver_jobs.live.reach import height_reach, reach_of, standing_reach, swinging_reach
@@ -22,7 +22,7 @@ def quadratic_program(linearisation: Linearisation, rows: list[Rows]) -> Quadrat
     split = [one.split() for one in rows]
     if max(miss for _, miss in split) > TOLERANCE_MM:
         return None
-    curvature, gradient = goal_cost(linearisation)
+    curvature, gradient = cost_terms(linearisation)
     row, column, value, lower, upper = stacked([kept for kept, _ in split])
     least = np.full(linearisation.size, -np.inf)
     return QuadraticProgram(curvature, gradient, row, column, value, lower, upper, least)
@@ -66,7 +66,23 @@ def _rows(linearisation: Linearisation, disc: DiscPolygon) -> list[Rows]:
     ]
 
 
-def goal_cost(linearisation: Linearisation) -> tuple[Floats, Floats]:
+def cost_terms(linearisation: Linearisation) -> tuple[Floats, Floats]:
+    """Curvature and gradient of the cost in the unknowns; forces are none of them, so effort has no part."""
+    return _gentle(linearisation) if linearisation.problem.cost is Cost.GENTLE else _goal(linearisation)
+
+
+def _gentle(linearisation: Linearisation) -> tuple[Floats, Floats]:
+    """Of ½ Σ (‖v_b‖² + s Σ ‖v_f‖²), with the share s of the feet."""
+    velocity = linearisation.index[1]
+    shares = np.broadcast_to(
+        np.where(np.arange(velocity.shape[1]) == 0, 1.0, GENTLE_FOOT_SHARE)[:, None], velocity.shape
+    )
+    curvature = np.zeros(linearisation.size)
+    np.add.at(curvature, velocity[velocity >= 0], shares[velocity >= 0])
+    return curvature, np.zeros(linearisation.size)
+
+
+def _goal(linearisation: Linearisation) -> tuple[Floats, Floats]:
     """Curvature and gradient of (3.4), ½ Σ ‖x − x_g‖², in the unknowns."""
     problem = linearisation.problem
     goal = np.concatenate([problem.goal.body_world[None], problem.goal.feet_world])[:, :2] * MM

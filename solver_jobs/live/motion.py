@@ -8,7 +8,7 @@ from core.arrays import Bools, Floats
 from core.motion.support_polygon import GRAVITY
 from core.motion.trajectory import Trajectory
 from core.problem.initial_guess import Indices, standing_forces
-from core.problem.motion_problem import MotionProblem
+from core.problem.motion_problem import GENTLE_FOOT_SHARE, Cost, MotionProblem
 from solver_jobs.live.linearisation import MM, Linearisation
 
 
@@ -95,7 +95,12 @@ def _three_feet(rows: Floats, standing: Indices, otherwise: Floats) -> Floats:
 
 
 def motion_cost(problem: MotionProblem, motion: Trajectory) -> float:
-    """(3.4) of a motion, ½ Σ ‖x − x_g‖² over every knot, SI."""
+    """The cost of a motion over every knot, SI: (3.4), ½ Σ ‖x − x_g‖², or the gentle one."""
+    if problem.cost is Cost.GENTLE:
+        body, feet = (
+            0.0 if v is None else float((v**2).sum()) for v in (motion.body_velocity, motion.feet_velocity)
+        )
+        return (body + GENTLE_FOOT_SHARE * feet) / 2
     wanted = ((motion.body_world, problem.goal.body_world), (motion.feet_world, problem.goal.feet_world))
     total = sum(float(((points - goal) ** 2).sum()) for points, goal in wanted)
     speeds = (motion.body_velocity, motion.feet_velocity)

@@ -10,7 +10,7 @@ from core.problem.initial_guess import initial_guess
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import MotionProblem
 from solver_jobs.live.assembly import (
-    goal_cost,
+    cost_terms,
     inner_rows,
     natural_linearisation,
     outer_rows,
@@ -151,7 +151,7 @@ def _nearest(search: _Search, linearisation: Linearisation, rows: list[Rows]) ->
     interval = float(linearisation.intervals.mean())
     limits = linearisation.problem.limits
     farthest = max(FARTHEST, 2 * MM * max(limits.body_speed, limits.foot_speed))
-    found = nearest(_solver, goal_cost(linearisation), rows, interval, farthest)
+    found = nearest(_solver, cost_terms(linearisation), rows, interval, farthest)
     if found is not None:
         search.seconds += found.answer.seconds
     return found

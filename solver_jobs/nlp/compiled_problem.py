@@ -30,7 +30,7 @@ from core.robot.model import RobotModel
 from solver_jobs.nlp.assembly import ELASTIC_FAMILIES, asked_families, row_constraints
 from solver_jobs.nlp.block_jacobian import RowBlock, rows_derivatives
 from solver_jobs.nlp.constraint import Family, Situation
-from solver_jobs.nlp.costs import cost_of, force_preference
+from solver_jobs.nlp.costs import cost_of, price_of
 from solver_jobs.nlp.monitor import Monitor
 from solver_jobs.nlp.variables import Symbols, make_symbols
 
@@ -180,7 +180,7 @@ def compile_problem(model: RobotModel, shape: Shape) -> CompiledProblem:
     blocks, expressions = assembled_rows(symbols, model, shape)
     rows = vertcat(*expressions)
     cost = cost_of(shape.cost, symbols, model)
-    price = cost + force_preference(symbols)
+    price = price_of(shape.cost, cost, symbols)
     nlp = {"x": vector, "p": parameters, "f": price, "g": rows}
     weight, multipliers = SX.sym("weight"), SX.sym("multipliers", rows.numel())
     slope, curvature = rows_derivatives(symbols, model, blocks, rows, multipliers)

@@ -3,7 +3,7 @@
 from casadi import SX, dot
 
 from core.motion.support_polygon import GRAVITY
-from core.problem.motion_problem import Cost
+from core.problem.motion_problem import GENTLE_FOOT_SHARE, Cost
 from core.robot.model import RobotModel
 from solver_jobs.nlp.variables import MM, Symbols, per_interval
 
@@ -15,15 +15,25 @@ FORCE_PREFERENCE = 1.0
 smallest of equally good contact forces, which the thesis's cost leaves open and which would leave the Hessian
 singular; its share of the reported cost is taken off again."""
 
+GENTLE_WEIGHT = 30.0
+"""Weight of the gentle cost beside the preference of forces. With 1 the body leans towards where forces are
+small: at margin 0 its largest move between knots was up to 1.5 times the least possible."""
+
 
 def cost_of(kind: Cost, symbols: Symbols, model: RobotModel) -> SX:
     """The cost to report, in the solver's scale."""
+    if kind is Cost.GENTLE:
+        return _speed(symbols)
     cost = _goal_distance(symbols)
     return cost + COST_SCALE * _effort(symbols, model) if kind is Cost.GOAL_EFFORT else cost
 
 
-def force_preference(symbols: Symbols) -> SX:
-    """What is added to the cost so that contact forces are unique."""
+def price_of(kind: Cost, cost: SX, symbols: Symbols) -> SX:
+    """What the solver minimises: the cost, weighted, and the preference that makes contact forces unique."""
+    return (GENTLE_WEIGHT if kind is Cost.GENTLE else 1.0) * cost + _force_preference(symbols)
+
+
+def _force_preference(symbols: Symbols) -> SX:
     return FORCE_PREFERENCE / 2 * sum((dot(part, part) for part in (*symbols.force, *symbols.slope)), SX(0))
 
 
@@ -34,6 +44,12 @@ def _goal_distance(symbols: Symbols) -> SX:
         goal = symbols.goal[3 * point : 3 * point + 3] @ SX.ones(1, position.shape[1])
         total += dot(position - goal, position - goal) + dot(velocity, velocity)
     return total / 2
+
+
+def _speed(symbols: Symbols) -> SX:
+    """½ Σ (‖v_b‖² + s Σ ‖v_f‖²) over every knot, as `Cost.GENTLE` has it."""
+    body, *feet = symbols.velocity
+    return (dot(body, body) + GENTLE_FOOT_SHARE * sum((dot(foot, foot) for foot in feet), SX(0))) / 2
 
 
 def _effort(symbols: Symbols, model: RobotModel) -> SX:

@@ -190,6 +190,7 @@ class _Solve:
             initial=search.trajectory(attempt.begin.vector),
             lacks=lacks(attempt.missed) if unsolved else (),
             iterate_motions=search.iterate_motions(),
+            optimal=status is SolveStatus.SOLVED,
         )
 
 

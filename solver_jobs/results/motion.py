@@ -85,6 +85,8 @@ class MotionResult:
         initial: what the solver started from.
         lacks: what the nearest motion misses, the worst first, where it is infeasible.
         iterate_motions: the motion at each of the iterations, the start included; empty if not kept.
+        optimal: whether a solved motion is a local optimum of the cost; a motion of the live tier is none,
+            since footholds and heights are given there.
     """
 
     status: SolveStatus
@@ -99,6 +101,7 @@ class MotionResult:
     initial: Trajectory
     lacks: tuple[Lack, ...] = ()
     iterate_motions: tuple[Trajectory, ...] = ()
+    optimal: bool = False
 
     @property
     def iteration_count(self) -> int:

@@ -12,6 +12,11 @@ from solver_jobs.results.motion import Evidence, MotionResult, SolveStatus
 _WITHOUT = (SolveStatus.INFEASIBLE, SolveStatus.FAILED)
 """How a search without a motion ends."""
 
+NOT_OPTIMAL = (
+    "The exact tier found no motion. This is the live tier's, which keeps every limit; its footholds and "
+    "body height are given, so it is not optimal."
+)
+
 OUTSIDE = "Outside that model it is diagnosed from a local search, not proven."
 
 
@@ -20,7 +25,8 @@ def solve_exact(
 ) -> MotionResult:
     """Solves a problem by the exact tier with its convex start; not for several threads at once.
 
-    Where IPOPT neither finds a motion nor says why, what the live tier proves or diagnoses is the answer.
+    Where IPOPT finds no motion, the live tier's is the answer, marked as not optimal. Where that has none
+    either and IPOPT does not say why, what the live tier proves or diagnoses is the answer.
 
     Args:
         problem: what is asked.
@@ -43,7 +49,7 @@ def solve_exact(
     merged = _after(live, exact)
     if exact.status not in _WITHOUT or exact.evidence is Evidence.PROVEN:
         return merged
-    return _told_by_both(merged, live, has_motion=has_motion)
+    return _by_live(problem, merged, live) if has_motion else _told_by_both(merged, live)
 
 
 def _by_plain_cost(problem: MotionProblem, progress: Progress, exact: MotionResult) -> MotionResult:
@@ -74,11 +80,22 @@ def _starts_well(problem: MotionProblem) -> bool:
     return len(feet) == len(set(feet))
 
 
-def _told_by_both(exact: MotionResult, live: MotionResult, *, has_motion: bool) -> MotionResult:
+def _by_live(problem: MotionProblem, exact: MotionResult, live: MotionResult) -> MotionResult:
+    """The live tier's motion, with the course of the exact tier's search."""
+    return replace(
+        exact,
+        status=SolveStatus.SOLVED,
+        explanation=(NOT_OPTIMAL,),
+        evidence=None,
+        lacks=(),
+        trajectory=live.trajectory,
+        # The live tier knows no forces to count.
+        objective=None if problem.cost is Cost.GOAL_EFFORT else live.objective,
+    )
+
+
+def _told_by_both(exact: MotionResult, live: MotionResult) -> MotionResult:
     """The exact tier's answer with what the live tier knows of it; the evidence comes last, once."""
-    if has_motion:
-        words = "The live tier has a motion that keeps every limit: use the live plan (--method live)."
-        return replace(exact, explanation=(*exact.explanation, words))
     if live.status is not SolveStatus.INFEASIBLE:
         return exact
     *others, model = live.explanation

@@ -59,8 +59,8 @@ const LIMITS = [
 const CHOICES = [
   { label: "Reach", name: "Workspace", options: [["stroke", "stroke"], ["cylinder", "cylinder"]],
     help: "Workspace. stroke: what the motors truly reach; cylinder: the paper's simpler, smaller space", ...word("workspace") },
-  { label: "Cost", name: "Cost", options: [["goal", "goal"], ["goal+effort", "effort"]],
-    help: "What Optimise minimises. goal: distance to the goal; effort: the legs' forces as well", ...word("cost") },
+  { label: "Cost", name: "Cost", options: [["gentle", "gentle"], ["goal", "goal"], ["goal+effort", "effort"]],
+    help: "What is minimised. gentle: the body moves evenly over the time there is; goal: distance to the goal, at every sample; effort: the legs' forces as well", ...word("cost") },
 ];
 
 const MORE_NUMBERS = [

@@ -13,6 +13,7 @@ from app.bench.common.cases import Case, all_cases
 from app.bench.common.edited_gaits import edited_gait
 from app.bench.solvers.edits import Outcome, answers, bench_edits
 from app.bench.solvers.frontier import bench_frontier
+from app.bench.solvers.gentle import bench_gentle
 from app.bench.solvers.live import bench_live, grouped_gait
 from app.bench.solvers.timing import bench_timing
 from app.bench.solvers.trajectories import bench_trajectories, row_of
@@ -62,6 +63,13 @@ def test_an_infeasible_case_says_what_is_lacking() -> None:
     assert (row["live"], row["exact"], row["evidence"]) == ("infeasible", "infeasible", "proven")
     assert "foot speed" in row["lacks"]
     assert row["margin_mm"] is None
+
+
+def test_a_gentle_body_never_rushes() -> None:
+    (row,) = bench_gentle(("walk",), (0.010,), (0.003,))
+    assert row["confirmed"] == "4 of 4"
+    assert float(row["gentle_mm"]) < 1.2 < 2.5 < float(row["goal_mm"])
+    assert float(row["gentle_live_mm"]) < 1.2
 
 
 def test_the_frontier_is_confirmed_and_free_phases_get_no_less_far() -> None:

@@ -38,6 +38,7 @@ _OPTIONS = (
     "clearance",
     "margin",
     "body_speed",
+    "foot_speed",
     "plane_height",
     "end_plane_height",
     "workspace",
@@ -63,7 +64,10 @@ def asked_gait(options: Namespace) -> Gait:
     """
     gait = named_gait(options.gait)
     if options.robot is not None:
-        gait = with_robot(gait, load_robot(options.robot), options.order)
+        model = load_robot(options.robot)
+        gait = with_robot(gait, model, options.order)
+        if options.gait in library():
+            gait = gait.with_options(margin=model.margin)
     return _with_options(gait, options)
 
 
@@ -72,7 +76,7 @@ def named_gait(name: str) -> Gait:
     path = Path(name)
     if name in library() or (path.suffix != ".json" and not path.exists()):
         gait = optimised_entry(name).gait
-        return replace(gait, options=replace(gait.options, margin=GaitOptions.margin))
+        return gait.with_options(margin=load_robot(gait.robot).margin, cost=GaitOptions.cost)
     gait = parse_gait(read_text(path), path.name)
     if gait.segment_table is not None:
         raise InputError(

@@ -179,7 +179,8 @@ def _gait_options(parser: argparse.ArgumentParser) -> None:
     add("--knot-time", type=number(0.01, 10.0, "s"), default=None, help="s between knots (default 0.4)")
     _limit_options(parser)
     add("--boundary", type=one_of(Boundary), metavar=words_of(Boundary), default=None)
-    add("--cost", type=one_of(Cost), metavar=words_of(Cost), default=None)
+    text = "what is minimised (default goal, of a gait file its own)"
+    add("--cost", type=one_of(Cost), metavar=words_of(Cost), default=None, help=text)
     add(
         "--method",
         type=one_of(Method),
@@ -196,11 +197,12 @@ def _limit_options(parser: argparse.ArgumentParser) -> None:
     add("--clearance", type=number(0.0, 0.02, "m"), default=None, help="m that a swing rises (default 0.003)")
     add(
         "--margin",
-        type=number(-0.05, 0.05, "m"),
+        type=number(0.0, 0.05, "m"),
         default=None,
-        help="m that the centre of pressure stays inside the support polygon (default 0)",
+        help="m that the centre of pressure stays inside the support polygon (default the robot's own)",
     )
     add("--body-speed", type=number(0.0005, 1.0, "m/s"), default=None, help="m/s (default 0.015)")
+    add("--foot-speed", type=number(0.0005, 1.0, "m/s"), default=None, help="m/s (default 0.015)")
     height = number(0.03, 0.1, "m")
     add("--plane-height", type=height, default=None, help="actuator plane at the start, m")
     add("--end-plane-height", type=height, default=None, help="and at the goal, m")

@@ -279,6 +279,9 @@ def motion_hash(gait: Gait) -> str:
     content = {key: value for key, value in gait_content(gait).items() if key not in _WORDS_ALONE}
     if gait.poses is None:
         content["options"] = {key: value for key, value in content["options"].items() if key not in _SENDING}
+    # The usual foot speed, which earlier documents did not name, changes no hash.
+    if content["options"].get("foot_speed") == GaitOptions.foot_speed:
+        del content["options"]["foot_speed"]
     # A gait without a recorded motion keeps the hash under which earlier results of it are kept.
     recording = content.pop("recorded")
     if gait.recorded is not None:

@@ -93,6 +93,7 @@ class OptionsModel(_Model):
     clearance: float = _option("clearance", "how high each swing rises at least, m")
     margin: float = _option("margin", "how far the centre of pressure stays inside the support polygon, m")
     body_speed: float = _option("body_speed", "limit of the body's speed, m/s")
+    foot_speed: float = _option("foot_speed", "limit of each foot's speed, m/s")
     plane_height: float = _option("plane_height", "actuator plane at the start, m")
     workspace: Workspace = _option("workspace", "which form of reach holds")
     cost: Cost = _option("cost", "what is minimised")

@@ -44,15 +44,16 @@ def stored_content(content: Any, where: str = "gait") -> StoredGait:
     if not isinstance(content, dict):
         return StoredGait(gait_from_content(content, where))
     limited, changes = _limited(content)
-    notice = (
-        None
-        if not changes
-        else f"Kept by an earlier version with {' and '.join(dict.fromkeys(changes))}. {_SAME}"
+    knots = (
+        f"Kept by an earlier version with {' and '.join(dict.fromkeys(changes))}. {_SAME}" if changes else ""
     )
+    limited, margin = _with_least_margin(limited)
+    notice = " ".join(filter(None, (knots, margin))) or None
     return StoredGait(gait_from_content(limited, where), notice)
 
 
 _SAME = "The timeline is as it was; drawing it anew takes the new number."
+_NEGATIVE = "Kept by an earlier version with a stability margin of {:g} mm (now 0): a margin is at least 0."
 
 
 def _limited(content: Json) -> tuple[Json, list[str]]:
@@ -66,6 +67,26 @@ def _limited(content: Json) -> tuple[Json, list[str]]:
     if isinstance(parts, list):
         content = {**content, "sequence": [_part(part, changes) for part in parts]}
     return content, changes
+
+
+def _with_least_margin(content: Json) -> tuple[Json, str]:
+    """A document, and its parts, with margin 0 in the place of a negative one; and the sentence about it."""
+    sentence = ""
+    options = content.get("options")
+    margin = options.get("margin") if isinstance(options, dict) else None
+    if isinstance(options, dict) and isinstance(margin, int | float) and margin < 0:
+        content, sentence = (
+            {**content, "options": {**options, "margin": 0.0}},
+            _NEGATIVE.format(margin * 1000),
+        )
+    parts = content.get("sequence")
+    for number, part in enumerate(parts if isinstance(parts, list) else []):
+        if isinstance(part, dict) and isinstance(part.get("gait"), dict):
+            gait, words = _with_least_margin(part["gait"])
+            content = {**content, "sequence": [*content["sequence"]]}
+            content["sequence"][number] = {**part, "gait": gait}
+            sentence = sentence or words
+    return content, sentence
 
 
 def _part(part: Any, changes: list[str]) -> Any:

@@ -102,12 +102,12 @@ def asked_of(gait: Gait) -> Asked:
         return Asked(turn=turn, held=gait.held)
     options = gait.options
     if gait.poses is not None:
-        return Asked(turn=turn, margin=max(options.margin, 0.0), sent_whole=True)
+        return Asked(turn=turn, margin=options.margin, sent_whole=True)
     end = options.plane_height if options.end_plane_height is None else options.end_plane_height
     return Asked(
         turn=turn,
         heights=(options.plane_height, end),
-        margin=max(options.margin, 0.0),
+        margin=options.margin,
         motor_speed=options.motor_speed,
         motor_acceleration=options.motor_acceleration,
         held=gait.held,

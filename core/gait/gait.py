@@ -386,6 +386,7 @@ def motion_problem(gait: Gait, model: RobotModel) -> MotionProblem:
         clearance=options.clearance,
         margin=options.margin,
         body_speed=options.body_speed,
+        foot_speed=options.foot_speed,
         workspace=options.workspace,
         friction=options.friction,
         motor_speed=options.motor_speed,

@@ -23,6 +23,7 @@ OPTION_WORDS: dict[str, tuple[str, float, str]] = {
     "clearance": ("Clearance", 1000.0, "mm"),
     "margin": ("Stability margin", 1000.0, "mm"),
     "body_speed": ("Body speed", 1000.0, "mm/s"),
+    "foot_speed": ("Foot speed", 1000.0, "mm/s"),
     "plane_height": ("Body height", 1000.0, "mm"),
     "end_plane_height": ("Height at the end", 1000.0, "mm"),
     "friction": ("Friction", 1.0, ""),

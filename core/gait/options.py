@@ -54,8 +54,9 @@ MOST_CLOSING_KNOTS = 100
 OPTION_BOUNDS: Mapping[str, OptionBounds] = MappingProxyType(
     {
         "clearance": OptionBounds(0.0, 20.0, 1000, " mm"),
-        "margin": OptionBounds(-50.0, 50.0, 1000, " mm"),
+        "margin": OptionBounds(0.0, 50.0, 1000, " mm"),
         "body_speed": OptionBounds(0.5, 1000.0, 1000, " mm/s"),
+        "foot_speed": OptionBounds(0.5, 1000.0, 1000, " mm/s"),
         "plane_height": OptionBounds(30.0, 100.0, 1000, " mm"),
         "end_plane_height": OptionBounds(30.0, 100.0, 1000, " mm"),
         "friction": OptionBounds(0.01, 10.0),
@@ -78,6 +79,7 @@ class GaitOptions:
         clearance: how high the highest knot of each swing is at least.
         margin: how far inside the support polygon the centre of pressure stays.
         body_speed: limit of the body's speed.
+        foot_speed: limit of each foot's speed.
         plane_height: actuator plane at the start.
         end_plane_height: actuator plane at the goal; None as at the start.
         workspace: which form of reach holds.
@@ -109,6 +111,7 @@ class GaitOptions:
     turning: HeadingProfile = HeadingProfile.STEADY
     merge: float = 0.001
     stop_bound: float | None = 1.0
+    foot_speed: float = 0.015
 
     def __post_init__(self) -> None:
         for name, bounds in OPTION_BOUNDS.items():

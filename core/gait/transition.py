@@ -100,6 +100,7 @@ def _limits(model: RobotModel, here: RestPose, goal: RestPose, options: GaitOpti
         clearance=options.clearance,
         margin=options.margin,
         body_speed=options.body_speed,
+        foot_speed=options.foot_speed,
         workspace=options.workspace,
         motor_speed=options.motor_speed,
     )

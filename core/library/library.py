@@ -18,6 +18,7 @@ from core.library.patterns import LibraryPattern, library_pattern
 from core.library.sequence import sequence_gait
 from core.motion.contact_timeline import ContactTimeline, timeline_from_order, timeline_from_rows
 from core.motion.heading_profile import HeadingProfile
+from core.problem.motion_problem import Cost
 from core.robot.model import load_robot
 from core.segments.segment_table import Segment, SegmentTable, SegmentVocabulary
 
@@ -188,6 +189,7 @@ def _options(item: dict[str, Any]) -> GaitOptions:
         plane_height=item.get("plane_height", GaitOptions.plane_height),
         motor_speed=item.get("motor_speed"),
         turning=HeadingProfile(item.get("turning", HeadingProfile.STEADY)),
+        cost=Cost.GENTLE,
     )
 
 

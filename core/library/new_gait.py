@@ -11,6 +11,7 @@ from core.gait.held_feet import HeldFeet
 from core.gait.options import GaitOptions
 from core.library.sequence import derived
 from core.motion.contact_timeline import MAX_SAMPLES, timeline_from_order
+from core.problem.motion_problem import Cost
 from core.robot.model import RobotModel
 
 SAMPLE_TIME = 0.4
@@ -117,7 +118,9 @@ def drawn_gait(
             iterations=iterations,
             sample_time=SAMPLE_TIME,
         ),
-        options=GaitOptions(phase_knots=phase_knots, closing_knots=closing_knots),
+        options=GaitOptions(
+            margin=model.margin, cost=Cost.GENTLE, phase_knots=phase_knots, closing_knots=closing_knots
+        ),
     )
 
 

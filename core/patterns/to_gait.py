@@ -168,6 +168,7 @@ def shared_options(first: GaitOptions, second: GaitOptions) -> GaitOptions:
         clearance=max(first.clearance, second.clearance),
         margin=max(first.margin, second.margin),
         body_speed=min(first.body_speed, second.body_speed),
+        foot_speed=min(first.foot_speed, second.foot_speed),
         workspace=Workspace.CYLINDER if is_cylinder else Workspace.STROKE,
         closing_knots=second.closing_knots,
         end_plane_height=None if end == first.plane_height else end,

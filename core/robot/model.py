@@ -105,6 +105,7 @@ class RobotModel:
         stroke: limits of every motor.
         com_height: centre of mass above the actuator plane, m.
         sole_depth: floor below the platform of a standing foot, m.
+        margin: stability margin that new gaits ask for, m: the least at which gaits walk in physics as sent.
         coupling: (motors, actuators) C of h = C·u, motors in wire order; the identity where none is shared.
         masses: point masses of the optimisation's model.
         mass_sets: every named set of masses as it stands in the file, kg.
@@ -121,6 +122,7 @@ class RobotModel:
     stroke: StrokeLimits
     com_height: float
     sole_depth: float
+    margin: float
     coupling: Floats
     masses: ModelMasses
     mass_sets: dict[str, dict[str, float]]
@@ -159,8 +161,8 @@ class RobotModel:
 
     @property
     def parameters_hash(self) -> str:
-        """SHA-256 of everything that a plan or a verdict depends on: all but title, looks and colours."""
-        looks = {"title", "shape", "colours"}
+        """SHA-256 of everything that a plan or a verdict depends on: all but title, looks and defaults."""
+        looks = {"title", "shape", "colours", "margin"}
         values = {field.name: getattr(self, field.name) for field in fields(self) if field.name not in looks}
         content = {name: _plain(value) for name, value in values.items()}
         content["shoe_diameter"] = self.shoe_diameter
@@ -239,6 +241,7 @@ def robot_from_table(table: dict[str, Any], where: str) -> RobotModel:
             stroke=StrokeLimits(**table["stroke"]),
             com_height=float(table["body"]["com_height"]),
             sole_depth=float(table["body"]["sole_depth"]),
+            margin=float(table["gait"]["margin"]),
             coupling=coupling_matrix(
                 table.get("coupling", {}).get("shared", ()), 3 * len(azimuths), f"{where}, coupling"
             ),

@@ -44,7 +44,7 @@ def options() -> st.SearchStrategy[GaitOptions]:
     return st.builds(
         GaitOptions,
         clearance=st.floats(0, 0.02),
-        margin=st.floats(-0.05, 0.05),
+        margin=st.floats(0.0, 0.05),
         body_speed=st.floats(0.0005, 1.0),
         plane_height=st.floats(0.03, 0.1),
         workspace=st.sampled_from(Workspace),

@@ -2,8 +2,7 @@
  * Questions to the user. A dialog locks the page but for Stop, which lies over its scrim and can be reached by Tab.
  */
 
-import { byId, h } from "./dom.js";
-import { setInert } from "./inert.js";
+import { byId, h, setInert } from "./dom.js";
 
 /** Everything beside the dialog and Stop. */
 const others = () => [...document.body.children].filter(({ id }) => !["dialogs", "announcer"].includes(id)).flatMap((part) => (part.contains(byId("stop")) ? [...part.children].filter(({ id }) => id !== "stop") : [part]));

@@ -67,3 +67,20 @@ export function onPress(button, act, explain = () => {}) {
 
 /** Resolves when the current changes have been painted. */
 export const painted = () => new Promise((resume) => { requestAnimationFrame(() => setTimeout(resume)); });
+
+/** Why parts of the page cannot be used for a while. @type {WeakMap<HTMLElement, Set<string>>} */
+const reasons = new WeakMap();
+
+/**
+ * Locks a part for a reason, or takes that reason back; the last one frees it.
+ * @param {HTMLElement} element
+ * @param {string} reason
+ * @param {boolean} isLocked
+ */
+export function setInert(element, reason, isLocked) {
+  const known = reasons.get(element) ?? new Set();
+  if (isLocked) known.add(reason);
+  else known.delete(reason);
+  reasons.set(element, known);
+  element.inert = known.size > 0;
+}

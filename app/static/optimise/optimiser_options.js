@@ -66,6 +66,7 @@ const CHOICES = [
 const MORE_NUMBERS = [
   SAMPLE_TIME,
   { label: "Body speed", name: "Body speed", unit: "mm/s", min: 1, max: 60, step: 1, decimals: 1, help: "Largest speed of the body", ...option("body_speed", 1000) },
+  { label: "Foot speed", name: "Foot speed", unit: "mm/s", min: 1, max: 60, step: 1, decimals: 1, help: "Largest speed of a foot", ...option("foot_speed", 1000) },
   { label: "Motor speed", name: "Motor speed", unit: "mm/s", min: 1, max: 60, step: 1, decimals: 1, empty: "free", fallback: 20,
     help: "Largest speed of a motor; empty for no limit", ...option("motor_speed", 1000) },
   { label: "Motor acceleration", name: "Motor acceleration", unit: "mm/s²", min: 1, max: 1000, step: 5, decimals: 1, empty: "free", fallback: 100,

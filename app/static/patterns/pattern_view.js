@@ -1,7 +1,6 @@
 /** The pattern search: its controls in the right column, and in the lower part the gaits with the pattern between them. */
 
-import { byId, h, setAttribute, setText, svg } from "../lib/dom.js";
-import { setInert } from "../lib/inert.js";
+import { byId, h, setAttribute, setInert, setText, svg } from "../lib/dom.js";
 import { counted } from "../lib/format.js";
 import { toast } from "../lib/toasts.js";
 import { shownDocument } from "../state/store.js";

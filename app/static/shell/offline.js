@@ -1,7 +1,6 @@
 /** Without the studio everything but Stop and looking is off, and the page says why; edits that were not sent are kept. */
 
-import { byId, setText } from "../lib/dom.js";
-import { setInert } from "../lib/inert.js";
+import { byId, setInert, setText } from "../lib/dom.js";
 
 /** A studio that is back within this time was only out of breath. */
 const PATIENCE_MS = 1000;

@@ -12,7 +12,7 @@ import { openStep } from "./steps.js";
 const ACTS = {
   simulate: { step: "simulate", text: "Simulate", button: "act-simulate", help: "Physics tries exactly what would be sent." },
   check: { step: "check", text: "Check", button: "act-check", help: "Every rule with its margin, then your approval." },
-  approve: { step: "check", text: "Go to approval", button: null, help: "Your approval lets it be sent." },
+  approve: { step: "check", text: "Go to approval", button: null, focus: "act-approve", help: "Your approval lets it be sent." },
   run: { step: "run", text: "Go to Run", button: null, help: "Approved. Connect, arm and send." },
 };
 
@@ -28,10 +28,10 @@ function nextButton(store, step) {
   const [button, help] = [h("button", { class: "primary wide" }), h("p", { class: "why" })];
   const element = h("div", { class: "next-act" }, button, help);
   onPress(button, () => {
-    const { step: where, button: id } = ACTS[nextAct(store.state)];
+    const { step: where, button: id, focus } = ACTS[nextAct(store.state)];
     openStep(where);
     if (id) byId(id).click();
-    else if (where === "check") byId("act-approve").focus();
+    if (focus) byId(focus).focus();
   }, toast);
   store.watch(gaitParts, (state) => {
     const act = ACTS[nextAct(state)];

@@ -66,7 +66,7 @@ def test_rotation_turns_the_robot_within_its_motors(
 ) -> None:
     path = tmp_path / "turn.csv"
     status, answer = run_json(
-        capsys, "optimise", "rotate", "--yaw", str(np.radians(degrees)), "-o", str(path)
+        capsys, "optimise", "rotate", "--yaw", str(np.radians(degrees)), "--margin", "0", "-o", str(path)
     )
     assert (status, answer["knots"]) == (0, knots)
     motion = read_trajectory(path).trajectory
@@ -197,7 +197,7 @@ def test_what_no_motion_can_do_is_explained(
 
 def test_the_frontier_is_told(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     path = tmp_path / "far.csv"
-    words = ["frontier", "c-gait", "--workspace", "cylinder", "-o", str(path)]
+    words = ["frontier", "c-gait", "--workspace", "cylinder", "--margin", "0", "-o", str(path)]
     status, answer = run_json(capsys, *words)
     assert status == 0
     assert answer["gait"] == "c-gait"
@@ -209,7 +209,7 @@ def test_the_frontier_is_told(capsys: pytest.CaptureFixture[str], tmp_path: Path
 
 
 def test_the_frontier_of_a_rotation_is_an_angle(capsys: pytest.CaptureFixture[str]) -> None:
-    words = ["frontier", "rotate", "--method", "live", "--plane-height", "0.0535"]
+    words = ["frontier", "rotate", "--method", "live", "--plane-height", "0.0535", "--margin", "0"]
     status, answer = run_json(capsys, *words)
     assert (status, answer["max_step"], answer["confirmed"]) == (0, None, False)
     assert np.radians(25) < answer["max_yaw"] < np.radians(40)

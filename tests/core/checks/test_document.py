@@ -104,4 +104,3 @@ def test_only_what_is_computed_is_held_to_the_options_of_the_optimiser() -> None
     assert (asked.margin, asked.motor_speed, asked.motor_acceleration) == (0.003, 0.01, 0.02)
     assert asked.heights == (0.0535, 0.0535)
     assert asked_of(by_hand.with_options(margin=0.003)) == Asked(turn=0.0)
-    assert asked_of(computed.with_options(margin=-0.005)).margin == 0.0

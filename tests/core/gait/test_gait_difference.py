@@ -63,6 +63,7 @@ OPTION_CHANGES: dict[str, Any] = {
     "clearance": 0.004,
     "margin": 0.0012345678,
     "body_speed": 0.02,
+    "foot_speed": 0.02,
     "plane_height": 0.055,
     "workspace": Workspace.CYLINDER,
     "cost": Cost.GOAL_EFFORT,

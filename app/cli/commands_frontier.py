@@ -24,7 +24,7 @@ def run_frontier(options: Namespace) -> int:
     seconds = time.perf_counter() - begin
     output = options.output if frontier.motion is not None else None
     if output is not None and frontier.motion is not None:
-        write_trajectory(output, frontier.motion)
+        write_trajectory(output, frontier.motion, gait.robot)
     content = {
         **_content(options, frontier),
         "seconds": seconds,

@@ -121,7 +121,7 @@ def run_manual(options: Namespace) -> int:
     motion = manual_motion(gait, model)
     motion.trajectory.strokes(model)
     if options.output is not None:
-        write_trajectory(options.output, motion.trajectory)
+        write_trajectory(options.output, motion.trajectory, model.name)
     knots = motion.trajectory.knot_count
     content = {
         "gait": options.gait,
@@ -164,7 +164,7 @@ def run_optimise(options: Namespace) -> int:
     verified = optimise(gait, options.method)
     output = options.output if verified.status is SolveStatus.SOLVED else None
     if output is not None:
-        write_trajectory(output, verified.trajectory)
+        write_trajectory(output, verified.trajectory, gait.robot)
     content: Json = {
         "gait": options.gait,
         "method": options.method.value,

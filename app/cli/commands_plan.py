@@ -39,7 +39,7 @@ def run_waypoints(options: Namespace) -> int:
     read = read_trajectory(options.file)
     for assumption in read.assumptions:
         note(assumption)
-    model = load_robot(options.robot or ROBOT)
+    model = load_robot(options.robot or read.robot or ROBOT)
     waypoints = plan_waypoints(model, read.trajectory, options.merge or 0.0, options.stop_bound).waypoints
     if options.output is not None:
         write_waypoints(options.output, waypoints)
@@ -76,7 +76,7 @@ def run_check(options: Namespace) -> int:
         read = read_trajectory(path)
         for assumption in read.assumptions:
             note(assumption)
-        verdict = _verdict(load_robot(options.robot or ROBOT), read.trajectory, None)
+        verdict = _verdict(load_robot(options.robot or read.robot or ROBOT), read.trajectory, None)
     show(options, verdict_view(verdict), verdict_lines(verdict))
     return 0 if verdict.passed else NOT_FIT
 

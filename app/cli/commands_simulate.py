@@ -116,7 +116,7 @@ def _input(options: Namespace) -> tuple[RobotModel, Trajectory, Gait | None]:
         read = read_trajectory(path)
         for assumption in read.assumptions:
             note(assumption)
-        return load_robot(options.robot or ROBOT), read.trajectory, None
+        return load_robot(options.robot or read.robot or ROBOT), read.trajectory, None
     gait = parse_gait(read_text(path), path.name)
     if options.robot is not None:
         gait = with_robot(gait, load_robot(options.robot))

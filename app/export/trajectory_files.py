@@ -84,11 +84,11 @@ def require_world_frame(trajectory: Trajectory, name: str) -> None:
         )
 
 
-def write_trajectory(path: Path, trajectory: Trajectory) -> None:
-    """Writes a trajectory CSV and its companion, each whole or not at all."""
+def write_trajectory(path: Path, trajectory: Trajectory, robot: str) -> None:
+    """Writes a trajectory CSV and its companion, which names the robot, each whole or not at all."""
     text = format_trajectory_csv(trajectory)
     write_atomically(path, text)
-    write_atomically(companion_path(path), format_companion(trajectory, text))
+    write_atomically(companion_path(path), format_companion(trajectory, text, robot))
 
 
 def read_motion_npz(path: Path) -> MotionFile:

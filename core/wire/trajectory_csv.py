@@ -53,12 +53,14 @@ class TrajectoryFile:
         assumptions: sentences; empty where the companion said everything.
         layout: of the file; written in it again, every number is the same to the last bit.
         has_companion: whether times, heading and contact were stated, not assumed.
+        robot: name of the robot that the motion was made for; None where no companion names it.
     """
 
     trajectory: Trajectory
     assumptions: tuple[str, ...]
     layout: CsvLayout
     has_companion: bool
+    robot: str | None = None
 
 
 def standard_layout(knots: int) -> CsvLayout:
@@ -97,13 +99,20 @@ def _velocities(trajectory: Trajectory) -> Floats:
     return np.concatenate([body_velocity, feet_velocity.reshape(trajectory.knot_count, -1)], axis=1)
 
 
-def format_companion(trajectory: Trajectory, csv_text: str) -> str:
-    """JSON with what the CSV cannot say, bound to it by hash."""
-    content = {
+def format_companion(trajectory: Trajectory, csv_text: str, robot: str | None = None) -> str:
+    """JSON with what the CSV cannot say, bound to it by hash.
+
+    Args:
+        trajectory: as it stands in the CSV.
+        csv_text: the CSV's text.
+        robot: name of the robot that the motion was made for; None where it is not known.
+    """
+    content: dict[str, Any] = {
         "format": COMPANION_FORMAT,
         "version": 1,
         "csv_sha256": _digest(csv_text),
         "legs": trajectory.leg_count,
+        **({} if robot is None else {"robot": robot}),
         "times": trajectory.times.tolist(),
         "heading": trajectory.heading.tolist(),
         "contact": trajectory.contact.astype(int).tolist(),
@@ -193,7 +202,8 @@ def _assemble(
         assumptions.append("Velocities are missing; they are differences of the positions.")
     contact = np.array(companion["contact"], dtype=np.bool_) if companion else _standing(feet)
     trajectory = Trajectory(times, body, heading, feet, contact, body_velocity, feet_velocity)
-    return TrajectoryFile(trajectory, tuple(assumptions), layout, companion is not None)
+    robot = None if companion is None or companion.get("robot") is None else str(companion["robot"])
+    return TrajectoryFile(trajectory, tuple(assumptions), layout, companion is not None, robot)
 
 
 def _standing(feet: Floats) -> Bools:

@@ -241,3 +241,21 @@ def test_a_robot_of_six_legs_has_a_frontier(capsys: pytest.CaptureFixture[str], 
     status, answer = run_json(capsys, "frontier", path, "--method", "live")
     assert status == 0
     assert answer["max_step"] > 0.01
+
+
+def test_the_companion_names_the_robot(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    path = str(tmp_path / "tripod.csv")
+    assert run(capsys, "optimise", "hexapod-tripod", "--method", "live", "-o", path)[0] == 0
+    for command in ("check", "waypoints"):
+        assert run(capsys, command, path)[0] == 0
+    status, answer = run_json(capsys, "check", path, "--robot", "deltawalker")
+    assert status == 2
+    assert "6 feet" in answer["error"]
+
+
+def test_margins_below_0_are_refused_and_foot_speed_is_kept(capsys: pytest.CaptureFixture[str]) -> None:
+    status, answer = run_json(capsys, "optimise", "walk", "--margin", "-0.001")
+    assert status == 2
+    assert "--margin" in answer["error"]
+    status, answer = run_json(capsys, "optimise", "walk", "--method", "live", "--foot-speed", "0.004")
+    assert (status, answer["status"]) == (3, "infeasible")

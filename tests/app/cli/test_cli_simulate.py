@@ -47,7 +47,7 @@ def standing(lift: float = 0.0, aside: float = 0.0) -> Trajectory:
 
 
 def written(path: Path, trajectory: Trajectory) -> str:
-    write_trajectory(path, trajectory)
+    write_trajectory(path, trajectory, "deltawalker")
     return str(path)
 
 

@@ -18,6 +18,7 @@ from core.gait.gait import Gait, motion_problem, travel_world
 from core.library.library import library
 from core.motion.contact_timeline import ContactTimeline
 from core.motion.trajectory import Trajectory
+from core.problem.motion_problem import Cost
 from core.robot.kinematics import free_strokes
 from core.robot.model import RobotModel, load_robot
 from core.wire.messages import HIGHEST_MM, LOWEST_MM
@@ -96,7 +97,7 @@ def firmware_walk(gait: Gait) -> Gait:
         columns += [swing, np.repeat(standing, BETWEEN_SAMPLES, axis=1)]
     stance = np.concatenate(columns, axis=1)
     timeline = ContactTimeline(stance, np.zeros_like(stance), SAMPLE_TIME)
-    options = replace(gait.options, margin=MARGIN, clearance=CLEARANCE, body_speed=0.03)
+    options = replace(gait.options, margin=MARGIN, clearance=CLEARANCE, body_speed=0.03, cost=Cost.GOAL)
     return replace(gait, timeline=timeline, options=options)
 
 

@@ -83,7 +83,7 @@ export function mountOptimise(store, edits, goTo) {
 function moreInShort({ direction, options, held, poses }) {
   if (poses) return direction > 1 ? `: direction ${direction}` : "";
   const parts = [
-    options.workspace !== "stroke" && "cylinder", options.cost !== "goal" && "effort",
+    options.workspace !== "stroke" && "cylinder", options.cost !== "gentle" && `cost ${options.cost}`,
     direction > 1 && `direction ${direction}`, options.boundary === "periodic" && "cycle",
     options.friction !== null && "friction", options.motor_speed !== null && "motor speed", options.motor_acceleration !== null && "motor acceleration",
     options.turning === "return" && "turns at the end", held && "feet held up",

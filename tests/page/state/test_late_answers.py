@@ -136,7 +136,7 @@ def test_an_old_summary_does_not_take_the_place_of_the_new_ones(page: Page, stud
     late = LateAnswers(page, "GET", f"/api/gaits/{gait}/run")
     choose(page, "Summed up")
     wait_for(lambda: late.count == 1, "the first summary is on its way")
-    change(studio, gait, stop_bound=0.9)
+    change(studio, gait, clearance=0.004)
     now = view(studio, gait)["plan"]["waypoints_hash"]
     shown = page.locator("#robot dd.mono")
     expect(shown).to_have_attribute("title", now)

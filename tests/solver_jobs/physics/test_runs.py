@@ -175,7 +175,7 @@ def test_the_same_run_gives_the_same_bits_alone_and_beside_others() -> None:
 
 @pytest.mark.heavy
 def test_halving_the_step_moves_the_feet_by_less_than_half_a_millimetre() -> None:
-    problem = part_of(walk("walk", 0.010, margin=-0.005), 0, 16)
+    problem = part_of(tipping_walk(clearance=0.003), 0, 16)
     whole, half = simulate(problem), simulate_at(problem, time_step=TIME_STEP / 2)
     assert np.abs(whole.feet_world - half.feet_world).max() < 0.0005
 

@@ -45,7 +45,7 @@ def test_manual_writes_the_published_motion(
 
 @pytest.mark.parametrize("version", ["0", "1", "2"])
 @pytest.mark.parametrize(
-    ("gait", "segments"), [("walk", (11, 12, 12)), ("amble", (11, 12, 12)), ("s-gait", (11,) * 3)]
+    ("gait", "segments"), [("walk", (11, 12, 13)), ("amble", (11, 12, 13)), ("s-gait", (11,) * 3)]
 )
 def test_three_iterations_are_eight_segments_longer_each(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, gait: str, segments: tuple[int, ...], version: str

@@ -141,7 +141,7 @@ def test_phases_of_a_timeline_drawn_by_hand_are_empty_until_one_is_typed(
 
 def test_the_direction_and_more_iterations_are_still_a_drawing(page: Page) -> None:
     choose(page, "Walk 10 mm")
-    page.get_by_text("More", exact=True).click()
+    page.get_by_text(re.compile("^More")).click()
     page.get_by_role("combobox", name="Direction").select_option("2")
     number(page, "Iterations").fill("2")
     number(page, "Iterations").press("Enter")

@@ -213,10 +213,14 @@ export function mountGaits(store) {
     const { gaits, selected, greeted } = state;
     const kept = new Set(gaits.map(({ id }) => id));
     for (const id of parts.keys()) if (!kept.has(id)) parts.delete(id);
+    const row = parts.get(selected)?.element;
+    const place = row?.offsetTop;
     draw(state);
     // A gait that was just made may be shown before the list tells of it: only one that was listed can be gone.
     if (kept.has(selected)) {
-      if (listed !== selected) parts.get(selected)?.element.scrollIntoView({ block: "nearest" });
+      const shown = parts.get(selected)?.element;
+      // A name that sorts elsewhere takes its row along.
+      if (shown && (listed !== selected || shown.offsetTop !== place)) shown.scrollIntoView({ block: "nearest" });
       listed = selected;
     } else if (greeted && selected && selected === listed && gaits.length) selectGait(store, gaits[0].id);
   });

@@ -124,6 +124,10 @@ class EmulatedRobot:
         """Ends what lasts: the cable is whole and the motors are sound again."""
         self._asked.append(None)
 
+    def change_speed(self, speed: float) -> None:
+        """Lets its time pass at another speed from now on, seconds of the robot in a second."""
+        self._pace = RealTime(speed)
+
     def close(self) -> None:
         """Ends the robot and hangs up; doing it twice does no harm."""
         self._closing.set()

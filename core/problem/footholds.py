@@ -10,7 +10,23 @@ import numpy as np
 
 from core.arrays import Floats
 from core.motion.contact_timeline import Swing
-from core.problem.motion_problem import MotionProblem
+from core.problem.motion_problem import Boundary, MotionProblem
+
+LEVEL = 1e-9
+"""Feet below this, m, stand level. Feet that do not could push against each other to shift the torque, since
+friction has no limit in the model."""
+
+
+def are_footholds_given(problem: MotionProblem) -> bool:
+    """Whether every foot steps once at most, on level ground, so that start and goal say where it stands."""
+    feet = [swing.foot for swing in problem.timeline.swings()]
+    return problem.boundary is Boundary.REST and is_level(problem) and len(feet) == len(set(feet))
+
+
+def is_level(problem: MotionProblem) -> bool:
+    """Whether all feet that stand at start and goal do so on the ground."""
+    ends = ((problem.start, problem.held_start), (problem.goal, problem.held_end))
+    return all(bool((pose.feet_world[~held, 2] <= LEVEL).all()) for pose, held in ends)
 
 
 def way_shares(problem: MotionProblem, swings: Sequence[Swing]) -> tuple[Floats, ...]:

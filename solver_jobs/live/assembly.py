@@ -8,13 +8,19 @@ import numpy as np
 
 from core.arrays import Floats
 from core.problem.motion_problem import GENTLE_FOOT_SHARE, Cost, MotionProblem
+from solver_jobs.live.free_heights import heavier, shifts_of_pressure, vertical_rows
 from solver_jobs.live.linearisation import MM, Linearisation, linearise
 from solver_jobs.live.qp import QuadraticProgram, stacked
 from solver_jobs.live.reach import height_reach, reach_of, standing_reach, swinging_reach
 from solver_jobs.live.rows import DiscPolygon, Rows, balance, body_speed, foot_speed, friction, integration
+from solver_jobs.live.shoes import standing_shoes
 
 TOLERANCE_MM = 1e-9
 """Rows without unknowns may exceed their bounds by this much."""
+
+HEIGHT_SHARE = 100.0
+"""Weight of unknown heights beside the rest of the cost: they change only where that keeps a limit, because
+rows are linear about them."""
 
 
 def quadratic_program(linearisation: Linearisation, rows: list[Rows]) -> QuadraticProgram | None:
@@ -54,21 +60,38 @@ def outer_rows(linearisation: Linearisation, sides: int) -> list[Rows]:
 
 def _rows(linearisation: Linearisation, disc: DiscPolygon) -> list[Rows]:
     reach = reach_of(linearisation, disc)
+    give, more = np.zeros(len(linearisation.intervals)), np.ones(len(linearisation.intervals))
+    vertical = linearisation.vertical is not None
+    if vertical and not disc.inner:
+        give, more = shifts_of_pressure(linearisation), heavier(linearisation)
     return [
         integration(linearisation),
-        balance(linearisation),
+        *(vertical_rows(linearisation) if vertical else []),
+        balance(linearisation, give),
         body_speed(linearisation, disc),
         foot_speed(linearisation, disc),
         standing_reach(linearisation, reach),
         swinging_reach(linearisation, reach),
-        *height_reach(linearisation, reach),
-        *friction(linearisation, disc),
+        *height_reach(linearisation, reach, disc),
+        *friction(linearisation, disc, more),
+        *standing_shoes(linearisation),
     ]
 
 
 def cost_terms(linearisation: Linearisation) -> tuple[Floats, Floats]:
-    """Curvature and gradient of the cost in the unknowns; forces are none of them, so effort has no part."""
-    return _gentle(linearisation) if linearisation.problem.cost is Cost.GENTLE else _goal(linearisation)
+    """Curvature and gradient of the cost in the unknowns; forces are none of them, so effort has no part.
+
+    Heights and climbs, where they are unknown, stay near those where they were made linear.
+    """
+    is_gentle = linearisation.problem.cost is Cost.GENTLE
+    curvature, gradient = _gentle(linearisation) if is_gentle else _goal(linearisation)
+    if linearisation.vertical is not None:
+        for index, wanted in zip(
+            linearisation.vertical, (linearisation.height, linearisation.climb), strict=True
+        ):
+            np.add.at(curvature, index[index >= 0], HEIGHT_SHARE)
+            np.add.at(gradient, index[index >= 0], -HEIGHT_SHARE * wanted[index >= 0])
+    return curvature, gradient
 
 
 def _gentle(linearisation: Linearisation) -> tuple[Floats, Floats]:

@@ -7,19 +7,17 @@ from itertools import pairwise
 import numpy as np
 
 from core.arrays import Floats
+from solver_jobs.live.assembly import cost_terms
+from solver_jobs.live.linearisation import Linearisation, ranges
 from solver_jobs.live.qp import MOST_ELASTIC_ITERATIONS, QpResult, QuadraticProgram, Solver, stacked
-from solver_jobs.live.rows import Rows
+from solver_jobs.live.rows import NOBODY, Rows
 from solver_jobs.nlp.constraint import Family
 
-COST_WEIGHT = 1e-7
-"""Weight of the motion's cost beside the sum of all misses; it only makes the answer unique."""
+COST_WEIGHT = 1e-5
+"""Weight of the motion's cost beside the sum of all misses; it makes the answer unique and quick to find."""
 
-FARTHEST = 300.0
-"""No position is further from that of the nearest motion than this, mm; and no speed, mm/s, where limits
-allow no more than half of it."""
-
-PROOF_MM = 1e-3
-"""A total miss that is proven to be at least this large counts as a proof."""
+PROOF_MM = 0.02
+"""A total miss that is proven to be at least this large counts as a proof; the checker overlooks less."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +28,8 @@ class Nearest:
         x: its unknowns.
         misses: for each family of rows, the miss of each of its groups, in its unit.
         total: sum of all misses, mm.
-        proven: lower bound of that sum for any motion, mm; above 0 no motion keeps every row.
+        proven: lower bound of that sum for any motion within speed limits and footholds, mm; above 0 none
+            keeps every row.
         answer: the solver's.
     """
 
@@ -41,13 +40,7 @@ class Nearest:
     answer: QpResult
 
 
-def nearest(
-    solver: Solver,
-    cost: tuple[Floats, Floats],
-    rows: Sequence[Rows],
-    interval: float,
-    farthest: float = FARTHEST,
-) -> Nearest | None:
+def nearest(solver: Solver, linearisation: Linearisation, rows: Sequence[Rows]) -> Nearest | None:
     """Finds the least total miss; None where the solver gives no answer.
 
     Every group of rows may miss its bounds by one amount s ≥ 0: lower − s ≤ A x ≤ upper + s, minimise Σ w s,
@@ -55,20 +48,18 @@ def nearest(
 
     Args:
         solver: to be used.
-        cost: curvature and gradient of the motion's cost.
+        linearisation: the known part.
         rows: every family; equations of motion stay exact.
-        interval: time between knots, s.
-        farthest: how far any number of a motion may be from that of the nearest one, mm or mm/s.
     """
-    size = len(cost[0])
-    qp, offsets = _elastic(cost, rows, interval)
+    size = linearisation.size
+    qp, offsets = _elastic(cost_terms(linearisation), rows, float(linearisation.intervals.mean()))
     answer = solver.solve(qp, MOST_ELASTIC_ITERATIONS)
     if not answer.solved:
         return None
     misses = np.maximum(answer.x[size:], 0.0)
     split = tuple(misses[first - size : last - size] for first, last in pairwise(offsets))
     total = float(qp.gradient[size:] @ misses)
-    return Nearest(answer.x[:size], split, total, _bound(qp, answer, size, farthest), answer)
+    return Nearest(answer.x[:size], split, total, _bound(qp, answer, *ranges(linearisation)), answer)
 
 
 def _elastic(
@@ -82,7 +73,7 @@ def _elastic(
         misses = _group_count(one)
         for half in _halves(one):
             halves.append(half)
-            soft_column.append(offsets[-1] + half.group if misses else np.full(half.count, -1))
+            soft_column.append(np.where(half.group == NOBODY, -1, offsets[-1] + half.group))
         weights.append(np.full(misses, interval if one.unit == "mm/s" else 1.0))
         offsets.append(offsets[-1] + misses)
     row, column, value, lower, upper = stacked(halves)
@@ -105,7 +96,7 @@ def _elastic(
 def _halves(one: Rows) -> list[Rows]:
     """The same rows with an upper bound only; equations of motion stay as they are."""
     if one.family is Family.DYNAMICS:
-        return [one]
+        return [one] if one.count else []
     return [half for half in (_half(one, 1.0), _half(one, -1.0)) if half.count]
 
 
@@ -129,22 +120,29 @@ def _half(one: Rows, sign: float) -> Rows:
 
 
 def _group_count(one: Rows) -> int:
-    """Misses of a family; equations of motion have none."""
-    return int(one.group.max()) + 1 if one.count and one.family is not Family.DYNAMICS else 0
+    """Misses of a family; rows that must be kept have none."""
+    return int(one.group.max(initial=NOBODY)) + 1
 
 
-def _bound(qp: QuadraticProgram, answer: QpResult, size: int, farthest: float) -> float:
+def _bound(qp: QuadraticProgram, answer: QpResult, centre: Floats, reach: Floats) -> float:
     """A lower bound of the total miss by weak duality, whatever the solver's accuracy.
 
     With multipliers y ≥ 0 of the upper bounds, scaled so that no group's sum exceeds its weight, and z of the
     equations, every motion has Σ w s ≥ −(bᵀy + fᵀz) + rᵀx, where r = Aᵀy + Eᵀz is nearly 0.
+
+    Args:
+        qp: the program.
+        answer: of the solver.
+        centre: (size,) middle of what each unknown of a motion can be.
+        reach: (size,) how far from there it can be.
     """
+    size = len(centre)
     equation = qp.lower == qp.upper
     y = np.where(equation, answer.multipliers, np.maximum(answer.multipliers, 0.0))
     sums = np.zeros(len(qp.gradient))
     np.add.at(sums, qp.column, qp.value * y[qp.row])
     pressure = -sums[size:]
     excess = float((pressure / qp.gradient[size:]).max(initial=1.0))
-    remainder = np.abs(sums[:size]) @ (np.abs(answer.x[:size]) + farthest)
+    remainder = sums[:size] @ centre - np.abs(sums[:size]) @ reach
     bounds = np.where(y != 0, qp.upper, 0.0)
-    return float((-(bounds @ y) - remainder) / max(excess, 1.0))
+    return float((-(bounds @ y) + remainder) / max(excess, 1.0))

@@ -7,6 +7,7 @@ import numpy as np
 
 from core.arrays import Bools, Floats
 from core.gait.held_feet import feet_words
+from core.problem.footholds import are_footholds_given
 from core.problem.initial_guess import Indices, closed_contact, problem_swings
 from core.problem.motion_problem import MotionProblem
 from core.robot.shoes import least_distance
@@ -22,6 +23,9 @@ NOTABLE = 0.005
 
 MOST_LACKS = 6
 """Sentences that a person reads."""
+
+PROVEN = "This is proven: no motion of the model can do it."
+PROVEN_EVENLY = "Proven for evenly spread footholds, at every body height."
 
 
 def lacks_of(
@@ -116,6 +120,10 @@ def _sentence(problem: MotionProblem, contact: Bools, lack: Lack) -> str:
         f"{limits.foot_speed * MM:g} mm/s.",
         Family.BODY_SPEED: f"Speed lacks {size} mm/s {where}: the body would have to be faster than "
         f"{limits.body_speed * MM:g} mm/s.",
+        Family.BODY_HEIGHT: f"Height lacks {size} mm {where}: the actuator plane must stay between "
+        f"{limits.plane_height[0] * MM:g} and {limits.plane_height[1] * MM:g} mm.",
+        Family.CLEARANCE: f"Rise lacks {size} mm {where}: {whose} would have to rise to "
+        f"{limits.clearance * MM:.3g} mm in its middle.",
         Family.FRICTION: f"Grip lacks {size} mm of centre of pressure {where}: the body is thrown sideways.",
         Family.MOTOR_SPEED: f"A motor of {whose} would have to be {size} mm/s faster than allowed {where}.",
         Family.MOTOR_ACCELERATION: f"A motor of {whose} would have to change its speed by {size} mm/s more "
@@ -127,7 +135,9 @@ def _sentence(problem: MotionProblem, contact: Bools, lack: Lack) -> str:
 
 
 def _closing(problem: MotionProblem, lowest: float, highest: float, evidence: Evidence | None) -> str:
-    """What the model takes as given, and how sure the answer is in it."""
+    """How sure the answer is, and what it takes as given."""
+    if evidence is Evidence.PROVEN:
+        return PROVEN if are_footholds_given(problem) else PROVEN_EVENLY
     height = (
         f"stays at {lowest:.4g}" if highest - lowest < NOTABLE else f"is at {lowest:.4g} to {highest:.4g}"
     )
@@ -135,6 +145,4 @@ def _closing(problem: MotionProblem, lowest: float, highest: float, evidence: Ev
         f"feet step to evenly spread footholds, the actuator plane {height} mm, and a swing rises to "
         f"{problem.limits.clearance * MM:g} mm in its middle"
     )
-    if evidence is Evidence.PROVEN:
-        return f"Proven for the model in which {model}: no motion of it keeps every limit."
     return f"Diagnosed, not proven, in the model in which {model}."

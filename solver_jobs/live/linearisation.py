@@ -1,7 +1,8 @@
 """The linearisation: what the convex problem takes as known (footholds, heights, where feet may move).
 
 With the vertical motion and the footholds given, balance, reach and speed are linear or discs in what is
-left: the ground motion of the body and of the feet in the air. Millimetres and seconds throughout.
+left: the ground motion of the body and of the feet in the air. `free_heights.py` makes heights unknown too.
+Millimetres and seconds throughout.
 """
 
 from dataclasses import dataclass
@@ -38,6 +39,8 @@ class Linearisation:
             it is known.
         known: (2, n, 1 + legs, 2) the value where it is known, else 0; mm, mm/s.
         size: number of unknowns.
+        vertical: (2, n, 1 + legs) number of the unknown that holds a height (0) or climb (1), −1 where it is
+            known; None where all are. `height` and `climb` are then where rows are made linear.
     """
 
     problem: MotionProblem
@@ -49,6 +52,7 @@ class Linearisation:
     index: Indices
     known: Floats
     size: int
+    vertical: Indices | None = None
 
     @property
     def weight(self) -> Floats:
@@ -90,6 +94,40 @@ def linearise(problem: MotionProblem, level: float | None = None) -> Linearisati
         index[1, -1, 0] = index[1, 0, 0]
     known[np.broadcast_to(index >= 0, known.shape)] = 0.0
     return Linearisation(problem, contact, swings, problem.intervals, height, climb, index, known, 2 * count)
+
+
+def speed_limits(linearisation: Linearisation) -> Floats:
+    """(n, 1 + legs) speed limit of every point, mm/s."""
+    limits = linearisation.problem.limits
+    fastest = np.full(linearisation.height.shape, limits.foot_speed * MM)
+    fastest[:, 0] = limits.body_speed * MM
+    return fastest
+
+
+def ranges(linearisation: Linearisation) -> tuple[Floats, Floats]:
+    """What each unknown of a motion within its speed limits can be: the middle, and how far from it."""
+    centre, reach = np.zeros(linearisation.size), np.zeros(linearisation.size)
+    fastest = speed_limits(linearisation)
+    parts = [(linearisation.index[..., axis], linearisation.known[0, ..., axis]) for axis in (0, 1)]
+    if linearisation.vertical is not None:
+        parts.append((linearisation.vertical, linearisation.height))
+    for (position, velocity), known in parts:
+        reach[velocity[velocity >= 0]] = fastest[velocity >= 0]
+        for point in range(position.shape[1]):
+            unknown = np.nonzero(position[:, point] >= 0)[0]
+            anchors = np.nonzero(position[:, point] < 0)[0]
+            if not len(anchors):
+                # The body's height in a cycle.
+                lowest, highest = linearisation.problem.limits.plane_height
+                centre[position[:, point]] = known[:, point]
+                reach[position[:, point]] = (highest - lowest) * MM
+                continue
+            away = np.abs(linearisation.problem.times[unknown, None] - linearisation.problem.times[anchors])
+            nearest = away.argmin(axis=1)
+            index = position[unknown, point]
+            centre[index] = known[anchors[nearest], point]
+            reach[index] = away.min(axis=1) * fastest[unknown, point]
+    return centre, reach
 
 
 def _lay_foot(

@@ -19,6 +19,9 @@ AREA, LINE, ENDS, POINT, POINT_Y = range(5)
 """Where the centre of pressure is held: left of an edge, on the line through the two feet that stand, between
 them, and in x and y at the one foot that stands."""
 
+STEEPEST = 0.9
+"""Share of a speed limit up to which a climb is where the limit is made linear."""
+
 
 @dataclass(frozen=True, eq=False)
 class Rows:
@@ -34,7 +37,8 @@ class Rows:
         upper: (m,) likewise.
         knot: (m,) 0-based.
         feet: (m, 2) foot, or both feet of a polygon's edge; `NOBODY` where none.
-        group: (m,) rows of one number miss their bounds by one common amount when they may.
+        group: (m,) rows of one number miss their bounds by one common amount when they may; `NOBODY` for
+            rows that must be kept.
     """
 
     family: Family
@@ -123,6 +127,15 @@ def dot_terms(
     return [(index[:, axis], known[:, axis], factor[:, axis]) for axis in (0, 1)]
 
 
+def vertical_term(
+    linearisation: Linearisation, kind: int, knot: Indices, point: Indices | int, factor: Floats
+) -> Term:
+    """The height (0) or climb (1) of a point at knots, times a factor (m,)."""
+    known = (linearisation.height, linearisation.climb)[kind][knot, point]
+    vertical = linearisation.vertical
+    return np.full(len(knot), -1) if vertical is None else vertical[kind, knot, point], known, factor
+
+
 def integration(linearisation: Linearisation) -> Rows:
     """p(k+1) = p(k) + dt(k)·(v(k) + v(k+1))/2 wherever something moves."""
     index = linearisation.index
@@ -137,7 +150,7 @@ def integration(linearisation: Linearisation) -> Rows:
         return index[kind, at, point, axis], linearisation.known[kind, at, point, axis], coefficient
 
     terms = [term(0, knot + 1, one), term(0, knot, -one), term(1, knot, -half), term(1, knot + 1, -half)]
-    return make_rows(Family.DYNAMICS, "mm", terms, (0.0, 0.0), knot)
+    return make_rows(Family.DYNAMICS, "mm", terms, (0.0, 0.0), knot, None, np.full(len(knot), NOBODY))
 
 
 @dataclass(frozen=True)
@@ -194,16 +207,30 @@ def _speed(
 ) -> Rows:
     normal = np.tile(disc.normals, (len(knot), 1))
     group = np.repeat(np.arange(len(knot)), disc.sides)
-    left = (limit * MM) ** 2 - linearisation.climb[knot, point] ** 2
-    radius = np.sign(left) * np.sqrt(np.abs(left)) * disc.apothem
     point = np.broadcast_to(point, knot.shape)
     feet = np.stack([point[group] - 1, np.full(len(group), NOBODY)], axis=-1)
     terms = dot_terms(linearisation, 1, knot[group], point[group], normal)
+    climb, most = linearisation.climb[knot, point], limit * MM
+    if linearisation.vertical is None:
+        left = most**2 - climb**2
+        radius = np.sign(left) * np.sqrt(np.abs(left)) * disc.apothem
+    else:
+        # The plane that touches the ball of all speeds where the climb is this one.
+        climb = np.clip(climb, -STEEPEST * most, STEEPEST * most)
+        level = np.sqrt(most**2 - climb**2)
+        slope = disc.apothem * climb / level
+        terms.append(vertical_term(linearisation, 1, knot[group], point[group], slope[group]))
+        radius = disc.apothem * most**2 / level
     return make_rows(family, "mm/s", terms, (-np.inf, radius[group]), knot[group], feet, group)
 
 
-def balance(linearisation: Linearisation) -> Rows:
-    """Centre of pressure inside every edge of the support polygon by the margin (docs/sources.md)."""
+def balance(linearisation: Linearisation, give: Floats) -> Rows:
+    """Centre of pressure inside every edge of the support polygon by the margin (docs/sources.md).
+
+    Args:
+        linearisation: the known part.
+        give: (n − 1,) by how much less is enough, mm.
+    """
     model, margin = linearisation.problem.model, linearisation.problem.limits.margin * MM
     knot, start, end, alone = _edges(linearisation)
     corners = linearisation.known[0, knot, 1:]
@@ -218,7 +245,8 @@ def balance(linearisation: Linearisation) -> Rows:
     inward[alone == POINT_Y] = [0.0, 1.0]
     exact = np.isin(alone, (LINE, POINT, POINT_Y))
     least = (inward * a).sum(axis=-1) + np.where(exact, 0.0, margin)
-    most = np.where(exact, least, np.inf)
+    most = np.where(exact, least + give[knot], np.inf)
+    least = least - give[knot]
     pull = linearisation.height[knot, 0] / (linearisation.weight[knot] * linearisation.intervals[knot])
     terms = dot_terms(linearisation, 0, knot, 0, inward)
     masses = [model.masses.body] + [model.masses.foot] * model.leg_count
@@ -265,8 +293,14 @@ def _edges(linearisation: Linearisation) -> tuple[Indices, Indices, Indices, Ind
     return knots, starts, ends_, kinds
 
 
-def friction(linearisation: Linearisation, disc: DiscPolygon) -> list[Rows]:
-    """Sideways force within the cone of the vertical one, ‖Σ m a_xy‖ ≤ μ Σ m (g + a_z), where it is asked."""
+def friction(linearisation: Linearisation, disc: DiscPolygon, heavier: Floats) -> list[Rows]:
+    """Sideways force within the cone of the vertical one, ‖Σ m a_xy‖ ≤ μ Σ m (g + a_z), where it is asked.
+
+    Args:
+        linearisation: the known part.
+        disc: what stands for discs.
+        heavier: (n − 1,) how many times the known vertical force counts.
+    """
     limit = linearisation.problem.limits.friction
     if limit is None:
         return []
@@ -285,5 +319,5 @@ def friction(linearisation: Linearisation, disc: DiscPolygon) -> list[Rows]:
             linearisation, 1, group, point, -factor
         )
     # As a distance of the centre of pressure from the body's ground point, mm, like balance.
-    most = limit * disc.apothem * linearisation.height[group, 0]
+    most = limit * disc.apothem * (linearisation.height[:-1, 0] * heavier)[group]
     return [make_rows(Family.FRICTION, "mm", terms, (-np.inf, most), group, None, group)]

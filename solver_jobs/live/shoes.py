@@ -6,7 +6,7 @@ from core.arrays import Floats
 from core.motion.trajectory import Trajectory
 from core.problem.initial_guess import Indices
 from core.problem.motion_problem import MotionProblem
-from core.robot.shoes import foot_distances, least_distance, neighbour_pairs
+from core.robot.shoes import foot_distances, foot_pairs, least_distance, neighbour_pairs
 from solver_jobs.live.linearisation import MM, Linearisation
 from solver_jobs.live.rows import Rows, dot_terms, make_rows
 from solver_jobs.nlp.constraint import Family
@@ -29,6 +29,20 @@ def shoes_meet(problem: MotionProblem, motion: Trajectory, room: float = 0.0) ->
     """
     least = least_distance(problem.model)
     return least is not None and float(foot_distances(motion.feet_world).min()) < least + room
+
+
+def standing_shoes(linearisation: Linearisation) -> list[Rows]:
+    """A row for every two standing feet whose footholds are nearer to each other than their shoes need."""
+    least = least_distance(linearisation.problem.model)
+    if least is None:
+        return []
+    pairs = foot_pairs(linearisation.problem.model.leg_count)
+    stands = linearisation.contact[:, pairs].all(axis=-1)
+    missing = least * MM - ROUNDING_MM - foot_distances(linearisation.known[0, :, 1:])
+    knot, pair = np.nonzero(stands & (missing > 0))
+    if not len(knot):
+        return []
+    return [make_rows(Family.SHOE_DISTANCE, "mm", [], (-np.inf, -missing[knot, pair]), knot, pairs[pair])]
 
 
 def shoe_rows(linearisation: Linearisation, about: Trajectory) -> list[Rows]:

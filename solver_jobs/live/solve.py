@@ -10,15 +10,15 @@ from core.problem.initial_guess import initial_guess
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import MotionProblem
 from solver_jobs.live.assembly import (
-    cost_terms,
     inner_rows,
     natural_linearisation,
     outer_rows,
     quadratic_program,
 )
-from solver_jobs.live.elastic import FARTHEST, PROOF_MM, Nearest, nearest
-from solver_jobs.live.explain import lacks_of, low_lacks, sentences
-from solver_jobs.live.linearisation import MM, Linearisation, linearise
+from solver_jobs.live.elastic import PROOF_MM, Nearest, nearest
+from solver_jobs.live.explain import PROVEN, lacks_of, low_lacks, sentences
+from solver_jobs.live.free_heights import at_heights_of, with_free_heights
+from solver_jobs.live.linearisation import Linearisation
 from solver_jobs.live.motion import motion_cost, trajectory_of
 from solver_jobs.live.motors import motor_rows
 from solver_jobs.live.qp import QpResult, QuadraticProgram, Solver
@@ -32,11 +32,11 @@ from solver_jobs.results.motion import Evidence, MotionResult, SolveStatus
 COARSE, FINE, AROUND = 16, 64, 32
 """Edges of the polygons that stand for discs: while dragging, before saying no, and in a proof."""
 
-NEARLY_MM = 30.0
-"""A total miss below this may be due to the coarse polygons."""
+NEARLY_MM = 0.05
+"""A total miss below this may be due to the tangents, which are exact where heights do not change."""
 
-LEVELS = (0.0550, 0.0575, 0.0530, 0.0605)
-"""Heights of the actuator plane that are tried between start and goal where nothing else works, m."""
+HEIGHTS = 3
+"""How often heights are made linear anew."""
 
 ROUNDS = 5
 """How often motor limits, and the room between shoes, are made linear anew."""
@@ -83,7 +83,7 @@ def solve_live(problem: MotionProblem) -> MotionResult:
 
 def _blocked(search: _Search, problem: MotionProblem, sentences: tuple[str, ...]) -> MotionResult:
     """What bounds alone rule out; where it happens is looked for in the nearest motion."""
-    told = (*sentences, "This is proven: no motion of the model can do it.")
+    told = (*sentences, PROVEN)
     if not problem.timeline.contact[:-1].any(axis=1).all():
         return _result(SolveStatus.INFEASIBLE, initial_guess(problem), 0.0, told, Evidence.PROVEN)
     found = _turned(_unsolved(search, natural_linearisation(search.problem)), problem)
@@ -108,17 +108,25 @@ def _solve(search: _Search) -> MotionResult:
     natural = natural_linearisation(search.problem)
     if (motion := _attempt(search, natural, COARSE)) is not None:
         return _solved(search, motion)
-    close = _nearest(search, natural, inner_rows(natural, COARSE))
-    nearly = close is not None and close.total < NEARLY_MM
-    if nearly and (motion := _attempt(search, natural, FINE)) is not None:
-        return _solved(search, motion)
-    lowest, highest = search.problem.limits.plane_height
-    for level in LEVELS:
-        if not lowest <= level <= highest:
-            continue
-        if (motion := _attempt(search, linearise(search.problem, level), COARSE)) is not None:
+    free = with_free_heights(natural)
+    rows = outer_rows(free, AROUND)
+    if (found := _nearest(search, free, rows)) is not None and found.proven >= PROOF_MM:
+        return _infeasible(search, free, rows, found, Evidence.PROVEN)
+    # Nothing rules a motion out: it is sought at the heights where least is missing.
+    about = natural
+    for _ in range(HEIGHTS):
+        free = with_free_heights(about)
+        rows = inner_rows(free, FINE)
+        if (found := _nearest(search, free, rows)) is None:
+            break
+        about = at_heights_of(free, found.x)
+        if (motion := _attempt(search, about, FINE)) is not None:
             return _solved(search, motion)
-    return _unsolved(search, natural)
+        if check_motion(search.problem, motion := trajectory_of(about, found.x)).confirmed:
+            return _solved(search, motion)
+        if found.total > NEARLY_MM:
+            break
+    return _unsolved(search, about)
 
 
 def _attempt(search: _Search, linearisation: Linearisation, sides: int) -> Trajectory | None:
@@ -148,31 +156,33 @@ def _motion(search: _Search, linearisation: Linearisation, rows: list[Rows]) -> 
 
 
 def _nearest(search: _Search, linearisation: Linearisation, rows: list[Rows]) -> Nearest | None:
-    interval = float(linearisation.intervals.mean())
-    limits = linearisation.problem.limits
-    farthest = max(FARTHEST, 2 * MM * max(limits.body_speed, limits.foot_speed))
-    found = nearest(_solver, cost_terms(linearisation), rows, interval, farthest)
+    found = nearest(_solver, linearisation, rows)
     if found is not None:
         search.seconds += found.answer.seconds
     return found
 
 
-def _unsolved(search: _Search, natural: Linearisation) -> MotionResult:
-    """Why there is none: from the polygons around the discs where that is proof, else from those inside."""
-    rows = outer_rows(natural, AROUND)
-    found, evidence = _nearest(search, natural, rows), Evidence.PROVEN
-    if found is None or found.proven < PROOF_MM:
-        rows, evidence = inner_rows(natural, FINE), Evidence.DIAGNOSED
-        found = _nearest(search, natural, rows)
+def _unsolved(search: _Search, about: Linearisation) -> MotionResult:
+    """What is missing at given heights, without a proof."""
+    rows = inner_rows(about, FINE)
+    found = _nearest(search, about, rows)
     if found is None:
         words = ("The convex solver found neither a motion nor what is missing.",)
         motion = initial_guess(search.problem)
         return _result(SolveStatus.FAILED, motion, search.seconds, words, Evidence.DIAGNOSED)
-    motion = trajectory_of(natural, found.x)
-    lacks = lacks_of(natural, rows, found.misses, found.x)
+    return _infeasible(search, about, rows, found, Evidence.DIAGNOSED)
+
+
+def _infeasible(
+    search: _Search, linearisation: Linearisation, rows: list[Rows], found: Nearest, evidence: Evidence
+) -> MotionResult:
+    """The nearest motion and what it lacks."""
+    known = at_heights_of(linearisation, found.x)
+    motion = trajectory_of(known, found.x)
+    lacks = lacks_of(linearisation, rows, found.misses, found.x)
     if not lacks:
-        curved = _curved_rows(natural, motion)
-        lacks = lacks_of(natural, curved, [np.maximum(one.excess(found.x), 0.0) for one in curved], found.x)
+        curved = _curved_rows(known, motion)
+        lacks = lacks_of(known, curved, [np.maximum(one.excess(found.x), 0.0) for one in curved], found.x)
     result = _result(SolveStatus.INFEASIBLE, motion, search.seconds, (AT_THE_EDGE,), evidence)
     return replace(result, lacks=lacks)
 

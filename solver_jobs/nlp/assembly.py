@@ -1,5 +1,6 @@
 """The short lists that make up the problem."""
 
+from core.problem.footholds import is_level
 from core.problem.motion_problem import Boundary as Ends
 from core.problem.motion_problem import MotionProblem, Workspace
 from core.robot.shoes import least_distance
@@ -72,10 +73,6 @@ ELASTIC_FAMILIES = frozenset(
 """What the search for the nearest motion may miss. It keeps everything else, which a robot without limits
 can: the equations of motion, the contact sequence, start and goal, heights and clearance."""
 
-LEVEL = 1e-9
-"""Feet below this, m, stand level. Feet that do not could push against each other to shift the torque, since
-friction has no limit in the model."""
-
 
 def asked_families(problem: MotionProblem) -> frozenset[Family]:
     """Families of `OPTIONAL_ROWS` that a problem asks for.
@@ -84,11 +81,9 @@ def asked_families(problem: MotionProblem) -> frozenset[Family]:
     contact forces keep it inside the support polygon.
     """
     limits = problem.limits
-    ends = ((problem.start, problem.held_start), (problem.goal, problem.held_end))
-    level = all(bool((pose.feet_world[~held, 2] <= LEVEL).all()) for pose, held in ends)
     asked = {
         Family.BOUNDARY: problem.boundary is Ends.PERIODIC,
-        Family.MARGIN: limits.margin > 0 or not level,
+        Family.MARGIN: limits.margin > 0 or not is_level(problem),
         Family.FRICTION: limits.friction is not None,
         Family.MOTOR_SPEED: limits.motor_speed is not None,
         Family.MOTOR_ACCELERATION: limits.motor_acceleration is not None,

@@ -161,6 +161,7 @@ class _Solve:
             explanation=nearest_motion(nearest.missed),
             evidence=Evidence.DIAGNOSED,
             lacks=lacks(nearest.missed),
+            optimal=False,
         )
 
     def _ended(self, attempt: Attempt) -> MotionResult:

@@ -21,7 +21,7 @@ from core.problem.swing_height import is_held, rest_heights
 from core.robot.kinematics import actuator_plane_pose, feet_in_modules
 from core.robot.leg import strokes_from_foot
 from core.robot.shoes import foot_distances, foot_pairs, least_distance
-from solver_jobs.nlp.constraint import Box, Situation
+from solver_jobs.nlp.constraint import Box, Family, Situation
 from solver_jobs.nlp.diagnosis import knot_ranges
 from solver_jobs.nlp.messages import FAMILY_WORDS, REMEDIES
 from solver_jobs.nlp.variables import MM
@@ -70,6 +70,13 @@ def _contradictions(situation: Situation, box: Box) -> list[str]:
     for conflict in box.conflicts:
         ends = {0: "the start", situation.problem.knot_count - 1: "the goal"}
         place = ends.get(conflict.knot, f"knot {conflict.knot + 1}")
+        if conflict.family is Family.BODY_HEIGHT:
+            lowest, highest = (height * MM for height in situation.problem.limits.plane_height)
+            sentences.append(
+                f"The actuator plane is {conflict.gap * MM:.2f} mm outside its bounds at {place}. Choose a "
+                f"height from {lowest:g} to {highest:g} mm."
+            )
+            continue
         sentences.append(
             f"{FAMILY_WORDS[conflict.family].capitalize()} contradicts what is fixed at {place} by "
             f"{conflict.gap * MM:.2f} mm. {REMEDIES[conflict.family]}"

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+from core.problem.footholds import are_footholds_given
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import Cost, MotionProblem
 from solver_jobs.live.solve import solve_live
@@ -17,7 +18,7 @@ NOT_OPTIMAL = (
     "body height are given, so it is not optimal."
 )
 
-OUTSIDE = "Outside that model it is diagnosed from a local search, not proven."
+OUTSIDE = "With other footholds it is diagnosed from a local search, not proven."
 
 
 def solve_exact(
@@ -25,8 +26,9 @@ def solve_exact(
 ) -> MotionResult:
     """Solves a problem by the exact tier with its convex start; not for several threads at once.
 
-    Where IPOPT finds no motion, the live tier's is the answer, marked as not optimal. Where that has none
-    either and IPOPT does not say why, what the live tier proves or diagnoses is the answer.
+    What the live tier proves needs no search. Where IPOPT finds no motion, the live tier's is the answer,
+    marked as not optimal. Where that has none either and IPOPT does not say why, what the live tier proves or
+    diagnoses is the answer.
 
     Args:
         problem: what is asked.
@@ -37,8 +39,11 @@ def solve_exact(
         The exact tier's result; its seconds are those of both tiers.
     """
     live = solve_live(problem)
+    if live.evidence is Evidence.PROVEN and are_footholds_given(problem):
+        return live
     has_motion = _has_motion(problem, live)
-    start = live.trajectory if has_motion and _starts_well(problem) else None
+    # Over several iterations its footholds are a guess, and a worse start than a drawing.
+    start = live.trajectory if has_motion and are_footholds_given(problem) else None
     doubtful = live.status is SolveStatus.INFEASIBLE
     exact = solve_motion(problem, progress, start, resume=resume, doubtful=doubtful)
     if has_motion and start is None and exact.status in _WITHOUT:
@@ -72,12 +77,6 @@ def _after(first: MotionResult, second: MotionResult) -> MotionResult:
         solve_seconds=first.solve_seconds + second.solve_seconds,
         build_seconds=first.build_seconds + second.build_seconds,
     )
-
-
-def _starts_well(problem: MotionProblem) -> bool:
-    """Whether the convex motion is a good start: over several iterations its footholds are a guess."""
-    feet = [swing.foot for swing in problem.timeline.swings()]
-    return len(feet) == len(set(feet))
 
 
 def _by_live(problem: MotionProblem, exact: MotionResult, live: MotionResult) -> MotionResult:

@@ -51,7 +51,7 @@ function liveParts(state, plan, edits, goTo) {
   // The last sentence names the scope of the answer: every motion, or the live tier's model.
   const [first = "", ...rest] = explanation;
   const closing = rest.at(-1) ?? first;
-  const text = evidence === "proven" && !FOR_EVERY_MOTION.test(closing) ? "proven for the live model" : evidence ?? "";
+  const text = evidence === "proven" && !FOR_EVERY_MOTION.test(closing) ? "proven for even footholds" : evidence ?? "";
   const head = [
     h("p", { class: "first", title: explanation.join(" ") }, first, text && h("span", { class: "quiet", text: ` (${text})`, title: closing })),
     ...remedyParts(edits, state.remedies),

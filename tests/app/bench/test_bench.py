@@ -51,7 +51,10 @@ def test_every_published_case_is_there() -> None:
 
 
 def test_directions_give_the_same_motion() -> None:
-    rows = bench_trajectories([case("s-gait 15 mm"), case("rotate 15°")])
+    *rows, costs = bench_trajectories([case("s-gait 15 mm"), case("rotate 15°")])
+    assert costs["case"] == "cost (3.3) against (3.4), 1 of 1 cases"
+    assert float(str(costs["exact"]).split()[0]) > 0
+    assert costs["published"] == "2.5 times longer"
     assert [row["exact"] for row in rows] == ["solved", "solved"]
     assert all(float(row["directions_differ_m"]) <= 1e-9 for row in rows)
     assert all(float(row["violation"]) <= 1e-6 for row in rows)

@@ -20,7 +20,7 @@ from core.robot.model import load_robot
 from solver_jobs.live.solve import quick_motion, solve_live
 from solver_jobs.nlp.motion_nlp import solve_motion
 from solver_jobs.results.motion import Evidence, MotionResult, SolveStatus
-from tests.support.solvers.cases import GAITS, gait_problem
+from tests.support.solvers.cases import BARE, GAITS, gait_problem
 
 MODEL = load_robot("deltawalker")
 STEPPERS = tuple(name for name in GAITS if library()[name].gait.step[2] == 0.0)
@@ -113,7 +113,8 @@ def test_directions_give_the_same_answer(quarter_turns: int) -> None:
 def test_a_step_that_feet_are_too_slow_for_lacks_exactly_that_speed() -> None:
     # Five knots of 0.4 s: 30 mm need 75 mm/s in all. Rising 3 mm takes 3.75 mm/s up and down at four of them,
     # which leaves √(15² − 3.75²) each, and 15 at the fifth.
-    result = solve_live(gait_problem("walk", 0.030, Workspace.STROKE))
+    problem = gait_problem("walk", 0.030, Workspace.STROKE)
+    result = solve_live(replace(problem, model=BARE))
     assert result.status is SolveStatus.INFEASIBLE
     assert result.evidence is Evidence.PROVEN
     lacking = 75.0 - 4 * np.sqrt(15.0**2 - 3.75**2) - 15.0
@@ -144,7 +145,7 @@ def test_what_it_proves_infeasible_the_exact_tier_cannot_solve(gait: str) -> Non
     problem = gait_problem(gait, 0.020, Workspace.CYLINDER)
     live = solve_live(problem)
     assert live.evidence is Evidence.PROVEN
-    assert "Proven for the model" in live.explanation[-1]
+    assert live.explanation[-1] == "This is proven: no motion of the model can do it."
     assert solve_motion(problem).status is SolveStatus.INFEASIBLE
 
 

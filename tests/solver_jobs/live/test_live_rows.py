@@ -13,7 +13,7 @@ from core.motion.support_polygon import centre_of_pressure, stability_margins, t
 from core.problem.motion_problem import CYLINDER, MotionProblem, Workspace
 from core.robot.kinematics import BodyPose, feet_in_modules
 from core.robot.leg import strokes_from_foot
-from solver_jobs.live.assembly import cost_terms, inner_rows, natural_linearisation, outer_rows
+from solver_jobs.live.assembly import inner_rows, natural_linearisation, outer_rows
 from solver_jobs.live.elastic import nearest
 from solver_jobs.live.linearisation import MM, Linearisation, linearise
 from solver_jobs.live.motion import trajectory_of, vertical_shares
@@ -57,7 +57,7 @@ def test_balance_rows_are_the_margin_of_the_centre_of_pressure(margin: float) ->
     linearisation = linearise(problem)
     x = some_point(linearisation, 2)
     motion = trajectory_of(linearisation, x)
-    rows = balance(linearisation)
+    rows = balance(linearisation, np.zeros(problem.knot_count - 1))
     slack = values(rows, x) - rows.lower
     pressure = trajectory_pressure(problem.model, motion)
     wanted = stability_margins(pressure, motion.feet_world[:-1], linearisation.contact[:-1]) - margin
@@ -142,7 +142,7 @@ def test_a_share_outside_the_polygon_pulls() -> None:
 def test_the_bound_of_weak_duality_lies_below_the_least_miss(step: float, feasible: bool) -> None:
     linearisation = natural_linearisation(gait_problem("amble", step, Workspace.CYLINDER))
     for rows in (inner_rows(linearisation, 16), outer_rows(linearisation, 32)):
-        found = nearest(Solver(), cost_terms(linearisation), rows, 0.4)
+        found = nearest(Solver(), linearisation, rows)
         assert found is not None
         assert found.proven <= found.total + 1e-9
         assert (found.proven > 1.0) is not feasible

@@ -204,8 +204,9 @@ def test_a_knot_with_no_foot_down_is_named() -> None:
 def test_a_start_outside_the_bodys_heights_is_named() -> None:
     problem = gait_problem("walk", 0.010, Workspace.STROKE)
     low = standing_pose(problem.model, 0.0500, (0.0, 0.0))
-    assert "Body height contradicts what is fixed at the start by 3.00 mm" in proven(
-        replace(problem, start=low)
+    assert (
+        "The actuator plane is 3.00 mm outside its bounds at the start. Choose a height from 53 to 60.5 mm."
+        in proven(replace(problem, start=low))
     )
 
 

@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 
 from app.bench.common.measure import REPEATS, Row, milliseconds, seconds_of
-from app.bench.solvers.live import grouped_gait
+from app.bench.common.random_gaits import grouped_gait
 from core.gait.gait import Gait, drawn_timeline, heading_step, motion_problem
 from core.gait.options import GaitOptions
 from core.library.library import library

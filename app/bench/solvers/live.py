@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.bench.common.measure import Row, milliseconds
+from app.bench.common.random_gaits import grouped_gait
 from app.plans.verified_result import verify
-from core.gait.gait import Gait, Orientation, drawn_timeline, heading_step, motion_problem
+from core.gait.gait import Gait, drawn_timeline, motion_problem
 from core.gait.options import GaitOptions
 from core.library.library import library
 from core.motion.contact_timeline import ContactTimeline
@@ -21,8 +22,6 @@ CHANGES = 240
 
 SLOWEST = 10.0
 """Longest wait for one answer, s."""
-
-SAMPLE_TIME = 0.4
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,35 +53,6 @@ def _walk(iterations: int) -> Gait:
     walk = library()["walk"].gait
     gait = replace(walk, iterations=iterations, options=GaitOptions(closing_knots=0))
     return replace(gait, timeline=drawn_timeline(gait))
-
-
-def grouped_gait(robot: str, group: int, phase_knots: int, step: float = 0.010) -> Gait:
-    """A gait of any robot whose feet swing in groups spread round the ring.
-
-    Args:
-        robot: name of its parameters file.
-        group: feet that swing together.
-        phase_knots: of each stance and of each swing.
-        step: m.
-    """
-    legs = load_robot(robot).leg_count
-    turns = legs // group
-    stance = np.ones((legs, turns * 2 * phase_knots), dtype=np.bool_)
-    order = [foot for turn in range(turns) for foot in range(turn, legs, turns)]
-    for number, foot in enumerate(order):
-        first = (2 * (number // group) + 1) * phase_knots
-        stance[foot, first : first + phase_knots] = False
-    stance[:, -1] = True
-    return Gait(
-        name=robot,
-        robot=robot,
-        orientation=Orientation.FBS,
-        direction=1,
-        order=tuple(foot + 1 for foot in order),
-        step=heading_step(Orientation.FBS, step),
-        iterations=1,
-        timeline=ContactTimeline(stance, np.zeros_like(stance), SAMPLE_TIME),
-    )
 
 
 def _changed(gait: Gait, count: int) -> Iterator[Gait]:

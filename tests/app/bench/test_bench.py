@@ -11,10 +11,11 @@ import pytest
 from app.bench import BENCHMARKS
 from app.bench.common.cases import Case, all_cases
 from app.bench.common.edited_gaits import edited_gait
+from app.bench.common.random_gaits import grouped_gait
 from app.bench.solvers.edits import Outcome, answers, bench_edits
 from app.bench.solvers.frontier import bench_frontier
 from app.bench.solvers.gentle import bench_gentle
-from app.bench.solvers.live import bench_live, grouped_gait
+from app.bench.solvers.live import bench_live
 from app.bench.solvers.timing import bench_timing
 from app.bench.solvers.trajectories import bench_trajectories, row_of
 from app.documents.gait_json import gait_content
@@ -90,9 +91,10 @@ def test_an_edit_is_made_again_from_its_seed() -> None:
 
 def test_edits_end_solved_or_explained() -> None:
     rows = bench_edits(count=6, seed=11)
-    counts = {row["edit"]: row for row in rows[: len(Outcome) + 1]}
+    counts = {row["edit"]: row for row in rows[: len(Outcome) + 2]}
     assert sum(int(counts[outcome]["live"]) for outcome in Outcome) == 6
     assert counts[Outcome.FAILED] == {"edit": "failed", "live": "0", "exact": "0", "reason": ""}
+    assert counts["infeasible, and another search has a motion"]["exact"] == "0"
 
 
 def test_a_foot_that_would_rise_into_its_motors_is_no_motion_of_the_live_tier() -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.bench.solvers.live import grouped_gait
+from app.bench.common.random_gaits import grouped_gait
 from app.documents.gait_json import gait_content
 from app.export.trajectory_files import read_trajectory
 from core.gait.gait import Gait, drawn_timeline, heading_step, motion_problem

@@ -91,12 +91,22 @@ def test_a_closing_stance_that_a_file_sets_is_kept(
     assert knots == [46, 49]
 
 
-def test_too_large_a_turn_is_explained_by_both_tiers(capsys: pytest.CaptureFixture[str]) -> None:
+def test_too_large_a_turn_is_proven_without_a_search(capsys: pytest.CaptureFixture[str]) -> None:
     status, answer = run_json(capsys, "optimise", "rotate", "--yaw", str(np.radians(40)))
+    assert (status, answer["status"], answer["iterations"]) == (3, "infeasible", 0)
+    assert answer["explanation"][0].startswith("Reach lacks")
+    assert answer["explanation"][-1] == "This is proven: no motion of the model can do it."
+
+
+def test_too_large_a_margin_over_two_iterations_is_explained_by_both_tiers(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    asked = ("s-gait", "--iterations", "2", "--step", "0.020", "--margin", "0.010")
+    status, answer = run_json(capsys, "optimise", *asked)
     assert (status, answer["status"]) == (3, "infeasible")
     told = answer["explanation"]
     assert any("IPOPT" in sentence for sentence in told)
-    assert any(sentence.startswith("Reach lacks") for sentence in told)
+    assert any(sentence.startswith("Balance lacks") for sentence in told)
     assert len(told) == len(set(told))
     assert sum("roven" in sentence for sentence in told) == 1
     assert told[-1].endswith("not proven.")
@@ -180,7 +190,7 @@ def test_what_does_not_fit_is_refused(
     ("words", "sentence"),
     [
         (["--step", "0.1"], "has to travel"),
-        (["--plane-height", "0.050"], "Body height"),
+        (["--plane-height", "0.050"], "The actuator plane"),
         (["--clearance", "0.02", "--phase-knots", "2"], "too short to rise"),
         (["--step", "0.03", "--workspace", "cylinder", "--method", "live"], "Reach lacks"),
         (["--closing-knots", "0", "--margin", "0.003", "--method", "live"], "Balance lacks"),

@@ -14,10 +14,10 @@ from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseProblem
 from core.problem.motion_problem import MotionProblem
 from solver_jobs.nlp.timing import TimingResult, fastest_timing
+from solver_jobs.remedies.search import Remedy, RemedyKind, RemedySearch
 from solver_jobs.results.motion import Evidence, Iterate, Lack, MotionResult, SolveStatus
 from solver_jobs.results.pose import PoseProgress, PoseResult
 from solver_jobs.tiers.frontier import Frontier, FrontierSearch
-from solver_jobs.tiers.remedies import Remedy, RemedySearch
 from solver_jobs.workers.batch_simulation_service import BatchSimulation, BatchSimulator
 from solver_jobs.workers.job import OPEN_STATES, Job, JobKind, JobState, result_sentence
 from solver_jobs.workers.job_queue import JobQueue
@@ -55,6 +55,7 @@ __all__ = [
     "PoseResult",
     "PoseSearch",
     "Remedy",
+    "RemedyKind",
     "RemedySearch",
     "Report",
     "Simulated",

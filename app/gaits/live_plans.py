@@ -13,13 +13,14 @@ from functools import partial
 from typing import Any, Protocol, TypeVar
 
 from app.common.json import Json
-from app.documents.gait_json import gait_content, gait_from_content, motion_hash
+from app.documents.gait_json import gait_from_content, motion_hash
 from app.gaits.normalise import normalise
-from app.gaits.views import plan_view
+from app.gaits.views import plan_view, remedy_view
 from app.plans.plan import Plan, Solve
 from app.plans.sequence_plan import plan_of
 from core.errors import StateError
 from core.gait.gait import Gait
+from core.gait.motion_source import MotionSource, motion_source
 from core.problem.motion_problem import MotionProblem
 from solver_jobs import MotionResult, RemedySearch, SolveStatus
 
@@ -139,22 +140,33 @@ class LivePlans:
             wants_remedies: whether to look for changes that make it feasible; takes longer.
 
         Raises:
-            InputError: the document cannot be read, or makes no motion.
+            InputError: the document cannot be read, or makes no motion and nothing is known to mend it.
             StateError: a locked cell would change.
         """
         gait = before if document is None else normalise(before, gait_from_content(document, "document"))[0]
         plan = self.plan(gait)
-        if plan.trajectory is None and plan.refusal is not None:
+        found = self._remedies(gait, plan) if wants_remedies else None
+        if plan.trajectory is None and plan.refusal is not None and not (found and found.remedies):
             raise plan.refusal
         view = plan_view(plan)
-        found = self._remedies(gait, plan) if wants_remedies else None
-        return {**_summary(view), "plan": view, **_remedies_content(found)}
+        return {**_summary(view), "plan": view, **self._remedies_content(found)}
 
     def _remedies(self, gait: Gait, plan: Plan) -> RemedySearch:
-        """Searches for remedies if the live tier found the gait infeasible; otherwise there are none."""
-        if plan.live is None or plan.live.status is not SolveStatus.INFEASIBLE:
+        """Searches for remedies of a drawing without a motion; of others there are none."""
+        is_drawing = motion_source(gait) in (MotionSource.OPTIMISED, MotionSource.DRAWN)
+        refused = plan.refusal is not None and plan.trajectory is None and is_drawing
+        infeasible = plan.live is not None and plan.live.status is SolveStatus.INFEASIBLE
+        if not (refused or infeasible):
             return RemedySearch(remedies=(), complete=True)
         return self._tier.remedies(gait)
+
+    def _remedies_content(self, found: RemedySearch | None) -> Json:
+        """What was found, with what a plan of each measures; one without a checked plan is not offered."""
+        if found is None:
+            return {"remedies": None, "remedies_complete": None}
+        planned = ((remedy, self.plan(remedy.gait)) for remedy in found.remedies)
+        remedies = [remedy_view(remedy, plan) for remedy, plan in planned if _is_solved(plan)]
+        return {"remedies": remedies, "remedies_complete": found.complete}
 
 
 def _ends(problem: MotionProblem) -> str:
@@ -178,14 +190,8 @@ def _summary(view: Json) -> Json:
     return {"method": "table", "status": view["source"], **nothing}
 
 
-def _remedies_content(found: RemedySearch | None) -> Json:
-    if found is None:
-        return {"remedies": None, "remedies_complete": None}
-    remedies = [
-        {"label": remedy.label, "sentence": remedy.sentence, "document": gait_content(remedy.gait)}
-        for remedy in found.remedies
-    ]
-    return {"remedies": remedies, "remedies_complete": found.complete}
+def _is_solved(plan: Plan) -> bool:
+    return plan.live is not None and plan.live.status is SolveStatus.SOLVED and plan.trajectory is not None
 
 
 def _remember(store: OrderedDict[str, Value], key: str, value: Value, most: int) -> None:

@@ -120,10 +120,10 @@ def _solve(search: _Search) -> MotionResult:
         if (found := _nearest(search, free, rows)) is None:
             break
         about = at_heights_of(free, found.x)
-        if (motion := _attempt(search, about, FINE)) is not None:
-            return _solved(search, motion)
-        if check_motion(search.problem, motion := trajectory_of(about, found.x)).confirmed:
-            return _solved(search, motion)
+        # The nearest motion itself, where there is no room beside it.
+        for motion in (_attempt(search, about, FINE), trajectory_of(about, found.x)):
+            if motion is not None and check_motion(search.problem, motion).confirmed:
+                return _solved(search, motion)
         if found.total > NEARLY_MM:
             break
     return _unsolved(search, about)

@@ -14,8 +14,8 @@ from typing import Any
 from core.gait.gait import Gait
 from core.problem.initial_guess import initial_guess
 from core.problem.motion_problem import MotionProblem
+from solver_jobs.remedies.search import RemedySearch
 from solver_jobs.results.motion import Evidence, MotionResult, SolveStatus
-from solver_jobs.tiers.remedies import RemedySearch
 from solver_jobs.workers.live_worker import Answered, FindRemedies, SolveLive, run_live_worker
 from solver_jobs.workers.spawning import start_process
 from solver_jobs.workers.worker_process import JOIN_SECONDS

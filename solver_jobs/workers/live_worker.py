@@ -47,7 +47,7 @@ def run_live_worker(pipe: Connection, warm_up: MotionProblem | None) -> None:
     """
     from core.robot.model import load_robot
     from solver_jobs.live.solve import solve_live
-    from solver_jobs.tiers.remedies import find_remedies
+    from solver_jobs.remedies.search import find_remedies
 
     def answer(message: SolveLive | FindRemedies) -> Any:
         if isinstance(message, SolveLive):

@@ -7,7 +7,16 @@ from dataclasses import replace
 from core.gait.gait import Gait
 from core.problem.initial_guess import initial_guess
 from core.problem.motion_problem import MotionProblem
-from solver_jobs import Evidence, Lack, MotionResult, Remedy, RemedySearch, SolveStatus
+from solver_jobs import (
+    Evidence,
+    Lack,
+    MotionResult,
+    Remedy,
+    RemedyKind,
+    RemedySearch,
+    SolveStatus,
+    solve_live,
+)
 
 LACK = Lack("workspace", 1.2, "mm", 5, 9, (2,), "Reach lacks 1.2 mm: foot 3 is outside its workspace.")
 
@@ -44,16 +53,19 @@ class FixedTier:
         self.waits: list[float] = []
         self.process_id: int | None = 1
         self.complete = True
+        self.offered = False
 
     def solve(self, problem: MotionProblem, timeout: float) -> MotionResult:
-        """The drawn motion."""
+        """The drawn motion; of what was offered, a checked one."""
         assert timeout > 0
         self.asked += 1
         self.waits.append(timeout)
-        return result_of(problem, self.status)
+        return solve_live(problem) if self.offered else result_of(problem, self.status)
 
     def remedies(self, gait: Gait) -> RemedySearch:
         """Half the step."""
+        self.offered = True
         dx, dy, yaw = gait.step
         half = replace(gait, step=(dx / 2, dy / 2, yaw))
-        return RemedySearch((Remedy("Half the step", "A step half as long.", half),), self.complete)
+        remedy = Remedy(RemedyKind.STEP, "Half the step", "A step half as long.", half)
+        return RemedySearch((remedy,), self.complete)

@@ -148,6 +148,7 @@ def test_a_job_is_cancelled_and_the_next_one_runs(studio: StudioProcess) -> None
     document = studio.ask("GET", "/api/gaits/amble").content
     document["step"] = [0.0177, 0.0177, 0.0]
     document["options"]["workspace"] = "cylinder"
+    document["iterations"] = 6
     studio.ask("PUT", "/api/gaits/amble?label=Too%20far", document)
     job = studio.ask("POST", "/api/jobs", {"gait": "amble"}).content["id"]
     wait_for(lambda: bool(studio.ask("GET", f"/api/jobs/{job}").content["progress"]), "the job runs")

@@ -20,7 +20,7 @@ from core.wire.waypoint_path import waypoints_from_trajectory
 from solver_jobs import SolveStatus, solve_exact, solve_live
 from solver_jobs.nlp.constraint import situation_of
 from solver_jobs.nlp.timing import SMALLEST_PHASE, fastest_timing, rounded_timeline
-from solver_jobs.tiers.remedies import find_remedies
+from solver_jobs.remedies.search import find_remedies
 from tests.support.held_gaits import DOWN, UP, drawn, lifting, lowering, wave
 
 LONG = "1" * 15

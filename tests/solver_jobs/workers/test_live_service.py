@@ -17,9 +17,9 @@ from core.library.library import library
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import Workspace
 from core.robot.model import load_robot
-from solver_jobs import LiveSolver, SolveStatus
+from solver_jobs import LiveSolver, RemedyKind, SolveStatus
 from solver_jobs.live.solve import solve_live
-from solver_jobs.tiers.remedies import find_remedies
+from solver_jobs.remedies.search import find_remedies
 from solver_jobs.workers import live_service
 from solver_jobs.workers.spawning import start_process
 from tests.support.solvers.cases import gait_problem
@@ -84,20 +84,21 @@ def test_a_closed_solver_says_so() -> None:
 
 
 @pytest.mark.parametrize(
-    ("gait", "labels"),
+    ("gait", "kinds"),
     [
-        (gait_of("amble", 0.020, workspace=Workspace.CYLINDER), {"Step", "Workspace", "Order"}),
-        (gait_of("walk", 0.020, clearance=0.009, margin=0.012), {"Margin"}),
-        (gait_of("walk", 0.030), {"Step"}),
-        (gait_of("walk", 0.028, clearance=0.006), {"Step", "Phases"}),
+        (gait_of("amble", 0.020, workspace=Workspace.CYLINDER), {RemedyKind.STEP, RemedyKind.WORKSPACE}),
+        (gait_of("walk", 0.020, margin=0.018), {RemedyKind.MARGIN}),
+        (gait_of("walk", 0.030), {RemedyKind.STEP, RemedyKind.ITERATIONS}),
+        (gait_of("walk", 0.010, plane_height=0.045), {RemedyKind.HEIGHT}),
+        (gait_of("walk", 0.010, clearance=0.014), {RemedyKind.CLEARANCE}),
     ],
 )
-def test_every_remedy_works(gait: Gait, labels: set[str], solver: LiveSolver) -> None:
+def test_every_remedy_works(gait: Gait, kinds: set[RemedyKind], solver: LiveSolver) -> None:
     assert solve_live(motion_problem(gait, MODEL)).status is SolveStatus.INFEASIBLE
     search = solver.remedies(gait, 60.0)
     assert search.complete
     remedies = search.remedies
-    assert labels <= {remedy.label.split()[0] for remedy in remedies}
+    assert kinds <= {remedy.kind for remedy in remedies}
     for remedy in remedies:
         problem = motion_problem(remedy.gait, MODEL)
         result = solve_live(problem)
@@ -129,7 +130,7 @@ def test_a_swing_that_is_too_short_is_placed_and_can_be_lengthened(knots: int) -
     assert result.status is SolveStatus.INFEASIBLE
     search = find_remedies(short, MODEL, lambda: True)
     assert search.complete
-    assert "Swings of" in search.remedies[0].label
+    assert search.remedies[0].kind is RemedyKind.ONE_BY_ONE
     assert solve_live(motion_problem(search.remedies[0].gait, MODEL)).status is SolveStatus.SOLVED
     if knots == 1:
         assert (result.lacks[0].family, result.lacks[0].feet) == ("clearance", (2,))

@@ -1,0 +1,1 @@
+"""What would make a drawing walk: changes that are tried before they are offered."""

@@ -1,0 +1,277 @@
+"""A drawing's swings laid out anew in time, so that every one has the others to stand on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import islice, pairwise, permutations, product
+
+import numpy as np
+
+from core.arrays import Bools, Floats
+from core.gait.gait import Gait
+from core.motion.contact_timeline import ContactTimeline, Swing
+from core.patterns.limits import needed_swing
+from core.problem.initial_guess import Indices
+
+MOST_ORDERS = 6
+"""Orders that are tried where several swings have their middles side by side."""
+
+CLOSING = 5
+"""Samples of stance that a drawing gets which ends in the air."""
+
+MOST_SAMPLES = 240
+"""A drawing is not made longer than this."""
+
+
+@dataclass(frozen=True)
+class Item:
+    """Swings that keep their places to each other; mostly one."""
+
+    swings: tuple[Swing, ...]
+
+    @property
+    def first(self) -> int:
+        """First sample in the air."""
+        return min(swing.first for swing in self.swings)
+
+    @property
+    def last(self) -> int:
+        """Last sample in the air."""
+        return max(swing.last for swing in self.swings)
+
+    @property
+    def length(self) -> int:
+        """Samples from the first to the last."""
+        return self.last - self.first + 1
+
+    @property
+    def middle(self) -> float:
+        """Between the first and the last."""
+        return (self.first + self.last) / 2
+
+
+@dataclass(frozen=True)
+class _Place:
+    """Where an item begins, and how long it lasts."""
+
+    item: Item
+    first: int
+    length: int
+
+    @property
+    def swings(self) -> tuple[Swing, ...]:
+        """The item's swings there."""
+        if len(self.item.swings) == 1:
+            return (Swing(self.item.swings[0].foot, self.first, self.first + self.length - 1),)
+        shift = self.first - self.item.first
+        return tuple(Swing(s.foot, s.first + shift, s.last + shift) for s in self.item.swings)
+
+
+def with_ends(gait: Gait) -> Gait:
+    """The gait with its ends mended: every foot that is not held up rests there.
+
+    A foot in the air at the first sample alone stands there; feet in the air at the last sample come down
+    in a closing stance, which is added unless cells are locked.
+    """
+    timeline = gait.timeline
+    stance = timeline.stance.copy()
+    held_start, held_end = _flags(gait.held.start, stance), _flags(gait.held.end, stance)
+    stance[:, 0] |= ~held_start & stance[:, 1]
+    if not (stance[:, -1] | held_end).all():
+        if timeline.locked.any():
+            stance[~held_end, -1] = True
+        else:
+            stance = np.concatenate([stance, np.repeat(~held_end[:, None], CLOSING, axis=1)], axis=1)
+    return gait if np.array_equal(stance, timeline.stance) else _with(gait, stance)
+
+
+def with_forgotten_feet(gait: Gait) -> Gait:
+    """The gait in which every foot that never swings, though the robot walks, swings behind the others."""
+    swinging = {swing.foot for swing in gait.timeline.swings()}
+    walking = set(range(gait.timeline.leg_count)) - {foot - 1 for foot in gait.held.both}
+    forgotten = sorted(walking - swinging)
+    if not swinging or not forgotten or gait.timeline.locked.any() or not any(gait.step):
+        return gait
+    legs, least = gait.timeline.leg_count, needed_swing(gait)
+    parts = [gait.timeline.stance]
+    for foot in forgotten:
+        swing = np.ones((legs, least + 1), dtype=np.bool_)
+        swing[foot, :least] = False
+        parts.append(swing)
+    return _with(gait, np.concatenate([*parts, np.ones((legs, CLOSING), dtype=np.bool_)], axis=1))
+
+
+def items_of(gait: Gait, together: Bools | None = None) -> list[Item]:
+    """The swings of a drawing but those of feet that are held up, by their middles.
+
+    Args:
+        gait: whose timeline.
+        together: (samples,) where swings that overlap keep their places to each other; None for nowhere.
+    """
+    last = gait.timeline.sample_count - 1
+    swings = [
+        swing
+        for swing in gait.timeline.swings()
+        if not (swing.first == 0 and swing.foot + 1 in gait.held.start)
+        and not (swing.last == last and swing.foot + 1 in gait.held.end)
+    ]
+    swings.sort(key=lambda swing: (swing.first + swing.last, swing.foot))
+    found: list[Item] = []
+    for swing in swings:
+        overlaps = [item for item in found if swing.first <= item.last and item.first <= swing.last]
+        joined = Item((*(s for item in overlaps for s in item.swings), swing))
+        if together is not None and overlaps and together[joined.first : joined.last + 1].all():
+            found = [item for item in found if item not in overlaps] + [joined]
+        else:
+            found.append(Item((swing,)))
+    return sorted(found, key=lambda item: (item.middle, item.swings[0].foot))
+
+
+def one_after_the_other(gait: Gait, items: Sequence[Item], gap: int) -> Gait | None:
+    """The same swings in the same time, none beside another, with as few changed cells as can be.
+
+    Args:
+        gait: the drawing; its locked cells stay as they are.
+        items: of `items_of`.
+        gap: samples of stance between two of them, and at both ends.
+
+    Returns:
+        None where they have no room.
+    """
+    layout = _Layout(gait.timeline, gap, needed_swing(gait))
+    found = [placed for order in _orders(items) if (placed := layout.placed(order)) is not None]
+    if not found:
+        return None
+    _, places = min(found, key=lambda one: one[0])
+    return _with(gait, _laid(gait, places, gait.timeline.sample_count))
+
+
+def longer(gait: Gait, items: Sequence[Item], gap: int, least: int = 0) -> Gait | None:
+    """The same swings one after the other in a longer gait.
+
+    Args:
+        gait: the drawing; nothing is done where cells are locked or feet are held up.
+        items: of `items_of`.
+        gap: samples of stance between two of them at least, and at both ends.
+        least: samples of every swing at least, beside what the step needs.
+
+    Returns:
+        None where it cannot be made longer.
+    """
+    if gait.timeline.locked.any() or gait.held.any or not items:
+        return None
+    least = max(least, needed_swing(gait))
+    at, places = max(items[0].first, gap, 1), []
+    for item, following in pairwise([*items, None]):
+        if item is None:
+            continue
+        length = max(item.length, least) if len(item.swings) == 1 else item.length
+        places.append(_Place(item, at, length))
+        pause = 0 if following is None else following.first - item.last - 1
+        at += length + max(gap, pause)
+    closing = max(gait.timeline.sample_count - 1 - items[-1].last, gap, 1)
+    samples = places[-1].first + places[-1].length + closing
+    return _with(gait, _laid(gait, places, samples)) if samples <= MOST_SAMPLES else None
+
+
+def _orders(items: Sequence[Item]) -> Iterator[list[Item]]:
+    """Orders of items; those whose middles are side by side change places."""
+    groups: list[list[Item]] = []
+    for item in items:
+        if groups and item.middle - groups[-1][0].middle <= 1:
+            groups[-1].append(item)
+        else:
+            groups.append([item])
+    for chosen in islice(product(*(permutations(group) for group in groups)), MOST_ORDERS):
+        yield [item for group in chosen for item in group]
+
+
+class _Layout:
+    """Places items one behind the other by a dynamic programme over the sample at which each ends."""
+
+    def __init__(self, timeline: ContactTimeline, gap: int, least: int) -> None:
+        self._timeline = timeline
+        self._gap, self._least = max(gap, 1), least
+
+    def placed(self, items: Sequence[Item]) -> tuple[float, list[_Place]] | None:
+        """How many cells change at least, and the places; None where there is no room."""
+        samples = self._timeline.sample_count
+        reached = np.zeros(samples)
+        chosen: list[tuple[Item, Floats, Indices]] = []
+        for item in items:
+            cost, lengths = np.full(samples, np.inf), np.zeros(samples, dtype=np.intp)
+            for length in self._lengths(item):
+                starts = np.arange(self._gap, samples - self._gap - length + 1)
+                if not len(starts):
+                    continue
+                # Nothing stands before the first item, and no other begins at the very first sample.
+                before = reached[starts - 1 - self._gap] if chosen else np.zeros(len(starts))
+                before = np.where(starts > self._gap, before, np.inf if chosen else 0.0)
+                total, ends = before + self._cost(item, starts, length), starts + length - 1
+                better = total < cost[ends]
+                cost[ends] = np.where(better, total, cost[ends])
+                lengths[ends] = np.where(better, length, lengths[ends])
+            chosen.append((item, cost, lengths))
+            reached = np.minimum.accumulate(cost)
+        if not items or not np.isfinite(reached[-1]):
+            return None
+        return float(reached[-1]), self._traced(chosen)
+
+    def _lengths(self, item: Item) -> range:
+        if len(item.swings) > 1:
+            return range(item.length, item.length + 1)
+        return range(self._least, max(item.length, self._least) + 1)
+
+    def _cost(self, item: Item, starts: Indices, length: int) -> Floats:
+        """Changed cells for each start; infinite where a locked one would change."""
+        total = np.zeros(len(starts))
+        for swing in item.swings:
+            drawn = np.zeros(self._timeline.sample_count)
+            drawn[swing.first : swing.last + 1] = 1.0
+            first = starts + (swing.first - item.first)
+            count = length if len(item.swings) == 1 else swing.last - swing.first + 1
+            total += drawn.sum() + count - 2 * _sums(drawn, first, count)
+            locked = self._timeline.locked[swing.foot]
+            lifted = _sums((locked & self._timeline.stance[swing.foot]) * 1.0, first, count)
+            lowered = (locked * drawn).sum() - _sums(locked * drawn, first, count)
+            total[(lifted > 0) | (lowered > 0)] = np.inf
+        return total
+
+    def _traced(self, chosen: Sequence[tuple[Item, Floats, Indices]]) -> list[_Place]:
+        places: list[_Place] = []
+        end = self._timeline.sample_count - 1
+        for item, cost, lengths in reversed(chosen):
+            end = int(np.argmin(cost[: end + 1]))
+            places.append(_Place(item, end - int(lengths[end]) + 1, int(lengths[end])))
+            end -= int(lengths[end]) + self._gap
+        return places[::-1]
+
+
+def _sums(flags: Floats, first: Indices, count: int) -> Floats:
+    """Sums of flags in windows of so many samples."""
+    sums = np.concatenate([[0.0], np.cumsum(flags)])
+    return np.asarray(sums[first + count] - sums[first])
+
+
+def _laid(gait: Gait, places: Sequence[_Place], samples: int) -> Bools:
+    """The stance with swings in their places; those of feet that are held up stay where they were drawn."""
+    stance = np.ones((gait.timeline.leg_count, samples), dtype=np.bool_)
+    moved = {swing for place in places for swing in place.item.swings}
+    kept = [swing for swing in gait.timeline.swings() if swing not in moved]
+    for swing in [*kept, *(swing for place in places for swing in place.swings)]:
+        stance[swing.foot, swing.first : swing.last + 1] = False
+    return stance
+
+
+def _with(gait: Gait, stance: Bools) -> Gait:
+    """The gait with another drawing; locks stay where it has as many samples."""
+    same = stance.shape == gait.timeline.locked.shape
+    locked = gait.timeline.locked if same else np.zeros(stance.shape, dtype=np.bool_)
+    return replace(gait, timeline=ContactTimeline(stance, locked, gait.timeline.sample_time))
+
+
+def _flags(feet: tuple[int, ...], stance: Bools) -> Bools:
+    flags = np.zeros(len(stance), dtype=np.bool_)
+    flags[[foot - 1 for foot in feet]] = True
+    return flags

@@ -1,0 +1,84 @@
+"""Trials of changed gaits by the live tier: does it work, and up to which value?"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from core.errors import FootfallError
+from core.gait.gait import Gait, motion_problem
+from core.robot.model import RobotModel
+from solver_jobs.results.motion import Lack
+
+HALVINGS = 7
+"""Rounds of bisection: to a hundredth of the range."""
+
+SIDES = 32
+"""Edges of the polygons that stand for discs here: within half a per cent."""
+
+
+class InterruptedSearchError(Exception):
+    """Something else is asked meanwhile."""
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """Tries changed gaits.
+
+    Args:
+        model: the robot.
+        go_on: asked before each try; false ends the search.
+    """
+
+    model: RobotModel
+    go_on: Callable[[], bool]
+
+    def works(self, gait: Gait) -> bool:
+        """Whether the live tier solves a gait quickly and the checker confirms it.
+
+        Raises:
+            InterruptedSearchError: the search shall end.
+        """
+        from core.problem.motion_check import check_motion
+        from solver_jobs.live.solve import quick_motion
+
+        if not self.go_on():
+            raise InterruptedSearchError
+        try:
+            problem = motion_problem(gait, self.model)
+        except FootfallError:
+            return False
+        motion = quick_motion(problem, SIDES)
+        return motion is not None and check_motion(problem, motion).confirmed
+
+    def lacks(self, gait: Gait) -> tuple[Lack, ...]:
+        """What the live tier finds missing in a gait."""
+        from solver_jobs.live.solve import solve_live
+
+        try:
+            return solve_live(motion_problem(gait, self.model)).lacks
+        except FootfallError:
+            return ()
+
+    def largest(
+        self, least: float, most: float, change: Callable[[float], Gait], unit: float
+    ) -> float | None:
+        """The largest value that works: `most`, or one in whole units from `least` up; None where none is."""
+        if self.works(change(most)):
+            return most
+        if least >= most or not self.works(change(least)):
+            return None
+        low, high = least, most
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2
+            low, high = (middle, high) if self.works(change(middle)) else (low, middle)
+        rounded = float(np.floor(low / unit + 1e-9)) * unit
+        if rounded >= least and self.works(change(rounded)):
+            return rounded
+        return least
+
+    def first(self, gaits: Iterable[Gait | None]) -> Gait | None:
+        """The first gait that works."""
+        return next((gait for gait in gaits if gait is not None and self.works(gait)), None)

@@ -5,6 +5,7 @@ This is the public face. Importing it loads no solver; `solve_motion` loads it w
 
 from collections.abc import Callable
 
+from core.gait.gait import Gait
 from core.motion.trajectory import Trajectory
 from core.patterns.problem import PatternProblem, PatternProgress, PatternResult
 from core.physics.motion import SimulatedMotion
@@ -13,6 +14,7 @@ from core.physics.variations import VariedRun
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseProblem
 from core.problem.motion_problem import MotionProblem
+from core.robot.model import RobotModel
 from solver_jobs.nlp.timing import TimingResult, fastest_timing
 from solver_jobs.remedies.search import Remedy, RemedyKind, RemedySearch
 from solver_jobs.results.motion import Evidence, Iterate, Lack, MotionResult, SolveStatus
@@ -68,6 +70,7 @@ __all__ = [
     "WorkerEndedError",
     "WorkerProcess",
     "fastest_timing",
+    "find_remedies",
     "result_sentence",
     "run_tasks",
     "shortest_problem",
@@ -121,6 +124,19 @@ def solve_exact(problem: MotionProblem) -> MotionResult:
     from solver_jobs.tiers.exact_from_live import solve_exact as solve
 
     return solve(problem)
+
+
+def find_remedies(gait: Gait, model: RobotModel, go_on: Callable[[], bool] = lambda: True) -> RemedySearch:
+    """Looks for changes that make a gait walk, in this process (see `solver_jobs.remedies.search`).
+
+    Args:
+        gait: one that has no motion.
+        model: its robot.
+        go_on: asked before each try; false ends the search.
+    """
+    from solver_jobs.remedies.search import find_remedies as find
+
+    return find(gait, model, go_on)
 
 
 def solve_pattern(

@@ -22,6 +22,7 @@ from app.bench.solvers.frontier import bench_frontier
 from app.bench.solvers.gentle import bench_gentle
 from app.bench.solvers.kinematics import bench_kinematics
 from app.bench.solvers.live import bench_live
+from app.bench.solvers.remedies import bench_remedies
 from app.bench.solvers.timing import bench_timing
 from app.bench.solvers.trajectories import bench_trajectories
 
@@ -41,6 +42,7 @@ BENCHMARKS: dict[str, Benchmark] = {
     "timing": bench_timing,
     "transitions": bench_transitions,
     "edits": bench_edits,
+    "remedies": bench_remedies,
     "patterns": bench_patterns,
     "physics": bench_physics,
     "learning": bench_learning,

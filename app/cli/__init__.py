@@ -43,6 +43,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     try:
         options = make_parser().parse_args(words)
+        options.words = words
         status: int = options.run(options)
         write(sys.stdout, "")
     except FootfallError as error:

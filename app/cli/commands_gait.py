@@ -1,6 +1,7 @@
 """`gaits`, `manual` and `optimise`."""
 
 import json
+import shlex
 from argparse import Namespace
 from dataclasses import replace
 from itertools import groupby
@@ -24,7 +25,7 @@ from core.library.library import library, manual_entry
 from core.library.new_gait import with_robot
 from core.library.robot_times import RobotTimes, library_times
 from core.robot.model import load_robot
-from solver_jobs import SolveStatus
+from solver_jobs import SolveStatus, find_remedies
 
 SAVED_GROUP = "Saved"
 """Group of the gaits that a person has saved."""
@@ -161,7 +162,10 @@ def run_optimise(options: Namespace) -> int:
     """Optimises a gait and writes its trajectory."""
     end_on_signals()
     gait = asked_gait(options)
+    if options.remedy is not None:
+        gait = _mended(gait, options.remedy)
     verified = optimise(gait, options.method)
+    helps = _remedies(gait, options.words) if verified.status is SolveStatus.INFEASIBLE else []
     output = options.output if verified.status is SolveStatus.SOLVED else None
     if output is not None:
         write_trajectory(output, verified.trajectory, gait.robot)
@@ -174,9 +178,57 @@ def run_optimise(options: Namespace) -> int:
         **verified.content,
         "evidence": None if verified.result.evidence is None else verified.result.evidence.value,
         "trajectory": _path(output),
+        "remedies": helps,
     }
-    show(options, content, [*_optimise_lines(content), *_written(output)])
+    show(options, content, [*_optimise_lines(content), *_remedy_lines(helps), *_written(output)])
     return EXIT_OF_STATUS[verified.status]
+
+
+def _mended(gait: Gait, number: int) -> Gait:
+    """The gait with one of the changes that make it walk, counted from 1.
+
+    Raises:
+        InputError: there are not so many.
+    """
+    found = find_remedies(gait, load_robot(gait.robot)).remedies
+    if number > len(found):
+        count = f"{len(found)} remedies" if len(found) != 1 else "one remedy"
+        raise InputError(f"There is no remedy {number}; the gait has {count}.", "--remedy")
+    note(f"{found[number - 1].label}: {found[number - 1].sentence}")
+    return found[number - 1].gait
+
+
+def _remedies(gait: Gait, words: list[str]) -> list[Json]:
+    """What would help, each as a command that takes it."""
+    asked = [word for word in without_option(words, "--remedy") if word != "--json"]
+    return [
+        {
+            "kind": remedy.kind.value,
+            "label": remedy.label,
+            "sentence": remedy.sentence,
+            "caution": remedy.caution,
+            "command": shlex.join(["footfall", *asked, "--remedy", str(number)]),
+        }
+        for number, remedy in enumerate(find_remedies(gait, load_robot(gait.robot)).remedies, 1)
+    ]
+
+
+def without_option(words: list[str], name: str) -> list[str]:
+    """The words of a command line without an option and its value."""
+    if name not in words:
+        return [word for word in words if not word.startswith(f"{name}=")]
+    at = words.index(name)
+    return words[:at] + words[at + 2 :]
+
+
+def _remedy_lines(remedies: list[Json]) -> list[str]:
+    if not remedies:
+        return []
+    lines = ["What would help, best first:"]
+    for remedy in remedies:
+        caution = f" {remedy['caution']}" if remedy["caution"] else ""
+        lines += [f"  {remedy['label']}. {remedy['sentence']}{caution}", f"    {remedy['command']}"]
+    return lines
 
 
 def _optimise_lines(content: Json) -> list[str]:

@@ -152,6 +152,8 @@ def _manual_options(parser: argparse.ArgumentParser) -> None:
 
 def _optimise_options(parser: argparse.ArgumentParser) -> None:
     _gait_options(parser)
+    text = "take the Nth of what would help, where the gait has no motion"
+    parser.add_argument("--remedy", type=whole(1, 4), metavar="N", default=None, help=text)
 
 
 def _frontier_options(parser: argparse.ArgumentParser) -> None:

@@ -1,9 +1,10 @@
 /** The optimiser's answer for the shown gait: the state of its plan, what is missing, and remedies. */
 
 import { byId, h, setAttribute } from "../lib/dom.js";
-import { fixed } from "../lib/format.js";
+import { fixed, mm } from "../lib/format.js";
 import { jobOf } from "../shell/job_list.js";
-import { shownPlan } from "../state/store.js";
+import { hasNoMotion, ownPlan } from "../state/store.js";
+import { tryouts } from "./tryout.js";
 
 const FAMILIES = {
   body_torque: "Balance", margin: "Margin", workspace: "Reach", foot_speed: "Speed", body_speed: "Body speed", clearance: "Clearance",
@@ -34,19 +35,37 @@ function missingMotionList(lacks, plan, goTo) {
   return [list, h("details", { class: "lacks-more" }, h("summary", { text: `${rest.length} more` }), h("ul", { class: "lacks", role: "list" }, ...rest))];
 }
 
-function remedyParts(edits, remedies) {
+/** One way out: its name, what it gives, and its price; pointing at it or focusing it shows where it leads. */
+function wayOut({ label, sentence, caution, document, balance, robot_seconds: robotSeconds }, edits, tryout) {
+  const take = () => {
+    tryout.end();
+    edits.edit(({ name, notes }) => ({ ...document, name, notes }), label);
+  };
+  const margin = balance === null ? "" : `margin ${mm(balance)} mm`;
+  const price = robotSeconds === null ? "" : ` ${fixed(robotSeconds)} s on the robot.`;
+  return h("li", { class: "way", on: { pointerenter: () => tryout.show(document), pointerleave: tryout.end } },
+    h("button", { text: label, title: "Takes it; Undo brings your drawing back.", on: { click: take, focus: () => tryout.show(document), blur: tryout.end, keydown: ({ key }) => { if (key === "Escape") tryout.end(); } } }),
+    h("span", { class: "number", data: caution ? { toneText: "caution" } : {}, text: caution || margin }),
+    h("p", { class: "quiet", text: `${sentence}${price}` }));
+}
+
+function remedyParts(edits, remedies, tryout) {
   if (!remedies) return [h("p", { class: "why", text: "Looking for ways out…" })];
-  const buttons = remedies.list.map(({ label, sentence, document }) =>
-    h("button", { text: label, title: sentence, on: { click: () => edits.edit(({ name, notes }) => ({ ...document, name, notes }), label) } }));
-  const none = remedies.sentence ?? "No single change was found that makes it feasible.";
-  const note = !remedies.complete ? "The search was cut short; it goes on when nothing else is asked." : buttons.length ? null : none;
+  const ways = remedies.list.map((remedy) => wayOut(remedy, edits, tryout));
+  const none = remedies.sentence ?? "No change was found that makes it walk.";
+  const note = !remedies.complete ? "The search was cut short; it goes on when nothing else is asked." : ways.length ? null : none;
   return [
-    buttons.length > 0 && h("div", { class: "buttons", role: "group", "aria-label": "Ways out" }, ...buttons),
+    ways.length > 0 && h("ul", { class: "ways", role: "group", "aria-label": "Ways out" }, ...ways),
     note && h("p", { class: "why", text: note }),
   ].filter(Boolean);
 }
 
-function liveParts(state, plan, edits, goTo) {
+/** A drawing that is refused before any search; its reason stands at the timeline. */
+function refusedParts(state, edits, tryout) {
+  return { head: [h("p", { class: "first", text: "This drawing has no motion." }), ...remedyParts(edits, state.remedies, tryout)], details: [] };
+}
+
+function liveParts(state, plan, edits, goTo, tryout) {
   const { evidence, explanation, lacks } = plan.live;
   // The last sentence names the scope of the answer: every motion, or the live tier's model.
   const [first = "", ...rest] = explanation;
@@ -54,7 +73,7 @@ function liveParts(state, plan, edits, goTo) {
   const text = evidence === "proven" && !FOR_EVERY_MOTION.test(closing) ? "proven for even footholds" : evidence ?? "";
   const head = [
     h("p", { class: "first", title: explanation.join(" ") }, first, text && h("span", { class: "quiet", text: ` (${text})`, title: closing })),
-    ...remedyParts(edits, state.remedies),
+    ...remedyParts(edits, state.remedies, tryout),
   ];
   return { head, details: lacks.length ? missingMotionList(lacks, plan, goTo) : [] };
 }
@@ -75,23 +94,26 @@ function keepVisible(element, details) {
 }
 
 /** The box that explains why there is no motion, with remedies. */
-export function liveAnswer(edits, goTo) {
+export function liveAnswer(store, edits, goTo) {
+  const tryout = tryouts(store);
   const [head, details] = [h("div", {}), h("div", { class: "why-details" })];
   const element = h("div", { class: "box-note why-not", role: "region", "aria-label": "Why it is infeasible", data: { tone: "bad" }, hidden: true }, head, details);
   keepVisible(element, details);
   return {
     element,
     show(state) {
-      const plan = shownPlan(state);
+      const plan = ownPlan(state);
       const why = plan?.poses?.explanation ?? [];
-      element.hidden = plan?.live?.status !== "infeasible" && !why.length;
+      const infeasible = plan?.live?.status === "infeasible";
+      const mendable = hasNoMotion(plan) && Boolean(state.remedies?.list.length);
+      element.hidden = !infeasible && !mendable && !why.length;
       if (element.hidden) return;
       if (why.length) {
         head.replaceChildren(...why.map((text) => h("p", { text })));
         details.replaceChildren();
         return;
       }
-      const parts = liveParts(state, plan, edits, goTo);
+      const parts = infeasible ? liveParts(state, plan, edits, goTo, tryout) : refusedParts(state, edits, tryout);
       head.replaceChildren(...parts.head);
       details.replaceChildren(...parts.details);
     },

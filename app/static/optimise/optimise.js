@@ -8,7 +8,7 @@ import { selectGait } from "../shell/gait_list.js";
 import { makeGait } from "../shell/gait_menu.js";
 import { jobIsOn } from "../shell/job_list.js";
 import { presetFor } from "../shell/new_gait.js";
-import { shownDocument, shownPlan } from "../state/store.js";
+import { hasNoMotion, ownPlan, shownDocument } from "../state/store.js";
 import { mountConvergence } from "./convergence.js";
 import { mountIterates } from "./iterates.js";
 import { jobAnswer, liveAnswer } from "./live_answer.js";
@@ -47,7 +47,7 @@ export function mountOptimise(store, edits, goTo) {
   const { robot, order, main, more } = optimiserOptions(store, edits, attempt((other, document) => makeGait(store, show, presetFor(other, document))));
   const fields = [robot, order, ...main, ...more];
   const goToMissing = ({ first, last, feet }) => goTo({ sample: Math.floor((first + last) / 2), foot: feet.length === 1 ? feet[0] : null });
-  const answers = [liveAnswer(edits, goToMissing), jobAnswer()];
+  const answers = [liveAnswer(store, edits, goToMissing), jobAnswer()];
   const timing = timingAnswer(store, edits);
   const error = h("p", { class: "box-note", role: "alert", data: { tone: "bad" }, hidden: true });
   const section = byId("optimise");
@@ -74,7 +74,7 @@ export function mountOptimise(store, edits, goTo) {
   });
   // A refusal is of the document that was edited; another one, or a later version, is not concerned.
   store.watch(({ selected, view }) => [selected, view?.revision], () => store.set({ formError: null }));
-  store.watch((state) => [shownPlan(state), state.remedies, state.jobs, state.shownJob], (state) => answers.forEach((answer) => answer.show(state)));
+  store.watch((state) => [ownPlan(state), state.remedies, state.jobs, state.shownJob], (state) => answers.forEach((answer) => answer.show(state)));
   store.watch(({ jobs, selected, view }) => [jobs, selected, view?.document], (state) => timing.show(state));
   return { cancel: () => fields.some((field) => field.cancel?.()) || iterates.leave() };
 }
@@ -94,9 +94,10 @@ function moreInShort({ direction, options, held, poses }) {
 /** What there is to say of the plan beside its figures. */
 function noteLine(store) {
   const element = h("p", { class: "why", role: "status", "aria-label": "Plan" });
-  store.watch((state) => [shownPlan(state), state.view === null], (state) => {
-    const plan = shownPlan(state);
-    setText(element, plan ? plan.note.replace(/^\w+: /, "") : state.view ? "No plan: optimise this gait to see it move." : "");
+  store.watch((state) => [state.iterate, ownPlan(state), state.view === null], (state) => {
+    // Not that of a way out: the panel would move under the pointer.
+    const plan = state.iterate?.plan ?? ownPlan(state);
+    setText(element, hasNoMotion(plan) ? "" : plan ? plan.note.replace(/^\w+: /, "") : state.view ? "No plan: optimise this gait to see it move." : "");
   });
   return element;
 }

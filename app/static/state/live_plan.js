@@ -6,7 +6,7 @@
 import { api } from "../api/gaits.js";
 import { painted } from "../lib/dom.js";
 import { latestOnly } from "../lib/latest_only.js";
-import { shownDocument, shownPlan, shownText } from "./store.js";
+import { hasNoMotion, ownPlan, shownDocument, shownText } from "./store.js";
 
 const IDLE_MS = 150;
 const HELD_MS = 600;
@@ -66,7 +66,7 @@ function mountFollowing(store) {
  */
 function mountRemedies(store) {
   let timer = 0;
-  const isInfeasible = (state) => shownPlan(state)?.live?.status === "infeasible";
+  const isInfeasible = (state) => hasNoMotion(ownPlan(state));
 
   const ask = (text, tries) => {
     // While a finger is down the next edit is near, and a search would be in its way.
@@ -86,7 +86,7 @@ function mountRemedies(store) {
     if (!found.complete && tries < MOST_TRIES) ask(text, tries + 1);
   });
 
-  store.watch((state) => [state.view, state.pending, state.gesture, shownPlan(state)], (state) => {
+  store.watch((state) => [state.view, state.pending, state.gesture, ownPlan(state)], (state) => {
     clearTimeout(timer);
     const text = isInfeasible(state) ? shownText(state) : null;
     if (state.remedies && state.remedies.text !== text) store.set({ remedies: null });

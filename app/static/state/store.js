@@ -2,7 +2,7 @@
  * The page's only state: one frozen object, replaced as a whole, watched by selection.
  *
  * Everything that several tabs must agree on comes from the server; the rest (`selected`, `shownJob`, `pending`,
- * `left` (edits of gaits that were left before they were sent), `gesture`, `tool`, `selection`, `preview`, `zoom`, `live`, `remedies`,
+ * `left` (edits of gaits that were left before they were sent), `gesture`, `tool`, `selection`, `preview`, `zoom`, `live`, `tryout`, `remedies`,
  * `iterate`, `segmentDrafts`, `runRange`, `jog`, `simulation`, `tracks`, `trialWanted`, `physicsSets`) belongs to this tab alone.
  */
 
@@ -25,6 +25,7 @@ const INITIAL = Object.freeze({
   preview: null,
   zoom: null,
   live: null,
+  tryout: null,
   remedies: null,
   iterate: null,
   pattern: null,
@@ -107,9 +108,15 @@ export function shownText(state) {
   return state.view ? JSON.stringify([state.view.id, shownDocument(state)]) : null;
 }
 
-/** The plan that is looked at: an iteration of the solver, else what an edit under way leads to, else the server's. */
-export function shownPlan({ iterate, live, view }) {
-  return iterate?.plan ?? live?.plan ?? view?.plan ?? null;
+/** The plan of the gait: what an edit under way leads to, else the server's. */
+export const ownPlan = ({ live, view }) => live?.plan ?? view?.plan ?? null;
+
+/** The plan that is looked at: an iteration of the solver, else what a way out would lead to, else the gait's own. */
+export const shownPlan = (state) => state.iterate?.plan ?? state.tryout ?? ownPlan(state);
+
+/** Whether a plan is that of a drawing that has no motion, so that ways out are looked for. */
+export function hasNoMotion(plan) {
+  return plan?.live?.status === "infeasible" || Boolean(plan?.refusal && !plan.times.length);
 }
 
 /** Why the check that was seen of a gait no longer counts. */

@@ -10,8 +10,8 @@ import { lowered } from "../lib/format.js";
 const state = (mark, word, share = null) => ({ mark, word, share });
 
 /** The parts of the store that a state depends on, but for those of the robot. */
-export const gaitParts = ({ view, jobs, simulation, selected, live, checked, pending, gesture, iterate, preview, poseSearch, seenWarnings }) => [
-  view, jobs, simulation, selected, live, checked, pending.length, gesture === null, iterate, preview === null, poseSearch?.state, seenWarnings,
+export const gaitParts = ({ view, jobs, simulation, selected, live, tryout, checked, pending, gesture, iterate, preview, poseSearch, seenWarnings }) => [
+  view, jobs, simulation, selected, live, tryout, checked, pending.length, gesture === null, iterate, preview === null, poseSearch?.state, seenWarnings,
 ];
 
 const MARK_OF = { good: "done", caution: "old", bad: "failed", quiet: "none" };

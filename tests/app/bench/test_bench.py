@@ -16,6 +16,7 @@ from app.bench.solvers.edits import Outcome, answers, bench_edits
 from app.bench.solvers.frontier import bench_frontier
 from app.bench.solvers.gentle import bench_gentle
 from app.bench.solvers.live import bench_live
+from app.bench.solvers.remedies import bench_remedies
 from app.bench.solvers.timing import bench_timing
 from app.bench.solvers.trajectories import bench_trajectories, row_of
 from app.documents.gait_json import gait_content
@@ -82,6 +83,13 @@ def test_the_frontier_is_confirmed_and_free_phases_get_no_less_far() -> None:
     assert {row["confirmed"] for row in rows} == {"yes"}
     reaches = [float(row["largest"].removesuffix(" mm")) for row in rows]
     assert all(free >= drawn for drawn, free in zip(reaches[::2], reaches[1::2], strict=True))
+
+
+def test_random_drawings_have_remedies_that_walk() -> None:
+    rows = bench_remedies(count=2, seed=4)
+    figures = {row["drawing"]: row["remedies"] for row in rows[:4]}
+    assert figures["with a remedy that walks"] == "2 of 2"
+    assert figures["whose first remedy walks"] == "2 of 2"
 
 
 def test_an_edit_is_made_again_from_its_seed() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from dataclasses import replace
 from pathlib import Path
 
@@ -269,3 +270,27 @@ def test_margins_below_0_are_refused_and_foot_speed_is_kept(capsys: pytest.Captu
     assert "--margin" in answer["error"]
     status, answer = run_json(capsys, "optimise", "walk", "--method", "live", "--foot-speed", "0.004")
     assert (status, answer["status"]) == (3, "infeasible")
+
+
+def test_what_would_help_is_a_command_that_can_be_copied(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    out = tmp_path / "motion.csv"
+    status, answer = run_json(capsys, "optimise", "walk", "--step", "0.034", "-o", str(out))
+    assert (status, answer["trajectory"]) == (3, None)
+    assert {"step", "iterations"} <= {remedy["kind"] for remedy in answer["remedies"]}
+    for remedy in answer["remedies"]:
+        program, *words = shlex.split(remedy["command"])
+        assert program == "footfall"
+        assert run(capsys, *words)[0] == 0
+        assert out.exists()
+        out.unlink()
+    _, text, _ = run(capsys, "optimise", "walk", "--step", "0.034")
+    assert "What would help, best first:" in text
+    assert "footfall optimise walk --step 0.034 --remedy 1" in text
+
+
+def test_a_remedy_that_is_not_there_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    status, answer = run_json(capsys, "optimise", "walk", "--step", "0.034", "--remedy", "4")
+    assert status == 2
+    assert "There is no remedy 4" in answer["error"]

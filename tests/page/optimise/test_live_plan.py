@@ -136,6 +136,35 @@ def test_an_infeasible_step_is_explained_where_it_happens_and_a_remedy_cures_it(
     expect(page.get_by_role("button", name=re.compile("^Undo"))).to_contain_text(label, ignore_case=True)
 
 
+def test_pointing_at_a_way_out_shows_where_it_leads(page: Page, studio: StudioProcess) -> None:
+    choose(page, "S-Gait 10 mm")
+    before = studio.document("s-gait")
+    ways = ask_too_much(page)
+    way = ways.get_by_role("listitem").first
+    expect(way).to_contain_text(re.compile("margin .* mm"))
+    way.hover()
+    expect(live_line(page)).to_contain_text("Plan margin")
+    expect(page.get_by_role("status", name="Verdict")).to_contain_text("Preview")
+    page.mouse.move(700, 300)
+    expect(live_line(page)).to_contain_text("no motion")
+    way.get_by_role("button").focus()
+    expect(live_line(page)).to_contain_text("Plan margin")
+    page.keyboard.press("Escape")
+    expect(live_line(page)).to_contain_text("no motion")
+    page.get_by_role("button", name=re.compile("^Undo")).click()
+    wait_for(lambda: studio.document("s-gait")["step"] == before["step"], "nothing but the step was edited")
+
+
+def test_a_drawing_that_ends_in_the_air_is_offered_ways_out(page: Page, studio: StudioProcess) -> None:
+    choose(page, "Amble 10 mm")
+    grid = page.get_by_role("grid", name="Footfall timeline")
+    grid.get_by_role("gridcell", name="foot 2, sample 45: stance", exact=True).click()
+    ways = page.get_by_role("group", name="Ways out")
+    ways.get_by_role("button").first.click()
+    expect(live_line(page)).to_contain_text("Plan margin")
+    assert all(row.endswith("1") for row in studio.document("amble")["timeline"]["feet"])
+
+
 def ask_too_much(page: Page) -> Locator:
     """A step that is infeasible; gives back the group of ways out."""
     step = page.get_by_role("spinbutton", name="Step", exact=True)

@@ -1,1 +1,1 @@
-"""Computations that use both tiers: starting the exact one from the live one, remedies, the frontier."""
+"""Computations that use both tiers: starting the exact one from the live one, the frontier."""

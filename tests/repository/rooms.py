@@ -43,6 +43,7 @@ ORDER: dict[str, tuple[str, ...]] = {
         "solver_jobs/pose_gaits",
         "solver_jobs/live",
         "solver_jobs/tiers",
+        "solver_jobs/remedies",
         "solver_jobs/patterns",
         "solver_jobs/physics",
         "solver_jobs/workers",

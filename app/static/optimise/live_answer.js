@@ -43,7 +43,7 @@ function wayOut({ label, sentence, caution, document, balance, robot_seconds: ro
   };
   const margin = balance === null ? "" : `margin ${mm(balance)} mm`;
   const price = robotSeconds === null ? "" : ` ${fixed(robotSeconds)} s on the robot.`;
-  return h("li", { class: "way", on: { pointerenter: () => tryout.show(document), pointerleave: tryout.end } },
+  return h("li", { class: "remedy", on: { pointerenter: () => tryout.show(document), pointerleave: tryout.end } },
     h("button", { text: label, title: "Takes it; Undo brings your drawing back.", on: { click: take, focus: () => tryout.show(document), blur: tryout.end, keydown: ({ key }) => { if (key === "Escape") tryout.end(); } } }),
     h("span", { class: "number", data: caution ? { toneText: "caution" } : {}, text: caution || margin }),
     h("p", { class: "quiet", text: `${sentence}${price}` }));
@@ -55,7 +55,7 @@ function remedyParts(edits, remedies, tryout) {
   const none = remedies.sentence ?? "No change was found that makes it walk.";
   const note = !remedies.complete ? "The search was cut short; it goes on when nothing else is asked." : ways.length ? null : none;
   return [
-    ways.length > 0 && h("ul", { class: "ways", role: "group", "aria-label": "Ways out" }, ...ways),
+    ways.length > 0 && h("ul", { class: "remedies", role: "group", "aria-label": "Ways out" }, ...ways),
     note && h("p", { class: "why", text: note }),
   ].filter(Boolean);
 }

@@ -97,8 +97,8 @@ export function patternActions(store, problem, { edits, playback, show }) {
 
   onPress(make, makeGait, (why) => toast(why));
   onPress(walk, toggleWalk, (why) => toast(why));
-  // A walk shows the pattern at its start, so a change ends it.
-  problem.watch(({ result, chosen, running, mode }) => [result, chosen, running, mode], leave);
+  // A walk shows the pattern at its start, so another pattern ends it; more of the best beside it do not.
+  problem.watch((state) => [state.result?.patterns[state.chosen]?.feet.join(), state.running === null, state.mode], leave);
 
   return {
     element, leave,

@@ -137,6 +137,7 @@ function show(part, listed, selected, view) {
 }
 
 const FIRST = "Saved";
+const SETTLING_FRAMES = 10;
 const FOLDED_AT_FIRST = ["By hand", "Orders of Appendix A", "Textbook"];
 
 /** A group's heading, which folds it; the group that is shown stays open. */
@@ -220,10 +221,17 @@ export function mountGaits(store) {
     if (kept.has(selected)) {
       const shown = parts.get(selected)?.element;
       // A name that sorts elsewhere takes its row along.
-      if (shown && (listed !== selected || shown.offsetTop !== place)) shown.scrollIntoView({ block: "nearest" });
+      if (shown && (listed !== selected || shown.offsetTop !== place)) bringIntoSight(shown);
       listed = selected;
     } else if (greeted && selected && selected === listed && gaits.length) selectGait(store, gaits[0].id);
   });
+}
+
+/** Scrolls to the chosen row, for some frames: rows above it have their true height only once they are drawn. */
+function bringIntoSight(row, frames = SETTLING_FRAMES) {
+  row.scrollIntoView({ block: "nearest" });
+  const goOn = () => { if (row.firstChild.getAttribute("aria-current")) bringIntoSight(row, frames - 1); };
+  if (frames > 0) requestAnimationFrame(goOn);
 }
 
 /** Whether a gait's line has every word of the search. */

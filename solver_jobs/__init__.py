@@ -16,7 +16,8 @@ from core.pose_gaits.pose_problem import PoseProblem
 from core.problem.motion_problem import MotionProblem
 from core.robot.model import RobotModel
 from solver_jobs.nlp.timing import TimingResult, fastest_timing
-from solver_jobs.remedies.search import Remedy, RemedyKind, RemedySearch
+from solver_jobs.remedies.completion import completed_drawing, completion_question, completion_remedy
+from solver_jobs.remedies.remedy import Remedy, RemedyKind, RemedySearch, Trouble, rank
 from solver_jobs.results.motion import Evidence, Iterate, Lack, MotionResult, SolveStatus
 from solver_jobs.results.pose import PoseProgress, PoseResult
 from solver_jobs.tiers.frontier import Frontier, FrontierSearch
@@ -67,10 +68,15 @@ __all__ = [
     "Task",
     "TaskService",
     "TimingResult",
+    "Trouble",
     "WorkerEndedError",
     "WorkerProcess",
+    "completed_drawing",
+    "completion_question",
+    "completion_remedy",
     "fastest_timing",
     "find_remedies",
+    "rank",
     "result_sentence",
     "run_tasks",
     "shortest_problem",

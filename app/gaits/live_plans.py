@@ -15,14 +15,15 @@ from typing import Any, Protocol, TypeVar
 from app.common.json import Json
 from app.documents.gait_json import gait_from_content, motion_hash
 from app.gaits.normalise import normalise
-from app.gaits.views import plan_view, remedy_view
+from app.gaits.views import plan_view
 from app.plans.plan import Plan, Solve
 from app.plans.sequence_plan import plan_of
 from core.errors import StateError
-from core.gait.gait import Gait
+from core.gait.gait import Gait, motion_problem
 from core.gait.motion_source import MotionSource, motion_source
 from core.problem.motion_problem import MotionProblem
-from solver_jobs import MotionResult, RemedySearch, SolveStatus
+from core.robot.model import load_robot
+from solver_jobs import MotionResult, SolveStatus
 
 FIRST_SECONDS = 40.0
 """How long a plan may wait for the first answer of the live tier's process, which still loads the solver."""
@@ -45,9 +46,6 @@ class LiveTier(Protocol):
 
     def solve(self, problem: MotionProblem, timeout: float) -> MotionResult:
         """Solves a problem and waits for the answer."""
-
-    def remedies(self, gait: Gait) -> RemedySearch:
-        """Changes that make an infeasible gait feasible."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,42 +129,49 @@ class LivePlans:
         """Makes a gait's plan with the live tier and keeps it for a while (see `keep`)."""
         return self.keep(plan_of(gait, lambda motion: None, self.solve_for))
 
-    def answer(self, before: Gait, document: Any | None, wants_remedies: bool) -> Json:
-        """The plan that a changed document would have, as JSON content.
+    def plan_with(self, gait: Gait, motion: MotionResult) -> Plan:
+        """The plan of a gait whose motion the live tier has found already (see `plan`)."""
+        problem = motion_problem(gait, load_robot(gait.robot))
+        with self._asking:
+            _remember(self._results, f"{motion_hash(gait)} {_ends(problem)}", motion, MOST_RESULTS)
+        return self.plan(gait)
 
-        Args:
-            before: the gait as it is now.
-            document: the changed document; None for the gait as it is.
-            wants_remedies: whether to look for changes that make it feasible; takes longer.
+    def answer(self, gait: Gait) -> Json:
+        """The plan that a gait would have, as JSON content.
 
         Raises:
-            InputError: the document cannot be read, or makes no motion and nothing is known to mend it.
-            StateError: a locked cell would change.
+            InputError: it makes no motion.
         """
-        gait = before if document is None else normalise(before, gait_from_content(document, "document"))[0]
         plan = self.plan(gait)
-        found = self._remedies(gait, plan) if wants_remedies else None
-        if plan.trajectory is None and plan.refusal is not None and not (found and found.remedies):
+        if plan.trajectory is None and plan.refusal is not None:
             raise plan.refusal
         view = plan_view(plan)
-        return {**_summary(view), "plan": view, **self._remedies_content(found)}
+        return {**_summary(view), "plan": view}
 
-    def _remedies(self, gait: Gait, plan: Plan) -> RemedySearch:
-        """Searches for remedies of a drawing without a motion; of others there are none."""
-        is_drawing = motion_source(gait) in (MotionSource.OPTIMISED, MotionSource.DRAWN)
-        refused = plan.refusal is not None and plan.trajectory is None and is_drawing
-        infeasible = plan.live is not None and plan.live.status is SolveStatus.INFEASIBLE
-        if not (refused or infeasible):
-            return RemedySearch(remedies=(), complete=True)
-        return self._tier.remedies(gait)
 
-    def _remedies_content(self, found: RemedySearch | None) -> Json:
-        """What was found, with what a plan of each measures; one without a checked plan is not offered."""
-        if found is None:
-            return {"remedies": None, "remedies_complete": None}
-        planned = ((remedy, self.plan(remedy.gait)) for remedy in found.remedies)
-        remedies = [remedy_view(remedy, plan) for remedy, plan in planned if _is_solved(plan)]
-        return {"remedies": remedies, "remedies_complete": found.complete}
+def changed_gait(before: Gait, document: Any | None) -> Gait:
+    """A gait as a changed document says.
+
+    Args:
+        before: the gait as it is now.
+        document: the changed document; None for the gait as it is.
+
+    Raises:
+        InputError: the document cannot be read.
+        StateError: a locked cell would change.
+    """
+    return before if document is None else normalise(before, gait_from_content(document, "document"))[0]
+
+
+def is_drawing(gait: Gait) -> bool:
+    """Whether a gait's motion follows from its drawing alone."""
+    return motion_source(gait) in (MotionSource.OPTIMISED, MotionSource.DRAWN)
+
+
+def lacks_motion(gait: Gait, plan: Plan) -> bool:
+    """Whether a drawing has no motion: it is refused, or the live tier finds none."""
+    refused = plan.refusal is not None and plan.trajectory is None and is_drawing(gait)
+    return refused or (plan.live is not None and plan.live.status is SolveStatus.INFEASIBLE)
 
 
 def _ends(problem: MotionProblem) -> str:
@@ -188,10 +193,6 @@ def _summary(view: Json) -> Json:
         "check": None,
     }
     return {"method": "table", "status": view["source"], **nothing}
-
-
-def _is_solved(plan: Plan) -> bool:
-    return plan.live is not None and plan.live.status is SolveStatus.SOLVED and plan.trajectory is not None
 
 
 def _remember(store: OrderedDict[str, Value], key: str, value: Value, most: int) -> None:

@@ -30,7 +30,6 @@ from core.problem.motion_problem import MotionLimits
 from core.robot.model import RobotModel, load_robot
 from core.wire.robot_time import estimate_seconds, move_estimates, stop_time
 from core.wire.waypoint_merging import WaypointPlan
-from solver_jobs import Remedy
 
 
 def line_view(
@@ -149,21 +148,6 @@ def gait_view(open_gait: OpenGait, plan: Plan, pages: frozenset[str] = frozenset
         "verdict": None if open_gait.verdict is None else verdict_view(open_gait.verdict),
         "approval": None if open_gait.approval is None else approval_view(open_gait.approval),
         "revoked": open_gait.revoked if open_gait.approval is None else None,
-    }
-
-
-def remedy_view(remedy: Remedy, plan: Plan) -> Json:
-    """A change that makes a gait walk, with what its plan measures, SI."""
-    times = robot_times(plan)
-    return {
-        "kind": remedy.kind.value,
-        "label": remedy.label,
-        "sentence": remedy.sentence,
-        "caution": remedy.caution,
-        "document": gait_content(remedy.gait),
-        "balance": plan.balance,
-        "plan_seconds": None if plan.trajectory is None else float(plan.trajectory.times[-1]),
-        "robot_seconds": None if times is None else times.robot_seconds,
     }
 
 

@@ -18,6 +18,8 @@ from app.jobs.optimisation_service import OptimisationService, likely_problem
 from app.jobs.repository import JobRepository
 from app.learning.service import LearningService
 from app.pattern_search.service import PatternSearchService
+from app.remedies.run import RemedyParts
+from app.remedies.service import RemedyService
 from app.robot.jog_service import JogService
 from app.robot.ports import RobotPorts
 from app.robot.service import RobotService
@@ -98,7 +100,7 @@ class Studio:
     def _open_gaits(self, files: GaitFiles) -> None:
         """Gaits, their plans, patterns and learned parameters, and what the pages are shown."""
         database, hub = self._database, self.hub
-        solver = self._register(LiveSolver(likely_problem()))
+        self._solver = solver = self._register(LiveSolver(likely_problem()))
         solver.start()
         self.live = LivePlans(solver)
         simulators = tuple(self._register(BatchSimulator()) for _ in range(LEARNING_PROCESSES))
@@ -118,8 +120,8 @@ class Studio:
         )
         self.commands.tell(self.publisher.summaries)
         self._register(FileWatch(partial(self.commands.tell, self.publisher.look_at_files)))
-        searches = tuple(self._register(PatternSolver()) for _ in range(PATTERN_PROCESSES))
-        self.patterns = PatternSearchService(searches, self.publisher.tell_page)
+        self._pattern_solvers = tuple(self._register(PatternSolver()) for _ in range(PATTERN_PROCESSES))
+        self.patterns = PatternSearchService(self._pattern_solvers, self.publisher.tell_page)
 
     def _open_jobs(self) -> None:
         """Optimisations and simulations."""
@@ -130,6 +132,8 @@ class Studio:
             simulator, self.job_repository, self.simulations, self.commands.tell, shown
         )
         self._simulating = self._register(simulations)
+        parts = RemedyParts(self.live, self._solver, self._pattern_solvers[0], simulator)
+        self.remedies = self._register(RemedyService(parts))
         self._trial_simulations = self._register(
             TrialSimulations(TrialReferenceStore(self._database), simulator)
         )

@@ -10,7 +10,7 @@ import numpy as np
 from core.errors import FootfallError
 from core.gait.gait import Gait, motion_problem
 from core.robot.model import RobotModel
-from solver_jobs.results.motion import Lack
+from solver_jobs.results.motion import Lack, MotionResult, SolveStatus
 
 HALVINGS = 7
 """Rounds of bisection: to a hundredth of the range."""
@@ -52,6 +52,19 @@ class Trial:
             return False
         motion = quick_motion(problem, SIDES)
         return motion is not None and check_motion(problem, motion).confirmed
+
+    def solved(self, gait: Gait) -> MotionResult | None:
+        """A gait's motion by the whole live tier; None where there is none that the checker confirms."""
+        from core.problem.motion_check import check_motion
+        from solver_jobs.live.solve import solve_live
+
+        try:
+            problem = motion_problem(gait, self.model)
+        except FootfallError:
+            return None
+        result = solve_live(problem)
+        confirmed = result.status is SolveStatus.SOLVED and check_motion(problem, result.trajectory).confirmed
+        return result if confirmed else None
 
     def lacks(self, gait: Gait) -> tuple[Lack, ...]:
         """What the live tier finds missing in a gait."""

@@ -14,9 +14,9 @@ from typing import Any
 from core.gait.gait import Gait
 from core.problem.initial_guess import initial_guess
 from core.problem.motion_problem import MotionProblem
-from solver_jobs.remedies.search import RemedySearch
+from solver_jobs.remedies.remedy import Remedy, RemedySearch
 from solver_jobs.results.motion import Evidence, MotionResult, SolveStatus
-from solver_jobs.workers.live_worker import Answered, FindRemedies, SolveLive, run_live_worker
+from solver_jobs.workers.live_worker import Answered, FindRemedies, Found, SolveLive, run_live_worker
 from solver_jobs.workers.spawning import start_process
 from solver_jobs.workers.worker_process import JOIN_SECONDS
 
@@ -44,6 +44,7 @@ class LiveSolver:
         self._numbers = itertools.count(1)
         self._lock = threading.Lock()
         self._waiting: dict[int, Future[Any]] = {}
+        self._told: dict[int, Callable[[Remedy], object]] = {}
         self._process: SpawnProcess | None = None
         self._pipe: Connection | None = None
         self._closed = False
@@ -85,13 +86,31 @@ class LiveSolver:
             )
         return result
 
-    def remedies(self, gait: Gait, timeout: float = 40.0) -> RemedySearch:
-        """Changes of an infeasible gait that the live tier finds feasible; cut short by other questions.
+    def remedies(
+        self,
+        gait: Gait,
+        tell: Callable[[Remedy], object] = lambda remedy: None,
+        *,
+        tips: bool = False,
+        timeout: float = 40.0,
+    ) -> RemedySearch:
+        """Changes of a gait that make it walk, by the live tier; cut short by other questions.
 
         Nobody waits for them: on a busy computer they may take a while.
+
+        Args:
+            gait: one without a motion, or one that tips.
+            tell: told of each as it is found, from a thread of the solver's.
+            tips: whether the gait has a motion and tips in physics.
+            timeout: longest wait, s.
         """
+
+        def question(number: int) -> FindRemedies:
+            self._told[number] = tell
+            return FindRemedies(number, gait, tips)
+
         try:
-            found: RemedySearch = self._ask(lambda number: FindRemedies(number, gait), timeout)
+            found: RemedySearch = self._ask(question, timeout)
         except (FutureTimeout, CancelledError, OSError, LiveSolverError) as error:
             _log.warning("The live solver found no remedies: %r", error)
             return RemedySearch((), complete=False)
@@ -130,6 +149,7 @@ class LiveSolver:
             raise
         finally:
             self._waiting.pop(number, None)
+            self._told.pop(number, None)
 
     def _send(self, pipe: Connection, message: SolveLive | FindRemedies) -> None:
         """Sends a question; the lock is held."""
@@ -156,7 +176,10 @@ class LiveSolver:
         """Hands answers to whoever waits, as long as the process lives."""
         try:
             while True:
-                answer: Answered = pipe.recv()
+                answer: Answered | Found = pipe.recv()
+                if isinstance(answer, Found):
+                    self._told.get(answer.number, _nobody)(answer.remedy)
+                    continue
                 future = self._waiting.get(answer.number)
                 if future is None or future.done():
                     continue
@@ -187,6 +210,10 @@ class LiveSolver:
         if pipe is not None:
             pipe.close()
         self._give_up()
+
+
+def _nobody(remedy: Remedy) -> None:
+    """Whoever asked has given up waiting."""
 
 
 def _no_answer(problem: MotionProblem, sentence: str) -> MotionResult:

@@ -11,6 +11,7 @@ from typing import Any
 
 from core.gait.gait import Gait
 from core.problem.motion_problem import MotionProblem
+from solver_jobs.remedies.remedy import Remedy
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,10 +24,25 @@ class SolveLive:
 
 @dataclass(frozen=True, eq=False)
 class FindRemedies:
-    """To the worker: find changes of this gait that work, until something else is asked."""
+    """To the worker: find changes of this gait that make it walk, until something else is asked.
+
+    Args:
+        number: of the question.
+        gait: one without a motion, or one that tips.
+        tips: whether it has a motion and tips in physics.
+    """
 
     number: int
     gait: Gait
+    tips: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """From the worker: a remedy, while the search goes on."""
+
+    number: int
+    remedy: Remedy
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +68,14 @@ def run_live_worker(pipe: Connection, warm_up: MotionProblem | None) -> None:
     def answer(message: SolveLive | FindRemedies) -> Any:
         if isinstance(message, SolveLive):
             return solve_live(message.problem)
-        return find_remedies(message.gait, load_robot(message.gait.robot), lambda: not pipe.poll())
+        model = load_robot(message.gait.robot)
+        return find_remedies(
+            message.gait,
+            model,
+            lambda: not pipe.poll(),
+            lambda remedy: pipe.send(Found(message.number, remedy)),
+            tips=message.tips,
+        )
 
     try:
         if warm_up is not None:

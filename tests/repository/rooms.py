@@ -62,6 +62,7 @@ ORDER: dict[str, tuple[str, ...]] = {
         "app/jobs",
         "app/simulation",
         "app/pattern_search",
+        "app/remedies",
         "app/runs",
         "app/robot",
         "app/vision",

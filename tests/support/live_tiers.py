@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
-from core.gait.gait import Gait
+from core.gait.gait import Gait, motion_problem
 from core.problem.initial_guess import initial_guess
 from core.problem.motion_problem import MotionProblem
+from core.robot.model import load_robot
 from solver_jobs import (
     Evidence,
     Lack,
@@ -15,6 +17,7 @@ from solver_jobs import (
     RemedyKind,
     RemedySearch,
     SolveStatus,
+    Trouble,
     solve_live,
 )
 
@@ -62,10 +65,12 @@ class FixedTier:
         self.waits.append(timeout)
         return solve_live(problem) if self.offered else result_of(problem, self.status)
 
-    def remedies(self, gait: Gait) -> RemedySearch:
+    def remedies(self, gait: Gait, tell: Callable[[Remedy], object], *, tips: bool) -> RemedySearch:
         """Half the step."""
         self.offered = True
         dx, dy, yaw = gait.step
         half = replace(gait, step=(dx / 2, dy / 2, yaw))
-        remedy = Remedy(RemedyKind.STEP, "Half the step", "A step half as long.", half)
-        return RemedySearch((remedy,), self.complete)
+        motion = solve_live(motion_problem(half, load_robot(gait.robot)))
+        remedy = Remedy(RemedyKind.STEP, "Half the step", "A step half as long.", half, motion)
+        tell(remedy)
+        return RemedySearch((remedy,), self.complete, Trouble.TIPS if tips else Trouble.STEP)

@@ -82,6 +82,15 @@ class StudioProcess:
             content: bytes = answer.read()
             return content
 
+    def lines(self, path: str, content: Any) -> list[Any]:
+        """The JSON objects that an answer to a POST has, one a line."""
+        body = json.dumps(content).encode()
+        request = urllib.request.Request(
+            self.url + path.lstrip("/"), body, {"content-type": "application/json"}, method="POST"
+        )
+        with urllib.request.urlopen(request, timeout=ANSWER_SECONDS) as answer:
+            return [json.loads(line) for line in answer]
+
     def text(self, path: str) -> str:
         """The text at a path."""
         return self.blob(path).decode()

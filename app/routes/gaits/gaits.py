@@ -7,8 +7,7 @@ from functools import partial
 from typing import Annotated
 
 from fastapi import APIRouter, Query, Request, Response
-from fastapi.responses import JSONResponse
-from pydantic import Field, ValidationError
+from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.bridge.run_range import RunRange
@@ -72,13 +71,6 @@ class Approve(RequestBody):
     by: str = Field(max_length=80)
     verdict_hash: str | None = None
     accept_warnings: bool = Field(False, description="They have seen every warning of it and accept it.")
-
-
-class Live(RequestBody):
-    """A document to try, and whether changes that make it feasible are wanted."""
-
-    document: Json | None = None
-    remedies: bool = False
 
 
 async def _document(request: Request) -> bytes:
@@ -223,26 +215,6 @@ async def settle_file(gait_id: str, choice: FileChoice, studio: TheStudio, autho
     if choice.keep is Kept.FILE:
         return await changed(studio, lambda: gaits.take_file(gait_id, author))
     return await changed(studio, lambda: gaits.keep_mine(gait_id))
-
-
-@router.post("/{gait_id}/live", response_model=Json)
-async def live(gait_id: str, request: Request, studio: TheStudio) -> JSONResponse:
-    """The plan of the gait, or of a changed document of it; nothing is changed."""
-    asked = _asked(await _document(request))
-    gait = await on_command_thread(studio, lambda: studio.gaits.open_gait(gait_id).gait)
-    # As a finished answer: the framework's own way through every number takes longer than all the rest.
-    return await run_in_threadpool(
-        lambda: JSONResponse(studio.live.answer(gait, asked.document, asked.remedies))
-    )
-
-
-def _asked(body: bytes) -> Live:
-    try:
-        return Live.model_validate_json(body or b"{}")
-    except ValidationError as error:
-        first = error.errors()[0]
-        field = ".".join(str(part) for part in first["loc"])
-        raise InputError(f"body, field {field}: {first['msg']}.", f"body.{field}") from error
 
 
 @router.delete("/{gait_id}/search")

@@ -61,6 +61,19 @@ async function download(path) {
   return { name, blob: await response.blob() };
 }
 
+/** Passes on each line of JSON as it comes. */
+async function linesOf(response, told) {
+  const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
+  let rest = "";
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) return;
+    const lines = (rest + value).split("\n");
+    rest = lines.pop();
+    lines.forEach((line) => told(JSON.parse(line)));
+  }
+}
+
 const gait = (id) => `/api/gaits/${encodeURIComponent(id)}`;
 
 export const api = {
@@ -99,6 +112,7 @@ export const api = {
   ghost: async (id, of) => (await answer("GET", `${gait(id)}/ghost?of=${of}`)).arrayBuffer(),
   reach: (id, plan, workspace) => request("GET", `${gait(id)}/reach?plan=${encodeURIComponent(plan)}&workspace=${workspace}`),
   live: (id, body) => request("POST", `${gait(id)}/live`, body),
+  remedies: async (id, body, signal, told) => linesOf(await answer("POST", `${gait(id)}/remedies`, body, signal), told),
   iterate: (job, number) => request("GET", `/api/jobs/${encodeURIComponent(job)}/course/${number}`),
   patterns: (question) => request("POST", "/api/patterns", question),
   pattern: (id) => request("GET", `/api/patterns/${id}`),

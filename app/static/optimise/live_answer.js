@@ -1,9 +1,11 @@
 /** The optimiser's answer for the shown gait: the state of its plan, what is missing, and remedies. */
 
-import { byId, h, setAttribute } from "../lib/dom.js";
-import { fixed, mm } from "../lib/format.js";
+import { byId, h, setAttribute, setText } from "../lib/dom.js";
+import { fixed } from "../lib/format.js";
 import { jobOf } from "../shell/job_list.js";
-import { hasNoMotion, ownPlan } from "../state/store.js";
+import { fallOf, isRefusedDrawing } from "../state/live_plan.js";
+import { ownPlan } from "../state/store.js";
+import { remedyList } from "./remedy_list.js";
 import { tryouts } from "./tryout.js";
 
 const FAMILIES = {
@@ -35,87 +37,66 @@ function missingMotionList(lacks, plan, goTo) {
   return [list, h("details", { class: "lacks-more" }, h("summary", { text: `${rest.length} more` }), h("ul", { class: "lacks", role: "list" }, ...rest))];
 }
 
-/** One way out: its name, what it gives, and its price; pointing at it or focusing it shows where it leads. */
-function wayOut({ label, sentence, caution, document, balance, robot_seconds: robotSeconds }, edits, tryout) {
-  const take = () => {
-    tryout.end();
-    edits.edit(({ name, notes }) => ({ ...document, name, notes }), label);
-  };
-  const margin = balance === null ? "" : `margin ${mm(balance)} mm`;
-  const price = robotSeconds === null ? "" : ` ${fixed(robotSeconds)} s on the robot.`;
-  return h("li", { class: "remedy", on: { pointerenter: () => tryout.show(document), pointerleave: tryout.end } },
-    h("button", { text: label, title: "Takes it; Undo brings your drawing back.", on: { click: take, focus: () => tryout.show(document), blur: tryout.end, keydown: ({ key }) => { if (key === "Escape") tryout.end(); } } }),
-    h("span", { class: "number", data: caution ? { toneText: "caution" } : {}, text: caution || margin }),
-    h("p", { class: "quiet", text: `${sentence}${price}` }));
-}
-
-function remedyParts(edits, remedies, tryout) {
-  if (!remedies) return [h("p", { class: "why", text: "Looking for ways out…" })];
-  const ways = remedies.list.map((remedy) => wayOut(remedy, edits, tryout));
-  const none = remedies.sentence ?? "No change was found that makes it walk.";
-  const note = !remedies.complete ? "The search was cut short; it goes on when nothing else is asked." : ways.length ? null : none;
-  return [
-    ways.length > 0 && h("ul", { class: "remedies", role: "group", "aria-label": "Ways out" }, ...ways),
-    note && h("p", { class: "why", text: note }),
-  ].filter(Boolean);
-}
-
-/** A drawing that is refused before any search; its reason stands at the timeline. */
-function refusedParts(state, edits, tryout) {
-  return { head: [h("p", { class: "first", text: "This drawing has no motion." }), ...remedyParts(edits, state.remedies, tryout)], details: [] };
-}
-
-function liveParts(state, plan, edits, goTo, tryout) {
+/** The card's parts for a drawing that the live tier proves, or finds, to have no motion. */
+function infeasibleParts(plan, goTo) {
   const { evidence, explanation, lacks } = plan.live;
   // The last sentence names the scope of the answer: every motion, or the live tier's model.
   const [first = "", ...rest] = explanation;
   const closing = rest.at(-1) ?? first;
   const text = evidence === "proven" && !FOR_EVERY_MOTION.test(closing) ? "proven for even footholds" : evidence ?? "";
-  const head = [
-    h("p", { class: "first", title: explanation.join(" ") }, first, text && h("span", { class: "quiet", text: ` (${text})`, title: closing })),
-    ...remedyParts(edits, state.remedies, tryout),
-  ];
-  return { head, details: lacks.length ? missingMotionList(lacks, plan, goTo) : [] };
+  const sentence = h("p", { class: "first", title: explanation.join(" ") }, first, text && h("span", { class: "quiet", text: ` (${text})`, title: closing }));
+  return [sentence, ...(lacks.length ? missingMotionList(lacks, plan, goTo) : [])];
+}
+
+/** What the card says of a state: its title and its sentences; null where nothing is wrong. */
+function verdictOf(state, goTo) {
+  const plan = ownPlan(state);
+  const why = plan?.poses?.explanation ?? [];
+  if (why.length) return { title: "No motion for this gait", parts: why.map((text) => h("p", { text })), mendable: false };
+  if (plan?.live?.status === "infeasible") return { title: "No motion for this drawing", parts: infeasibleParts(plan, goTo), mendable: true };
+  if (isRefusedDrawing(state)) return { title: "No motion for this drawing", parts: [h("p", { class: "first", text: plan.refusal.sentence })], mendable: true };
+  const fall = fallOf(state);
+  return fall ? { title: "It has a motion, but it tips in physics", parts: [h("p", { class: "first", text: fall.sentence })], mendable: true } : null;
 }
 
 /**
- * Keeps the reason and the ways out in sight at the lower edge of the panel, where the fields leave them no room above it.
- * The details may lie below the edge; a focused field is scrolled above the answer.
+ * Keeps what a person works on in its place while the card above it grows: a field with the focus, a number that is dragged.
  */
-function keepVisible(element, details) {
+function keepPlace(store, element) {
   const panel = byId("sections");
-  const measure = () => {
-    const hang = element.hidden ? 0 : element.getBoundingClientRect().bottom - details.getBoundingClientRect().top;
-    element.style.setProperty("--hang", `${hang}px`);
-    panel.style.scrollPaddingBottom = element.hidden ? "" : `${element.offsetHeight - hang + 8}px`;
-  };
-  const resized = new ResizeObserver(measure);
-  [element, details].forEach((one) => resized.observe(one));
+  let height = 0;
+  new ResizeObserver(() => {
+    const now = element.offsetHeight;
+    const { activeElement } = document;
+    const isWorking = (panel.contains(activeElement) && !element.contains(activeElement)) || (store.state.gesture && panel.matches(":hover"));
+    if (isWorking) panel.scrollTop += now - height;
+    height = now;
+  }).observe(element);
 }
 
-/** The box that explains why there is no motion, with remedies. */
+/** The card: what is wrong, where, and what would help. It stands first in the inspector; its title stays in sight. */
 export function liveAnswer(store, edits, goTo) {
   const tryout = tryouts(store);
-  const [head, details] = [h("div", {}), h("div", { class: "why-details" })];
-  const element = h("div", { class: "box-note why-not", role: "region", "aria-label": "Why it is infeasible", data: { tone: "bad" }, hidden: true }, head, details);
-  keepVisible(element, details);
+  const use = (document, label) => {
+    tryout.end();
+    edits.edit(({ name, notes }) => ({ ...document, name, notes }), label);
+  };
+  const remedies = remedyList({ use, show: tryout.show, end: tryout.end });
+  const title = h("h3", { class: "advice-title" });
+  const why = h("div", { class: "advice-why" });
+  const body = h("div", { class: "advice" }, why, remedies.element);
+  const element = h("div", { class: "advice-card", role: "region", "aria-label": "Why it is infeasible", hidden: true }, title, body);
+  keepPlace(store, body);
   return {
     element,
     show(state) {
-      const plan = ownPlan(state);
-      const why = plan?.poses?.explanation ?? [];
-      const infeasible = plan?.live?.status === "infeasible";
-      const mendable = hasNoMotion(plan) && Boolean(state.remedies?.list.length);
-      element.hidden = !infeasible && !mendable && !why.length;
-      if (element.hidden) return;
-      if (why.length) {
-        head.replaceChildren(...why.map((text) => h("p", { text })));
-        details.replaceChildren();
-        return;
-      }
-      const parts = infeasible ? liveParts(state, plan, edits, goTo, tryout) : refusedParts(state, edits, tryout);
-      head.replaceChildren(...parts.head);
-      details.replaceChildren(...parts.details);
+      const verdict = verdictOf(state, goTo);
+      element.hidden = body.hidden = !verdict;
+      if (!verdict) return;
+      setText(title, verdict.title);
+      why.replaceChildren(...verdict.parts);
+      remedies.element.hidden = !verdict.mendable;
+      if (verdict.mendable) remedies.show(state.remedies);
     },
   };
 }

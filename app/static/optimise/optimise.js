@@ -8,6 +8,7 @@ import { selectGait } from "../shell/gait_list.js";
 import { makeGait } from "../shell/gait_menu.js";
 import { jobIsOn } from "../shell/job_list.js";
 import { presetFor } from "../shell/new_gait.js";
+import { fallOf } from "../state/live_plan.js";
 import { hasNoMotion, ownPlan, shownDocument } from "../state/store.js";
 import { mountConvergence } from "./convergence.js";
 import { mountIterates } from "./iterates.js";
@@ -47,14 +48,14 @@ export function mountOptimise(store, edits, goTo) {
   const { robot, order, main, more } = optimiserOptions(store, edits, attempt((other, document) => makeGait(store, show, presetFor(other, document))));
   const fields = [robot, order, ...main, ...more];
   const goToMissing = ({ first, last, feet }) => goTo({ sample: Math.floor((first + last) / 2), foot: feet.length === 1 ? feet[0] : null });
-  const answers = [liveAnswer(store, edits, goToMissing), jobAnswer()];
+  const [advice, answer] = [liveAnswer(store, edits, goToMissing), jobAnswer()];
   const timing = timingAnswer(store, edits);
   const error = h("p", { class: "box-note", role: "alert", data: { tone: "bad" }, hidden: true });
   const section = byId("optimise");
   const why = h("p", { class: "why" });
   const changed = h("span", { class: "quiet" });
   section.append(
-    h("div", { class: "fields" }, robot.element, order.element, ...main.map(({ element }) => element)), error, poseSearch(store), pinnedPoses(store, edits, goTo), ...answers.map(({ element }) => element),
+    advice.element, h("div", { class: "fields" }, robot.element, order.element, ...main.map(({ element }) => element)), error, poseSearch(store), pinnedPoses(store, edits, goTo), answer.element,
     h("details", { class: "more" }, h("summary", {}, "More", changed), h("div", { class: "fields" }, ...more.map(({ element }) => element))),
     h("div", { class: "solve" }, exactButton(store), timingButton(store)), timingNote(store), timing.element, why, noteLine(store), originLine(store));
   store.watch(({ view }) => [Boolean(view?.document.poses)], ({ view }) => setText(why, view?.document.poses ? POSES : TIERS));
@@ -74,7 +75,8 @@ export function mountOptimise(store, edits, goTo) {
   });
   // A refusal is of the document that was edited; another one, or a later version, is not concerned.
   store.watch(({ selected, view }) => [selected, view?.revision], () => store.set({ formError: null }));
-  store.watch((state) => [ownPlan(state), state.remedies, state.jobs, state.shownJob], (state) => answers.forEach((answer) => answer.show(state)));
+  store.watch((state) => [ownPlan(state), state.remedies, fallOf(state)], (state) => advice.show(state));
+  store.watch(({ jobs, shownJob, selected }) => [jobs, shownJob, selected], (state) => answer.show(state));
   store.watch(({ jobs, selected, view }) => [jobs, selected, view?.document], (state) => timing.show(state));
   return { cancel: () => fields.some((field) => field.cancel?.()) || iterates.leave() };
 }

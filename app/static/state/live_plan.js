@@ -6,11 +6,12 @@
 import { api } from "../api/gaits.js";
 import { painted } from "../lib/dom.js";
 import { latestOnly } from "../lib/latest_only.js";
+import { simulationOver, simulationText } from "./simulation.js";
 import { hasNoMotion, ownPlan, shownDocument, shownText } from "./store.js";
 
 const IDLE_MS = 150;
 const HELD_MS = 600;
-const MOST_TRIES = 3;
+const NOTHING = { list: [], searching: false, trying: false, complete: true };
 
 /** Whether the page shows an edit that the server's view does not have yet. */
 const editInProgress = ({ view, pending, gesture }) => Boolean(view) && (gesture !== null || pending.length > 0);
@@ -60,37 +61,59 @@ function mountFollowing(store) {
   });
 }
 
+/** Whether a drawing makes no problem at all, such as one that ends in the air. */
+export const isRefusedDrawing = (state) => {
+  const plan = ownPlan(state);
+  return hasNoMotion(plan) && plan.live?.status !== "infeasible" && isDrawing(shownDocument(state));
+};
+
+/** Whether a motion follows from the drawing alone. */
+const isDrawing = (document) => Boolean(document) && !document.segment_table && !document.recorded && !document.sequence?.length && !document.poses;
+
+/** The first thing that physics says against the shown gait; null where it walks, or physics was not asked. */
+export function fallOf(state) {
+  const simulation = simulationOver({ ...state, tryout: null, iterate: null });
+  if (!simulation || !isDrawing(shownDocument(state)) || simulationText(simulation)[1] !== "bad") return null;
+  return simulation.findings.find(({ severity }) => severity === "error") ?? null;
+}
+
 /**
- * Looks for ways out of an infeasible gait once nobody has edited it for a moment. They belong to one document, to the
- * letter: a later edit may lead to the same plan, and what was found before it would take it back.
+ * Looks for what would help a drawing that cannot walk, once nobody has edited it for a moment. What is found belongs to
+ * one document, to the letter: a later edit may lead to the same plan, and what was found before it would take it back.
  */
 function mountRemedies(store) {
   let timer = 0;
-  const isInfeasible = (state) => hasNoMotion(ownPlan(state));
+  let search = null;
+  let asked = { text: null, gesture: null };
+  const wanted = (state) => (hasNoMotion(ownPlan(state)) || fallOf(state) ? shownText(state) : null);
 
-  const ask = (text, tries) => {
-    // While a finger is down the next edit is near, and a search would be in its way.
-    const wait = (store.state.gesture ? HELD_MS : IDLE_MS) * 2 ** tries;
-    timer = setTimeout(() => offer({ id: store.state.view.id, document: shownDocument(store.state), text, tries }), wait);
-  };
-  const offer = latestOnly(async ({ id, document, text, tries }) => {
-    let found;
-    try {
-      const { remedies, remedies_complete: complete } = await api.live(id, { document, remedies: true });
-      found = { text, list: remedies, complete };
-    } catch (error) {
-      found = { text, list: [], complete: true, sentence: error.message };
-    }
-    if (shownText(store.state) !== text || !isInfeasible(store.state)) return;
-    store.set({ remedies: found });
-    if (!found.complete && tries < MOST_TRIES) ask(text, tries + 1);
-  });
-
-  store.watch((state) => [state.view, state.pending, state.gesture, ownPlan(state)], (state) => {
+  function end() {
     clearTimeout(timer);
-    const text = isInfeasible(state) ? shownText(state) : null;
+    search?.abort();
+    search = null;
+  }
+
+  async function ask(text) {
+    const { view } = store.state;
+    const mine = new AbortController();
+    search = mine;
+    const told = (found) => { if (search === mine) store.set({ remedies: { text, ...found } }); };
+    try {
+      const document = shownDocument(store.state);
+      await api.remedies(view.id, { document, tips: Boolean(fallOf(store.state)) }, mine.signal, ({ remedies: list, ...rest }) => told({ ...rest, list }));
+    } catch (error) {
+      told({ ...NOTHING, sentence: error.message });
+    }
+  }
+
+  store.watch((state) => [state.view, state.pending, state.gesture, ownPlan(state), fallOf(state)], (state) => {
+    const text = wanted(state);
+    if (text !== null && text === asked.text && state.gesture === asked.gesture) return;
+    asked = { text, gesture: state.gesture };
+    end();
     if (state.remedies && state.remedies.text !== text) store.set({ remedies: null });
-    if (text !== null && state.remedies?.text !== text) ask(text, 0);
+    // While a finger is down the next edit is near, and a search would be in its way.
+    if (text !== null && state.remedies?.text !== text) timer = setTimeout(() => ask(text), state.gesture ? HELD_MS : IDLE_MS);
   });
 }
 

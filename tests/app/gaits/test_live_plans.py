@@ -10,7 +10,14 @@ import numpy as np
 import pytest
 
 from app.documents.gait_json import gait_content
-from app.gaits.live_plans import FAILED_SECONDS, FIRST_SECONDS, MOST_PLANS, NEXT_SECONDS, LivePlans
+from app.gaits.live_plans import (
+    FAILED_SECONDS,
+    FIRST_SECONDS,
+    MOST_PLANS,
+    NEXT_SECONDS,
+    LivePlans,
+    changed_gait,
+)
 from app.gaits.normalise import normalise
 from app.gaits.views import plan_view
 from app.jobs.timing_view import timing_content
@@ -57,33 +64,22 @@ def document(gait: Gait, **changes: Any) -> dict[str, Any]:
 
 def test_a_feasible_document_is_answered_with_a_checked_plan() -> None:
     _, service = tiers()
-    answer = service.answer(WALK, document(WALK, step=[0.011, 0.011, 0.0]), False)
-    assert (answer["status"], answer["method"], answer["remedies"]) == ("solved", "live", None)
+    answer = service.answer(changed_gait(WALK, document(WALK, step=[0.011, 0.011, 0.0])))
+    assert (answer["status"], answer["method"]) == ("solved", "live")
     assert answer["check"]["max_violation"] <= 1e-6
     assert answer["plan"]["source"] == "live"
     assert len(answer["plan"]["margin"]) == WALK.timeline.sample_count
     json.dumps(answer, allow_nan=False)
 
 
-def test_an_infeasible_document_says_what_is_missing_and_offers_remedies() -> None:
+def test_an_infeasible_document_says_what_is_missing() -> None:
     service = LivePlans(FixedTier(SolveStatus.INFEASIBLE))
-    answer = service.answer(WALK, None, True)
+    answer = service.answer(WALK)
     assert (answer["status"], answer["evidence"]) == ("infeasible", "proven")
     lack = answer["lacks"][0]
     assert (lack["family"], lack["first"], lack["last"], lack["feet"]) == ("workspace", 5, 9, [2])
     assert answer["plan"]["source"] == "draft"
-    remedy = answer["remedies"][0]
-    assert remedy["document"]["step"] == [value / 2 for value in WALK.step]
-    assert answer["remedies_complete"] is True
     json.dumps(answer, allow_nan=False)
-
-
-def test_a_search_that_was_cut_short_says_so() -> None:
-    tier = FixedTier(SolveStatus.INFEASIBLE)
-    tier.complete = False
-    answer = LivePlans(tier).answer(WALK, None, True)
-    assert (len(answer["remedies"]), answer["remedies_complete"]) == (1, False)
-    assert LivePlans(tier).answer(WALK, None, False)["remedies_complete"] is None
 
 
 def test_only_the_first_answer_of_a_process_may_take_long() -> None:
@@ -91,7 +87,7 @@ def test_only_the_first_answer_of_a_process_may_take_long() -> None:
     service = LivePlans(tier)
     for name, process in ((1, 7), (2, 7), (3, 8), (4, 8), (5, None)):
         tier.process_id = process
-        service.answer(WALK, document(WALK, step=[0.001 * name, 0.0, 0.0]), False)
+        service.answer(changed_gait(WALK, document(WALK, step=[0.001 * name, 0.0, 0.0])))
     assert tier.waits == [FIRST_SECONDS, NEXT_SECONDS, FIRST_SECONDS, NEXT_SECONDS, FIRST_SECONDS]
 
 
@@ -99,20 +95,20 @@ def test_a_process_that_gave_no_answer_is_still_waited_for() -> None:
     tier = FixedTier(SolveStatus.FAILED)
     service = LivePlans(tier)
     for step in (0.001, 0.002):
-        service.answer(WALK, document(WALK, step=[step, 0.0, 0.0]), False)
+        service.answer(changed_gait(WALK, document(WALK, step=[step, 0.0, 0.0])))
     assert tier.waits == [FIRST_SECONDS, FIRST_SECONDS]
 
 
 def test_a_solver_that_broke_off_is_left_alone_for_a_moment() -> None:
     tier, now = FixedTier(SolveStatus.FAILED), [100.0]
     service = LivePlans(tier, lambda: now[0])
-    assert service.answer(WALK, None, False)["status"] == "failed"
+    assert service.answer(WALK)["status"] == "failed"
     tier.status = SolveStatus.INFEASIBLE
     now[0] += FAILED_SECONDS - 0.1
-    assert service.answer(WALK, None, False)["status"] == "failed"
+    assert service.answer(WALK)["status"] == "failed"
     assert tier.asked == 1
     now[0] += 0.2
-    assert service.answer(WALK, None, False)["status"] == "infeasible"
+    assert service.answer(WALK)["status"] == "infeasible"
     assert tier.asked == 2
 
 
@@ -121,8 +117,8 @@ def test_a_drawn_gait_turns_with_its_direction_and_its_answer_with_it(direction:
     _, service = tiers()
     swing = WALK.timeline.swings()[1]
     drawn = toggled(WALK, swing.foot, swing.last)
-    straight = service.answer(drawn, None, False)
-    turned = service.answer(drawn, document(drawn, direction=direction), False)
+    straight = service.answer(drawn)
+    turned = service.answer(changed_gait(drawn, document(drawn, direction=direction)))
     assert turned["status"] == straight["status"] == "solved"
     one, other = (np.array(answer["plan"]["contact"]) for answer in (straight, turned))
     assert (np.roll(one, direction - 1, axis=1) == other).all()
@@ -160,22 +156,25 @@ def test_only_a_timing_that_was_found_has_a_violation(status: SolveStatus, is_kn
     assert (content["min_cop_margin"] is not None) is is_known
 
 
-def test_remedies_of_a_feasible_gait_are_none() -> None:
-    _, service = tiers()
-    assert service.answer(WALK, None, True)["remedies"] == []
+def test_a_motion_that_was_found_already_is_not_asked_for_again() -> None:
+    tier, service = tiers()
+    plan = service.plan_with(WALK, solve_live(motion_problem(WALK, load_robot(WALK.robot))))
+    assert tier.asked == 0
+    assert service.plan(WALK).hash == plan.hash
+    assert tier.asked == 0
 
 
 def test_a_gait_made_by_hand_is_planned_without_the_live_tier() -> None:
     tier, service = tiers()
-    answer = service.answer(library()["walk-manual-0"].gait, None, True)
-    assert (answer["method"], answer["status"], answer["remedies"]) == ("table", "manual", [])
+    answer = service.answer(library()["walk-manual-0"].gait)
+    assert (answer["method"], answer["status"]) == ("table", "manual")
     assert tier.asked == 0
 
 
 def test_the_same_motion_is_asked_for_once() -> None:
     tier, service = tiers()
-    first = service.answer(WALK, None, False)
-    again = service.answer(WALK, document(WALK, name="Another name"), False)
+    first = service.answer(WALK)
+    again = service.answer(changed_gait(WALK, document(WALK, name="Another name")))
     assert tier.asked == 1
     assert first["plan"]["hash"] == again["plan"]["hash"]
 
@@ -183,13 +182,13 @@ def test_the_same_motion_is_asked_for_once() -> None:
 def test_bad_documents_are_refused_with_a_sentence() -> None:
     _, service = tiers()
     with pytest.raises(InputError, match="not a gait document"):
-        service.answer(WALK, {"step": [1, 2, 3]}, False)
+        service.answer(changed_gait(WALK, {"step": [1, 2, 3]}))
     with pytest.raises(InputError, match="at most 200 mm"):
-        service.answer(WALK, document(WALK, step=[10.0, 0.0, 0.0]), False)
+        service.answer(changed_gait(WALK, document(WALK, step=[10.0, 0.0, 0.0])))
     rows = document(WALK)["timeline"]["feet"]
     floating = {"sample_time": 0.4, "feet": [rows[0][:-1] + "0", *rows[1:]]}
     with pytest.raises(InputError, match="Foot 1 is in the air at the last sample"):
-        service.answer(WALK, document(WALK, timeline=floating), False)
+        service.answer(changed_gait(WALK, document(WALK, timeline=floating)))
 
 
 def test_a_locked_cell_holds_in_a_live_document_too() -> None:
@@ -200,21 +199,19 @@ def test_a_locked_cell_holds_in_a_live_document_too() -> None:
     changed = gait_content(before)
     changed["timeline"]["feet"][1] = changed["timeline"]["feet"][1][:20] + "0" + "1" * 24
     with pytest.raises(StateError, match="Foot 2, sample 21 is locked"):
-        service.answer(before, changed, False)
+        service.answer(changed_gait(before, changed))
 
 
 def test_more_iterations_are_drawn_as_an_edit_would() -> None:
     service = LivePlans(FixedTier(SolveStatus.INFEASIBLE))
-    answer = service.answer(WALK, document(WALK, iterations=2), False)
+    answer = service.answer(changed_gait(WALK, document(WALK, iterations=2)))
     assert len(answer["plan"]["times"]) == 85
 
 
 def test_the_newest_plans_are_kept_by_hash_and_older_ones_make_room() -> None:
     service = LivePlans(FixedTier(SolveStatus.INFEASIBLE))
     hashes = [
-        service.answer(WALK, document(WALK, step=list(heading_step(WALK.orientation, step))), False)["plan"][
-            "hash"
-        ]
+        service.answer(replace(WALK, step=heading_step(WALK.orientation, step)))["plan"]["hash"]
         for step in np.linspace(0.001, 0.02, MOST_PLANS + 1)
     ]
     assert service.kept(hashes[-1]).hash == hashes[-1]

@@ -17,7 +17,7 @@ from app.documents.gait_json import gait_content, gait_from_content, motion_hash
 from app.documents.trajectory_json import trajectory_content
 from app.export.gait_diagram import facts, sample_edges
 from app.gaits.approvals import ApprovalRequest
-from app.gaits.live_plans import LivePlans
+from app.gaits.live_plans import LivePlans, changed_gait
 from app.gaits.sequence_documents import PartReference, SourceState, made_sequence, refreshed, source_states
 from app.gaits.service import GaitService
 from app.plans.plan import PlanSource
@@ -310,12 +310,12 @@ def test_five_parts_answer_well_under_a_second() -> None:
     tier = LivePlans(_Here())
     names = ["walk", "rotate", "walk-manual-0", "s-gait", "amble"]
     before = sequence_gait("x", [SequencePart(gait(name), 2, name) for name in names])
-    tier.answer(before, None, False)
+    tier.answer(before)
     moved = replace(before, sequence=before.sequence[1:] + before.sequence[:1])
     seconds = []
     for _ in range(3):
         start = time.thread_time()
-        answer = tier.answer(before, gait_content(moved), False)
+        answer = tier.answer(changed_gait(before, gait_content(moved)))
         seconds.append(time.thread_time() - start)
     assert min(seconds) < 0.5
     assert len([part for part in answer["plan"]["parts"] if not part["is_transition"]]) == 5

@@ -14,7 +14,8 @@ from core.motion.contact_timeline import ContactTimeline
 from core.problem.motion_check import check_motion
 from core.robot.model import load_robot
 from solver_jobs import Remedy, RemedyKind, SolveStatus, solve_live
-from solver_jobs.remedies.search import MOST, find_remedies
+from solver_jobs.remedies.remedy import MOST
+from solver_jobs.remedies.search import find_remedies
 
 WALK = library()["walk"].gait
 

@@ -17,7 +17,7 @@ from core.library.library import library
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import Workspace
 from core.robot.model import load_robot
-from solver_jobs import LiveSolver, RemedyKind, SolveStatus
+from solver_jobs import LiveSolver, Remedy, RemedyKind, SolveStatus
 from solver_jobs.live.solve import solve_live
 from solver_jobs.remedies.search import find_remedies
 from solver_jobs.workers import live_service
@@ -95,8 +95,10 @@ def test_a_closed_solver_says_so() -> None:
 )
 def test_every_remedy_works(gait: Gait, kinds: set[RemedyKind], solver: LiveSolver) -> None:
     assert solve_live(motion_problem(gait, MODEL)).status is SolveStatus.INFEASIBLE
-    search = solver.remedies(gait, 60.0)
+    told: list[Remedy] = []
+    search = solver.remedies(gait, told.append, timeout=60.0)
     assert search.complete
+    assert {remedy.label for remedy in told} == {remedy.label for remedy in search.found}
     remedies = search.remedies
     assert kinds <= {remedy.kind for remedy in remedies}
     for remedy in remedies:

@@ -181,7 +181,8 @@ def bodies_of(
             *(files.exported(form) for form in ("csv", "waypoints", "phases")),
             gaits[0],
         ),
-        "POST /api/gaits/{gait_id}/live": tuple({"document": one, "remedies": True} for one in gaits),
+        "POST /api/gaits/{gait_id}/live": tuple({"document": one} for one in gaits),
+        "POST /api/gaits/{gait_id}/remedies": tuple({"document": one, "tips": False} for one in gaits),
         "POST /api/gaits/{gait_id}/redraw": ({"order": [3, 2, 4, 1], "phase_knots": 5, "closing_knots": 5},),
         "POST /api/sequences": (
             {"name": OWN, "parts": [{"gait": "walk", "times": 2}, {"gait": "rotate"}], "notes": "n"},

@@ -1,0 +1,1 @@
+"""What would make a drawing walk, as a person sees it: found, planned, and tried in physics."""

@@ -1,0 +1,269 @@
+"""One search for remedies: first the live tier's, then the finished drawing, with physics behind them."""
+
+import logging
+import queue
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import Protocol
+
+from app.common.json import Json
+from app.gaits.live_plans import LivePlans
+from app.plans.plan import Plan
+from app.remedies.views import Tried, remedy_view
+from app.simulation.problem import simulation_problem
+from core.errors import FootfallError, SimulationCancelledError
+from core.findings import Severity
+from core.gait.gait import Gait
+from core.patterns.problem import PatternProblem, PatternResult
+from core.physics.findings import physics_outcomes
+from core.physics.masses import default_physics
+from core.physics.metrics import report
+from core.physics.motion import SimulatedMotion
+from core.physics.problem import SimulationProblem
+from core.robot.model import load_robot
+from solver_jobs import (
+    Remedy,
+    RemedySearch,
+    SolveStatus,
+    Trouble,
+    completed_drawing,
+    completion_question,
+    completion_remedy,
+    rank,
+)
+
+_log = logging.getLogger(__name__)
+
+MOST = 4
+"""Remedies that are shown."""
+
+COMPLETION_SECONDS = 2.0
+"""How long a drawing may take to be finished."""
+
+MOST_TRIES, PAUSE_SECONDS = 4, 0.3
+"""Searches that are begun anew where other questions cut them short, and the pause before the second one."""
+
+
+class RemedyTier(Protocol):
+    """Interface to what finds remedies; the studio passes `solver_jobs.LiveSolver`."""
+
+    def remedies(self, gait: Gait, tell: Callable[[Remedy], object], *, tips: bool) -> RemedySearch:
+        """Searches; tells of each remedy as it is found."""
+
+
+class CompletionHandle(Protocol):
+    """A search for a pattern; `solver_jobs.PatternSearch` in the studio."""
+
+    def result(self) -> PatternResult:
+        """Waits for its answer."""
+
+    def use_now(self) -> None:
+        """Ends it with the best pattern yet."""
+
+    def when_done(self, tell: Callable[[], object]) -> None:
+        """Calls back once the answer is there."""
+
+
+class CompletionTier(Protocol):
+    """Interface to the pattern solver; the studio passes `solver_jobs.PatternSolver`."""
+
+    def submit(self, problem: PatternProblem, *, seconds: float) -> CompletionHandle:
+        """Begins a search."""
+
+
+class PhysicsResult(Protocol):
+    """What came of a simulation."""
+
+    @property
+    def motion(self) -> SimulatedMotion:
+        """Of the parameters as they are."""
+
+
+class PhysicsHandle(Protocol):
+    """A simulation under way; `solver_jobs.Simulation` in the studio."""
+
+    def result(self) -> PhysicsResult:
+        """Waits for its answer."""
+
+    def cancel(self) -> None:
+        """Ends it."""
+
+    def when_done(self, tell: Callable[[], object]) -> None:
+        """Calls back once the answer is there."""
+
+
+class PhysicsTier(Protocol):
+    """Interface to the simulator; the studio passes `solver_jobs.Simulator`."""
+
+    def submit(self, problem: SimulationProblem) -> PhysicsHandle:
+        """Begins a simulation."""
+
+
+@dataclass(frozen=True, eq=False)
+class RemedyParts:
+    """What a search uses: plans, and what finds, finishes and tries."""
+
+    live: LivePlans
+    tier: RemedyTier
+    patterns: CompletionTier
+    simulator: PhysicsTier
+
+
+@dataclass(eq=False)
+class _Offer:
+    """A remedy with its plan, and what physics says of it."""
+
+    remedy: Remedy
+    plan: Plan
+    tried: Tried | None = None
+
+
+class RemedyRun:
+    """A search in threads of its own.
+
+    Args:
+        gait: one without a motion, or one that tips.
+        tips: whether it has a motion and tips.
+        parts: what is used.
+        show: told of each state as JSON content, and None at the end; from a thread of the run's.
+    """
+
+    def __init__(
+        self, gait: Gait, parts: RemedyParts, show: Callable[[Json | None], object], *, tips: bool
+    ) -> None:
+        self._gait, self._parts, self._show, self._tips = gait, parts, show, tips
+        self._model = load_robot(gait.robot)
+        self._events: queue.SimpleQueue[Callable[[], None] | None] = queue.SimpleQueue()
+        self._cancelled = threading.Event()
+        self._offers: list[_Offer] = []
+        self._is_searching, self._is_complete = True, False
+        self._completion: CompletionHandle | None = None
+        self._simulation: PhysicsHandle | None = None
+
+    def start(self) -> None:
+        """Begins."""
+        threading.Thread(target=self._work, name="remedies", daemon=True).start()
+        threading.Thread(target=self._search, name="remedy-search", daemon=True).start()
+
+    def cancel(self) -> None:
+        """Ends it; nothing more is shown but the end."""
+        self._cancelled.set()
+        self._events.put(None)
+
+    def _work(self) -> None:
+        """Does one event after the other until nothing is left to do."""
+        try:
+            while self._is_searching or self._completion is not None or self._simulation is not None:
+                act = self._events.get()
+                if act is None or self._cancelled.is_set():
+                    break
+                act()
+                self._try_next()
+                self._show(self._content())
+        except Exception:
+            # A bug here must not leave a page waiting.
+            _log.exception("The search for remedies broke off.")
+        finally:
+            self._cancelled.set()
+            if self._completion is not None:
+                self._completion.use_now()
+            if self._simulation is not None:
+                self._simulation.cancel()
+            self._show(None)
+
+    def _search(self) -> None:
+        """The live tier's search, begun again where other questions cut it short."""
+        result = RemedySearch((), complete=False)
+        for number in range(MOST_TRIES):
+            if self._cancelled.wait(0.0 if number == 0 else PAUSE_SECONDS * 2 ** (number - 1)):
+                return
+            result = self._parts.tier.remedies(
+                self._gait, lambda remedy: self._later(partial(self._found, remedy)), tips=self._tips
+            )
+            if result.complete:
+                break
+        self._later(partial(self._searched, result))
+
+    def _later(self, act: Callable[[], None]) -> None:
+        self._events.put(act)
+
+    def _found(self, remedy: Remedy) -> None:
+        """Plans a remedy in full; one that comes again, or makes no plan to send, is not offered."""
+        if any(offer.remedy.gait == remedy.gait for offer in self._offers):
+            return
+        plan = self._parts.live.plan_with(remedy.gait, remedy.motion)
+        if plan.live is not None and plan.live.status is SolveStatus.SOLVED and plan.way is not None:
+            self._offers.append(_Offer(remedy, plan))
+
+    def _searched(self, result: RemedySearch) -> None:
+        self._is_searching, self._is_complete = False, result.complete
+        question = completion_question(self._gait, self._model) if result.trouble is Trouble.SHAPE else None
+        if question is None:
+            return
+        handle = self._parts.patterns.submit(question, seconds=COMPLETION_SECONDS)
+        self._completion = handle
+        # Without an answer in time it would go on to explain why there is none.
+        timer = threading.Timer(COMPLETION_SECONDS, handle.use_now)
+        timer.daemon = True
+        timer.start()
+        handle.when_done(lambda: self._later(partial(self._finished, handle)))
+
+    def _finished(self, handle: CompletionHandle) -> None:
+        """Offers the finished drawing where it has a motion."""
+        self._completion = None
+        try:
+            patterns = handle.result().patterns
+            if not patterns:
+                return
+            gait = completed_drawing(self._gait, self._model, patterns[0].stance)
+        except FootfallError as error:
+            _log.info("The drawing was not finished: %s", error)
+            return
+        live = self._parts.live.plan(gait).live
+        if live is not None and live.status is SolveStatus.SOLVED:
+            self._found(completion_remedy(gait, live.result))
+
+    def _shown(self) -> list[_Offer]:
+        """The best offers: what physics refuses comes last."""
+
+        def key(offer: _Offer) -> tuple[bool, tuple[bool, bool, float]]:
+            refused = offer.tried is not None and not offer.tried.walks
+            return refused, rank(self._gait, self._model, offer.remedy)
+
+        return sorted(self._offers, key=key)[:MOST]
+
+    def _try_next(self) -> None:
+        """Begins to simulate the best offer that was not tried yet, once the search is over."""
+        if self._is_searching or self._simulation is not None:
+            return
+        offer = next((one for one in self._shown() if one.tried is None), None)
+        if offer is None:
+            return
+        problem = simulation_problem(offer.plan, default_physics(self._model))
+        handle = self._parts.simulator.submit(problem)
+        self._simulation = handle
+        handle.when_done(lambda: self._later(partial(self._simulated, offer, problem, handle)))
+
+    def _simulated(self, offer: _Offer, problem: SimulationProblem, handle: PhysicsHandle) -> None:
+        self._simulation = None
+        try:
+            figures = report(problem, handle.result().motion)
+        except SimulationCancelledError:
+            offer.tried = Tried(walks=False, sentence="It was not tried to the end.")
+        except FootfallError as error:
+            offer.tried = Tried(walks=False, sentence=error.sentence)
+        else:
+            findings = [one for outcome in physics_outcomes(figures, problem) for one in outcome.findings]
+            errors = [one.sentence for one in findings if one.severity is Severity.ERROR]
+            offer.tried = Tried(not errors, errors[0] if errors else "")
+
+    def _content(self) -> Json:
+        offers = self._shown()
+        return {
+            "remedies": [remedy_view(one.remedy, one.plan, one.tried) for one in offers],
+            "searching": self._is_searching,
+            "trying": any(one.tried is None for one in offers) or self._completion is not None,
+            "complete": self._is_complete,
+        }

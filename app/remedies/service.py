@@ -1,0 +1,60 @@
+"""The searches for remedies that are under way."""
+
+import threading
+from collections.abc import Callable
+
+from app.common.json import Json
+from app.gaits.live_plans import is_drawing, lacks_motion
+from app.remedies.run import RemedyParts, RemedyRun
+from core.gait.gait import Gait
+
+NOTHING: Json = {"remedies": [], "searching": False, "trying": False, "complete": True}
+"""Of a gait that has a motion and does not tip."""
+
+
+class RemedyService:
+    """Searches for remedies. Thread-safe.
+
+    Args:
+        parts: what a search uses.
+    """
+
+    def __init__(self, parts: RemedyParts) -> None:
+        self._parts = parts
+        self._lock = threading.Lock()
+        self._runs: set[RemedyRun] = set()
+
+    def search(self, gait: Gait, show: Callable[[Json | None], object], *, tips: bool) -> Callable[[], None]:
+        """Begins a search.
+
+        Args:
+            gait: a drawing.
+            show: told of each state as JSON content, and None at the end; from another thread.
+            tips: whether physics said that the gait tips; then it gets remedies though it has a motion.
+
+        Returns:
+            What ends the search.
+        """
+        is_stuck = lacks_motion(gait, self._parts.live.plan(gait))
+        if not is_stuck and not (tips and is_drawing(gait)):
+            show(NOTHING)
+            show(None)
+            return lambda: None
+        run = RemedyRun(gait, self._parts, lambda content: self._told(run, content, show), tips=not is_stuck)
+        with self._lock:
+            self._runs.add(run)
+        run.start()
+        return run.cancel
+
+    def _told(self, run: RemedyRun, content: Json | None, show: Callable[[Json | None], object]) -> None:
+        if content is None:
+            with self._lock:
+                self._runs.discard(run)
+        show(content)
+
+    def close(self) -> None:
+        """Ends every search."""
+        with self._lock:
+            runs = list(self._runs)
+        for run in runs:
+            run.cancel()

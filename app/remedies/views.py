@@ -1,0 +1,42 @@
+"""Remedies as JSON content."""
+
+from dataclasses import dataclass
+
+from app.common.json import Json, finite
+from app.documents.gait_json import gait_content
+from app.plans.plan import Plan
+from app.plans.robot_times import robot_times
+from solver_jobs import Remedy
+
+
+@dataclass(frozen=True)
+class Tried:
+    """What physics says of a remedy: whether it walks, and if not, why in a sentence."""
+
+    walks: bool
+    sentence: str = ""
+
+
+def remedy_view(remedy: Remedy, plan: Plan, tried: Tried | None) -> Json:
+    """A change that makes a gait walk, SI.
+
+    Args:
+        remedy: the change.
+        plan: of the changed gait.
+        tried: what physics says; None where that is not known yet.
+    """
+    times = robot_times(plan)
+    content: Json = {
+        "kind": remedy.kind.value,
+        "label": remedy.label,
+        "sentence": remedy.sentence,
+        "caution": remedy.caution,
+        "document": gait_content(remedy.gait),
+        "margin": remedy.gait.options.margin,
+        "balance": plan.balance,
+        "plan_seconds": None if plan.trajectory is None else float(plan.trajectory.times[-1]),
+        "robot_seconds": None if times is None else times.robot_seconds,
+        "physics": None if tried is None else {"walks": tried.walks, "sentence": tried.sentence},
+    }
+    whole: Json = finite(content)
+    return whole

@@ -1,0 +1,81 @@
+/** What would help a drawing that cannot walk: a row a remedy, best first, each shown where it leads before it is taken. */
+
+import { h, setAttribute, setText } from "../lib/dom.js";
+import { fixed, mm } from "../lib/format.js";
+import { footfalls } from "../shell/footfalls.js";
+
+const NO_PHYSICS = { text: "Being tried in physics…", tone: null, title: null };
+
+/** What physics says of a remedy, in a few words. */
+function physicsWords({ physics, caution }, isTrying) {
+  if (!physics) return isTrying ? NO_PHYSICS : { text: caution, tone: "caution", title: null };
+  return physics.walks ? { text: "Walks in physics.", tone: "good", title: null } : { text: "Tips in physics.", tone: "caution", title: physics.sentence };
+}
+
+/** A row, which keeps its place while what is known of it grows. */
+function row(remedy, { use, show, end }) {
+  const { label, sentence, document, robot_seconds: robotSeconds } = remedy;
+  const [margin, physics] = [h("span", { class: "number remedy-margin" }), h("span", {})];
+  const price = robotSeconds === null ? "" : ` ${fixed(robotSeconds)} s on the robot.`;
+  const button = h("button", { text: "Use this", "aria-label": `Use this: ${label}`, title: "Undo brings your drawing back.", on: { click: () => use(document, label) } });
+  const element = h("li", { class: "remedy", on: { pointerenter: () => show(document), pointerleave: end, focusin: () => show(document), focusout: end, keydown: ({ key }) => { if (key === "Escape") end(); } } },
+    footfalls(document.timeline.feet), h("b", { text: label }), margin, h("p", { class: "quiet" }, `${sentence}${price} `, physics), button);
+  return {
+    element,
+    update(known, isTrying) {
+      const { text, tone, title } = physicsWords(known, isTrying);
+      setText(margin, known.balance === null ? "–" : `${mm(known.balance)} mm`);
+      setText(physics, text);
+      setAttribute(physics, "data-tone-text", tone);
+      setAttribute(physics, "title", title);
+    },
+  };
+}
+
+/** Labels in the order in which they are shown: under a pointer or the focus no row changes its place. */
+function orderOf(labels, shown, isHeld) {
+  if (!isHeld) return labels;
+  const kept = shown.filter((label) => labels.includes(label));
+  return [...kept, ...labels.filter((label) => !kept.includes(label))];
+}
+
+function noteOf({ searching, trying, complete, list, sentence }) {
+  if (sentence) return sentence;
+  if (searching) return list.length ? "Looking for more…" : "Looking for what would help…";
+  if (!list.length) return trying ? "Looking for what would help…" : complete ? "No change was found that makes it walk." : "The search was cut short. Change the drawing to begin again.";
+  return "";
+}
+
+/**
+ * The list with a line below it.
+ * @param {{use: (document: object, label: string) => void, show: (document: object) => void, end: () => void}} acts
+ */
+export function remedyList(acts) {
+  const head = h("div", { class: "remedies-head" }, h("h4", { text: "What would help" }), h("span", { class: "quiet", text: "Margin" }));
+  const list = h("ul", { class: "remedies", role: "group", "aria-label": "What would help" });
+  const note = h("p", { class: "why" });
+  const rows = new Map();
+  let shown = [];
+  return {
+    element: h("div", {}, head, list, note),
+    show(remedies) {
+      const known = remedies ?? { list: [], searching: true, trying: true, complete: false };
+      const labels = known.list.map(({ label }) => label);
+      for (const label of rows.keys()) if (!labels.includes(label)) rows.delete(label);
+      for (const remedy of known.list) {
+        // A row is of one document: the same words may stand for another one after an edit.
+        const text = JSON.stringify(remedy.document);
+        if (rows.get(remedy.label)?.text !== text) rows.set(remedy.label, { text, ...row(remedy, acts) });
+        rows.get(remedy.label).update(remedy, known.trying);
+      }
+      const order = orderOf(labels, shown, list.matches(":hover, :focus-within"));
+      const elements = order.map((label) => rows.get(label).element);
+      if (elements.length !== list.children.length || elements.some((element, index) => list.children[index] !== element)) list.replaceChildren(...elements);
+      shown = order;
+      head.hidden = list.hidden = !labels.length;
+      const text = noteOf(known);
+      setText(note, text);
+      note.hidden = !text;
+    },
+  };
+}

@@ -1,0 +1,400 @@
+"""Changes that may make a drawing walk, the likely ones first, each tried by the live tier.
+
+Which changes help, in which order, was measured on random drawings: a motion runs along the margin that is
+asked, so that every remedy asks for the robot's own margin first (docs/remedies.md).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from core.errors import FootfallError
+from core.gait.gait import Gait, drawn_timeline, with_iterations
+from core.patterns.limits import needed_swing
+from core.problem.motion_problem import MotionLimits, Workspace
+from core.robot.model import RobotModel
+from solver_jobs.remedies.layout import (
+    CLOSING,
+    Item,
+    items_of,
+    longer,
+    one_after_the_other,
+    with_ends,
+    with_forgotten_feet,
+)
+from solver_jobs.remedies.remedy import (
+    Remedy,
+    RemedyKind,
+    Trouble,
+    duration_words,
+    order_words,
+    step_length,
+    way_of,
+)
+from solver_jobs.remedies.trial import Trial
+
+SMALL_STEP, SMALL_TURN = 0.002, np.radians(1.0)
+"""Where this works, m and rad, what is wrong is the step."""
+
+LEAST_STEP, LEAST_TURN = 0.005, np.radians(2.0)
+"""No smaller step is offered, m and rad."""
+
+USUAL_MARGIN = 0.003
+"""Where this margin works, m, what is wrong is the margin."""
+
+UNIT_STEP, UNIT_TURN, UNIT_MARGIN = 1e-4, np.radians(0.5), 1e-4
+"""Whole units of what is offered, m and rad."""
+
+GAPS = (1, 2, 3, 4, 5, 6, 8)
+LONG_GAPS = (1, 2, 3, 4, 5, 6, 8, 10, 12)
+"""Samples of stance between two swings, in the same time and in a longer gait."""
+
+LONG_SWING = 5
+"""Samples of pauses and swings where a short gait does not do."""
+
+HEIGHT_STEP = 0.0005
+"""Between body heights that are tried, m."""
+
+MORE_MARGIN, MOST_MORE_MARGIN = 0.001, 0.006
+"""How much more margin a gait that tips is offered at least and at most, m."""
+
+SHORTER = (0.75, 0.5)
+"""Shares of its step that a gait that tips is offered."""
+
+MM = 1000.0
+
+
+class Candidates:
+    """The changes of one gait that work.
+
+    Args:
+        gait: one that has no motion, or one that tips in physics.
+        model: its robot.
+        trial: what tries them.
+        tips: whether it has a motion and tips.
+
+    Attributes:
+        trouble: what is wrong with the gait; None until that was found out.
+    """
+
+    def __init__(self, gait: Gait, model: RobotModel, trial: Trial, *, tips: bool = False) -> None:
+        self.trouble = Trouble.TIPS if tips else None
+        self._asked = gait
+        self._model = model
+        self._trial = trial
+        self._raised = max(gait.options.margin, model.margin)
+        self._mended = with_forgotten_feet(with_ends(gait))
+        self._found: list[Remedy] = []
+
+    def remedies(self) -> Iterator[Remedy]:
+        """Every change that works, the likely ones first; no two with one label or one document."""
+        known = [(self._asked, "")]
+        for remedy in self._candidates():
+            if remedy is None or any(remedy.gait == gait or remedy.label == label for gait, label in known):
+                continue
+            known.append((remedy.gait, remedy.label))
+            self._found.append(remedy)
+            yield remedy
+
+    def _candidates(self) -> Iterator[Remedy | None]:
+        if self.trouble is Trouble.TIPS:
+            yield from self._for_tipping()
+            return
+        if self._mended is not self._asked:
+            yield self._ends()
+        self.trouble = self._found_out()
+        match self.trouble:
+            case Trouble.STEP:
+                yield from self._for_step()
+            case Trouble.MARGIN:
+                yield from self._for_margin()
+            case _:
+                yield from self._for_shape()
+                yield self._no_margin()
+        if self._good < 2:
+            yield from self._fallbacks()
+        yield from self._single_changes()
+
+    def _found_out(self) -> Trouble:
+        """What is wrong, by two or three trials."""
+        step = self._scaled(self._mended, SMALL_TURN if self._turns else SMALL_STEP)
+        if self._at_best_margin(step) is not None:
+            return Trouble.STEP
+        margin = min(self._asked.options.margin, USUAL_MARGIN)
+        return Trouble.MARGIN if self._trial.works(_margin(self._mended, margin)) else Trouble.SHAPE
+
+    def _for_tipping(self) -> Iterator[Remedy | None]:
+        """More margin, longer pauses and swings, a shorter step: for a gait that has a motion and tips."""
+        asked = self._asked.options.margin
+        if self._raised > asked and self._trial.works(_margin(self._asked, self._raised)):
+            yield self._margin_remedy(self._asked, self._raised, "What the robot needs as sent.")
+        else:
+            yield self._largest_margin(self._asked, asked + MORE_MARGIN, asked + MOST_MORE_MARGIN)
+        yield from self._for_shape()
+        yield self._slower()
+        for share in SHORTER:
+            size = self._size(self._asked) * share
+            shorter = self._at_best_margin(self._scaled(self._asked, size)) if size else None
+            yield None if shorter is None else self._step_remedy(shorter, f"{share:.0%} of the step.")
+
+    @property
+    def _good(self) -> int:
+        """Remedies found with the robot's own margin."""
+        return sum(remedy.gait.options.margin >= self._model.margin for remedy in self._found)
+
+    @property
+    def _turns(self) -> bool:
+        return step_length(self._asked) == 0 and self._asked.step[2] != 0
+
+    def _ends(self) -> Remedy | None:
+        gait = self._at_best_margin(self._mended)
+        words = "Every foot stands or swings to its end."
+        return None if gait is None else self._remedy(RemedyKind.LONGER, "Mend the drawing", words, gait)
+
+    def _for_shape(self) -> Iterator[Remedy | None]:
+        """Overlaps, swings that are too short."""
+        found: set[RemedyKind] = set()
+        for items in self._item_lists():
+            for kind, change in (
+                (RemedyKind.ONE_BY_ONE, self._one_by_one),
+                (RemedyKind.LONGER, self._longer),
+            ):
+                if kind not in found and (remedy := change(items)) is not None:
+                    found.add(kind)
+                    yield remedy
+
+    def _item_lists(self) -> list[list[Item]]:
+        """Swings that may stay beside each other together first, then every swing by itself."""
+        apart = items_of(self._mended)
+        if self._mended.timeline.leg_count <= 4:
+            return [apart]
+        stands = np.asarray(self._mended.timeline.stance.sum(axis=0) >= 3)
+        for lack in self._trial.lacks(self._mended):
+            stands[lack.first : lack.last + 1] = False
+        together = items_of(self._mended, stands)
+        return [apart] if len(together) == len(apart) else [together, apart]
+
+    def _one_by_one(self, items: list[Item]) -> Remedy | None:
+        gait = self._first_at_best_margin([one_after_the_other(self._mended, items, gap) for gap in GAPS])
+        if gait is None:
+            return None
+        words = f"{order_words(gait)}, in the same time."
+        return self._remedy(RemedyKind.ONE_BY_ONE, "One foot after the other", words, gait)
+
+    def _longer(self, items: list[Item], gaps: tuple[int, ...] = LONG_GAPS, least: int = 0) -> Remedy | None:
+        gait = self._first_at_best_margin([longer(self._mended, items, gap, least) for gap in gaps])
+        return None if gait is None else self._longer_remedy(gait)
+
+    def _longer_remedy(self, gait: Gait) -> Remedy | None:
+        words = f"{order_words(gait)}; {duration_words(gait)} instead of {duration_words(self._asked)}."
+        return self._remedy(RemedyKind.LONGER, "Same swings, longer gait", words, gait)
+
+    def _for_step(self) -> Iterator[Remedy | None]:
+        """Steps that are too long."""
+        shorter = self._shorter_step(self._mended, self._raised)
+        if shorter is not None:
+            yield self._step_remedy(shorter, "The largest that works for this drawing.")
+        yield self._more_iterations()
+        if self._asked.options.margin > self._model.margin:
+            yield self._kept_margin(self._mended)
+        yield self._slower()
+
+    def _shorter_step(self, gait: Gait, margin: float) -> Gait | None:
+        """The gait with the largest step, or turn, that works; not less than one that is worth it."""
+        size = self._size(gait)
+        if size == 0.0:
+            return None
+        least, unit = (LEAST_TURN, UNIT_TURN) if self._turns else (LEAST_STEP, UNIT_STEP)
+        for asked in dict.fromkeys((margin, self._asked.options.margin)):
+            safe = _margin(gait, asked)
+            found = self._trial.largest(min(least, size), size, partial(self._scaled, safe), unit)
+            if found is not None:
+                return self._scaled(safe, found)
+        return None
+
+    def _step_remedy(self, gait: Gait, words: str) -> Remedy | None:
+        return self._remedy(RemedyKind.STEP, self._step_words(gait), words, gait)
+
+    def _step_words(self, gait: Gait) -> str:
+        size = self._size(gait)
+        return f"Turn {np.degrees(size):.1f}°" if self._turns else f"Step {size * MM:.1f} mm"
+
+    def _size(self, gait: Gait) -> float:
+        """Length of the step, m; of a gait that only turns, its angle, rad."""
+        return abs(gait.step[2]) if self._turns else step_length(gait)
+
+    def _scaled(self, gait: Gait, value: float) -> Gait:
+        """The gait with another length of step, or another turn."""
+        size = self._size(gait)
+        if size in (0.0, value):
+            return gait
+        dx, dy, yaw = (part * value / size for part in gait.step)
+        return replace(gait, step=(dx, dy, yaw))
+
+    def _more_iterations(self) -> Remedy | None:
+        """The same way in two or three times as many iterations."""
+        for times in (2, 3):
+            count = self._mended.iterations * times
+            try:
+                repeated = with_iterations(self._mended, count)
+            except FootfallError:
+                return None
+            dx, dy, yaw = (part / times for part in self._mended.step)
+            gait = self._at_best_margin(replace(repeated, step=(dx, dy, yaw)))
+            if gait is not None:
+                words = f"The same way; {duration_words(gait)} instead of {duration_words(self._asked)}."
+                return self._remedy(RemedyKind.ITERATIONS, f"{count} iterations", words, gait)
+        return None
+
+    def _slower(self) -> Remedy | None:
+        """Pauses and swings of five samples or more, and the largest step with them."""
+        items = items_of(self._mended)
+        for least in range(LONG_SWING, 9):
+            slow = longer(self._mended, items, LONG_SWING, least)
+            if slow is None:
+                return None
+            found = self._at_best_margin(slow)
+            if found is not None:
+                return self._longer_remedy(found)
+        return self._with_longer_swings(self._raised)
+
+    def _with_longer_swings(self, margin: float) -> Remedy | None:
+        """Pauses and swings of five samples or more with the largest step that works then."""
+        slow = longer(self._mended, items_of(self._mended), LONG_SWING, LONG_SWING)
+        gait = None if slow is None else self._shorter_step(slow, margin)
+        if gait is None:
+            return None
+        if way_of(gait) >= way_of(self._asked):
+            return self._longer_remedy(gait)
+        steps = [self._size(found.gait) for found in self._found if found.kind is RemedyKind.STEP]
+        if self._size(gait) <= max(steps, default=0.0):
+            return None
+        return self._step_remedy(gait, f"With longer swings; {duration_words(gait)} in all.")
+
+    def _for_margin(self) -> Iterator[Remedy | None]:
+        """Margins that nobody can keep."""
+        yield self._kept_margin(self._mended)
+        slow = longer(self._mended, items_of(self._mended), LONG_SWING)
+        if slow is not None:
+            found = self._at_best_margin(slow)
+            yield self._longer_remedy(found) if found is not None else self._kept_margin(slow)
+
+    def _kept_margin(self, gait: Gait) -> Remedy | None:
+        """The largest margin up to the asked one."""
+        asked = self._asked.options.margin
+        return self._largest_margin(gait, min(USUAL_MARGIN, asked), asked)
+
+    def _largest_margin(self, gait: Gait, least: float, most: float) -> Remedy | None:
+        best = self._trial.largest(least, most, lambda value: _margin(gait, value), UNIT_MARGIN)
+        if best is None:
+            return None
+        words = "The largest margin that works"
+        if gait.timeline.sample_count != self._asked.timeline.sample_count:
+            words += f" in {duration_words(gait)}"
+        return self._margin_remedy(gait, best, f"{words}.")
+
+    def _margin_remedy(self, gait: Gait, margin: float, words: str) -> Remedy | None:
+        changed = _margin(gait, margin)
+        return self._remedy(RemedyKind.MARGIN, f"Margin {margin * MM:.1f} mm", words, changed)
+
+    def _fallbacks(self) -> Iterator[Remedy | None]:
+        """Long pauses and swings with a shorter step; then the same feet drawn anew."""
+        for margin in dict.fromkeys((self._raised, self._model.margin)):
+            remedy = self._with_longer_swings(margin)
+            if remedy is not None and remedy.gait.options.margin >= self._model.margin:
+                yield remedy
+                break
+        if self._good < 2 and not self._mended.timeline.locked.any():
+            yield self._anew()
+
+    def _anew(self) -> Remedy | None:
+        options = self._asked.options
+        knots = max(options.phase_knots, LONG_SWING, needed_swing(self._asked))
+        anew = self._asked.with_options(phase_knots=knots, closing_knots=max(options.closing_knots, CLOSING))
+        drawn = replace(anew, timeline=drawn_timeline(anew))
+        for margin in dict.fromkeys((self._raised, self._model.margin)):
+            gait = self._shorter_step(drawn, margin)
+            if gait is not None and gait.options.margin >= self._model.margin:
+                words = f"In the order {'-'.join(map(str, anew.order))}; {duration_words(gait)} in all."
+                if way_of(gait) < way_of(self._asked):
+                    words = f"{self._step_words(gait)}, in the order {words[13:]}"
+                return self._remedy(RemedyKind.ANEW, "Drawn anew", words, gait)
+        return None
+
+    def _single_changes(self) -> Iterator[Remedy | None]:
+        """What else one number can do."""
+        if self._asked.options.workspace is Workspace.CYLINDER:
+            yield self._workspace()
+        if not self._found:
+            yield self._height()
+            yield self._clearance()
+
+    def _workspace(self) -> Remedy | None:
+        gait = self._at_best_margin(self._mended.with_options(workspace=Workspace.STROKE))
+        if gait is None:
+            return None
+        words = "Within what the motors truly reach, which is more than the paper's cylinder."
+        return self._remedy(RemedyKind.WORKSPACE, "Workspace stroke", words, gait)
+
+    def _height(self) -> Remedy | None:
+        lowest, highest = MotionLimits().plane_height
+        now = self._asked.options.plane_height
+        heights = np.arange(lowest, highest + HEIGHT_STEP / 2, HEIGHT_STEP)
+        near = sorted((float(h) for h in heights if abs(h - now) > 1e-9), key=lambda h: abs(h - now))
+        changed = [self._mended.with_options(plane_height=h, end_plane_height=None) for h in near]
+        gait = self._first_at_best_margin(changed)
+        if gait is None:
+            return None
+        text = f"{gait.options.plane_height * MM:.1f} mm"
+        words = f"It works with the actuator plane at {text}."
+        return self._remedy(RemedyKind.HEIGHT, f"Body height {text}", words, gait)
+
+    def _clearance(self) -> Remedy | None:
+        asked = self._asked.options.clearance
+        best = self._trial.largest(
+            0.001, asked, lambda value: self._mended.with_options(clearance=value), UNIT_MARGIN
+        )
+        if best is None:
+            return None
+        gait = self._mended.with_options(clearance=best)
+        text = f"{best * MM:.1f} mm"
+        return self._remedy(RemedyKind.CLEARANCE, f"Clearance {text}", f"Feet can rise {text}.", gait)
+
+    def _no_margin(self) -> Remedy | None:
+        gait = _margin(self._mended, 0.0)
+        if self._asked.options.margin == 0 or not self._trial.works(gait):
+            return None
+        words = "It balances on the edge of its feet."
+        return self._remedy(RemedyKind.NO_MARGIN, "Ask for no margin", words, gait, "Likely to tip.")
+
+    def _at_best_margin(self, gait: Gait) -> Gait | None:
+        """The gait with the robot's own margin where that works, else with the one that is asked."""
+        return self._first_at_best_margin([gait])
+
+    def _first_at_best_margin(self, gaits: Sequence[Gait | None]) -> Gait | None:
+        """The first of some gaits that works with the robot's own margin, else with the one that is asked."""
+        for margin in dict.fromkeys((self._raised, self._asked.options.margin)):
+            found = self._trial.first(None if gait is None else _margin(gait, margin) for gait in gaits)
+            if found is not None:
+                return found
+        return None
+
+    def _remedy(
+        self, kind: RemedyKind, label: str, words: str, gait: Gait, caution: str = ""
+    ) -> Remedy | None:
+        """What is offered of a change; None where the whole motion is not found or not confirmed."""
+        motion = self._trial.solved(gait)
+        if motion is None:
+            return None
+        margin, asked = gait.options.margin, self._asked.options.margin
+        is_said = kind in (RemedyKind.MARGIN, RemedyKind.NO_MARGIN) or margin == asked
+        told = "" if is_said else f" Margin {margin * MM:g} mm."
+        return Remedy(kind, label, f"{words}{told}", gait, motion, caution)
+
+
+def _margin(gait: Gait, margin: float) -> Gait:
+    return gait.with_options(margin=margin)

@@ -1,0 +1,70 @@
+"""Finishing a drawing by the rules of footfall patterns: what the pattern solver is asked, and its answer."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from core.arrays import Bools
+from core.errors import FootfallError
+from core.gait.gait import Gait, with_iterations
+from core.patterns.limits import walking_rules
+from core.patterns.problem import PatternProblem
+from core.patterns.sources import completion_problem
+from core.patterns.to_gait import completed_gait, order_of
+from core.robot.model import RobotModel
+from solver_jobs.remedies.layout import with_ends
+from solver_jobs.remedies.remedy import Remedy, RemedyKind, order_words
+from solver_jobs.results.motion import MotionResult
+
+LABEL = "Finish the drawing for me"
+
+
+def completion_question(gait: Gait, model: RobotModel) -> PatternProblem | None:
+    """The search for footfalls near a drawing, in which each foot swings once an iteration.
+
+    Args:
+        gait: the drawing.
+        model: its robot.
+
+    Returns:
+        None where the drawing cannot be finished so, such as one whose iterations are not alike.
+    """
+    try:
+        one = _one_iteration(gait, model)
+        return completion_problem(one, rules=walking_rules(one))
+    except FootfallError:
+        return None
+
+
+def completed_drawing(gait: Gait, model: RobotModel, stance: Bools) -> Gait:
+    """The gait with the footfalls that were found, in all its iterations.
+
+    Args:
+        gait: the drawing.
+        model: its robot.
+        stance: (legs, samples) of one iteration.
+    """
+    one = completed_gait(_one_iteration(gait, model), stance)
+    drawn = replace(one, order=order_of(stance, one.quarter_turns))
+    return with_iterations(drawn, gait.iterations)
+
+
+def completion_remedy(gait: Gait, motion: MotionResult) -> Remedy:
+    """What is offered of a drawing that was finished.
+
+    Args:
+        gait: the finished drawing.
+        motion: of it.
+    """
+    words = f"{order_words(gait)}, as near to your drawing as the rules of footfall patterns allow."
+    return Remedy(RemedyKind.COMPLETED, LABEL, words, gait, motion)
+
+
+def _one_iteration(gait: Gait, model: RobotModel) -> Gait:
+    """One iteration with its ends mended and the robot's own margin.
+
+    Raises:
+        InputError: it cannot be cut out.
+    """
+    mended = with_ends(gait).with_options(margin=max(gait.options.margin, model.margin))
+    return mended if mended.iterations == 1 else with_iterations(mended, 1)

@@ -214,11 +214,15 @@ def _remedies(gait: Gait, words: list[str]) -> list[Json]:
 
 
 def without_option(words: list[str], name: str) -> list[str]:
-    """The words of a command line without an option and its value."""
-    if name not in words:
-        return [word for word in words if not word.startswith(f"{name}=")]
-    at = words.index(name)
-    return words[:at] + words[at + 2 :]
+    """The words of a command line without an option and its value, however often they stand there."""
+    kept: list[str] = []
+    left = iter(words)
+    for word in left:
+        if word == name:
+            next(left, None)
+        elif not word.startswith(f"{name}="):
+            kept.append(word)
+    return kept
 
 
 def _remedy_lines(remedies: list[Json]) -> list[str]:

@@ -1,10 +1,12 @@
 """`pattern`."""
 
+import shlex
 import threading
 from argparse import Namespace
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 
+from app.cli.commands_gait import without_option
 from app.cli.output import INFEASIBLE, Interrupted, end_on_signals, show
 from app.cli.pattern_options import asked_pattern
 from app.cli.pattern_text import CHANGE, STANCE, SWING, drawn_pattern
@@ -19,12 +21,15 @@ from core.patterns.problem import (
     PatternResult,
     PatternStatus,
     Relaxation,
+    Rule,
 )
 from solver_jobs import shortest_problem, solve_pattern
 
 FAILED = 4
 TICK_SECONDS = 0.1
 """Between looks for Ctrl-C."""
+RULE_OPTIONS = {Rule.FEET_DOWN_EACH_SIDE: "--each-side"}
+"""Options of rules that are not called like their rule."""
 NOTHING: Json = {"objective": None, "limb_changes": None, "score": None, "pattern": []}
 
 
@@ -36,7 +41,7 @@ def run_pattern(options: Namespace) -> int:
         problem = shortest_problem(problem)
     result = _solved(problem, options)
     failure = _failure(problem, result, options.seconds)
-    content = _content(problem, result, failure)
+    content = _content(problem, result, failure, options.words)
     show(options, content, _lines(problem, result, failure, content))
     if failure is not None:
         return FAILED
@@ -84,7 +89,9 @@ def _failure(problem: PatternProblem, result: PatternResult, seconds: float) -> 
     )
 
 
-def _content(problem: PatternProblem, result: PatternResult, failure: str | None) -> Json:
+def _content(
+    problem: PatternProblem, result: PatternResult, failure: str | None, arguments: list[str]
+) -> Json:
     patterns = () if failure is not None else result.patterns
     answers = [_answer(problem, pattern) for pattern in patterns]
     best = answers[0] if answers else NOTHING
@@ -98,7 +105,9 @@ def _content(problem: PatternProblem, result: PatternResult, failure: str | None
         "legs": problem.leg_count,
         "samples": problem.sample_count,
         "alternatives": answers[1:],
-        "relaxations": [_relaxation(one) for one in result.relaxations],
+        "relaxations": [
+            {**_relaxation(one), "command": _command(one, arguments)} for one in result.relaxations
+        ],
     }
 
 
@@ -123,6 +132,33 @@ def _relaxation(one: Relaxation) -> Json:
     }
 
 
+def _command(relaxation: Relaxation, arguments: list[str]) -> str | None:
+    """The command that asks with a relaxation; None where cells are freed, for which there is no option."""
+    changed = [argument for argument in arguments if argument != "--json"]
+    for change in (relaxation, *relaxation.also):
+        if change.samples is not None:
+            option, value = "--samples", str(change.samples)
+        elif change.rule is Rule.FIXED:
+            return None
+        else:
+            option = RULE_OPTIONS.get(change.rule, f"--{change.rule.value.replace('_', '-')}")
+            value = "off" if change.value is None else f"{change.value:g}"
+        changed = [*without_option(changed, option), option, value]
+    return shlex.join(["footfall", *changed])
+
+
+def _relaxation_lines(relaxations: list[Json]) -> list[str]:
+    """What would help, each with its command where there is one."""
+    if not relaxations:
+        return []
+    lines = ["What would help, the mildest change first:"]
+    for relaxation in relaxations:
+        lines.append(f"  {relaxation['words']}.")
+        if relaxation["command"] is not None:
+            lines.append(f"    {relaxation['command']}")
+    return lines
+
+
 def _lines(problem: PatternProblem, result: PatternResult, failure: str | None, content: Json) -> list[str]:
     name = "transition" if problem.kind is PatternKind.TRANSITION else "periodic gait"
     asked = f"{name} of {problem.sample_count} samples for {problem.leg_count} limbs"
@@ -130,7 +166,8 @@ def _lines(problem: PatternProblem, result: PatternResult, failure: str | None, 
         return [failure]
     if result.status is PatternStatus.INFEASIBLE:
         took = f"proven for the stated model in {result.solve_seconds:.2f} s"
-        return [f"No {asked} keeps the rules ({took}).", *result.explanation]
+        helps = _relaxation_lines(content["relaxations"])
+        return [f"No {asked} keeps the rules ({took}).", *result.explanation, *helps]
     proven = "proven optimal" if result.status is PatternStatus.OPTIMAL else _gap(content)
     lines = [f"{asked.capitalize()}, {proven} in {result.solve_seconds:.2f} s."]
     for number, pattern in enumerate(result.patterns, start=1):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from dataclasses import replace
 from typing import Any
 
@@ -9,12 +10,14 @@ import numpy as np
 import pytest
 
 from app.cli import commands_pattern
+from app.cli.parser import PATTERN_RULES
 from core.patterns.check import check_pattern
 from core.patterns.problem import (
     PatternKind,
     PatternProblem,
     PatternResult,
     PatternStatus,
+    Rule,
     index_halves,
     transition_cells,
 )
@@ -111,6 +114,41 @@ def test_an_impossible_transition_is_explained(capsys: pytest.CaptureFixture[str
     freed = answer["relaxations"][-1]
     assert (freed["words"], freed["rule"]) == ("Limb 3 free to walk", "fixed")
     assert freed["cells"][0] == {"limb": 3, "sample": 2}
+    assert freed["command"] is None
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        f"{FOUR} --locked 3",
+        "--legs 4 --from 1111 --to 1111 --samples=9",
+        "--legs 4 --from 1111 --to 1111 --samples 8 --samples 9 --least-swing 2 --best 2",
+        "--periodic --legs 6 --samples 9 --locked 3:stance --feet-down 5 --least-swing 4",
+        "--periodic --legs 6 --samples 8 --each-side 3 --least-swing 1",
+        "--periodic --legs 4 --samples 8 --shortest-stance 8 --each-side 2",
+    ],
+)
+def test_each_command_of_a_relaxation_finds_a_pattern(capsys: pytest.CaptureFixture[str], words: str) -> None:
+    status, answer = ask(capsys, words)
+    assert status == 3
+    commands = [one["command"] for one in answer["relaxations"] if one["command"] is not None]
+    assert commands
+    _, lines = read(capsys, words)
+    at = lines.index("What would help, the mildest change first:") + 1
+    told = [line.strip() for line in lines[at:]]
+    assert told == [
+        text for one in answer["relaxations"] for text in (f"{one['words']}.", one["command"]) if text
+    ]
+    for command in commands:
+        program, *arguments = shlex.split(command)
+        assert program == "footfall"
+        status, found = run_json(capsys, *arguments)
+        assert (status, found["relaxations"]) == (0, [])
+
+
+def test_every_rule_has_its_option() -> None:
+    for option, (rule, _) in PATTERN_RULES.items():
+        assert commands_pattern.RULE_OPTIONS.get(Rule(rule), f"--{rule.replace('_', '-')}") == option
 
 
 def test_a_state_that_breaks_a_rule_is_infeasible(capsys: pytest.CaptureFixture[str]) -> None:

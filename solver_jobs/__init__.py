@@ -17,6 +17,7 @@ from core.problem.motion_problem import MotionProblem
 from core.robot.model import RobotModel
 from solver_jobs.nlp.timing import TimingResult, fastest_timing
 from solver_jobs.remedies.completion import completed_drawing, completion_question, completion_remedy
+from solver_jobs.remedies.limit import Limit
 from solver_jobs.remedies.remedy import Remedy, RemedyKind, RemedySearch, Trouble, rank
 from solver_jobs.results.motion import Evidence, Iterate, Lack, MotionResult, SolveStatus
 from solver_jobs.results.pose import PoseProgress, PoseResult
@@ -49,6 +50,7 @@ __all__ = [
     "JobQueue",
     "JobState",
     "Lack",
+    "Limit",
     "LiveSolver",
     "MotionResult",
     "PatternSearch",

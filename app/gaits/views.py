@@ -168,6 +168,7 @@ def plan_view(plan: Plan) -> Json:
         "feet": [],
         "margin": [],
         "balance": plan.balance,
+        "robot_margin": plan.model.margin,
         "strokes_mm": None,
         "stroke_limits_mm": [limits.lower * 1000, limits.upper * 1000],
         "foot_speeds_mm_s": None,

@@ -24,6 +24,7 @@ from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
 from core.robot.model import load_robot
 from solver_jobs import (
+    Limit,
     Remedy,
     RemedySearch,
     SolveStatus,
@@ -51,6 +52,9 @@ class RemedyTier(Protocol):
 
     def remedies(self, gait: Gait, tell: Callable[[Remedy], object], *, tips: bool) -> RemedySearch:
         """Searches; tells of each remedy as it is found."""
+
+    def limit(self, gait: Gait, which: Limit) -> float | None:
+        """How far one number can go, m or rad."""
 
 
 class CompletionHandle(Protocol):

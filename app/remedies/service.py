@@ -7,6 +7,7 @@ from app.common.json import Json
 from app.gaits.live_plans import is_drawing, lacks_motion
 from app.remedies.run import RemedyParts, RemedyRun
 from core.gait.gait import Gait
+from solver_jobs import Limit
 
 NOTHING: Json = {"remedies": [], "searching": False, "trying": False, "complete": True}
 """Of a gait that has a motion and does not tip."""
@@ -45,6 +46,10 @@ class RemedyService:
             self._runs.add(run)
         run.start()
         return run.cancel
+
+    def limit(self, gait: Gait, which: Limit) -> float | None:
+        """How far one number of a drawing can go, m or rad; None where no value works, or of other gaits."""
+        return self._parts.tier.limit(gait, which) if is_drawing(gait) else None
 
     def _told(self, run: RemedyRun, content: Json | None, show: Callable[[Json | None], object]) -> None:
         if content is None:

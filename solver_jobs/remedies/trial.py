@@ -12,9 +12,6 @@ from core.gait.gait import Gait, motion_problem
 from core.robot.model import RobotModel
 from solver_jobs.results.motion import Lack, MotionResult, SolveStatus
 
-HALVINGS = 7
-"""Rounds of bisection: to a hundredth of the range."""
-
 SIDES = 32
 """Edges of the polygons that stand for discs here: within half a per cent."""
 
@@ -84,7 +81,7 @@ class Trial:
         if least >= most or not self.works(change(least)):
             return None
         low, high = least, most
-        for _ in range(HALVINGS):
+        while high - low > unit:
             middle = (low + high) / 2
             low, high = (middle, high) if self.works(change(middle)) else (low, middle)
         rounded = float(np.floor(low / unit + 1e-9)) * unit

@@ -14,9 +14,18 @@ from typing import Any
 from core.gait.gait import Gait
 from core.problem.initial_guess import initial_guess
 from core.problem.motion_problem import MotionProblem
+from solver_jobs.remedies.limit import Limit
 from solver_jobs.remedies.remedy import Remedy, RemedySearch
 from solver_jobs.results.motion import Evidence, MotionResult, SolveStatus
-from solver_jobs.workers.live_worker import Answered, FindRemedies, Found, SolveLive, run_live_worker
+from solver_jobs.workers.live_worker import (
+    Answered,
+    FindLimit,
+    FindRemedies,
+    Found,
+    Question,
+    SolveLive,
+    run_live_worker,
+)
 from solver_jobs.workers.spawning import start_process
 from solver_jobs.workers.worker_process import JOIN_SECONDS
 
@@ -116,13 +125,31 @@ class LiveSolver:
             return RemedySearch((), complete=False)
         return found
 
+    def limit(self, gait: Gait, which: Limit, timeout: float = 10.0) -> float | None:
+        """How far one number of a gait can go (see `solver_jobs.remedies.limit`); plans come before it.
+
+        Args:
+            gait: a drawing.
+            which: the number.
+            timeout: longest wait, s.
+
+        Returns:
+            The value, m or rad; None where none works, or no answer came.
+        """
+        try:
+            found: float | None = self._ask(lambda number: FindLimit(number, gait, which), timeout)
+        except (FutureTimeout, CancelledError, OSError, LiveSolverError) as error:
+            _log.warning("The live solver found no limit: %r", error)
+            return None
+        return found
+
     def close(self) -> None:
         """Ends the process."""
         with self._lock:
             self._closed = True
             self._end()
 
-    def _ask(self, message: Callable[[int], SolveLive | FindRemedies], timeout: float) -> Any:
+    def _ask(self, message: Callable[[int], Question], timeout: float) -> Any:
         """Sends a request, and sends it again if the process was dead or dies meanwhile."""
         try:
             return self._ask_once(message, timeout)
@@ -133,7 +160,7 @@ class LiveSolver:
                 raise
             return self._ask_once(message, max(timeout, LOAD_SECONDS))
 
-    def _ask_once(self, message: Callable[[int], SolveLive | FindRemedies], timeout: float) -> Any:
+    def _ask_once(self, message: Callable[[int], Question], timeout: float) -> Any:
         number = next(self._numbers)
         future: Future[Any] = Future()
         try:
@@ -151,7 +178,7 @@ class LiveSolver:
             self._waiting.pop(number, None)
             self._told.pop(number, None)
 
-    def _send(self, pipe: Connection, message: SolveLive | FindRemedies) -> None:
+    def _send(self, pipe: Connection, message: Question) -> None:
         """Sends a question; the lock is held."""
         try:
             pipe.send(message)

@@ -18,6 +18,7 @@ from app.studio.studio import Studio
 from app.web.dependencies import RequestBody, TheStudio, on_command_thread
 from core.errors import InputError
 from core.gait.gait import Gait
+from solver_jobs import Limit
 
 router = APIRouter(prefix="/api/gaits", tags=["gaits"])
 
@@ -34,6 +35,12 @@ class Remedies(Live):
     tips: Annotated[
         bool, Field(description="Physics said that it tips: then it gets remedies though it has a motion.")
     ] = False
+
+
+class AskedLimit(Live):
+    """A drawing, and the number that is asked about."""
+
+    which: Limit
 
 
 Asked = TypeVar("Asked", bound=Live)
@@ -77,6 +84,15 @@ async def remedies(gait_id: str, request: Request, studio: TheStudio) -> Streami
             end()
 
     return StreamingResponse(lines(), media_type="application/x-ndjson")
+
+
+@router.post("/{gait_id}/limit", response_model=Json)
+async def limit(gait_id: str, request: Request, studio: TheStudio) -> Json:
+    """How far one number of a drawing can go while everything else stays, SI; null where no value works."""
+    asked = await _asked(request, AskedLimit)
+    gait = await run_in_threadpool(changed_gait, await _gait(gait_id, studio), asked.document)
+    value = await run_in_threadpool(studio.remedies.limit, gait, asked.which)
+    return {"which": asked.which.value, "value": value}
 
 
 async def _gait(gait_id: str, studio: Studio) -> Gait:

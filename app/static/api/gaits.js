@@ -112,6 +112,7 @@ export const api = {
   ghost: async (id, of) => (await answer("GET", `${gait(id)}/ghost?of=${of}`)).arrayBuffer(),
   reach: (id, plan, workspace) => request("GET", `${gait(id)}/reach?plan=${encodeURIComponent(plan)}&workspace=${workspace}`),
   live: (id, body) => request("POST", `${gait(id)}/live`, body),
+  limit: async (id, body, signal) => (await request("POST", `${gait(id)}/limit`, body, signal)).value,
   remedies: async (id, body, signal, told) => linesOf(await answer("POST", `${gait(id)}/remedies`, body, signal), told),
   iterate: (job, number) => request("GET", `/api/jobs/${encodeURIComponent(job)}/course/${number}`),
   patterns: (question) => request("POST", "/api/patterns", question),

@@ -27,9 +27,10 @@ const axis = (index) => ({
 
 const STEP = [
   { label: "Step", name: "Step", unit: "mm", min: 0, max: 60, step: 0.5, decimals: 2, help: "Travel of the body an iteration",
+    limit: "step", fromSI: (metres) => metres * 1000,
     read: (document) => stepLength(document) * 1000, write: (document, value) => withStepLength(document, value / 1000) },
   { label: "Turn", name: "Turn", unit: "°", min: -90, max: 90, step: 1, decimals: 2, help: "Turn of the body an iteration, counter-clockwise",
-    read: stepTurn, write: withTurn },
+    limit: "turn", fromSI: (radians) => (radians * 180) / Math.PI, read: stepTurn, write: withTurn },
 ];
 
 const ITERATIONS = { label: "Iterations", name: "Iterations", unit: "", min: 1, max: 20, step: 1, decimals: 0, whole: true, help: "How often every foot steps", ...property("iterations") };
@@ -51,8 +52,9 @@ const LIMITS = [
   { label: "End height", name: "End height", unit: "mm", min: 53, max: 60.5, step: 0.5, decimals: 2, empty: "same", fallback: 53.5,
     help: "The same at the goal; empty as at the start", ...option("end_plane_height", 1000) },
   { label: "Clearance", name: "Clearance", unit: "mm", min: 0, max: 15, step: 0.5, decimals: 2,
-    help: "How high the highest point of each swing is at least", ...option("clearance", 1000) },
+    limit: "clearance", fromSI: (metres) => metres * 1000, help: "How high the highest point of each swing is at least", ...option("clearance", 1000) },
   { label: "Stability margin", name: "Stability margin", unit: "mm", min: 0, max: 30, step: 0.5, decimals: 2,
+    limit: "margin", fromSI: (metres) => metres * 1000,
     help: "Least distance of the centre of pressure from the support polygon's edge", ...option("margin", 1000) },
 ];
 

@@ -6,17 +6,19 @@
 import { clamp } from "../lib/clamp.js";
 import { h } from "../lib/dom.js";
 import { refusalOf, wholeNumber } from "../lib/field_error.js";
+import { limitHint } from "./limit_hint.js";
 
 const PIXELS_A_STEP = 4;
 
 const textOf = (value, decimals) => (value === null ? "" : String(Number(value.toFixed(decimals))));
 
 /** The running change of a number: on screen at once, one edit at the end, or nothing. */
-function changing(store, edits, field) {
+function changing(store, edits, field, limit) {
   let value;
   return {
     get on() { return value !== undefined; },
     show(next) {
+      if (value === undefined) limit.begin(edits.shown());
       value = next;
       store.set({ gesture: { apply: (document) => (field.act ? document : field.write(document, next)) } });
     },
@@ -24,6 +26,7 @@ function changing(store, edits, field) {
       if (value === undefined) return;
       const next = value;
       value = undefined;
+      limit.end();
       store.set({ gesture: null });
       const before = field.read(edits.shown());
       const same = before === null || next === null ? before === next : Math.abs(before - next) < 1e-9;
@@ -34,6 +37,7 @@ function changing(store, edits, field) {
     drop() {
       if (value === undefined) return false;
       value = undefined;
+      limit.end();
       store.set({ gesture: null });
       return true;
     },
@@ -145,7 +149,8 @@ function mountDragging(handle, input, change, field, current) {
  * @param {object} field `label` (short), `name`, `unit`, `min`, `max`, `step`, `decimals`, `help`, `read(document)` and
  *   `write(document, value)`, or `act(value)` for what only the server can do; `empty` says what
  *   no number means where none is allowed, `fallback` where stepping begins then, `unsaid` what stands where the number
- *   says nothing of the document; `whole` where only whole numbers will do
+ *   says nothing of the document; `whole` where only whole numbers will do; `limit` is what the studio calls the number
+ *   where it knows how far it can go, and `fromSI` turns what it says into the field's unit
  */
 export function numberField(store, edits, field) {
   const input = h("input", {
@@ -154,11 +159,12 @@ export function numberField(store, edits, field) {
   });
   const handle = h("span", { class: "name drag", text: field.label });
   const refusal = refusalOf(input);
+  const limit = limitHint(store, field);
   const element = h("label", { class: "field", title: `${field.help} (${field.min} to ${field.max} ${field.unit}). Drag the name to change it` },
-    handle, h("span", { class: "box", data: { unit: field.unit } }, input), refusal.element);
+    handle, h("span", { class: "box", data: { unit: field.unit } }, input), limit.element, refusal.element);
   let value = null;
   let written = "";
-  const change = changing(store, edits, field);
+  const change = changing(store, edits, field, limit);
   const text = {
     dirty: () => input.validity.badInput || input.value !== written,
     show(always) {

@@ -20,7 +20,7 @@ const editInProgress = ({ view, pending, gesture }) => Boolean(view) && (gesture
 function refusedPlan(sentence) {
   return {
     hash: null, source: "draft", note: sentence, refusal: { sentence, where: null }, times: [], contact: [], body: [], feet: [],
-    margin: [], heading: [], balance: null, strokes_mm: null, foot_speeds_mm_s: null, motor_speeds_mm_s: null, duration: 0, live: null, seconds: null,
+    margin: [], heading: [], balance: null, robot_margin: 0, strokes_mm: null, foot_speeds_mm_s: null, motor_speeds_mm_s: null, duration: 0, live: null, seconds: null,
   };
 }
 
@@ -68,7 +68,7 @@ export const isRefusedDrawing = (state) => {
 };
 
 /** Whether a motion follows from the drawing alone. */
-const isDrawing = (document) => Boolean(document) && !document.segment_table && !document.recorded && !document.sequence?.length && !document.poses;
+export const isDrawing = (document) => Boolean(document) && !document.segment_table && !document.recorded && !document.sequence?.length && !document.poses;
 
 /** The first thing that physics says against the shown gait; null where it walks, or physics was not asked. */
 export function fallOf(state) {

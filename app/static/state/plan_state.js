@@ -6,6 +6,12 @@ const TEXTS = {
 };
 const ROUNDING_M = 1e-6;
 
+/** Half of what a margin is rounded to where it is shown, m: a motion runs along the margin that it was asked for. */
+const SHOWN_M = 5e-5;
+
+/** Whether a drawing's motion has less than the margin that its robot needs as sent. */
+export const isThin = ({ source, balance, robot_margin: needed }) => ["live", "optimised"].includes(source) && balance !== null && balance < needed - SHOWN_M;
+
 /** Word and tone of a plan's state. */
 export function planState(plan) {
   if (!plan) return ["No plan", "quiet"];

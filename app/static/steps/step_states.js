@@ -1,6 +1,6 @@
 /** How far the shown gait is on its way to the robot: the state of each step, for tabs, strip and buttons. */
 
-import { planState } from "../state/plan_state.js";
+import { isThin, planState } from "../state/plan_state.js";
 import { simulationJob, simulationOf, simulationOver, simulationText } from "../state/simulation.js";
 import { planIsOn, shownPlan } from "../state/store.js";
 import { jobIsOn } from "../shell/job_list.js";
@@ -20,7 +20,10 @@ function designState(now) {
   const busy = now.jobs.some((job) => job.gait === now.selected && ["optimise", "timing"].includes(job.kind) && jobIsOn(job));
   if (busy) return state("running", "being optimised", 0.25);
   if (now.view?.search?.state === "running" && !now.view.plan?.times.length) return state("running", "being searched", 0.25);
-  const [word, tone] = planState(shownPlan(now));
+  const plan = shownPlan(now);
+  const [word, tone] = planState(plan);
+  // Below the margin that the robot needs only physics can say whether it walks.
+  if (tone === "good" && isThin(plan) && !simulationOver(now)) return state("old", "small margin, not simulated yet");
   return state(MARK_OF[tone], lowered(word));
 }
 

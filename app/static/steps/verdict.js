@@ -1,6 +1,6 @@
 /** The verdict strip: the only place that says where the shown gait stands. Each part opens its step. */
 
-import { planState } from "../state/plan_state.js";
+import { isThin, planState } from "../state/plan_state.js";
 import { byId, h, setAttribute, setText } from "../lib/dom.js";
 import { capital, fixed, lowered, mm } from "../lib/format.js";
 import { simulationOver } from "../state/simulation.js";
@@ -25,7 +25,9 @@ function planPart(state) {
   const isMotion = plan.times.length > 0 && word !== "No motion";
   const margin = isMotion && plan.balance !== null ? `margin ${mm(plan.balance)} mm` : null;
   const figure = [word === USUAL && margin ? null : lowered(word), margin].filter(Boolean).join(", ");
-  return { mark, figure, tone: isMotion && plan.balance !== null && plan.balance < 0 ? "bad" : null, help: [`${word}.`, plan.note, isMotion ? MARGIN_HELP : ""].filter(Boolean).join(" ") };
+  const tone = !margin ? null : plan.balance < 0 ? "bad" : mark === "old" && isThin(plan) ? "caution" : null;
+  const thin = tone === "caution" ? `The robot needs a margin of ${mm(plan.robot_margin)} mm as sent; below it only physics can say whether it walks.` : "";
+  return { mark, figure, tone, help: [`${word}.`, thin, plan.note, isMotion ? MARGIN_HELP : ""].filter(Boolean).join(" ") };
 }
 
 function robotPart(state) {

@@ -192,6 +192,42 @@ def test_a_way_out_keeps_what_was_edited_since_although_the_plan_is_the_same(
     assert hypot(*studio.document("c-gait")["step"][:2]) < 0.0275
 
 
+def test_a_number_says_how_far_it_can_go_while_it_is_dragged(page: Page, studio: StudioProcess) -> None:
+    choose(page, "S-Gait 10 mm")
+    before = studio.document("s-gait")["step"]
+    name = page.locator("#optimise .field", has=page.get_by_role("spinbutton", name="Step", exact=True))
+    place = middle(name.locator(".name"))
+    page.mouse.move(*place)
+    page.mouse.down()
+    page.mouse.move(place[0] + 12, place[1])
+    hint = name.get_by_role("status")
+    expect(hint).to_have_text(re.compile(r"^Up to [0-9.]+ mm$"))
+    largest = float(hint.inner_text().split()[2])
+    page.mouse.move(place[0] + 40, place[1])
+    expect(hint).to_be_visible()
+    page.keyboard.press("Escape")
+    page.mouse.up()
+    expect(hint).to_be_hidden()
+    assert studio.document("s-gait")["step"] == before
+    step = page.get_by_role("spinbutton", name="Step", exact=True)
+    step.fill(str(largest))
+    step.press("Enter")
+    expect(live_line(page)).to_contain_text("Plan margin")
+    expect(page.get_by_role("region", name="Why it is infeasible")).to_be_hidden()
+
+
+def test_a_margin_below_the_robots_own_is_amber_until_physics_has_spoken(page: Page) -> None:
+    choose(page, "Walk 10 mm")
+    design = page.get_by_role("tab", name=re.compile("^Design: plan found"))
+    expect(design).to_be_visible()
+    margin = page.get_by_role("spinbutton", name="Stability margin")
+    margin.fill("4")
+    margin.press("Enter")
+    expect(page.get_by_role("tab", name="Design: small margin, not simulated yet")).to_be_visible()
+    page.get_by_role("button", name="Simulate", exact=True).first.click()
+    expect(design).to_be_visible(timeout=30_000)
+
+
 def test_each_way_out_says_what_physics_makes_of_it(page: Page) -> None:
     choose(page, "S-Gait 10 mm")
     ways = ask_too_much(page)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import Any
 
@@ -17,8 +18,9 @@ from core.library.library import library
 from core.problem.motion_check import check_motion
 from core.problem.motion_problem import Workspace
 from core.robot.model import load_robot
-from solver_jobs import LiveSolver, Remedy, RemedyKind, SolveStatus
+from solver_jobs import Limit, LiveSolver, Remedy, RemedyKind, SolveStatus
 from solver_jobs.live.solve import solve_live
+from solver_jobs.remedies.limit import largest_value
 from solver_jobs.remedies.search import find_remedies
 from solver_jobs.workers import live_service
 from solver_jobs.workers.spawning import start_process
@@ -107,6 +109,15 @@ def test_every_remedy_works(gait: Gait, kinds: set[RemedyKind], solver: LiveSolv
         assert result.status is SolveStatus.SOLVED, remedy.label
         assert check_motion(problem, result.trajectory).confirmed
         assert remedy.sentence
+
+
+def test_plans_come_before_a_limit_and_do_not_end_it(solver: LiveSolver) -> None:
+    wanted = largest_value(gait_of("walk", 0.010, margin=0.006), MODEL, Limit.STEP, lambda: True)
+    with ThreadPoolExecutor(1) as pool:
+        asked = pool.submit(solver.limit, gait_of("walk", 0.010, margin=0.006), Limit.STEP, 60.0)
+        plans = [solver.solve(PROBLEM, 30.0) for _ in range(4)]
+        assert asked.result(60.0) == wanted
+    assert {plan.status for plan in plans} == {SolveStatus.SOLVED}
 
 
 def test_the_search_for_remedies_can_be_interrupted() -> None:

@@ -183,6 +183,7 @@ def bodies_of(
         ),
         "POST /api/gaits/{gait_id}/live": tuple({"document": one} for one in gaits),
         "POST /api/gaits/{gait_id}/remedies": tuple({"document": one, "tips": False} for one in gaits),
+        "POST /api/gaits/{gait_id}/limit": tuple({"document": one, "which": "step"} for one in gaits),
         "POST /api/gaits/{gait_id}/redraw": ({"order": [3, 2, 4, 1], "phase_knots": 5, "closing_knots": 5},),
         "POST /api/sequences": (
             {"name": OWN, "parts": [{"gait": "walk", "times": 2}, {"gait": "rotate"}], "notes": "n"},

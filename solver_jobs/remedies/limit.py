@@ -1,0 +1,67 @@
+"""How far one number of a gait can go while everything else stays: step, turn, margin or clearance."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from enum import StrEnum
+
+import numpy as np
+
+from core.gait.gait import Gait, heading_step
+from core.robot.model import RobotModel
+from solver_jobs.remedies.remedy import step_length
+from solver_jobs.remedies.trial import InterruptedSearchError, Trial
+
+
+class Limit(StrEnum):
+    """The number that is looked at."""
+
+    STEP = "step"
+    TURN = "turn"
+    MARGIN = "margin"
+    CLEARANCE = "clearance"
+
+
+_RANGES = {
+    Limit.STEP: (0.001, 0.060, 1e-4),
+    Limit.TURN: (np.radians(1.0), np.radians(90.0), np.radians(0.5)),
+    Limit.MARGIN: (0.0, 0.030, 1e-4),
+    Limit.CLEARANCE: (0.0005, 0.015, 1e-4),
+}
+"""Least and most that is tried, and the unit of the answer, m and rad."""
+
+
+def largest_value(gait: Gait, model: RobotModel, which: Limit, go_on: Callable[[], bool]) -> float | None:
+    """The largest value of a number with which the live tier finds a motion, m or rad.
+
+    Args:
+        gait: a drawing; its own value of the number plays no part, but for the sign of a turn.
+        model: its robot.
+        which: the number.
+        go_on: asked before each try; false ends the search.
+
+    Returns:
+        None where even a small value does not work, or the search was ended.
+    """
+    least, most, unit = _RANGES[which]
+    try:
+        return Trial(model, go_on).largest(least, most, lambda value: _with(gait, which, value), unit)
+    except InterruptedSearchError:
+        return None
+
+
+def _with(gait: Gait, which: Limit, value: float) -> Gait:
+    dx, dy, yaw = gait.step
+    match which:
+        case Limit.STEP:
+            length = step_length(gait)
+            straight = heading_step(gait.orientation, value)
+            along = (dx * value / length, dy * value / length) if length else straight[:2]
+            return replace(gait, step=(*along, yaw))
+        case Limit.TURN:
+            return replace(gait, step=(dx, dy, float(np.copysign(value, yaw or 1.0))))
+        case Limit.MARGIN:
+            return gait.with_options(margin=value)
+        case Limit.CLEARANCE:
+            return gait.with_options(clearance=value)

@@ -1,55 +1,138 @@
 """Remedies of random drawings that cannot walk: how soon they come, and whether they walk in physics."""
 
 import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from app.bench.common.measure import Row, milliseconds
-from app.bench.common.random_drawings import random_drawing
+from app.bench.common.random_drawings import Drawing, Family, random_drawing
 from app.plans.plan import make_plan
 from app.simulation.problem import simulation_problem
+from core.errors import FootfallError
 from core.findings import Severity
-from core.gait.gait import Gait
+from core.gait.gait import Gait, motion_problem
 from core.physics.findings import physics_outcomes
 from core.physics.masses import default_physics
 from core.physics.metrics import report
 from core.robot.model import load_robot
-from solver_jobs import Remedy, find_remedies, simulate, solve_live
+from solver_jobs import (
+    Remedy,
+    completion_question,
+    find_remedies,
+    simulate,
+    solve_exact,
+    solve_live,
+    solve_pattern,
+)
 
 COUNT = 60
 SEED = 2
 
+PATTERN_SECONDS = 10.0
+"""Longest search for footfalls near a drawing without a remedy, s."""
+
+SMALL_SHARE = 0.05
+"""Of the step that the exact tier tries for it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tried:
+    """A drawing, and what was found for it.
+
+    Args:
+        drawing: which cannot walk.
+        seconds: that the search took.
+        remedies: best first.
+        walks: whether each remedy without a caution walks in physics.
+        why: of a drawing without a remedy: the sentences that are given, and whether anything could help.
+    """
+
+    drawing: Drawing
+    seconds: float
+    remedies: tuple[Remedy, ...]
+    walks: tuple[bool, ...]
+    why: str
+
 
 def bench_remedies(count: int = COUNT, seed: int = SEED) -> list[Row]:
-    """A row a drawing, and the figures of all before them."""
-    rows, seconds, walking = [], [], []
-    for number in range(count):
-        drawing = random_drawing(seed, number)
-        begin = time.perf_counter()
-        found = find_remedies(drawing.gait, load_robot(drawing.gait.robot)).remedies
-        seconds.append(time.perf_counter() - begin)
-        walks = [walks_in_physics(remedy.gait) for remedy in found if not remedy.caution]
-        walking.append(walks)
-        rows.append(
-            {
-                "drawing": f"{seed}/{number}: {drawing.words}{' (refused)' if drawing.refused else ''}",
-                "ms": milliseconds(seconds[-1]),
-                "remedies": "; ".join(_words(remedy) for remedy in found),
-                "walk": ", ".join("yes" if one else "no" for one in walks),
-            }
+    """For each family of drawings its figures, and a row a drawing."""
+    return [row for family in Family for row in family_rows(family, count, seed)]
+
+
+def family_rows(family: Family, count: int, seed: int) -> list[Row]:
+    """The figures of one family of drawings, and a row a drawing."""
+    tried = [_tried(random_drawing(seed, number, family)) for number in range(count)]
+    figures = [_row(family, name, None, text, "") for name, text in _figures(tried).items()]
+    return figures + [
+        _row(
+            family,
+            f"{seed}/{one.drawing.number}: {one.drawing.words}{' (refused)' if one.drawing.refused else ''}",
+            one.seconds,
+            "; ".join(_words(remedy) for remedy in one.remedies) or f"none: {one.why}",
+            ", ".join("yes" if walks else "no" for walks in one.walks),
         )
-    offered = sum(len(walks) for walks in walking)
-    figures = {
-        "with a remedy that walks": f"{sum(any(walks) for walks in walking)} of {count}",
-        "whose first remedy walks": f"{sum(bool(walks) and walks[0] for walks in walking)} of {count}",
-        "remedies that walk": f"{sum(sum(walks) for walks in walking)} of {offered}",
+        for one in tried
+    ]
+
+
+def _row(family: Family, drawing: str, seconds: float | None, remedies: str, walk: str) -> Row:
+    ms = None if seconds is None else milliseconds(seconds)
+    return {"family": family.value, "drawing": drawing, "ms": ms, "remedies": remedies, "walk": walk}
+
+
+def _tried(drawing: Drawing) -> Tried:
+    begin = time.perf_counter()
+    found = find_remedies(drawing.gait, load_robot(drawing.gait.robot)).remedies
+    seconds = time.perf_counter() - begin
+    walks = tuple(walks_in_physics(remedy.gait) for remedy in found if not remedy.caution)
+    return Tried(drawing, seconds, found, walks, "" if found else why_none(drawing.gait))
+
+
+def _figures(tried: Sequence[Tried]) -> dict[str, str]:
+    count = len(tried)
+    walks = [one.walks for one in tried]
+    seconds = [one.seconds for one in tried]
+    return {
+        "with a remedy that walks": f"{sum(any(one) for one in walks)} of {count}",
+        "whose first remedy walks": f"{sum(bool(one) and one[0] for one in walks)} of {count}",
+        "remedies that walk": f"{sum(map(sum, walks))} of {sum(map(len, walks))}",
+        "without any remedy": f"{sum(not one.remedies for one in tried)} of {count}",
         "search, median and p95, ms": (
             f"{milliseconds(float(np.median(seconds)))}, {milliseconds(float(np.percentile(seconds, 95)))}"
         ),
     }
-    return [
-        {"drawing": name, "ms": None, "remedies": text, "walk": ""} for name, text in figures.items()
-    ] + rows
+
+
+def why_none(gait: Gait) -> str:
+    """The sentences that are given for a drawing without a remedy, and whether anything could help it.
+
+    The pattern search proves where no footfalls fit the locked cells; else the exact tier tries the drawing
+    with next to no step and no margin.
+    """
+    model = load_robot(gait.robot)
+    try:
+        sentences = " ".join(solve_live(motion_problem(gait, model)).explanation)
+    except FootfallError as error:
+        sentences = error.sentence
+    question = completion_question(gait, model)
+    if question is None:
+        fit = "cannot be asked of the pattern search"
+    else:
+        status = solve_pattern(question, seconds=PATTERN_SECONDS).status
+        fit = f"footfalls near it are {status.value}"
+    small = replace(gait, step=_small(gait.step)).with_options(margin=0.0)
+    try:
+        exact = solve_exact(motion_problem(small, model)).status.value
+    except FootfallError:
+        exact = "refused"
+    return f"{sentences} ({fit}; with next to no step and no margin the exact tier: {exact})"
+
+
+def _small(step: tuple[float, float, float]) -> tuple[float, float, float]:
+    dx, dy, yaw = (SMALL_SHARE * part for part in step)
+    return dx, dy, yaw
 
 
 def walks_in_physics(gait: Gait) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,16 +12,19 @@ import pytest
 from app.bench import BENCHMARKS
 from app.bench.common.cases import Case, all_cases
 from app.bench.common.edited_gaits import edited_gait
+from app.bench.common.random_drawings import Family
 from app.bench.common.random_gaits import grouped_gait
 from app.bench.solvers.edits import Outcome, answers, bench_edits
 from app.bench.solvers.frontier import bench_frontier
 from app.bench.solvers.gentle import bench_gentle
 from app.bench.solvers.live import bench_live
-from app.bench.solvers.remedies import bench_remedies
+from app.bench.solvers.remedies import bench_remedies, family_rows, why_none
 from app.bench.solvers.timing import bench_timing
 from app.bench.solvers.trajectories import bench_trajectories, row_of
 from app.documents.gait_json import gait_content
 from core.gait.gait import motion_problem
+from core.library.library import library
+from core.motion.contact_timeline import ContactTimeline
 from core.problem.motion_problem import Workspace
 from core.robot.model import load_robot
 from tests.support.command import run, run_json
@@ -86,10 +90,27 @@ def test_the_frontier_is_confirmed_and_free_phases_get_no_less_far() -> None:
 
 
 def test_random_drawings_have_remedies_that_walk() -> None:
-    rows = bench_remedies(count=2, seed=4)
-    figures = {row["drawing"]: row["remedies"] for row in rows[:4]}
+    rows = family_rows(Family.PLAIN, count=2, seed=4)
+    figures = {row["drawing"]: row["remedies"] for row in rows}
     assert figures["with a remedy that walks"] == "2 of 2"
     assert figures["whose first remedy walks"] == "2 of 2"
+    assert figures["without any remedy"] == "0 of 2"
+
+
+def test_both_families_of_drawings_are_measured() -> None:
+    rows = bench_remedies(count=1, seed=2)
+    told = {row["family"]: row["remedies"] for row in rows if row["drawing"] == "with a remedy that walks"}
+    assert told == {"plain": "1 of 1", "special": "1 of 1"}
+
+
+def test_a_drawing_without_a_remedy_says_why() -> None:
+    walk = library()["walk"].gait
+    stance = walk.timeline.stance.copy()
+    stance[:, 10:20] = [[False], [False], [True], [True]]
+    locked = ContactTimeline(stance, np.ones_like(stance), walk.timeline.sample_time)
+    why = why_none(replace(walk, timeline=locked))
+    assert "footfalls near it are infeasible" in why
+    assert "with next to no step and no margin the exact tier: " in why
 
 
 def test_an_edit_is_made_again_from_its_seed() -> None:

@@ -5,7 +5,7 @@ import { byId, h, setAttribute, setText } from "../lib/dom.js";
 import { capital, fixed, lowered, mm } from "../lib/format.js";
 import { simulationOver } from "../state/simulation.js";
 import { announce } from "../lib/toasts.js";
-import { shownPlan } from "../state/store.js";
+import { hasNoMotion, shownPlan } from "../state/store.js";
 import { approvalState, checkState, gaitParts, simulateState, stepStates } from "./step_states.js";
 import { openStep } from "./steps.js";
 
@@ -33,7 +33,7 @@ function planPart(state) {
 function robotPart(state) {
   const plan = shownPlan(state);
   const { view } = state;
-  const seconds = plan === view?.plan ? plan?.robot_seconds : null;
+  const seconds = plan === view?.plan && !hasNoMotion(plan) ? plan?.robot_seconds : null;
   if (!seconds) return { figure: NONE, help: "Time and speed on the robot are not known yet." };
   const speed = view.speed ? `  ${fixed(view.speed * 1000, 2)} mm/s` : "";
   return { figure: `${fixed(seconds)} s${speed}`, help: `On the robot the motion takes about ${fixed(seconds)} s${view.speed ? `, which is ${fixed(view.speed * 1000, 2)} mm/s` : ""}. It leaves out the way to the start pose.` };

@@ -2,7 +2,7 @@
 
 import { clamp } from "../lib/clamp.js";
 import { byId, h } from "../lib/dom.js";
-import { shownPlan } from "../state/store.js";
+import { hasNoMotion, shownPlan } from "../state/store.js";
 import { axisKey, axisOf, columnFraction, fractionAt, labelEvery, momentOf, timeAt } from "../state/time_axis.js";
 
 const percent = (fraction) => `${100 * fraction}%`;
@@ -46,7 +46,7 @@ const hasRobotTimes = (plan) => plan?.poses === null && plan.waypoint_seconds?.l
 
 /** The second line of the ruler: the robot's seconds, where it is at that moment of the plan. */
 function robotTicks(axis, plan, width) {
-  if (!hasRobotTimes(plan)) return [];
+  if (!hasRobotTimes(plan) || hasNoMotion(plan)) return [];
   const { waypoint_times: planned, waypoint_seconds: takes } = plan;
   const every = labelEvery({ shown: axis.shown, step: (axis.step * takes.at(-1)) / planned.at(-1) }, width, 72);
   const marks = [];
@@ -78,7 +78,8 @@ function draw(state, playback, width) {
   const [axis, plan] = [axisOf(state), shownPlan(state)];
   const loop = playback.loop && (playback.loop[0] > 0 || playback.loop[1] < playback.duration - 1e-9) ? [loopMark(axis, playback.loop)] : [];
   const ruler = byId("ruler");
-  ruler.toggleAttribute("data-robot", hasRobotTimes(plan));
+  // Without a motion its second line is free for the flags; as high as before, rows stay under the hand that draws.
+  ruler.toggleAttribute("data-robot", hasRobotTimes(plan) || hasNoMotion(plan));
   ruler.replaceChildren(...loop, ...missingMotionMarks(axis, plan), ...ticks(axis, width), ...robotTicks(axis, plan, width), ...heardMarks(axis, plan), ...findingMarks(axis, state.live ? null : state.view?.verdict));
 }
 

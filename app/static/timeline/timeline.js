@@ -3,8 +3,10 @@
 import { missingMotionByCell } from "../document/missing_motion.js";
 import { byId, h } from "../lib/dom.js";
 import { mountSelection } from "../state/selection.js";
+import { isRefusedDrawing } from "../state/live_plan.js";
 import { previewedDocument, shownDocument, shownPlan } from "../state/store.js";
 import { axisKey, axisOf } from "../state/time_axis.js";
+import { mountPhaseFlags } from "./phase_flags.js";
 import { mountRuler } from "./ruler.js";
 import { mountTimelineInput } from "./timeline_input.js";
 import { buildRow, DENSE, drawRow, findingsByCell, fitRow } from "./timeline_rows.js";
@@ -13,8 +15,9 @@ function showNote(store, edits) {
   const note = byId("edit-note");
   const { refused, view } = store.state;
   const plan = shownPlan(store.state);
-  // An adapted motion may be out of reach; its search says whether the gait is.
-  const refusal = plan?.live?.status === "infeasible" || plan?.source === "adapted" ? null : plan?.refusal?.sentence;
+  // An adapted motion may be out of reach; its search says whether the gait is. Of a drawing the inspector says why.
+  const isSaid = plan?.live?.status === "infeasible" || plan?.source === "adapted" || isRefusedDrawing(store.state);
+  const refusal = isSaid ? null : plan?.refusal?.sentence;
   const sentence = refused ?? refusal ?? view?.notice ?? null;
   if (!sentence) return note.replaceChildren();
   const text = h("p", { text: refused ? `Not accepted: ${refused}` : sentence, title: sentence, data: { toneText: refused || refusal ? "bad" : "caution" } });
@@ -76,9 +79,10 @@ export function mountTimeline(store, edits, playback, reveal) {
 
   store.watch((state) => [state.view, state.pending, state.gesture, state.preview, state.refused, shownPlan(state)], render);
   store.watch((state) => [axisKey(state), parts.length], (state) => place(axisOf(state)));
-  store.watch((state) => [state.view, state.refused, shownPlan(state)], () => showNote(store, edits));
+  store.watch((state) => [state.view, state.refused, shownPlan(state), isRefusedDrawing(state)], () => showNote(store, edits));
   store.watch(({ selected }) => [selected], () => store.set({ selection: null, preview: null, zoom: null }));
   store.watch(({ view, pending }) => [view, pending], ({ preview }) => { if (preview) store.set({ preview: null }); });
+  mountPhaseFlags(store, marks);
   mountSelection(store, marks, () => parts);
   mountRuler(store, playback);
   return input;

@@ -44,8 +44,6 @@ function drawCell(cell, key) {
   setAttribute(cell, "aria-readonly", fixed ? "true" : null);
   setAttribute(cell, "data-finding", finding?.severity);
   setAttribute(cell, "data-lack", lack?.tone);
-  cell.toggleAttribute("data-lack-first", Boolean(lack?.first));
-  cell.toggleAttribute("data-lack-last", Boolean(lack?.last));
   cell.setAttribute("aria-label", name(foot, sample, swing, fixed));
 }
 
@@ -72,7 +70,7 @@ export function drawRow(line, { foot, steps, locked, before, findings, lacks, pe
     const part = partOf(steps, sample);
     const preview = before !== null && (before.steps[sample] !== steps[sample] || (before.locked?.[sample] ?? "0") !== (locked?.[sample] ?? "0"));
     const wraps = wrapsOf(steps, sample, periodic);
-    const key = `${part}${fixed}${preview}${wraps}${finding?.sentence ?? ""}${lack ? lack.tone + lack.first + lack.last + lack.sentence : ""}`;
+    const key = `${part}${fixed}${preview}${wraps}${finding?.sentence ?? ""}${lack ? lack.tone + lack.sentence : ""}`;
     if (line.drawn[sample] === key) continue;
     line.drawn[sample] = key;
     line.words[sample] = [finding?.sentence, lack?.sentence].filter(Boolean).join(" ");

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.bench.common.measure import Row, milliseconds
-from app.bench.common.random_drawings import Drawing, Family, random_drawing
+from app.bench.common.random_drawings import Drawing, Family, is_refused, random_drawing
 from app.plans.plan import make_plan
 from app.simulation.problem import simulation_problem
 from core.errors import FootfallError
@@ -16,9 +16,10 @@ from core.gait.gait import Gait, motion_problem
 from core.physics.findings import physics_outcomes
 from core.physics.masses import default_physics
 from core.physics.metrics import report
-from core.robot.model import load_robot
+from core.robot.model import RobotModel, load_robot
 from solver_jobs import (
     Remedy,
+    completed_drawing,
     completion_question,
     find_remedies,
     simulate,
@@ -108,26 +109,39 @@ def _figures(tried: Sequence[Tried]) -> dict[str, str]:
 def why_none(gait: Gait) -> str:
     """The sentences that are given for a drawing without a remedy, and whether anything could help it.
 
-    The pattern search proves where no footfalls fit the locked cells; else the exact tier tries the drawing
-    with next to no step and no margin.
+    The pattern search finishes the drawing, or proves that no footfalls fit its locked cells; where it finds
+    none, the exact tier tries the drawing with next to no step and no margin.
     """
     model = load_robot(gait.robot)
     try:
         sentences = " ".join(solve_live(motion_problem(gait, model)).explanation)
     except FootfallError as error:
         sentences = error.sentence
-    question = completion_question(gait, model)
-    if question is None:
-        fit = "cannot be asked of the pattern search"
-    else:
-        status = solve_pattern(question, seconds=PATTERN_SECONDS).status
-        fit = f"footfalls near it are {status.value}"
+    finished = _finished(gait, model)
+    if finished is not None:
+        return f"{sentences} ({finished})"
     small = replace(gait, step=_small(gait.step)).with_options(margin=0.0)
     try:
         exact = solve_exact(motion_problem(small, model)).status.value
     except FootfallError:
         exact = "refused"
-    return f"{sentences} ({fit}; with next to no step and no margin the exact tier: {exact})"
+    text = "no footfalls near it were found; with next to no step and no margin the exact tier calls it"
+    return f"{sentences} ({text} {exact})"
+
+
+def _finished(gait: Gait, model: RobotModel) -> str | None:
+    """What comes of the pattern search's finished drawing; None where it finds no footfalls."""
+    question = completion_question(gait, model)
+    patterns = () if question is None else solve_pattern(question, seconds=PATTERN_SECONDS).patterns
+    if not patterns:
+        return None
+    try:
+        finished = completed_drawing(gait, model, patterns[0].stance)
+    except FootfallError as error:
+        return f"finished by the pattern search it is refused: {error.sentence}"
+    if is_refused(finished) is not None:
+        return "finished by the pattern search it has no motion"
+    return f"finished by the pattern search it {'walks' if walks_in_physics(finished) else 'tips'}"
 
 
 def _small(step: tuple[float, float, float]) -> tuple[float, float, float]:

@@ -12,7 +12,7 @@ import pytest
 from app.bench import BENCHMARKS
 from app.bench.common.cases import Case, all_cases
 from app.bench.common.edited_gaits import edited_gait
-from app.bench.common.random_drawings import Family
+from app.bench.common.random_drawings import Family, random_drawing
 from app.bench.common.random_gaits import grouped_gait
 from app.bench.solvers.edits import Outcome, answers, bench_edits
 from app.bench.solvers.frontier import bench_frontier
@@ -109,8 +109,12 @@ def test_a_drawing_without_a_remedy_says_why() -> None:
     stance[:, 10:20] = [[False], [False], [True], [True]]
     locked = ContactTimeline(stance, np.ones_like(stance), walk.timeline.sample_time)
     why = why_none(replace(walk, timeline=locked))
-    assert "footfalls near it are infeasible" in why
-    assert "with next to no step and no margin the exact tier: " in why
+    assert "no footfalls near it were found" in why
+
+
+def test_a_drawing_that_the_pattern_search_finishes_says_so() -> None:
+    overlap = random_drawing(4, 1).gait
+    assert why_none(overlap).endswith("(finished by the pattern search it walks)")
 
 
 def test_an_edit_is_made_again_from_its_seed() -> None:

@@ -18,7 +18,7 @@ from core.robot.model import RobotModel
 from solver_jobs.nlp.timing import TimingResult, fastest_timing
 from solver_jobs.remedies.completion import completed_drawing, completion_question, completion_remedy
 from solver_jobs.remedies.limit import Limit
-from solver_jobs.remedies.remedy import Remedy, RemedyKind, RemedySearch, Trouble, rank
+from solver_jobs.remedies.remedy import Remedy, RemedyKind, RemedySearch, Trouble, nothing_words, rank
 from solver_jobs.results.motion import Evidence, Iterate, Lack, MotionResult, SolveStatus
 from solver_jobs.results.pose import PoseProgress, PoseResult
 from solver_jobs.tiers.frontier import Frontier, FrontierSearch
@@ -78,6 +78,7 @@ __all__ = [
     "completion_remedy",
     "fastest_timing",
     "find_remedies",
+    "nothing_words",
     "rank",
     "result_sentence",
     "run_tasks",

@@ -32,6 +32,7 @@ from solver_jobs import (
     completed_drawing,
     completion_question,
     completion_remedy,
+    nothing_words,
     rank,
 )
 
@@ -265,9 +266,11 @@ class RemedyRun:
 
     def _content(self) -> Json:
         offers = self._shown()
+        is_over = self._is_complete and self._completion is None
         return {
             "remedies": [remedy_view(one.remedy, one.plan, one.tried) for one in offers],
             "searching": self._is_searching,
             "trying": any(one.tried is None for one in offers) or self._completion is not None,
             "complete": self._is_complete,
+            "sentence": nothing_words(self._gait) if is_over and not offers else "",
         }

@@ -9,7 +9,7 @@ from app.remedies.run import RemedyParts, RemedyRun
 from core.gait.gait import Gait
 from solver_jobs import Limit
 
-NOTHING: Json = {"remedies": [], "searching": False, "trying": False, "complete": True}
+NOTHING: Json = {"remedies": [], "searching": False, "trying": False, "complete": True, "sentence": ""}
 """Of a gait that has a motion and does not tip."""
 
 

@@ -86,6 +86,18 @@ class RemedySearch:
         return self.found[:MOST]
 
 
+def nothing_words(gait: Gait) -> str:
+    """What a person reads where no change helps, with what stood in the way."""
+    kept = []
+    if gait.timeline.locked.any():
+        kept.append("Locked cells stay as they are, so it is made no longer either: unlock some.")
+    if gait.held.any:
+        kept.append("Feet that are held up stay up: try it without.")
+    if not any(gait.step):
+        kept.append("It neither steps nor turns: give it a step.")
+    return " ".join(["No change was found that makes it walk.", *kept])
+
+
 def rank(asked: Gait, model: RobotModel, remedy: Remedy) -> tuple[bool, bool, float]:
     """Smaller is better: caution and too small a margin last; then what is lost, and how much changes.
 

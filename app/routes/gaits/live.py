@@ -63,7 +63,7 @@ async def remedies(gait_id: str, request: Request, studio: TheStudio) -> Streami
 
     `remedies` are at most four, best first, each with its changed document, the margin that it reaches, its
     seconds, and what physics says (`physics`: null until it is known). `searching` and `trying` say whether
-    more may come. The search ends with the request.
+    more may come, `sentence` why there is none. The search ends with the request.
     """
     asked = await _asked(request, Remedies)
     gait = await run_in_threadpool(changed_gait, await _gait(gait_id, studio), asked.document)

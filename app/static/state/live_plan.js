@@ -85,6 +85,7 @@ function mountRemedies(store) {
   let timer = 0;
   let search = null;
   let asked = { text: null, gesture: null };
+  let since = 0;
   const wanted = (state) => (hasNoMotion(ownPlan(state)) || fallOf(state) ? shownText(state) : null);
 
   function end() {
@@ -97,7 +98,15 @@ function mountRemedies(store) {
     const { view } = store.state;
     const mine = new AbortController();
     search = mine;
-    const told = (found) => { if (search === mine) store.set({ remedies: { text, ...found } }); };
+    let isFirst = true;
+    const told = (found) => {
+      if (search !== mine) return;
+      store.set({ remedies: { text, ...found } });
+      if (isFirst && found.list.length) {
+        isFirst = false;
+        measured("edit to remedy", since);
+      }
+    };
     try {
       const document = shownDocument(store.state);
       await api.remedies(view.id, { document, tips: Boolean(fallOf(store.state)) }, mine.signal, ({ remedies: list, ...rest }) => told({ ...rest, list }));
@@ -106,6 +115,7 @@ function mountRemedies(store) {
     }
   }
 
+  store.watch((state) => [shownText(state)], () => { since = performance.now(); });
   store.watch((state) => [state.view, state.pending, state.gesture, ownPlan(state), fallOf(state)], (state) => {
     const text = wanted(state);
     if (text !== null && text === asked.text && state.gesture === asked.gesture) return;

@@ -8,6 +8,7 @@ import threading
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from app.common.json import Json
@@ -16,6 +17,7 @@ from app.remedies.run import RemedyParts
 from app.remedies.service import RemedyService
 from core.gait.gait import Gait, heading_step
 from core.library.library import library
+from core.motion.contact_timeline import ContactTimeline
 from core.robot.model import load_robot
 from solver_jobs import LiveSolver, PatternSolver, RemedyKind, Simulator, solve_pattern
 from solver_jobs.remedies.completion import completed_drawing, completion_question
@@ -87,6 +89,16 @@ def test_a_gait_that_tips_gets_remedies_though_it_has_a_motion(service: RemedySe
 
 def test_a_motion_from_a_table_gets_none(service: RemedyService) -> None:
     assert states_of(service, library()["walk-manual-0"].gait, tips=True)[-1]["remedies"] == []
+
+
+def test_where_nothing_helps_a_sentence_says_what_stood_in_the_way(service: RemedyService) -> None:
+    stance = WALK.timeline.stance.copy()
+    stance[:3, 6:9] = False
+    locked = np.ones_like(stance)
+    held_fast = replace(WALK, timeline=ContactTimeline(stance, locked, WALK.timeline.sample_time))
+    last = states_of(service, held_fast)[-1]
+    assert last["remedies"] == []
+    assert last["sentence"].startswith("No change was found that makes it walk. Locked cells stay")
 
 
 def test_a_search_that_is_ended_shows_only_its_end(service: RemedyService) -> None:

@@ -27,6 +27,7 @@ import { mountFileNotice } from "./shell/file_notice.js";
 import { mountStorageNotice } from "./shell/storage_notice.js";
 import { mountSteps, openStep } from "./steps/steps.js";
 import { mountVerdict } from "./steps/verdict.js";
+import { mountWorkedPlan } from "./state/worked_plan.js";
 import { mountViews } from "./timeline/views.js";
 import { mountTimeline } from "./timeline/timeline.js";
 import { mountTools } from "./timeline/timeline_tools.js";
@@ -76,6 +77,7 @@ export function start(store) {
   mountDecimalComma();
   mountCopiedTables();
   store.watch(({ operator }) => [operator], ({ operator }) => nameAuthor(operator));
+  mountWorkedPlan(store);
   mountSteps(store);
   mountVerdict(store);
   mountViews(store);

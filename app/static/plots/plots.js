@@ -8,9 +8,11 @@ import { byId, h, setText, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { measuredCurves, measuredRange, oversOf, runOver } from "./measured.js";
 import { simulationOver } from "../state/simulation.js";
-import { shownDocument, shownPlan } from "../state/store.js";
+import { isRefusedDrawing } from "../state/live_plan.js";
+import { shownDocument } from "../state/store.js";
 import { stripCanvas } from "./strip_canvas.js";
 import { STRIPS, ownerOf } from "./strips.js";
+import { GREY, drawnPlan, greyOf } from "../state/worked_plan.js";
 
 /** Rounding of the figures that come from the server: a limit passed by less is kept. */
 const ROUNDING = 0.006;
@@ -48,11 +50,11 @@ function missing({ series }, across) {
 }
 
 /** A curve a foot; the motors of a foot are one path. What was planned is dotted where something lies over it. */
-function curvesOf({ series }, across, scale, dashed) {
+function curvesOf({ series }, across, scale, dashed, grey) {
   const paths = new Map();
   for (const { foot, valueAt } of series) paths.set(foot, (paths.get(foot) ?? "") + pathOf(across, valueAt, scale));
   const thin = series.length > paths.size;
-  return [...paths].map(([foot, d]) => ({ d, tone: foot === null ? "fine" : foot + 1, width: thin ? 1 : 1.5, alpha: thin ? 0.85 : 1, dash: dashed ? [2, 3] : [] }));
+  return [...paths].map(([foot, d]) => ({ d, tone: grey ? "grey" : foot === null ? "fine" : foot + 1, width: thin ? 1 : 1.5, alpha: thin ? 0.85 : 1, dash: dashed ? [2, 3] : [] }));
 }
 
 /** The number of each foot that rises, at its highest sample in view. */
@@ -68,8 +70,8 @@ function footTags({ series }, across, scale) {
   });
 }
 
-/** Draws a strip, with measured or simulated curves over it, which may be named there; returns what the pointer needs. */
-function draw(row, content, across, count, axis, { overs, rules, isNamed }) {
+/** Draws a strip, with measured or simulated curves over it, and with `words` that name its lines; returns what the pointer needs. */
+function draw(row, content, across, count, axis, { overs, rules, grey, words }) {
   const { low = null, high = null, wanted = null, floor = null, most = 0 } = content;
   const ranges = [rangeOf(content.series, count), ...overs.map(measuredRange)];
   const range = [Math.min(...ranges.map(([least]) => least)), Math.max(...ranges.map(([, greatest]) => greatest))];
@@ -79,9 +81,9 @@ function draw(row, content, across, count, axis, { overs, rules, isNamed }) {
   const lines = svg("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: "none", "aria-hidden": "true" },
     ...limits.map((value) => line(scale(value), "limit")), ...(floor === null ? [] : [line(scale(floor), "floor")]),
     ...(wanted === null ? [] : [line(scale(wanted), "wanted")]));
-  row.canvas.show({ bands: missing(content, across), rules, curves: [...curvesOf(content, across, scale, overs.length > 0), ...overs.flatMap((over) => measuredCurves(over, axis, scale))], clips: beyond(content, scale, range) });
-  row.strip.replaceChildren(lines, row.canvas.element, ...limits.map((value) => tick(value, scale)), ...(content.tags ? footTags(content, across, scale) : []), ...(isNamed ? [h("span", { class: "measured-key", text: [...overs.map(({ word }) => word), "planned dotted"].join(", ") })] : []));
-  row.strip.setAttribute("aria-label", summary(row.kind, range, limits));
+  row.canvas.show({ bands: missing(content, across), rules, curves: [...curvesOf(content, across, scale, overs.length > 0, grey), ...overs.flatMap((over) => measuredCurves(over, axis, scale))], clips: grey === "worked" ? [] : beyond(content, scale, range) });
+  row.strip.replaceChildren(lines, row.canvas.element, ...limits.map((value) => tick(value, scale)), ...(content.tags ? footTags(content, across, scale) : []), ...(words ? [h("span", { class: "measured-key", text: words })] : []));
+  row.strip.setAttribute("aria-label", [grey && `${GREY[grey].stage} `, summary(row.kind, range, limits)].filter(Boolean).join(""));
   return { content, scale };
 }
 
@@ -110,12 +112,22 @@ function showSentence(row, sentence) {
   row.strip.setAttribute("aria-label", `${row.kind.name}: ${sentence || "nothing to show."}`);
 }
 
+/** What is said where there is nothing to draw. */
+function emptyWords(state, plan) {
+  if (!state.view) return "";
+  if (isRefusedDrawing(state)) return "No motion: the inspector says why.";
+  return plan?.refusal ? "No motion: the reason stands at the timeline." : "No plan yet.";
+}
+
+/** The names of the lines of a strip, beside the plain ones. */
+const lineNames = (grey, overs) => [grey && GREY[grey].plot, ...(overs.length ? [...overs.map(({ word }) => word), "planned dotted"] : [])].filter(Boolean).join(", ");
+
 function render(rows, state) {
-  const plan = shownPlan(state);
+  const [plan, grey] = [drawnPlan(state), greyOf(state)];
   byId("plots").toggleAttribute("data-iterate", Boolean(state.iterate));
+  byId("plots").toggleAttribute("data-grey", grey !== null);
   if (!(plan?.times?.length > 0)) {
-    const sentence = !state.view ? "" : plan?.refusal ? "No motion: the reason stands at the timeline." : "No plan yet.";
-    rows.forEach((row) => showSentence(row, sentence));
+    rows.forEach((row) => showSentence(row, emptyWords(state, plan)));
     return;
   }
   const axis = axisOf(state);
@@ -132,8 +144,9 @@ function render(rows, state) {
       continue;
     }
     const overs = oversOf(state, row.kind.key);
-    row.drawn = draw(row, content, across, plan.times.length, axis, { overs, rules, isNamed: overs.length > 0 && !isNamed });
-    isNamed ||= overs.length > 0;
+    const words = isNamed ? "" : lineNames(grey, overs);
+    row.drawn = draw(row, content, across, plan.times.length, axis, { overs, rules, grey, words });
+    isNamed ||= words !== "";
   }
 }
 
@@ -144,9 +157,9 @@ function nearest({ content, scale }, index, height) {
   return near.reduce((best, one) => (best === null || away(one) < away(best) ? one : best), null);
 }
 
-function hoverText({ kind }, { content: { low, high } }, { series, value }, time) {
+function hoverText({ kind }, { content: { low, high } }, { series, value }, time, grey) {
   const limit = high !== null && value > high + ROUNDING ? `, limit ${fixed(high)}` : low !== null && value < low - ROUNDING ? `, limit ${fixed(low)}` : "";
-  return [ownerOf(series), `${fixed(value)} ${kind.unit}${limit}`, `${fixed(time)} s`].filter(Boolean).join(" · ");
+  return [ownerOf(series), `${fixed(value)} ${kind.unit}${limit}`, `${fixed(time)} s`, grey && GREY[grey].value].filter(Boolean).join(" · ");
 }
 
 /** Shows the value under the pointer with its foot and time. */
@@ -157,7 +170,7 @@ function mountHover(store, rows) {
   const hide = () => { hover.hidden = true; };
 
   function show(row, event) {
-    const plan = shownPlan(store.state);
+    const plan = drawnPlan(store.state);
     if (!row.drawn || !plan?.times?.length) return hide();
     const box = row.strip.getBoundingClientRect();
     const axis = axisOf(store.state);
@@ -167,7 +180,7 @@ function mountHover(store, rows) {
     const around = byId("plots").getBoundingClientRect();
     const across = (acrossOf(axis, [plan.times[index]]).x[0] / WIDTH) * box.width;
     hover.hidden = false;
-    setText(words, hoverText(row, row.drawn, found, plan.times[index]));
+    setText(words, hoverText(row, row.drawn, found, plan.times[index], greyOf(store.state)));
     hover.dataset.foot = found.series.foot === null ? "" : String(found.series.foot + 1);
     hover.toggleAttribute("data-left", across > box.width - 190);
     hover.toggleAttribute("data-below", box.top - around.top < NEAR_PX * 2 + 10);
@@ -179,7 +192,7 @@ function mountHover(store, rows) {
     row.strip.addEventListener("pointermove", (event) => show(row, event));
     row.strip.addEventListener("pointerleave", hide);
   }
-  store.watch((state) => [shownPlan(state)], hide);
+  store.watch((state) => [drawnPlan(state), greyOf(state)], hide);
 }
 
 /** The menu in the corner of the chart that chooses the strips; the choice is remembered. */
@@ -206,14 +219,16 @@ export function mountPlots(store) {
   byId("plots").append(...rows.flatMap(({ label, strip }) => [label, strip]));
   mountChoice(rows, () => render(rows, store.state));
   mountHover(store, rows);
-  store.watch((state) => [shownPlan(state), shownDocument(state)?.options, axisKey(state), runOver(state), simulationOver(state)], (state) => render(rows, state));
+  const drawn = (state) => [drawnPlan(state), greyOf(state), isRefusedDrawing(state), shownDocument(state)?.options, axisKey(state), runOver(state), simulationOver(state)];
+  store.watch(drawn, (state) => render(rows, state));
 
   return (time) => {
-    const plan = shownPlan(store.state);
-    const index = plan?.times?.length ? indexAt(plan.times, time) : 0;
+    const plan = drawnPlan(store.state);
+    const isKnown = plan?.times?.length > 0 && greyOf(store.state) === null;
+    const index = isKnown ? indexAt(plan.times, time) : 0;
     for (const { kind, value } of rows) {
-      setText(value, plan?.times?.length ? kind.now(plan, index) : "–");
-      if (kind.isBad) value.dataset.toneText = plan?.times?.length && kind.isBad(plan, index) ? "bad" : "";
+      setText(value, isKnown ? kind.now(plan, index) : "–");
+      if (kind.isBad) value.dataset.toneText = isKnown && kind.isBad(plan, index) ? "bad" : "";
     }
   };
 }

@@ -7,7 +7,7 @@ import { HEIGHT, WIDTH } from "./curves.js";
 import { h } from "../lib/dom.js";
 
 const FEET = 12;
-const NAMES = { fine: "--good", broken: "--bad", rule: "--quiet" };
+const NAMES = { fine: "--good", broken: "--bad", rule: "--quiet", grey: "--edge" };
 const dark = matchMedia("(prefers-color-scheme: dark)");
 let palette = null;
 dark.addEventListener("change", () => { palette = null; });
@@ -67,7 +67,7 @@ function paint(element, size, { bands = [], rules = [], curves = [], clips = [] 
  * Makes a strip's canvas, which follows the strip's size and the theme.
  * @returns {{element: HTMLCanvasElement, show: (drawing: object) => void}} a drawing has `bands` of missing values {x, width},
  *   `rules`, upright lines {x, from}, from a share of the height downwards,
- *   `curves` {d, tone (a foot's number, "fine"), width, alpha, dash} and `clips` {y, height}, where curves are drawn in the bad colour
+ *   `curves` {d, tone (a foot's number, "fine", "grey"), width, alpha, dash} and `clips` {y, height}, where curves are drawn in the bad colour
  */
 export function stripCanvas(strip) {
   const element = h("canvas", { "aria-hidden": "true" });

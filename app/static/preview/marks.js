@@ -49,6 +49,11 @@ export class Marks {
     this.#again();
   }
 
+  setTrouble(trouble) {
+    this.#trouble = trouble;
+    this.#sample = -1;
+  }
+
   setShells(shells) {
     this.#shells = shells;
     this.#shellSent = null;

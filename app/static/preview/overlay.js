@@ -90,9 +90,9 @@ export function polygonUpdates(overlay, sample, caution, trouble = []) {
 export function troubleUpdates(overlay, sample, trouble) {
   const at = (foot) => floorPoint(overlay, overlay.feet[sample][foot], 4);
   const lines = [];
-  for (const { first, feet, rings } of missing(trouble, sample)) {
-    const ring = rings?.[sample - first];
-    if (ring) lines.push(...pieces(ring.map((corner) => floorPoint(overlay, corner, 4)), true), ...cross(at(feet[0])));
+  for (const { first, feet, rings, places } of missing(trouble, sample)) {
+    const [ring, place] = [rings?.[sample - first], places?.[sample - first]];
+    if (ring) lines.push(...pieces(ring.map((corner) => floorPoint(overlay, corner, 4)), true), ...cross(place ? floorPoint(overlay, place, 4) : at(feet[0])));
     else if (feet.length === 2) lines.push(...pieces(feet.map(at)));
   }
   return ["/overlay/trouble", { points: lines.length ? Float32Array.from(lines) : new Float32Array(6), colors: Uint8Array.from(BAD) }];

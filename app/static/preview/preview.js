@@ -16,6 +16,8 @@
  *                                 promise then resolves to null). May be called before the scene is ready.
  *                                 trouble: what is infeasible, marked at its time: [{ first, last, feet, family,
  *                                 rings }] with outlines of reach [knot][corner][2] m where they are known
+ *   setTrouble(trouble)           other marks of what is infeasible on the poses that are shown
+ *   setGrey(grey)                 the robot in shades of grey: it is drawn by another plan than the gait's own
  *   setTime(seconds, inFrame)     shows the pose at that time, interpolated; cheap, call it every frame. inFrame: called while
  *                                 the page makes a frame, so that it is drawn in this one where there is no GPU
  *   setOverlay(overlay | null)    what lies on the floor; loadPoses sets it by itself where the poses carry one:
@@ -43,6 +45,7 @@ import { Ghosts } from "./viser_ghosts.js";
 import { shadowMessages } from "./shadow.js";
 import { COM, Marks, STILL } from "./marks.js";
 import { floorOf } from "./overlay.js";
+import { paintGrey } from "./grey_robot.js";
 import { PoseTable, VALUES_A_NODE } from "./poses.js";
 import { ServerRoute } from "./server_route.js";
 import { Sharpness } from "./sharpness.js";
@@ -50,6 +53,7 @@ import { Tracks } from "./tracks.js";
 import { ViserClient, cameraMessages, poseMessages, visibleMessage } from "./viser_client.js";
 
 const FIRST_ROBOT = "deltawalker";
+const ROBOT = "/robot";
 const BODY = "/robot/body";
 const WATCH_MS = 250;
 const DIRECT_PATIENCE_MS = 8000;
@@ -68,6 +72,7 @@ export class Preview extends EventTarget {
   #client;
   #table = null;
   #measured = null;
+  #isGrey = false;
   #pose = null;
   #shown = null;
   #robot;
@@ -153,6 +158,17 @@ export class Preview extends EventTarget {
     return this.info;
   }
 
+  setTrouble(trouble) {
+    this.#marks.setTrouble(trouble);
+    this.#request();
+  }
+
+  setGrey(grey) {
+    if (grey === this.#isGrey) return;
+    this.#isGrey = grey;
+    this.#paint();
+  }
+
   setGhost(kind, buffer) {
     this.#ghosts.set(kind, buffer);
     this.#request();
@@ -161,6 +177,7 @@ export class Preview extends EventTarget {
   /** Draws the robot by a pose of its own instead of the plan's; null goes back to the plan. */
   setMeasured(buffer) {
     this.#measured = buffer && new PoseTable(buffer);
+    if (this.#isGrey) this.#paint();
     this.#request();
   }
 
@@ -200,6 +217,7 @@ export class Preview extends EventTarget {
     this.#marks.setDark(dark);
     this.#ghosts.setDark(dark);
     this.#pushTheme();
+    if (this.#isGrey) this.#paint();
     this.#request();
   }
 
@@ -325,12 +343,19 @@ export class Preview extends EventTarget {
     return false;
   }
 
+  /** Colours the robot. */
+  #paint() {
+    paintGrey(this.#client.node(ROBOT), this.#isGrey && !this.#measured, this.#dark);
+    this.#client.push([]);
+  }
+
   #pushAll() {
     this.#shown = null;
     this.#marks.forget();
     this.#ghosts.forget();
     this.#tracks.forget();
     this.#pushTheme();
+    if (this.#isGrey) this.#paint();
     this.#request();
   }
 

@@ -1,6 +1,6 @@
 /** The 3D preview's frame: loads a plan's poses once, follows the playhead, shows the state of the plan. */
 
-import { api } from "../api/gaits.js";
+import { CONFLICT, api } from "../api/gaits.js";
 import { byId, h, painted, setText } from "../lib/dom.js";
 import { mountGhosts } from "./ghosts.js";
 import { mountGoal } from "./goal.js";
@@ -13,6 +13,7 @@ import { mountMeasuredRobot } from "../robot/measured_robot.js";
 import { Preview } from "./preview.js";
 import { mountTools } from "./stage_tools.js";
 import { shownPlan } from "../state/store.js";
+import { drawnPlan, greyOf } from "../state/worked_plan.js";
 
 function message(text) {
   byId("stage-message").hidden = !text;
@@ -38,31 +39,50 @@ function mountLegend(store) {
   });
 }
 
+/** What the state's own plan lacks, to be marked on the plan that is drawn: nothing where their samples are not the same. */
+function troubleOf(state) {
+  const [own, drawn] = [shownPlan(state), drawnPlan(state)];
+  return own === drawn || own?.times.length === drawn.times.length ? missingMotionOf(own) : [];
+}
+
 function followPlan(store, playback, preview) {
   let drawn = Promise.resolve();
   let missed = null;
-  const offer = latestOnly(async ({ id, plan, since }) => {
+  let loaded = null;
+  const offer = latestOnly(async ({ id, plan, trouble, isGrey, since }) => {
     missed = null;
+    const key = `${id} ${plan.hash}`;
     try {
-      // Drawing without a GPU must not hold up the plots: they are painted first, and so is the pose before.
-      const [poses] = await Promise.all([api.poses(id, plan.hash), painted(), drawn]);
-      await preview.loadPoses(poses, missingMotionOf(plan));
-      preview.setTime(playback.time);
+      if (loaded === key) preview.setTrouble(trouble);
+      else {
+        // Drawing without a GPU must not hold up the plots: they are painted first, and so is the pose before.
+        const [poses] = await Promise.all([api.poses(id, plan.hash), painted(), drawn]);
+        await preview.loadPoses(poses, trouble);
+        loaded = key;
+        preview.setTime(playback.time);
+      }
+      preview.setGrey(isGrey);
       message(null);
       drawn = preview.drawn();
       if (since !== null) drawn.then(() => measured("edit to 3D", since));
     } catch (error) {
       // A plan that has been replaced meanwhile is no longer wanted.
-      if (shownPlan(store.state) !== plan) return;
+      if (drawnPlan(store.state) !== plan) return;
+      if (isGrey && error.status === CONFLICT) {
+        // The studio no longer has the last plan that worked: the nearest motion is shown.
+        store.set({ worked: null });
+        return;
+      }
       message(`The plan cannot be shown: ${error.message}`);
-      missed = { id, plan, since: null };
+      missed = { id, plan, trouble, isGrey, since: null };
     }
   });
   store.watch(({ connected }) => [connected], ({ connected }) => { if (connected && missed) offer(missed); });
   followHand(store, preview);
-  store.watch((state) => [state.view?.id, shownPlan(state)?.hash, shownPlan(state)?.live?.lacks], (state) => {
-    const plan = shownPlan(state);
-    if (plan?.times.length) offer({ id: state.view.id, plan, since: state.live?.plan === plan ? state.live.since : null });
+  store.watch((state) => [state.view?.id, drawnPlan(state)?.hash, shownPlan(state)?.live?.lacks, greyOf(state)], (state) => {
+    const plan = drawnPlan(state);
+    const since = state.live && state.live.plan === shownPlan(state) ? state.live.since : null;
+    if (plan?.times.length) offer({ id: state.view.id, plan, trouble: troubleOf(state), isGrey: greyOf(state) !== null, since });
   });
 }
 

@@ -5,7 +5,8 @@ import { checkMenu } from "../lib/check_menu.js";
 import { recalled, remember } from "../lib/remembered.js";
 import { byId } from "../lib/dom.js";
 import { latestOnly } from "../lib/latest_only.js";
-import { shownDocument, shownPlan } from "../state/store.js";
+import { shownDocument } from "../state/store.js";
+import { drawnPlan } from "../state/worked_plan.js";
 
 /** What the menu shows and hides: its parts of the preview, and how it begins. */
 const ENTRIES = [
@@ -26,14 +27,14 @@ function followReach(store, preview, isOn) {
   const offer = latestOnly(async ({ id, hash, workspace }) => {
     try {
       const reach = await api.reach(id, hash, workspace);
-      if (shownPlan(store.state)?.hash === hash) preview.setReach(reach);
+      if (drawnPlan(store.state)?.hash === hash) preview.setReach(reach);
     } catch {
       // A plan that was replaced meanwhile is no longer needed; the next one requests again.
     }
   });
   let requested = null;
   const ask = () => {
-    const plan = shownPlan(store.state);
+    const plan = drawnPlan(store.state);
     if (!isOn() || !plan?.times.length) return;
     const wanted = { id: store.state.view.id, hash: plan.hash, workspace: shownDocument(store.state).options.workspace };
     const key = JSON.stringify(wanted);

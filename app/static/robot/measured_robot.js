@@ -1,10 +1,11 @@
-/** While a plan is carried out the 3D view shows the robot by its measured strokes, and says so with their age; else the plan. */
+/** While a plan is carried out the 3D view shows the robot by its measured strokes, and says so with their age; else the plan, or what is grey instead. */
 
 import { api } from "../api/gaits.js";
 import { byId, h, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { latestOnly } from "../lib/latest_only.js";
 import { planIsOn } from "../state/store.js";
+import { GREY, greyOf, isStuck } from "../state/worked_plan.js";
 
 const TICK_MS = 200;
 
@@ -21,8 +22,10 @@ export function mountMeasuredRobot(store, preview) {
   function show() {
     const isMeasured = measuredAt !== null;
     badge.toggleAttribute("data-measured", isMeasured);
-    setText(word, isMeasured ? "Robot, measured" : store.state.iterate ? "An iteration" : "Plan");
-    setText(age, isMeasured ? `${fixed((performance.now() - measuredAt) / 1000)} s ago` : "");
+    const isBad = !isMeasured && isStuck(store.state);
+    badge.toggleAttribute("data-bad", isBad);
+    setText(word, isMeasured ? "Robot, measured" : store.state.iterate ? "An iteration" : isBad ? "No motion" : "Plan");
+    setText(age, isMeasured ? `${fixed((performance.now() - measuredAt) / 1000)} s ago` : isBad ? (GREY[greyOf(store.state)]?.stage ?? "") : "");
   }
 
   const offer = latestOnly(async (at) => {
@@ -46,6 +49,6 @@ export function mountMeasuredRobot(store, preview) {
       show();
     }
   });
-  store.watch(({ iterate }) => [iterate], show);
+  store.watch((state) => [state.iterate, isStuck(state), greyOf(state)], show);
   setInterval(() => { if (measuredAt !== null) show(); }, TICK_MS);
 }

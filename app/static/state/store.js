@@ -2,7 +2,7 @@
  * The page's only state: one frozen object, replaced as a whole, watched by selection.
  *
  * Everything that several tabs must agree on comes from the server; the rest (`selected`, `shownJob`, `pending`,
- * `left` (edits of gaits that were left before they were sent), `gesture`, `tool`, `selection`, `preview`, `zoom`, `live`, `tryout`, `remedies`,
+ * `left` (edits of gaits that were left before they were sent), `gesture`, `tool`, `selection`, `preview`, `zoom`, `live`, `tryout`, `worked`, `remedies`,
  * `iterate`, `segmentDrafts`, `runRange`, `jog`, `simulation`, `tracks`, `trialWanted`, `physicsSets`) belongs to this tab alone.
  */
 
@@ -26,6 +26,7 @@ const INITIAL = Object.freeze({
   zoom: null,
   live: null,
   tryout: null,
+  worked: null,
   remedies: null,
   iterate: null,
   pattern: null,

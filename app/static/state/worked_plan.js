@@ -1,0 +1,39 @@
+/**
+ * What plots and robot draw: the plan that is looked at; where the gait's own has no motion, in grey, the last plan of the
+ * same gait that worked, or else the nearest motion.
+ */
+
+import { planState } from "./plan_state.js";
+import { hasNoMotion, ownPlan, shownPlan } from "./store.js";
+
+/** What is said of each grey: on the stage, in a plot, and of a value under the pointer. */
+export const GREY = {
+  worked: { stage: "Grey: the last plan that worked.", plot: "grey: last plan that worked", value: "last plan that worked" },
+  nearest: { stage: "Grey: the nearest motion, which breaks a limit.", plot: "grey: nearest motion, which breaks a limit", value: "nearest motion" },
+};
+
+/** Whether the gait has no motion, and nothing else is looked at instead. */
+export const isStuck = (state) => !state.iterate && !state.tryout && hasNoMotion(ownPlan(state));
+
+/** What is drawn in grey: "worked", "nearest", or null where nothing is. */
+export function greyOf(state) {
+  if (!isStuck(state)) return null;
+  if (state.worked && state.worked.id === state.view?.id) return "worked";
+  return ownPlan(state).times.length ? "nearest" : null;
+}
+
+/** The plan that plots and robot draw. */
+export const drawnPlan = (state) => (greyOf(state) === "worked" ? state.worked.plan : shownPlan(state));
+
+const works = (plan) => Boolean(plan?.times.length) && planState(plan)[1] === "good";
+
+/** Keeps the last plan of the shown gait that worked, for this tab alone. */
+export function mountWorkedPlan(store) {
+  store.watch((state) => [state.selected, state.view?.id, ownPlan(state)], (state) => {
+    const { selected, view, worked } = state;
+    const plan = ownPlan(state);
+    if (view?.id === selected && works(plan)) {
+      if (worked?.id !== selected || worked.plan !== plan) store.set({ worked: { id: selected, plan } });
+    } else if (worked && worked.id !== selected) store.set({ worked: null });
+  });
+}

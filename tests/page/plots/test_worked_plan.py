@@ -1,0 +1,110 @@
+"""While a gait has no motion plots and robot show, in grey, the last plan of the same gait that worked."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from tests.support.page.opened import choose, opened_page
+from tests.support.studio_process import StudioProcess, wait_for
+
+SHARES_STUDIO = True
+
+DRAWN = """async (states) => {
+  const { createStore } = await import("/static/state/store.js");
+  const { drawnPlan, greyOf, mountWorkedPlan } = await import("/static/state/worked_plan.js");
+  const store = createStore();
+  mountWorkedPlan(store);
+  const seen = [];
+  for (const state of states) {
+    store.set(state);
+    await new Promise((resume) => setTimeout(resume));
+    seen.push([greyOf(store.state), drawnPlan(store.state)?.hash ?? null]);
+  }
+  return seen;
+}"""
+GREYS = """() => {
+  let [grey, coloured] = [0, 0];
+  const robot = document.querySelector("#viser").contentWindow.__viserMutable?.nodeRefFromName["/robot"];
+  robot?.traverse(({ isMesh, material }) => {
+    if (!isMesh || material.type !== "MeshStandardMaterial") return;
+    const { r, g, b } = material.color;
+    if (Math.max(r, g, b) - Math.min(r, g, b) < 0.001) grey += 1;
+    else coloured += 1;
+  });
+  return [grey, coloured];
+}"""
+
+
+@pytest.fixture
+def page(browser: Browser, studio: StudioProcess, request: pytest.FixtureRequest) -> Iterator[Page]:
+    has_scene = "scene" in request.keywords
+    with opened_page(browser, studio.url, 1280, 800, has_scene=has_scene) as opened:
+        yield opened
+
+
+def plan(name: str, status: str = "optimal", *, is_refused: bool = False) -> Any:
+    return {
+        "hash": name,
+        "source": "draft" if is_refused else "live",
+        "times": [] if is_refused else [0.0, 0.4],
+        "refusal": {"sentence": "It ends in the air."} if is_refused else None,
+        "live": None if is_refused else {"status": status, "lacks": []},
+    }
+
+
+def opened(gait: str, shown: Any) -> Any:
+    return {"selected": gait, "view": {"id": gait, "plan": shown}, "live": None, "tryout": None}
+
+
+def test_the_last_plan_that_worked_is_drawn_in_grey_until_one_works_again(page: Page) -> None:
+    no, refused = plan("no", "infeasible"), plan("refused", is_refused=True)
+    states: list[tuple[Any, list[str | None]]] = [
+        (opened("a", plan("first")), [None, "first"]),
+        ({"live": {"plan": no}}, ["worked", "first"]),
+        ({"live": {"plan": plan("second")}}, [None, "second"]),
+        ({"live": {"plan": refused}}, ["worked", "second"]),
+        ({"tryout": plan("tried")}, [None, "tried"]),
+        ({"tryout": None}, ["worked", "second"]),
+        (opened("b", no), ["nearest", "no"]),
+        (opened("b", refused), [None, "refused"]),
+        (opened("a", no), ["nearest", "no"]),
+    ]
+    assert page.evaluate(DRAWN, [state for state, _ in states]) == [seen for _, seen in states]
+
+
+def test_plots_keep_the_last_plan_that_worked_without_figures(page: Page) -> None:
+    choose(page, "Amble 10 mm")
+    page.get_by_role("gridcell", name="foot 2, sample 45: stance", exact=True).click()
+    margin = page.locator('.strip[data-strip="margin"]')
+    expect(margin).to_contain_text("grey: last plan that worked")
+    expect(margin).to_have_attribute("aria-label", re.compile("^Grey: the last plan that worked"))
+    expect(page.locator(".plot-label .value").first).to_have_text("–")
+    expect(page.get_by_role("status", name="Verdict")).to_contain_text("no motion")
+    page.get_by_role("group", name="What would help").get_by_role("listitem").first.hover()
+    expect(margin).not_to_contain_text("grey")
+    expect(page.locator(".plot-label .value").first).to_contain_text("mm")
+    page.mouse.move(600, 300)
+    expect(margin).to_contain_text("grey: last plan that worked")
+    page.get_by_role("button", name=re.compile("^Undo")).click()
+    expect(margin).not_to_contain_text("grey")
+    expect(page.locator(".plot-label .value").first).to_contain_text("mm")
+
+
+@pytest.mark.heavy
+@pytest.mark.scene
+def test_the_robot_is_grey_and_the_stage_says_so(page: Page) -> None:
+    choose(page, "S-Gait 10 mm")
+    badge = page.get_by_role("status", name="Shown in 3D")
+    expect(badge).to_have_text("Plan")
+    wait_for(lambda: page.evaluate(GREYS)[1] > 0, "the robot has its colours")
+    page.get_by_role("gridcell", name="foot 2, sample 45: stance", exact=True).click()
+    expect(badge).to_have_text("No motionGrey: the last plan that worked.")
+    wait_for(lambda: page.evaluate(GREYS)[1] == 0 < page.evaluate(GREYS)[0], "the robot is grey")
+    page.get_by_role("button", name=re.compile("^Undo")).click()
+    expect(badge).to_have_text("Plan")
+    wait_for(lambda: page.evaluate(GREYS)[1] > 0, "the robot has its colours again")

@@ -1,6 +1,7 @@
 /**
  * Surfaces lit at their corners where there is no GPU: the client's own shading computes a light model and a tone curve
- * for every pixel, which takes software drawing longer than all else in the scene together.
+ * for every pixel, which takes software drawing longer than all else in the scene together. And surfaces in grey: they get
+ * other colours once, so that no frame costs more.
  */
 
 const CORNERS = `
@@ -33,4 +34,24 @@ export function drawSurfacePlainly({ isMesh, material }) {
 export function leaveOutNoPicture(part) {
   const { enabled, colorMap } = part.material?.uniforms ?? {};
   if (colorMap && enabled?.value === false) part.visible = false;
+}
+
+/** Shades of grey: the darkest, and how much lighter white is. */
+const DARKEST = 0.22;
+const SPREAD = 0.4;
+/** Of the light in the dark theme, whose lamp is as bright. */
+const DIMMED = 0.45;
+
+const ownColours = new WeakMap();
+const lightness = ({ r, g, b }) => 0.21 * r + 0.72 * g + 0.07 * b;
+
+/** Paints all surfaces under a node of the scene in grey, or in their own colours again. */
+export function paintGrey(node, isGrey, isDark) {
+  node?.traverse(({ isMesh, material }) => {
+    if (!isMesh || material.type !== "MeshStandardMaterial") return;
+    if (!ownColours.has(material)) ownColours.set(material, material.color.clone());
+    const colour = ownColours.get(material);
+    if (isGrey) material.color.setScalar((DARKEST + SPREAD * lightness(colour)) * (isDark ? DIMMED : 1));
+    else material.color.copy(colour);
+  });
 }

@@ -45,7 +45,7 @@ import { Ghosts } from "./viser_ghosts.js";
 import { shadowMessages } from "./shadow.js";
 import { COM, Marks, STILL } from "./marks.js";
 import { floorOf } from "./overlay.js";
-import { paintGrey } from "./grey_robot.js";
+import { paintGrey } from "./plain_surfaces.js";
 import { PoseTable, VALUES_A_NODE } from "./poses.js";
 import { ServerRoute } from "./server_route.js";
 import { Sharpness } from "./sharpness.js";

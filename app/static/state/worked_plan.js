@@ -4,7 +4,7 @@
  */
 
 import { planState } from "./plan_state.js";
-import { hasNoMotion, ownPlan, shownPlan } from "./store.js";
+import { hasNoMotion, ownPlan, shownDocument, shownPlan } from "./store.js";
 
 /** What is said of each grey: on the stage, in a plot, and of a value under the pointer. */
 export const GREY = {
@@ -15,10 +15,13 @@ export const GREY = {
 /** Whether the gait has no motion, and nothing else is looked at instead. */
 export const isStuck = (state) => !state.iterate && !state.tryout && hasNoMotion(ownPlan(state));
 
+/** Whether the plan that worked is of the shown gait and of its robot. */
+const isOfShown = (state) => state.worked?.id === state.view?.id && state.worked.robot === shownDocument(state)?.robot;
+
 /** What is drawn in grey: "worked", "nearest", or null where nothing is. */
 export function greyOf(state) {
   if (!isStuck(state)) return null;
-  if (state.worked && state.worked.id === state.view?.id) return "worked";
+  if (state.worked && isOfShown(state)) return "worked";
   return ownPlan(state).times.length ? "nearest" : null;
 }
 
@@ -33,7 +36,7 @@ export function mountWorkedPlan(store) {
     const { selected, view, worked } = state;
     const plan = ownPlan(state);
     if (view?.id === selected && works(plan)) {
-      if (worked?.id !== selected || worked.plan !== plan) store.set({ worked: { id: selected, plan } });
+      if (worked?.id !== selected || worked.plan !== plan) store.set({ worked: { id: selected, robot: shownDocument(state)?.robot, plan } });
     } else if (worked && worked.id !== selected) store.set({ worked: null });
   });
 }

@@ -3,7 +3,7 @@
 import { clamp } from "../lib/clamp.js";
 import { byId, h } from "../lib/dom.js";
 import { hasNoMotion, shownPlan } from "../state/store.js";
-import { axisKey, axisOf, columnFraction, fractionAt, labelEvery, momentOf, timeAt } from "../state/time_axis.js";
+import { axisKey, axisOf, fractionAt, labelEvery, momentOf, timeAt } from "../state/time_axis.js";
 
 const percent = (fraction) => `${100 * fraction}%`;
 const isShown = (fraction) => fraction >= -1e-9 && fraction <= 1 + 1e-9;
@@ -12,13 +12,6 @@ function placed(element, left, width = null) {
   element.style.left = percent(left);
   if (width !== null) element.style.width = percent(width);
   return element;
-}
-
-function missingMotionMarks(axis, plan) {
-  return (plan?.live?.lacks ?? []).slice().reverse().map((missing) => {
-    const mark = h("b", { class: "lack", title: missing.sentence, data: { tone: missing === plan.live.lacks[0] ? "bad" : "caution" } });
-    return placed(mark, columnFraction(axis, missing.first), columnFraction(axis, missing.last + 1) - columnFraction(axis, missing.first));
-  });
 }
 
 function ticks(axis, width) {
@@ -80,7 +73,7 @@ function draw(state, playback, width) {
   const ruler = byId("ruler");
   // Without a motion its second line is free for the flags; as high as before, rows stay under the hand that draws.
   ruler.toggleAttribute("data-robot", hasRobotTimes(plan) || hasNoMotion(plan));
-  ruler.replaceChildren(...loop, ...missingMotionMarks(axis, plan), ...ticks(axis, width), ...robotTicks(axis, plan, width), ...heardMarks(axis, plan), ...findingMarks(axis, state.live ? null : state.view?.verdict));
+  ruler.replaceChildren(...loop, ...ticks(axis, width), ...robotTicks(axis, plan, width), ...heardMarks(axis, plan), ...findingMarks(axis, state.live ? null : state.view?.verdict));
 }
 
 function mountScrubbing(store, playback) {

@@ -58,7 +58,8 @@ def plan(name: str, status: str = "optimal", *, is_refused: bool = False) -> Any
 
 
 def opened(gait: str, shown: Any) -> Any:
-    return {"selected": gait, "view": {"id": gait, "plan": shown}, "live": None, "tryout": None}
+    view = {"id": gait, "plan": shown, "document": {"robot": "deltawalker"}}
+    return {"selected": gait, "view": view, "live": None, "tryout": None}
 
 
 def test_the_last_plan_that_worked_is_drawn_in_grey_until_one_works_again(page: Page) -> None:
@@ -70,6 +71,10 @@ def test_the_last_plan_that_worked_is_drawn_in_grey_until_one_works_again(page: 
         ({"live": {"plan": refused}}, ["worked", "second"]),
         ({"tryout": plan("tried")}, [None, "tried"]),
         ({"tryout": None}, ["worked", "second"]),
+        (
+            {"gesture": None, "view": {"id": "a", "document": {"robot": "hexapod"}}, "live": {"plan": no}},
+            ["nearest", "no"],
+        ),
         (opened("b", no), ["nearest", "no"]),
         (opened("b", refused), [None, "refused"]),
         (opened("a", no), ["nearest", "no"]),

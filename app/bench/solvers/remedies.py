@@ -22,6 +22,7 @@ from solver_jobs import (
     completed_drawing,
     completion_question,
     find_remedies,
+    nothing_words,
     simulate,
     solve_exact,
     solve_live,
@@ -47,7 +48,7 @@ class Tried:
         seconds: that the search took.
         remedies: best first.
         walks: whether each remedy without a caution walks in physics.
-        why: of a drawing without a remedy: the sentences that are given, and whether anything could help.
+        why: of a drawing without a remedy: the sentence that is given, and whether anything could help.
     """
 
     drawing: Drawing
@@ -107,26 +108,22 @@ def _figures(tried: Sequence[Tried]) -> dict[str, str]:
 
 
 def why_none(gait: Gait) -> str:
-    """The sentences that are given for a drawing without a remedy, and whether anything could help it.
+    """The sentence that the page gives for a drawing without a remedy, and whether anything could help it.
 
     The pattern search finishes the drawing, or proves that no footfalls fit its locked cells; where it finds
     none, the exact tier tries the drawing with next to no step and no margin.
     """
     model = load_robot(gait.robot)
-    try:
-        sentences = " ".join(solve_live(motion_problem(gait, model)).explanation)
-    except FootfallError as error:
-        sentences = error.sentence
     finished = _finished(gait, model)
     if finished is not None:
-        return f"{sentences} ({finished})"
+        return f"{nothing_words(gait)} ({finished})"
     small = replace(gait, step=_small(gait.step)).with_options(margin=0.0)
     try:
         exact = solve_exact(motion_problem(small, model)).status.value
     except FootfallError:
         exact = "refused"
     text = "no footfalls near it were found; with next to no step and no margin the exact tier calls it"
-    return f"{sentences} ({text} {exact})"
+    return f"{nothing_words(gait)} ({text} {exact})"
 
 
 def _finished(gait: Gait, model: RobotModel) -> str | None:

@@ -292,7 +292,8 @@ class Candidates:
         best = self._trial.largest(least, most, lambda value: _margin(gait, value), UNIT_MARGIN)
         if best is None:
             return None
-        words = "The largest margin that works"
+        is_known = best < most or most <= self._asked.options.margin
+        words = "The largest margin that works" if is_known else "More margin"
         if gait.timeline.sample_count != self._asked.timeline.sample_count:
             words += f" in {duration_words(gait)}"
         return self._margin_remedy(gait, best, f"{words}.")

@@ -42,7 +42,7 @@ function orderOf(labels, shown, isHeld) {
 function noteOf({ searching, trying, complete, list, sentence }) {
   if (sentence) return sentence;
   if (searching) return list.length ? "Looking for more…" : "Looking for what would help…";
-  if (!list.length) return trying || complete ? "Looking for what would help…" : "The search was cut short. Change the drawing to begin again.";
+  if (!list.length) return trying ? "Looking for what would help…" : complete ? "No change was found that makes it walk." : "The search was cut short. Change the drawing to begin again.";
   return "";
 }
 

@@ -69,7 +69,8 @@ function followPlan(store, playback, preview) {
       // A plan that has been replaced meanwhile is no longer wanted.
       if (drawnPlan(store.state) !== plan) return;
       if (isGrey && error.status === CONFLICT) {
-        // The studio no longer has the last plan that worked: the nearest motion is shown.
+        // The studio no longer has the last plan that worked: the nearest motion is shown, or what was shown before.
+        preview.setGrey(true);
         store.set({ worked: null });
         return;
       }

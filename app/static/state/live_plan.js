@@ -11,6 +11,7 @@ import { hasNoMotion, ownPlan, shownDocument, shownText } from "./store.js";
 
 const IDLE_MS = 150;
 const HELD_MS = 600;
+const BROKEN_OFF = "The search broke off. Change the drawing to begin again.";
 const NOTHING = { list: [], searching: false, trying: false, complete: true };
 
 /** Whether the page shows an edit that the server's view does not have yet. */
@@ -110,6 +111,8 @@ function mountRemedies(store) {
     try {
       const document = shownDocument(store.state);
       await api.remedies(view.id, { document, tips: Boolean(fallOf(store.state)) }, mine.signal, ({ remedies: list, ...rest }) => told({ ...rest, list }));
+      const { remedies } = store.state;
+      if (search === mine && (!remedies || remedies.searching || remedies.trying)) told({ ...NOTHING, ...remedies, searching: false, trying: false, sentence: BROKEN_OFF });
     } catch (error) {
       told({ ...NOTHING, sentence: error.message });
     }
@@ -118,7 +121,8 @@ function mountRemedies(store) {
   store.watch((state) => [shownText(state)], () => { since = performance.now(); });
   store.watch((state) => [state.view, state.pending, state.gesture, ownPlan(state), fallOf(state)], (state) => {
     const text = wanted(state);
-    if (text !== null && text === asked.text && state.gesture === asked.gesture) return;
+    // A search that has begun goes on while the drawing is the same; one that waits for a finger to rest may begin sooner.
+    if (text !== null && text === asked.text && (search || state.gesture === asked.gesture)) return;
     asked = { text, gesture: state.gesture };
     end();
     if (state.remedies && state.remedies.text !== text) store.set({ remedies: null });

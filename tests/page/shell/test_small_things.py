@@ -68,7 +68,7 @@ def test_the_reason_covers_no_field_and_is_not_cut(page: Page) -> None:
     number(page, "Step").press("Enter")
     why = page.get_by_role("region", name="Why it is infeasible")
     expect(why).to_be_visible()
-    box = why.bounding_box()
+    box = why.locator(".advice").bounding_box()
     assert box is not None
     for field in page.locator("#optimise .fields input:visible, #optimise .fields select:visible").all():
         place = field.bounding_box()

@@ -18,7 +18,15 @@ from core.robot.model import RobotModel
 from solver_jobs.nlp.timing import TimingResult, fastest_timing
 from solver_jobs.remedies.completion import completed_drawing, completion_question, completion_remedy
 from solver_jobs.remedies.limit import Limit
-from solver_jobs.remedies.remedy import Remedy, RemedyKind, RemedySearch, Trouble, nothing_words, rank
+from solver_jobs.remedies.remedy import (
+    MOST_REMEDIES,
+    Remedy,
+    RemedyKind,
+    RemedySearch,
+    Trouble,
+    nothing_words,
+    rank,
+)
 from solver_jobs.results.motion import Evidence, Iterate, Lack, MotionResult, SolveStatus
 from solver_jobs.results.pose import PoseProgress, PoseResult
 from solver_jobs.tiers.frontier import Frontier, FrontierSearch
@@ -37,6 +45,7 @@ from solver_jobs.workers.task_worker import Report, run_tasks
 from solver_jobs.workers.worker_process import WorkerEndedError, WorkerProcess
 
 __all__ = [
+    "MOST_REMEDIES",
     "NICENESS",
     "OPEN_STATES",
     "BatchSimulation",

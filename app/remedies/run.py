@@ -24,6 +24,7 @@ from core.physics.motion import SimulatedMotion
 from core.physics.problem import SimulationProblem
 from core.robot.model import load_robot
 from solver_jobs import (
+    MOST_REMEDIES,
     Limit,
     Remedy,
     RemedySearch,
@@ -38,21 +39,17 @@ from solver_jobs import (
 
 _log = logging.getLogger(__name__)
 
-MOST = 4
-"""Remedies that are shown."""
-
 COMPLETION_SECONDS = 2.0
 """How long a drawing may take to be finished."""
-
-MOST_TRIES, PAUSE_SECONDS = 4, 0.3
-"""Searches that are begun anew where other questions cut them short, and the pause before the second one."""
 
 
 class RemedyTier(Protocol):
     """Interface to what finds remedies; the studio passes `solver_jobs.LiveSolver`."""
 
-    def remedies(self, gait: Gait, tell: Callable[[Remedy], object], *, tips: bool) -> RemedySearch:
-        """Searches; tells of each remedy as it is found."""
+    def remedies(
+        self, gait: Gait, tell: Callable[[Remedy], object], *, tips: bool, go_on: Callable[[], bool]
+    ) -> RemedySearch:
+        """Searches while `go_on` is true; calls back with each remedy as it is found."""
 
     def limit(self, gait: Gait, which: Limit) -> float | None:
         """How far one number can go, m or rad."""
@@ -179,16 +176,13 @@ class RemedyRun:
             self._show(None)
 
     def _search(self) -> None:
-        """The live tier's search, begun again where other questions cut it short."""
-        result = RemedySearch((), complete=False)
-        for number in range(MOST_TRIES):
-            if self._cancelled.wait(0.0 if number == 0 else PAUSE_SECONDS * 2 ** (number - 1)):
-                return
-            result = self._parts.tier.remedies(
-                self._gait, lambda remedy: self._later(partial(self._found, remedy)), tips=self._tips
-            )
-            if result.complete:
-                break
+        """The live tier's search."""
+        result = self._parts.tier.remedies(
+            self._gait,
+            lambda remedy: self._later(partial(self._found, remedy)),
+            tips=self._tips,
+            go_on=lambda: not self._cancelled.is_set(),
+        )
         self._later(partial(self._searched, result))
 
     def _later(self, act: Callable[[], None]) -> None:
@@ -220,8 +214,14 @@ class RemedyRun:
         self._completion = None
         try:
             patterns = handle.result().patterns
-            if not patterns:
-                return
+        except FootfallError as error:
+            # Such as another search for patterns, which took its place.
+            _log.info("The search for footfalls near the drawing was cut short: %s", error)
+            self._is_complete = False
+            return
+        if not patterns:
+            return
+        try:
             gait = completed_drawing(self._gait, self._model, patterns[0].stance)
         except FootfallError as error:
             _log.info("The drawing was not finished: %s", error)
@@ -234,10 +234,10 @@ class RemedyRun:
         """The best offers: what physics refuses comes last."""
 
         def key(offer: _Offer) -> tuple[bool, tuple[bool, bool, float]]:
-            refused = offer.tried is not None and not offer.tried.walks
+            refused = offer.tried is not None and offer.tried.walks is False
             return refused, rank(self._gait, self._model, offer.remedy)
 
-        return sorted(self._offers, key=key)[:MOST]
+        return sorted(self._offers, key=key)[:MOST_REMEDIES]
 
     def _try_next(self) -> None:
         """Begins to simulate the best offer that was not tried yet, once the search is over."""
@@ -256,9 +256,9 @@ class RemedyRun:
         try:
             figures = report(problem, handle.result().motion)
         except SimulationCancelledError:
-            offer.tried = Tried(walks=False, sentence="It was not tried to the end.")
+            offer.tried = Tried(walks=None, sentence="The simulation was cancelled.")
         except FootfallError as error:
-            offer.tried = Tried(walks=False, sentence=error.sentence)
+            offer.tried = Tried(walks=None, sentence=error.sentence)
         else:
             findings = [one for outcome in physics_outcomes(figures, problem) for one in outcome.findings]
             errors = [one.sentence for one in findings if one.severity is Severity.ERROR]

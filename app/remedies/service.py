@@ -24,6 +24,7 @@ class RemedyService:
         self._parts = parts
         self._lock = threading.Lock()
         self._runs: set[RemedyRun] = set()
+        self._closed = False
 
     def search(self, gait: Gait, show: Callable[[Json | None], object], *, tips: bool) -> Callable[[], None]:
         """Begins a search.
@@ -43,8 +44,11 @@ class RemedyService:
             return lambda: None
         run = RemedyRun(gait, self._parts, lambda content: self._told(run, content, show), tips=not is_stuck)
         with self._lock:
+            if self._closed:
+                show(None)
+                return lambda: None
             self._runs.add(run)
-        run.start()
+            run.start()
         return run.cancel
 
     def limit(self, gait: Gait, which: Limit) -> float | None:
@@ -58,8 +62,9 @@ class RemedyService:
         show(content)
 
     def close(self) -> None:
-        """Ends every search."""
+        """Ends every search and refuses new ones."""
         with self._lock:
+            self._closed = True
             runs = list(self._runs)
         for run in runs:
             run.cancel()

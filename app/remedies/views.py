@@ -11,9 +11,14 @@ from solver_jobs import Remedy
 
 @dataclass(frozen=True)
 class Tried:
-    """What physics says of a remedy: whether it walks, and if not, why in a sentence."""
+    """Result of trying a remedy in physics.
 
-    walks: bool
+    Args:
+        walks: None where the simulation gave no result.
+        sentence: why it does not walk, or why there is no result.
+    """
+
+    walks: bool | None
     sentence: str = ""
 
 

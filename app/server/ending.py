@@ -25,6 +25,7 @@ async def serve_until_signal(server: uvicorn.Server, listening: socket.socket, s
         studio.stop_run("the end of the studio")
         server.should_exit = True
         studio.hub.close()
+        studio.remedies.close()
 
     def ask_to_end(number: int, frame: FrameType | None) -> None:
         del number, frame

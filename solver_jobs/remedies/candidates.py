@@ -25,12 +25,14 @@ from solver_jobs.remedies.layout import (
     one_after_the_other,
     with_ends,
     with_forgotten_feet,
+    with_single_swings,
 )
 from solver_jobs.remedies.remedy import (
     Remedy,
     RemedyKind,
     Trouble,
     duration_words,
+    is_one_by_one,
     order_words,
     step_length,
     way_of,
@@ -131,7 +133,7 @@ class Candidates:
         """More margin, longer pauses and swings, a shorter step: for a gait that has a motion and tips."""
         asked = self._asked.options.margin
         if self._raised > asked and self._trial.works(_margin(self._asked, self._raised)):
-            yield self._margin_remedy(self._asked, self._raised, "What the robot needs as sent.")
+            yield self._margin_remedy(self._asked, self._raised, "This robot tips below that margin.")
         else:
             yield self._largest_margin(self._asked, asked + MORE_MARGIN, asked + MOST_MORE_MARGIN)
         yield from self._for_shape()
@@ -152,13 +154,13 @@ class Candidates:
 
     def _ends(self) -> Remedy | None:
         gait = self._at_best_margin(self._mended)
-        words = "Every foot stands or swings to its end."
-        return None if gait is None else self._remedy(RemedyKind.LONGER, "Mend the drawing", words, gait)
+        words = "Every foot is on the ground at the start and at the end, and swings at least once."
+        return None if gait is None else self._remedy(RemedyKind.MENDED, "Mend the ends", words, gait)
 
     def _for_shape(self) -> Iterator[Remedy | None]:
         """Overlaps, swings that are too short."""
         found: set[RemedyKind] = set()
-        for items in self._item_lists():
+        for items in self._item_lists(self._mended):
             for kind, change in (
                 (RemedyKind.ONE_BY_ONE, self._one_by_one),
                 (RemedyKind.LONGER, self._longer),
@@ -166,24 +168,51 @@ class Candidates:
                 if kind not in found and (remedy := change(items)) is not None:
                     found.add(kind)
                     yield remedy
+        yield from self._single_swings()
 
-    def _item_lists(self) -> list[list[Item]]:
+    def _single_swings(self) -> Iterator[Remedy | None]:
+        """One swing a foot and iteration, for drawings with more; with a shorter step if needed."""
+        single = with_single_swings(self._mended)
+        if single is self._mended:
+            return
+        gait = self._at_best_margin(single) or self._laid_apart(single)
+        if gait is not None:
+            yield self._in_same_time("One swing a foot", gait)
+            return
+        for share in SHORTER:
+            gait = self._laid_apart(self._scaled(single, self._size(single) * share))
+            if gait is not None:
+                yield self._step_remedy(gait, "With one swing a foot.")
+                return
+
+    def _laid_apart(self, gait: Gait) -> Gait | None:
+        """The swings of a gait one after the other in the same time."""
+        for items in self._item_lists(gait):
+            found = self._first_at_best_margin([one_after_the_other(gait, items, gap) for gap in GAPS])
+            if found is not None:
+                return found
+        return None
+
+    def _item_lists(self, base: Gait) -> list[list[Item]]:
         """Swings that may stay beside each other together first, then every swing by itself."""
-        apart = items_of(self._mended)
-        if self._mended.timeline.leg_count <= 4:
+        apart = items_of(base)
+        if base.timeline.leg_count <= 4:
             return [apart]
-        stands = np.asarray(self._mended.timeline.stance.sum(axis=0) >= 3)
-        for lack in self._trial.lacks(self._mended):
+        stands = np.asarray(base.timeline.stance.sum(axis=0) >= 3)
+        for lack in self._trial.lacks(base):
             stands[lack.first : lack.last + 1] = False
-        together = items_of(self._mended, stands)
+        together = items_of(base, stands)
         return [apart] if len(together) == len(apart) else [together, apart]
 
     def _one_by_one(self, items: list[Item]) -> Remedy | None:
         gait = self._first_at_best_margin([one_after_the_other(self._mended, items, gap) for gap in GAPS])
         if gait is None:
             return None
-        words = f"{order_words(gait)}, in the same time."
-        return self._remedy(RemedyKind.ONE_BY_ONE, "One foot after the other", words, gait)
+        label = "One foot after the other" if is_one_by_one(gait) else "One group after the other"
+        return self._in_same_time(label, gait)
+
+    def _in_same_time(self, label: str, gait: Gait) -> Remedy | None:
+        return self._remedy(RemedyKind.ONE_BY_ONE, label, f"{order_words(gait)}, in the same time.", gait)
 
     def _longer(self, items: list[Item], gaps: tuple[int, ...] = LONG_GAPS, least: int = 0) -> Remedy | None:
         gait = self._first_at_best_margin([longer(self._mended, items, gap, least) for gap in gaps])
@@ -191,7 +220,14 @@ class Candidates:
 
     def _longer_remedy(self, gait: Gait) -> Remedy | None:
         words = f"{order_words(gait)}; {duration_words(gait)} instead of {duration_words(self._asked)}."
-        return self._remedy(RemedyKind.LONGER, "Same swings, longer gait", words, gait)
+        label = "Same swings, longer gait" if self._keeps_swings(gait) else "Longer swings, longer gait"
+        return self._remedy(RemedyKind.LONGER, label, words, gait)
+
+    def _keeps_swings(self, gait: Gait) -> bool:
+        before, after = (
+            [(s.foot, len(s.samples)) for s in one.timeline.swings()] for one in (self._mended, gait)
+        )
+        return sorted(before) == sorted(after)
 
     def _for_step(self) -> Iterator[Remedy | None]:
         """Steps that are too long."""
@@ -320,10 +356,9 @@ class Candidates:
         for margin in dict.fromkeys((self._raised, self._model.margin)):
             gait = self._shorter_step(drawn, margin)
             if gait is not None and gait.options.margin >= self._model.margin:
-                words = f"In the order {'-'.join(map(str, anew.order))}; {duration_words(gait)} in all."
-                if way_of(gait) < way_of(self._asked):
-                    words = f"{self._step_words(gait)}, in the order {words[13:]}"
-                return self._remedy(RemedyKind.ANEW, "Drawn anew", words, gait)
+                step = f"{self._step_words(gait)}. " if way_of(gait) < way_of(self._asked) else ""
+                words = f"{step}{order_words(gait)}; {duration_words(gait)} in all."
+                return self._remedy(RemedyKind.ANEW, "Draw a standard gait instead", words, gait)
         return None
 
     def _single_changes(self) -> Iterator[Remedy | None]:
@@ -338,8 +373,8 @@ class Candidates:
         gait = self._at_best_margin(self._mended.with_options(workspace=Workspace.STROKE))
         if gait is None:
             return None
-        words = "Within what the motors truly reach, which is more than the paper's cylinder."
-        return self._remedy(RemedyKind.WORKSPACE, "Workspace stroke", words, gait)
+        words = "Feet may go wherever the motors reach, not only in the cylinder of the paper."
+        return self._remedy(RemedyKind.WORKSPACE, "Workspace: motor strokes", words, gait)
 
     def _height(self) -> Remedy | None:
         lowest, highest = MotionLimits().plane_height
@@ -351,7 +386,7 @@ class Candidates:
         if gait is None:
             return None
         text = f"{gait.options.plane_height * MM:.1f} mm"
-        words = f"It works with the actuator plane at {text}."
+        words = f"It has a motion with the actuator plane {text} above the ground."
         return self._remedy(RemedyKind.HEIGHT, f"Body height {text}", words, gait)
 
     def _clearance(self) -> Remedy | None:
@@ -363,13 +398,15 @@ class Candidates:
             return None
         gait = self._mended.with_options(clearance=best)
         text = f"{best * MM:.1f} mm"
-        return self._remedy(RemedyKind.CLEARANCE, f"Clearance {text}", f"Feet can rise {text}.", gait)
+        return self._remedy(
+            RemedyKind.CLEARANCE, f"Clearance {text}", "The highest that works for this drawing.", gait
+        )
 
     def _no_margin(self) -> Remedy | None:
         gait = _margin(self._mended, 0.0)
         if self._asked.options.margin == 0 or not self._trial.works(gait):
             return None
-        words = "It balances on the edge of its feet."
+        words = "The centre of mass may lie on the edge of the support polygon."
         return self._remedy(RemedyKind.NO_MARGIN, "Ask for no margin", words, gait, "Likely to tip.")
 
     def _at_best_margin(self, gait: Gait) -> Gait | None:

@@ -102,6 +102,32 @@ def with_forgotten_feet(gait: Gait) -> Gait:
     return _with(gait, np.concatenate([*parts, np.ones((legs, CLOSING), dtype=np.bool_)], axis=1))
 
 
+def with_single_swings(gait: Gait) -> Gait:
+    """The gait in which each foot swings once an iteration at most; swings beside others are removed first.
+
+    Swings with locked cells stay, and so do those at the start and at the end.
+    """
+    timeline = gait.timeline
+    stance = timeline.stance.copy()
+    last = timeline.sample_count - 1
+
+    def standing_feet(swing: Swing) -> tuple[int, int]:
+        return int(stance[:, swing.first : swing.last + 1].sum(axis=0).min()), len(swing.samples)
+
+    for foot in range(timeline.leg_count):
+        swings = [swing for swing in timeline.swings() if swing.foot == foot]
+        free = [
+            swing
+            for swing in swings
+            if swing.first > 0
+            and swing.last < last
+            and not timeline.locked[foot, swing.first : swing.last + 1].any()
+        ]
+        for swing in sorted(free, key=standing_feet)[: max(len(swings) - gait.iterations, 0)]:
+            stance[foot, swing.first : swing.last + 1] = True
+    return gait if np.array_equal(stance, timeline.stance) else _with(gait, stance)
+
+
 def items_of(gait: Gait, together: Bools | None = None) -> list[Item]:
     """The swings of a drawing but those of feet that are held up, by their middles.
 
@@ -139,7 +165,7 @@ def one_after_the_other(gait: Gait, items: Sequence[Item], gap: int) -> Gait | N
     Returns:
         None where they have no room.
     """
-    layout = _Layout(gait.timeline, gap, needed_swing(gait))
+    layout = _Layout(gait.timeline, gap, needed_swing(gait), *_room(gait))
     found = [placed for order in _orders(items) if (placed := layout.placed(order)) is not None]
     if not found:
         return None
@@ -147,22 +173,37 @@ def one_after_the_other(gait: Gait, items: Sequence[Item], gap: int) -> Gait | N
     return _with(gait, _laid(gait, places, gait.timeline.sample_count))
 
 
+def _room(gait: Gait) -> tuple[int, int]:
+    """First and last sample beside the swings of feet that are held up at one end."""
+    first, last = 0, gait.timeline.sample_count - 1
+    end = last
+    for swing in gait.timeline.swings():
+        starts = swing.first == 0 and swing.foot + 1 in gait.held.start
+        ends = swing.last == end and swing.foot + 1 in gait.held.end
+        if starts and not ends:
+            first = max(first, swing.last + 1)
+        if ends and not starts:
+            last = min(last, swing.first - 1)
+    return first, last
+
+
 def longer(gait: Gait, items: Sequence[Item], gap: int, least: int = 0) -> Gait | None:
     """The same swings one after the other in a longer gait.
 
     Args:
-        gait: the drawing; nothing is done where cells are locked or feet are held up.
+        gait: a drawing without locked cells. Feet that are held at one end swing there as before.
         items: of `items_of`.
         gap: samples of stance between two of them at least, and at both ends.
         least: samples of every swing at least, beside what the step needs.
 
     Returns:
-        None where it cannot be made longer.
+        None where cells are locked, nothing swings, or the gait would be too long.
     """
-    if gait.timeline.locked.any() or gait.held.any or not items:
+    if gait.timeline.locked.any() or not items:
         return None
     least = max(least, needed_swing(gait))
-    at, places = max(items[0].first, gap, 1), []
+    first, last = _room(gait)
+    at, places = max(items[0].first, first + max(gap, 1)), []
     for item, following in pairwise([*items, None]):
         if item is None:
             continue
@@ -170,8 +211,9 @@ def longer(gait: Gait, items: Sequence[Item], gap: int, least: int = 0) -> Gait 
         places.append(_Place(item, at, length))
         pause = 0 if following is None else following.first - item.last - 1
         at += length + max(gap, pause)
-    closing = max(gait.timeline.sample_count - 1 - items[-1].last, gap, 1)
-    samples = places[-1].first + places[-1].length + closing
+    closing = max(last - items[-1].last, gap, 1)
+    tail = gait.timeline.sample_count - 1 - last
+    samples = places[-1].first + places[-1].length + closing + tail
     return _with(gait, _laid(gait, places, samples)) if samples <= MOST_SAMPLES else None
 
 
@@ -190,8 +232,9 @@ def _orders(items: Sequence[Item]) -> Iterator[list[Item]]:
 class _Layout:
     """Places items one behind the other by a dynamic programme over the sample at which each ends."""
 
-    def __init__(self, timeline: ContactTimeline, gap: int, least: int) -> None:
+    def __init__(self, timeline: ContactTimeline, gap: int, least: int, first: int, last: int) -> None:
         self._timeline = timeline
+        self._from, self._to = first, last
         self._gap, self._least = max(gap, 1), least
 
     def placed(self, items: Sequence[Item]) -> tuple[float, list[_Place]] | None:
@@ -202,12 +245,12 @@ class _Layout:
         for item in items:
             cost, lengths = np.full(samples, np.inf), np.zeros(samples, dtype=np.intp)
             for length in self._lengths(item):
-                starts = np.arange(self._gap, samples - self._gap - length + 1)
+                starts = np.arange(self._from + self._gap, self._to + 1 - self._gap - length + 1)
                 if not len(starts):
                     continue
                 # Nothing stands before the first item, and no other begins at the very first sample.
                 before = reached[starts - 1 - self._gap] if chosen else np.zeros(len(starts))
-                before = np.where(starts > self._gap, before, np.inf if chosen else 0.0)
+                before = np.where(starts > self._from + self._gap, before, np.inf if chosen else 0.0)
                 total, ends = before + self._cost(item, starts, length), starts + length - 1
                 better = total < cost[ends]
                 cost[ends] = np.where(better, total, cost[ends])
@@ -258,8 +301,15 @@ def _laid(gait: Gait, places: Sequence[_Place], samples: int) -> Bools:
     """The stance with swings in their places; those of feet that are held up stay where they were drawn."""
     stance = np.ones((gait.timeline.leg_count, samples), dtype=np.bool_)
     moved = {swing for place in places for swing in place.item.swings}
-    kept = [swing for swing in gait.timeline.swings() if swing not in moved]
-    for swing in [*kept, *(swing for place in places for swing in place.swings)]:
+    count = gait.timeline.sample_count
+    for swing in gait.timeline.swings():
+        if swing in moved:
+            continue
+        ends = swing.last == count - 1
+        first = swing.first + (samples - count if ends and swing.first > 0 else 0)
+        last = samples - 1 if ends else swing.last
+        stance[swing.foot, first : last + 1] = False
+    for swing in (swing for place in places for swing in place.swings):
         stance[swing.foot, swing.first : swing.last + 1] = False
     return stance
 

@@ -8,11 +8,15 @@ from enum import StrEnum
 import numpy as np
 
 from core.gait.gait import Gait
+from core.motion.contact_timeline import Swing
 from core.robot.model import RobotModel
 from solver_jobs.results.motion import MotionResult
 
-MOST = 4
+MOST_REMEDIES = 4
 """Remedies that a person is offered."""
+
+MOST_NAMED = 8
+"""Swings whose feet a sentence names one by one."""
 
 SHORT_SWING = 4
 """Swings that were made this short or shorter tip more easily."""
@@ -21,6 +25,7 @@ SHORT_SWING = 4
 class RemedyKind(StrEnum):
     """What a remedy changes."""
 
+    MENDED = "mended"
     ONE_BY_ONE = "one_by_one"
     LONGER = "longer"
     COMPLETED = "completed"
@@ -83,19 +88,21 @@ class RemedySearch:
     @property
     def remedies(self) -> tuple[Remedy, ...]:
         """Those that a person is offered, best first."""
-        return self.found[:MOST]
+        return self.found[:MOST_REMEDIES]
 
 
 def nothing_words(gait: Gait) -> str:
-    """What a person reads where no change helps, with what stood in the way."""
-    kept = []
+    """The sentence for a drawing that no change helps, with what limited the search."""
+    limits = []
     if gait.timeline.locked.any():
-        kept.append("Locked cells stay as they are, so it is made no longer either: unlock some.")
+        limits.append(
+            "Locked cells were not changed, and a gait with locked cells cannot be made longer: unlock some."
+        )
     if gait.held.any:
-        kept.append("Feet that are held up stay up: try it without.")
+        limits.append("Held feet stayed in the air: try the gait without them.")
     if not any(gait.step):
-        kept.append("It neither steps nor turns: give it a step.")
-    return " ".join(["No change was found that makes it walk.", *kept])
+        limits.append("The gait neither steps nor turns: give it a step.")
+    return " ".join(["No change was found that makes it walk.", *limits])
 
 
 def rank(asked: Gait, model: RobotModel, remedy: Remedy) -> tuple[bool, bool, float]:
@@ -142,9 +149,29 @@ def duration_words(gait: Gait) -> str:
     return f"{(gait.timeline.sample_count - 1) * gait.timeline.sample_time:.1f} s"
 
 
+def is_one_by_one(gait: Gait) -> bool:
+    """Whether no two feet are in the air at once."""
+    return all(len(group) == 1 for group in _groups(gait))
+
+
 def order_words(gait: Gait) -> str:
-    """The feet in the order of their swings, such as “Feet 3, 2, 4, 1”; short where there are many."""
-    swings = sorted(gait.timeline.swings(), key=lambda swing: (swing.first, swing.foot))
-    if len(swings) > 8:
-        return f"{len(swings)} swings one after the other"
-    return "Feet " + ", ".join(str(swing.foot + 1) for swing in swings)
+    """Feet in the order of their swings, such as “Feet 3, 2, 4, 1”, or “Feet 1 + 4, 2 + 3” with overlaps."""
+    groups = _groups(gait)
+    count = sum(len(group) for group in groups)
+    if count <= MOST_NAMED:
+        return "Feet " + ", ".join(" + ".join(str(swing.foot + 1) for swing in group) for group in groups)
+    return f"{count} swings, " + (
+        "one after the other" if count == len(groups) else f"in {len(groups)} groups"
+    )
+
+
+def _groups(gait: Gait) -> list[list[Swing]]:
+    """Swings in the order of their first samples; those that overlap in time are one group."""
+    groups: list[list[Swing]] = []
+    end = -1
+    for swing in sorted(gait.timeline.swings(), key=lambda swing: (swing.first, swing.foot)):
+        if swing.first > end:
+            groups.append([])
+        groups[-1].append(swing)
+        end = max(end, swing.last)
+    return groups

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable
 from concurrent.futures import CancelledError, Future, InvalidStateError
 from concurrent.futures import TimeoutError as FutureTimeout
+from contextlib import suppress
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
 from typing import Any
@@ -19,6 +20,7 @@ from solver_jobs.remedies.remedy import Remedy, RemedySearch
 from solver_jobs.results.motion import Evidence, MotionResult, SolveStatus
 from solver_jobs.workers.live_worker import (
     Answered,
+    EndSearch,
     FindLimit,
     FindRemedies,
     Found,
@@ -33,6 +35,13 @@ _log = logging.getLogger(__name__)
 
 LOAD_SECONDS = 20.0
 """How long a process may take for its answer that was started in the place of one that had ended."""
+
+
+POLL_SECONDS = 0.05
+"""Between two looks whether a search shall go on."""
+
+END_SECONDS = 5.0
+"""How long a search may take to end; a process that takes longer is ended."""
 
 
 class LiveSolverError(Exception):
@@ -101,25 +110,30 @@ class LiveSolver:
         tell: Callable[[Remedy], object] = lambda remedy: None,
         *,
         tips: bool = False,
+        go_on: Callable[[], bool] = lambda: True,
         timeout: float = 40.0,
     ) -> RemedySearch:
-        """Changes of a gait that make it walk, by the live tier; cut short by other questions.
-
-        Nobody waits for them: on a busy computer they may take a while.
+        """Changes of a gait that make it walk, by the live tier; plans come before it.
 
         Args:
             gait: one without a motion, or one that tips.
             tell: told of each as it is found, from a thread of the solver's.
             tips: whether the gait has a motion and tips in physics.
-            timeout: longest wait, s.
+            go_on: false ends the search with what was found.
+            timeout: then the search is ended with what was found, s.
         """
+        begun = time.monotonic()
 
         def question(number: int) -> FindRemedies:
             self._told[number] = tell
             return FindRemedies(number, gait, tips)
 
         try:
-            found: RemedySearch = self._ask(question, timeout)
+            found: RemedySearch = self._ask(
+                question,
+                timeout + END_SECONDS,
+                lambda: go_on() and time.monotonic() - begun < timeout,
+            )
         except (FutureTimeout, CancelledError, OSError, LiveSolverError) as error:
             _log.warning("The live solver found no remedies: %r", error)
             return RemedySearch((), complete=False)
@@ -131,13 +145,18 @@ class LiveSolver:
         Args:
             gait: a drawing.
             which: the number.
-            timeout: longest wait, s.
+            timeout: then the search is ended without an answer, s.
 
         Returns:
             The value, m or rad; None where none works, or no answer came.
         """
+        begun = time.monotonic()
         try:
-            found: float | None = self._ask(lambda number: FindLimit(number, gait, which), timeout)
+            found: float | None = self._ask(
+                lambda number: FindLimit(number, gait, which),
+                timeout + END_SECONDS,
+                lambda: time.monotonic() - begun < timeout,
+            )
         except (FutureTimeout, CancelledError, OSError, LiveSolverError) as error:
             _log.warning("The live solver found no limit: %r", error)
             return None
@@ -149,18 +168,22 @@ class LiveSolver:
             self._closed = True
             self._end()
 
-    def _ask(self, message: Callable[[int], Question], timeout: float) -> Any:
+    def _ask(
+        self, message: Callable[[int], Question], timeout: float, go_on: Callable[[], bool] | None = None
+    ) -> Any:
         """Sends a request, and sends it again if the process was dead or dies meanwhile."""
         try:
-            return self._ask_once(message, timeout)
+            return self._ask_once(message, timeout, go_on)
         except FutureTimeout:
             raise
         except (OSError, CancelledError):
             if self._closed:
                 raise
-            return self._ask_once(message, max(timeout, LOAD_SECONDS))
+            return self._ask_once(message, max(timeout, LOAD_SECONDS), go_on)
 
-    def _ask_once(self, message: Callable[[int], Question], timeout: float) -> Any:
+    def _ask_once(
+        self, message: Callable[[int], Question], timeout: float, go_on: Callable[[], bool] | None
+    ) -> Any:
         number = next(self._numbers)
         future: Future[Any] = Future()
         try:
@@ -168,7 +191,16 @@ class LiveSolver:
                 pipe = self._ensure_started()
                 self._waiting[number] = future
                 self._send(pipe, message(number))
-            return future.result(timeout)
+            deadline = time.monotonic() + timeout
+            while go_on is not None and time.monotonic() < deadline:
+                if not go_on():
+                    deadline = time.monotonic() + END_SECONDS
+                    with self._lock:
+                        self._send(pipe, EndSearch(number))
+                    break
+                with suppress(FutureTimeout):
+                    return future.result(POLL_SECONDS)
+            return future.result(max(deadline - time.monotonic(), 0.0))
         except FutureTimeout:
             with self._lock:
                 if not self._closed:
@@ -178,8 +210,8 @@ class LiveSolver:
             self._waiting.pop(number, None)
             self._told.pop(number, None)
 
-    def _send(self, pipe: Connection, message: Question) -> None:
-        """Sends a question; the lock is held."""
+    def _send(self, pipe: Connection, message: Question | EndSearch) -> None:
+        """Sends a message; the lock is held."""
         try:
             pipe.send(message)
         except OSError:

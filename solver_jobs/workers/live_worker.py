@@ -26,7 +26,7 @@ class SolveLive:
 
 @dataclass(frozen=True, eq=False)
 class FindRemedies:
-    """To the worker: find changes of this gait that make it walk, until something else is asked.
+    """To the worker: find changes of this gait that make it walk; plans come before it.
 
     Args:
         number: of the question.
@@ -62,7 +62,19 @@ class FindLimit:
     which: Limit
 
 
-Question = SolveLive | FindRemedies | FindLimit
+@dataclass(frozen=True, eq=False)
+class EndSearch:
+    """To the worker: answer this search with what was found.
+
+    Args:
+        number: of the search.
+    """
+
+    number: int
+
+
+Search = FindRemedies | FindLimit
+Question = SolveLive | Search
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,16 +104,31 @@ def run_live_worker(pipe: Connection, warm_up: MotionProblem | None) -> None:
 
 
 class _Worker:
-    """Answers questions; one that a long search has taken out of the pipe waits until that has ended."""
+    """Answers plans at once, also while it searches; searches one after the other."""
 
     def __init__(self, pipe: Connection) -> None:
         self._pipe = pipe
-        self._waiting: deque[Question] = deque()
+        self._waiting: deque[Search] = deque()
+        self._ended: set[int] = set()
 
     def run(self) -> None:
         """Goes on until the parent's end of the pipe closes."""
         while True:
-            self._reply(self._waiting.popleft() if self._waiting else self._pipe.recv())
+            while not self._waiting or self._pipe.poll():
+                self._receive()
+            search = self._waiting.popleft()
+            self._reply(search)
+            self._ended.discard(search.number)
+
+    def _receive(self) -> None:
+        message: Question | EndSearch = self._pipe.recv()
+        match message:
+            case SolveLive():
+                self._reply(message)
+            case EndSearch(number):
+                self._ended.add(number)
+            case _:
+                self._waiting.append(message)
 
     def _reply(self, message: Question) -> None:
         try:
@@ -119,24 +146,19 @@ class _Worker:
 
         if isinstance(message, SolveLive):
             return solve_live(message.problem)
-        model = load_robot(message.gait.robot)
+        model, number = load_robot(message.gait.robot), message.number
+
+        def go_on() -> bool:
+            while self._pipe.poll():
+                self._receive()
+            return number not in self._ended
+
         if isinstance(message, FindLimit):
-            return largest_value(message.gait, model, message.which, self._plans_first)
-        number = message.number
+            return largest_value(message.gait, model, message.which, go_on)
         return find_remedies(
             message.gait,
             model,
-            lambda: not self._pipe.poll(),
+            go_on,
             lambda remedy: self._pipe.send(Found(number, remedy)),
             tips=message.tips,
         )
-
-    def _plans_first(self) -> bool:
-        """Answers the plans that were asked for meanwhile; false where another search was."""
-        while self._pipe.poll():
-            message = self._pipe.recv()
-            if isinstance(message, SolveLive):
-                self._reply(message)
-            else:
-                self._waiting.append(message)
-        return not self._waiting

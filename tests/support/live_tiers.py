@@ -65,8 +65,11 @@ class FixedTier:
         self.waits.append(timeout)
         return solve_live(problem) if self.offered else result_of(problem, self.status)
 
-    def remedies(self, gait: Gait, tell: Callable[[Remedy], object], *, tips: bool) -> RemedySearch:
+    def remedies(
+        self, gait: Gait, tell: Callable[[Remedy], object], *, tips: bool, go_on: Callable[[], bool]
+    ) -> RemedySearch:
         """Half the step."""
+        assert go_on()
         self.offered = True
         dx, dy, yaw = gait.step
         half = replace(gait, step=(dx / 2, dy / 2, yaw))

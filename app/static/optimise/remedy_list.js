@@ -9,7 +9,8 @@ const NO_PHYSICS = { text: "Being tried in physics…", tone: null, title: null 
 /** What physics says of a remedy, in a few words. */
 function physicsWords({ physics, caution }, isTrying) {
   if (!physics) return isTrying ? NO_PHYSICS : { text: caution, tone: "caution", title: null };
-  return physics.walks ? { text: "Walks in physics.", tone: "good", title: null } : { text: "Tips in physics.", tone: "caution", title: physics.sentence };
+  if (physics.walks === null) return { text: "Physics gave no result.", tone: "caution", title: physics.sentence };
+  return physics.walks ? { text: "Walks in physics.", tone: "good", title: null } : { text: "Does not walk in physics.", tone: "caution", title: physics.sentence };
 }
 
 /** A row, which keeps its place while what is known of it grows. */
@@ -61,17 +62,27 @@ export function remedyList(acts) {
     show(remedies) {
       const known = remedies ?? { list: [], searching: true, trying: true, complete: false };
       const labels = known.list.map(({ label }) => label);
-      for (const label of rows.keys()) if (!labels.includes(label)) rows.delete(label);
+      const isHeld = list.matches(":hover, :focus-within");
+      const remove = (label) => {
+        const { element } = rows.get(label);
+        if (element.matches(":hover, :focus-within")) acts.end();
+        element.remove();
+        rows.delete(label);
+      };
+      [...rows.keys()].filter((label) => !labels.includes(label)).forEach(remove);
       for (const remedy of known.list) {
         // A row is of one document: the same words may stand for another one after an edit.
         const text = JSON.stringify(remedy.document);
-        if (rows.get(remedy.label)?.text !== text) rows.set(remedy.label, { text, ...row(remedy, acts) });
+        if (rows.has(remedy.label) && rows.get(remedy.label).text !== text) remove(remedy.label);
+        if (!rows.has(remedy.label)) rows.set(remedy.label, { text, ...row(remedy, acts) });
         rows.get(remedy.label).update(remedy, known.trying);
       }
-      const order = orderOf(labels, shown, list.matches(":hover, :focus-within"));
-      const elements = order.map((label) => rows.get(label).element);
-      if (elements.length !== list.children.length || elements.some((element, index) => list.children[index] !== element)) list.replaceChildren(...elements);
-      shown = order;
+      shown = orderOf(labels, shown, isHeld);
+      // A row that is in its place is not moved, which would take the focus and a click that is under way.
+      shown.forEach((label, index) => {
+        const { element } = rows.get(label);
+        if (list.children[index] !== element) list.insertBefore(element, list.children[index] ?? null);
+      });
       head.hidden = list.hidden = !labels.length;
       const text = noteOf(known);
       setText(note, text);

@@ -9,12 +9,14 @@ import pytest
 
 from app.bench.common.random_drawings import random_drawing
 from core.gait.gait import Gait, heading_step, motion_problem
+from core.gait.held_feet import HeldFeet
 from core.library.library import library
 from core.motion.contact_timeline import ContactTimeline
 from core.problem.motion_check import check_motion
 from core.robot.model import load_robot
 from solver_jobs import Remedy, RemedyKind, SolveStatus, solve_live
-from solver_jobs.remedies.remedy import MOST
+from solver_jobs.remedies.layout import items_of, longer, one_after_the_other, with_single_swings
+from solver_jobs.remedies.remedy import MOST_REMEDIES, is_one_by_one, order_words
 from solver_jobs.remedies.search import find_remedies
 
 WALK = library()["walk"].gait
@@ -36,7 +38,7 @@ def locked(gait: Gait, foot: int) -> Gait:
 def remedies_of(gait: Gait) -> tuple[Remedy, ...]:
     search = find_remedies(gait, load_robot(gait.robot), lambda: True)
     assert search.complete
-    assert len(search.remedies) <= MOST
+    assert len(search.remedies) <= MOST_REMEDIES
     for remedy in search.remedies:
         problem = motion_problem(remedy.gait, load_robot(gait.robot))
         result = solve_live(problem)
@@ -56,7 +58,7 @@ def test_overlapping_swings_are_laid_one_after_the_other_or_in_a_longer_gait() -
     for remedy in (one for one in found if not one.caution):
         assert remedy.gait.options.margin == 0.006
         assert (~remedy.gait.timeline.stance).sum(axis=0).max() == 1
-    (same_time,) = (remedy for remedy in found if remedy.kind is RemedyKind.ONE_BY_ONE)
+    (same_time,) = (remedy for remedy in found if remedy.label == "One foot after the other")
     assert same_time.gait.timeline.sample_count == overlapping.timeline.sample_count
 
 
@@ -121,3 +123,54 @@ def test_the_better_a_remedy_keeps_what_was_asked_the_earlier_it_comes() -> None
 @pytest.mark.parametrize("number", range(12))
 def test_random_drawings_have_a_remedy(number: int) -> None:
     assert remedies_of(random_drawing(5, number).gait)
+
+
+def test_of_two_swings_of_a_foot_the_one_beside_others_is_removed() -> None:
+    twice = painted(WALK, 1, 20, 26)
+    single = with_single_swings(twice)
+    swings = [swing for swing in single.timeline.swings() if swing.foot == 0]
+    assert len(swings) == 1
+    assert with_single_swings(WALK) is WALK
+    assert (with_single_swings(locked(twice, 1)).timeline.stance == twice.timeline.stance).all()
+
+
+def test_swings_have_room_beside_a_foot_that_is_held_at_one_end() -> None:
+    raised = replace(painted(WALK.with_options(margin=0.0), 4, 0, 12), held=HeldFeet(start=(4,)))
+    (swing, *_) = (swing for swing in raised.timeline.swings() if swing.foot == 3)
+    laid = one_after_the_other(raised, items_of(raised), 2)
+    longest = longer(raised, items_of(raised), 3)
+    assert longest is not None
+    for gait in (laid, longest):
+        if gait is None:
+            continue
+        first = min(one.first for one in gait.timeline.swings() if one.first > 0)
+        assert first > swing.last
+        assert not gait.timeline.stance[3, : swing.last + 1].any()
+
+
+@pytest.mark.parametrize(
+    ("swings", "words"),
+    [
+        ([(1, 2, 5), (3, 6, 9), (2, 10, 12)], "Feet 1, 3, 2"),
+        ([(1, 2, 5), (4, 4, 8), (2, 8, 12), (3, 20, 22)], "Feet 1 + 4 + 2, 3"),
+        ([(1, k, k) for k in range(1, 30, 3)], "10 swings, one after the other"),
+        ([(foot, k, k) for k in range(1, 30, 5) for foot in (1, 2)], "12 swings, in 6 groups"),
+    ],
+)
+def test_the_order_of_swings_in_words(swings: list[tuple[int, int, int]], words: str) -> None:
+    gait = replace(WALK, timeline=replace(WALK.timeline, stance=np.ones_like(WALK.timeline.stance)))
+    for foot, first, last in swings:
+        gait = painted(gait, foot, first, last)
+    assert order_words(gait) == words
+
+
+def test_swings_of_six_legs_that_stay_beside_each_other_are_called_groups() -> None:
+    found = [remedy for number in range(30) for remedy in _remedies_of_six_legs(number)]
+    grouped = [remedy for remedy in found if not is_one_by_one(remedy.gait)]
+    assert grouped
+    assert all(remedy.label != "One foot after the other" for remedy in grouped)
+
+
+def _remedies_of_six_legs(number: int) -> tuple[Remedy, ...]:
+    gait = random_drawing(5, number).gait
+    return remedies_of(gait) if gait.timeline.leg_count == 6 else ()

@@ -120,6 +120,29 @@ def test_plans_come_before_a_limit_and_do_not_end_it(solver: LiveSolver) -> None
     assert {plan.status for plan in plans} == {SolveStatus.SOLVED}
 
 
+def test_plans_come_before_remedies_and_do_not_end_their_search(solver: LiveSolver) -> None:
+    with ThreadPoolExecutor(1) as pool:
+        search = pool.submit(solver.remedies, gait_of("walk", 0.030), timeout=60.0)
+        plans = [solver.solve(PROBLEM, 30.0) for _ in range(4)]
+        assert search.result(60.0).complete
+    assert {plan.status for plan in plans} == {SolveStatus.SOLVED}
+
+
+def test_a_search_that_is_ended_or_lasts_too_long_gives_what_it_has_and_keeps_the_process(
+    solver: LiveSolver,
+) -> None:
+    solver.solve(PROBLEM, 30.0)
+    process = solver.process_id
+    found: list[Remedy] = []
+    search = solver.remedies(gait_of("walk", 0.030), found.append, go_on=lambda: not found, timeout=60.0)
+    assert not search.complete
+    assert search.found
+    assert solver.remedies(gait_of("walk", 0.030), timeout=0.0).complete is False
+    assert solver.limit(gait_of("walk", 0.010), Limit.STEP, timeout=0.0) is None
+    assert solver.solve(PROBLEM, 30.0).status is SolveStatus.SOLVED
+    assert solver.process_id == process
+
+
 def test_the_search_for_remedies_can_be_interrupted() -> None:
     asked = 0
 

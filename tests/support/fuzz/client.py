@@ -14,9 +14,9 @@ from tests.support.fuzz.requests import Asked
 ANSWER_SECONDS = 60.0
 """What has not answered by then never will."""
 
-STREAM = "multipart/x-mixed-replace"
+STREAMS = ("multipart/x-mixed-replace", "application/x-ndjson")
 FIRST_BYTES = 4096
-"""Of a stream that may never end."""
+"""Of a stream that may never end, or shows how long work goes on."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ class Connection:
         answer = http.client.HTTPResponse(self._socket, method=asked.method)
         answer.begin()
         kind = answer.getheader("content-type", "")
-        is_stream = kind.startswith(STREAM)
+        is_stream = kind.startswith(STREAMS)
         body = answer.read1(FIRST_BYTES) if is_stream else answer.read()
         self._answers += 1
         if is_stream or answer.will_close:

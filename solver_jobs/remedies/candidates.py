@@ -154,7 +154,7 @@ class Candidates:
 
     def _ends(self) -> Remedy | None:
         gait = self._at_best_margin(self._mended)
-        words = "Every foot is on the ground at the start and at the end, and swings at least once."
+        words = "Every foot swings, and stands at the start and at the end."
         return None if gait is None else self._remedy(RemedyKind.MENDED, "Mend the ends", words, gait)
 
     def _for_shape(self) -> Iterator[Remedy | None]:
@@ -231,10 +231,11 @@ class Candidates:
 
     def _for_step(self) -> Iterator[Remedy | None]:
         """Steps that are too long."""
+        # The quickest answer first: a person waits for it.
+        yield self._more_iterations()
         shorter = self._shorter_step(self._mended, self._raised)
         if shorter is not None:
             yield self._step_remedy(shorter, "The largest that works for this drawing.")
-        yield self._more_iterations()
         if self._asked.options.margin > self._model.margin:
             yield self._kept_margin(self._mended)
         yield self._slower()
@@ -387,6 +388,8 @@ class Candidates:
             return None
         text = f"{gait.options.plane_height * MM:.1f} mm"
         words = f"It has a motion with the actuator plane {text} above the ground."
+        if self._asked.options.end_plane_height is not None:
+            words = f"It has a motion with the actuator plane {text} above the ground from start to end."
         return self._remedy(RemedyKind.HEIGHT, f"Body height {text}", words, gait)
 
     def _clearance(self) -> Remedy | None:
@@ -429,9 +432,12 @@ class Candidates:
         if motion is None:
             return None
         margin, asked = gait.options.margin, self._asked.options.margin
-        is_said = kind in (RemedyKind.MARGIN, RemedyKind.NO_MARGIN) or margin == asked
-        told = "" if is_said else f" Margin {margin * MM:g} mm."
-        return Remedy(kind, label, f"{words}{told}", gait, motion, caution)
+        others = []
+        if margin != asked and kind not in (RemedyKind.MARGIN, RemedyKind.NO_MARGIN):
+            others.append(f"Margin {margin * MM:g} mm.")
+        if self._mended is not self._asked and kind is not RemedyKind.MENDED:
+            others.append("The ends are mended too.")
+        return Remedy(kind, label, " ".join([words, *others]), gait, motion, caution)
 
 
 def _margin(gait: Gait, margin: float) -> Gait:

@@ -49,14 +49,18 @@ def completed_drawing(gait: Gait, model: RobotModel, stance: Bools) -> Gait:
     return with_iterations(drawn, gait.iterations)
 
 
-def completion_remedy(gait: Gait, motion: MotionResult) -> Remedy:
-    """What is offered of a drawing that was finished.
+def completion_remedy(asked: Gait, gait: Gait, motion: MotionResult) -> Remedy:
+    """The remedy of a drawing that was finished.
 
     Args:
+        asked: the drawing before.
         gait: the finished drawing.
         motion: of it.
     """
     words = f"{order_words(gait)}, as near to your drawing as the rules of footfall patterns allow."
+    margin = gait.options.margin
+    if margin != asked.options.margin:
+        words += f" Margin {margin * 1000:g} mm."
     return Remedy(RemedyKind.COMPLETED, LABEL, words, gait, motion)
 
 

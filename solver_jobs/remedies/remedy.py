@@ -116,10 +116,12 @@ def rank(asked: Gait, model: RobotModel, remedy: Remedy) -> tuple[bool, bool, fl
     gait = remedy.gait
     way = way_of(asked)
     lost_way = 0.0 if way == 0 else max(0.0, 1.0 - way_of(gait) / way)
+    swings = [len(one.timeline.swings()) / one.iterations for one in (asked, gait)]
+    lost_swings = 0.0 if swings[0] == 0 else max(0.0, 1.0 - swings[1] / swings[0])
     margin = asked.options.margin
     lost_margin = 0.0 if margin == 0 else max(0.0, 1.0 - gait.options.margin / margin)
     low = gait.options.margin < model.margin
-    return bool(remedy.caution), low, lost_way + lost_margin + 0.3 * _effort(asked, gait)
+    return bool(remedy.caution), low, lost_way + lost_swings + lost_margin + 0.3 * _effort(asked, gait)
 
 
 def _effort(asked: Gait, gait: Gait) -> float:

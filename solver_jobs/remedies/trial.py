@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -31,6 +31,7 @@ class Trial:
 
     model: RobotModel
     go_on: Callable[[], bool]
+    _known: list[tuple[Gait, bool]] = field(default_factory=list)
 
     def works(self, gait: Gait) -> bool:
         """Whether the live tier solves a gait quickly and the checker confirms it.
@@ -38,11 +39,18 @@ class Trial:
         Raises:
             InterruptedSearchError: the search shall end.
         """
+        if not self.go_on():
+            raise InterruptedSearchError
+        known = next((works for tried, works in self._known if tried == gait), None)
+        if known is None:
+            known = self._quick(gait)
+            self._known.append((gait, known))
+        return known
+
+    def _quick(self, gait: Gait) -> bool:
         from core.problem.motion_check import check_motion
         from solver_jobs.live.solve import quick_motion
 
-        if not self.go_on():
-            raise InterruptedSearchError
         try:
             problem = motion_problem(gait, self.model)
         except FootfallError:
@@ -75,19 +83,18 @@ class Trial:
     def largest(
         self, least: float, most: float, change: Callable[[float], Gait], unit: float
     ) -> float | None:
-        """The largest value that works: `most`, or one in whole units from `least` up; None where none is."""
+        """The largest value that works: `most`, `least`, or whole units between; None where none works."""
         if self.works(change(most)):
             return most
         if least >= most or not self.works(change(least)):
             return None
-        low, high = least, most
-        while high - low > unit:
-            middle = (low + high) / 2
-            low, high = (middle, high) if self.works(change(middle)) else (low, middle)
-        rounded = float(np.floor(low / unit + 1e-9)) * unit
-        if rounded >= least and self.works(change(rounded)):
-            return rounded
-        return least
+        # In units: `low` works, or is `least` itself; `high` does not work.
+        low, high = int(np.floor(least / unit + 1e-9)), int(np.ceil(most / unit - 1e-9))
+        first = low
+        while high - low > 1:
+            middle = (low + high) // 2
+            low, high = (middle, high) if self.works(change(middle * unit)) else (low, middle)
+        return least if low == first else low * unit
 
     def first(self, gaits: Iterable[Gait | None]) -> Gait | None:
         """The first gait that works."""

@@ -9,8 +9,8 @@ import { latestOnly } from "../lib/latest_only.js";
 import { simulationOver, simulationText } from "./simulation.js";
 import { hasNoMotion, ownPlan, shownDocument, shownText } from "./store.js";
 
-const IDLE_MS = 150;
-const HELD_MS = 600;
+const IDLE_MS = 10;
+const HELD_MS = 300;
 const BROKEN_OFF = "The search broke off. Change the drawing to begin again.";
 const NOTHING = { list: [], searching: false, trying: false, complete: true };
 

@@ -98,7 +98,9 @@ def test_where_nothing_helps_a_sentence_says_what_stood_in_the_way(service: Reme
     held_fast = replace(WALK, timeline=ContactTimeline(stance, locked, WALK.timeline.sample_time))
     last = states_of(service, held_fast)[-1]
     assert last["remedies"] == []
-    assert last["sentence"].startswith("No change was found that makes it walk. Locked cells were not changed")
+    assert last["sentence"].startswith(
+        "No change was found that makes it walk. Locked cells were not changed"
+    )
 
 
 def test_a_search_that_is_ended_shows_only_its_end(service: RemedyService) -> None:

@@ -10,10 +10,31 @@ const MOST_POINTS = 2 * WIDTH;
 const tenth = (value) => Math.round(value * 10) / 10;
 const isKnown = (value) => value !== null && Number.isFinite(value);
 
-/** A strip's scale: value to 0 (top) … HEIGHT (bottom), with room at both ends. */
-export function scaleOf(low, high) {
-  const room = (high - low || 1) * 0.16;
-  return (value) => HEIGHT * (1 - (value - low + room) / (high - low + 2 * room));
+/** Part of the height that stays free above and below the values. */
+const ROOM = 0.1;
+
+/**
+ * A scale: value to place, 0 (top) … HEIGHT (bottom).
+ * @param {number} low least value
+ * @param {number} high greatest value
+ * @param {{top: number, bottom: number}} [band] the part of the height for them
+ */
+export function scaleOf(low, high, { top, bottom } = { top: 0, bottom: HEIGHT }) {
+  const room = (high - low || 1) * ROOM;
+  return (value) => bottom - ((bottom - top) * (value - low + room)) / (high - low + 2 * room);
+}
+
+const STEPS = [1, 2, 5, 10];
+
+/** Round values from `low` to `high`, no more than `most` of them. */
+export function ticksOf(low, high, most) {
+  const span = high - low;
+  if (!(span > 0) || most < 1) return [];
+  const unit = 10 ** Math.floor(Math.log10(span / most));
+  const inside = (step) => Math.floor(high / step + 1e-9) - Math.ceil(low / step - 1e-9) + 1;
+  const step = STEPS.map((factor) => factor * unit).find((one) => inside(one) <= most) ?? 20 * unit;
+  const first = Math.ceil(low / step - 1e-9);
+  return Array.from({ length: Math.max(inside(step), 0) }, (_, index) => (first + index) * step);
 }
 
 /**

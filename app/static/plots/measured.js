@@ -42,7 +42,7 @@ export function runOver({ run, trace, selected, iterate }) {
 /** The curves over a strip, the run's on top: each with its name and its line style. */
 export function oversOf(state, strip) {
   const [simulated, measured] = [measuredOf(traceOf(simulationOver(state)), strip), measuredOf(runOver(state), strip)];
-  return [simulated && { ...simulated, word: "simulated dashed", dash: SIMULATED_DASH }, measured && { ...measured, word: "measured solid", dash: [] }].filter(Boolean);
+  return [simulated && { ...simulated, word: "simulated", dash: SIMULATED_DASH }, measured && { ...measured, word: "measured", dash: [] }].filter(Boolean);
 }
 
 /** Least and greatest measured value, mm. */
@@ -51,15 +51,15 @@ export function measuredRange({ laps }) {
   return values.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [Infinity, -Infinity]);
 }
 
-/** A curve a foot, as `stripCanvas` takes them. */
-export function measuredCurves({ laps, aFoot, dash }, axis, scale) {
+/** A curve a foot, as `stripCanvas` takes them; `scaleFor(foot)` is the scale of a foot. */
+export function measuredCurves({ laps, aFoot, dash }, axis, scaleFor) {
   const each = aFoot || 1;
   const feet = Math.ceil((laps[0]?.rows[0].length ?? 0) / each);
   return Array.from({ length: feet }, (_, foot) => ({
     tone: aFoot ? foot + 1 : "fine", width: 1.5, alpha: 1, dash,
     d: laps.flatMap(({ times, rows }) => {
       const across = acrossOf(axis, times);
-      return Array.from({ length: each }, (__, one) => pathOf(across, (index) => rows[index][foot * each + one], scale));
+      return Array.from({ length: each }, (__, one) => pathOf(across, (index) => rows[index][foot * each + one], scaleFor(foot)));
     }).join(""),
   }));
 }

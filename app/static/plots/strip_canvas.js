@@ -7,7 +7,8 @@ import { HEIGHT, WIDTH } from "./curves.js";
 import { h } from "../lib/dom.js";
 
 const FEET = 12;
-const NAMES = { fine: "--good", broken: "--bad", rule: "--quiet", grey: "--edge" };
+const NAMES = { fine: "--good", broken: "--bad", rule: "--quiet", grey: "--edge", grid: "--line", border: "--line-2", limit: "--bad", wanted: "--caution" };
+const LINE_DASHES = { limit: [4, 3], wanted: [2, 3] };
 const dark = matchMedia("(prefers-color-scheme: dark)");
 let palette = null;
 dark.addEventListener("change", () => { palette = null; });
@@ -28,7 +29,24 @@ function stretched(d, { width, height }) {
   return path;
 }
 
-function paint(element, size, { bands = [], rules = [], curves = [], clips = [] }) {
+/** Lines from side to side under the curves: the grid, borders between feet, limits and what is asked. */
+function paintLevels(pen, colours, { width, height }, { grid = [], borders = [], lines = [] }) {
+  const level = (y, tone, dash, alpha = 1) => {
+    const at = Math.round((y * height) / HEIGHT) + 0.5;
+    [pen.strokeStyle, pen.lineWidth, pen.globalAlpha] = [colours[tone], 1, alpha];
+    pen.setLineDash(dash);
+    pen.beginPath();
+    pen.moveTo(0, at);
+    pen.lineTo(width, at);
+    pen.stroke();
+  };
+  grid.forEach((y) => level(y, "grid", []));
+  borders.forEach((y) => level(y, "border", []));
+  lines.forEach(({ y, kind }) => level(y, kind, LINE_DASHES[kind], borders.length ? 0.5 : 1));
+}
+
+function paint(element, size, drawing) {
+  const { bands = [], rules = [], curves = [], clips = [] } = drawing;
   const ratio = window.devicePixelRatio || 1;
   const [across, down] = [Math.round(size.width * ratio), Math.round(size.height * ratio)];
   if (element.width !== across || element.height !== down) [element.width, element.height] = [across, down];
@@ -47,10 +65,12 @@ function paint(element, size, { bands = [], rules = [], curves = [], clips = [] 
     pen.globalAlpha = from ? 0.55 : 0.3;
     pen.fillRect(x * sx - 0.5, from * size.height, 1, size.height);
   }
-  const paths = curves.map(({ d, tone, width, alpha, dash = [] }) => {
+  paintLevels(pen, colours, size, drawing);
+  const paths = curves.map(({ d, tone, width, alpha, dash = [], offset = 0 }) => {
     const path = stretched(d, size);
     [pen.strokeStyle, pen.lineWidth, pen.globalAlpha] = [colours[tone], width, alpha];
     pen.setLineDash(dash);
+    pen.lineDashOffset = offset;
     pen.stroke(path);
     return path;
   });
@@ -66,8 +86,8 @@ function paint(element, size, { bands = [], rules = [], curves = [], clips = [] 
 /**
  * Makes a strip's canvas, which follows the strip's size and the theme.
  * @returns {{element: HTMLCanvasElement, show: (drawing: object) => void}} a drawing has `bands` of missing values {x, width},
- *   `rules`, upright lines {x, from}, from a share of the height downwards,
- *   `curves` {d, tone (a foot's number, "fine", "grey"), width, alpha, dash} and `clips` {y, height}, where curves are drawn in the bad colour
+ *   `rules`, upright lines {x, from}, from a share of the height downwards, `grid` and `borders` (heights), `lines` {y, kind ("limit", "wanted")},
+ *   `curves` {d, tone (a foot's number, "fine", "grey"), width, alpha, dash, offset} and `clips` {y, height}, where curves are drawn in the bad colour
  */
 export function stripCanvas(strip) {
   const element = h("canvas", { "aria-hidden": "true" });

@@ -24,11 +24,12 @@ const mmRequested = (value) => (value ? value * 1000 : null);
 /**
  * The strips in their order. `of(plan, options)` gives what is drawn, or null with `lack` as the reason: `series` of {foot,
  * motor, valueAt(index)}, `low` and `high` (limits, null for none), `wanted` (asked by the gait), `floor`, `most` (the scale
- * reaches at least there). `now(plan, index)` is the figure at a sample.
+ * reaches at least there), `lanes` (every foot has a row of its own), `rises` (feet at 0 are not drawn, and each rise has its foot's
+ * mark). `now(plan, index)` is the figure at a sample.
  */
 export const STRIPS = [
   {
-    key: "margin", name: "Stability margin", unit: "mm", shown: true, lack: "No margin.",
+    key: "margin", name: "Stability margin", title: "Margin, mm", unit: "mm", shown: true, lack: "No margin.",
     help: "Distance of the centre of mass from the edge of the support polygon, in mm; below 0 it tips",
     of: (plan, options) => (plan.margin ? {
       series: [{ foot: null, motor: null, valueAt: (index) => (plan.margin[index] === null ? null : plan.margin[index] * 1000) }],
@@ -38,37 +39,40 @@ export const STRIPS = [
     isBad: ({ margin }, index) => (margin?.[index] ?? 0) < 0,
   },
   {
-    key: "strokes", name: "Strokes", unit: "mm", shown: true, lack: "No strokes: the plan is out of the legs' reach.",
-    help: "Extension of every motor in mm, a colour a foot, with their limits",
-    of: ({ strokes_mm: strokes, stroke_limits_mm: limits }) => (strokes ? { series: aMotor(strokes), low: limits[0], high: limits[1] } : null),
+    key: "strokes", name: "Strokes", title: "Strokes, mm", unit: "mm", shown: true, lack: "No strokes: the plan is out of the legs' reach.",
+    help: "Extension of every motor in mm, a row a foot: motor 1 thick, 2 medium, 3 thin",
+    of: ({ strokes_mm: strokes, stroke_limits_mm: limits }) => (strokes ? { series: aMotor(strokes), low: limits[0], high: limits[1], lanes: true } : null),
     now({ strokes_mm: strokes }, index) {
       const values = known(strokes?.[index] ?? []);
       return values.length ? `${fixed(Math.min(...values))} … ${fixed(Math.max(...values))} mm` : "–";
     },
   },
   {
-    key: "heights", name: "Foot heights", unit: "mm", shown: true, lack: "No feet.",
+    key: "heights", name: "Foot heights", title: "Lift, mm", unit: "mm", shown: true, lack: "No feet.",
     help: "Height of each foot over where it stands, in mm",
     of: (plan) => {
       const rows = (plan.feet ?? []).map((_, index) => heightsAt(plan, index));
-      return rows.length ? { series: aFoot(rows, (value) => value), low: null, high: null, floor: 0, most: 2, tags: true } : null;
+      return rows.length ? { series: aFoot(rows, (value) => value), low: null, high: null, floor: 0, most: 2, rises: true } : null;
     },
     now: (plan, index) => footAndValue(greatest(heightsAt(plan, index)), (at) => at, "mm"),
   },
   {
-    key: "foot_speeds", name: "Foot speeds", unit: "mm/s", shown: false, lack: "No feet.",
+    key: "foot_speeds", name: "Foot speeds", title: "Foot speed, mm/s", unit: "mm/s", shown: false, lack: "No feet.",
     help: "Speed of each foot in mm/s, with the limit that the optimiser keeps",
-    of: ({ foot_speeds_mm_s: speeds, speed_limits_mm_s: limits }) => (speeds ? { series: aFoot(speeds, (value) => value), low: null, high: limits.foot, floor: 0 } : null),
+    of: ({ foot_speeds_mm_s: speeds, speed_limits_mm_s: limits }) => (speeds ? { series: aFoot(speeds, (value) => value), low: null, high: limits.foot, floor: 0, rises: true } : null),
     now: ({ foot_speeds_mm_s: speeds }, index) => footAndValue(greatest(speeds?.[index] ?? []), (at) => at, "mm/s"),
   },
   {
-    key: "motor_speeds", name: "Motor speeds", unit: "mm/s", shown: false, lack: "No strokes: the plan is out of the legs' reach.",
-    help: "Speed of every motor in mm/s, a colour a foot, with what a motor can do",
+    key: "motor_speeds", name: "Motor speeds", title: "Motor speed, mm/s", unit: "mm/s", shown: false, lack: "No strokes: the plan is out of the legs' reach.",
+    help: "Speed of every motor in mm/s, a row a foot: motor 1 thick, 2 medium, 3 thin",
     of: ({ motor_speeds_mm_s: speeds, speed_limits_mm_s: limits }, options) =>
-      (speeds ? { series: aMotor(speeds), low: null, high: limits.motor, wanted: mmRequested(options?.motor_speed), floor: 0 } : null),
+      (speeds ? { series: aMotor(speeds), low: null, high: limits.motor, wanted: mmRequested(options?.motor_speed), lanes: true } : null),
     now: ({ motor_speeds_mm_s: speeds }, index) => footAndValue(greatest(speeds?.[index] ?? []), (at) => Math.floor(at / MOTORS), "mm/s"),
   },
 ];
 
-/** Whose a series is: "foot 3, motor 2". */
-export const ownerOf = ({ foot, motor }) => [foot === null ? null : `foot ${foot + 1}`, motor === null ? null : `motor ${motor + 1}`].filter(Boolean).join(", ");
+/** All values of a sample, mm: `lifts` a foot, `strokes` a motor (null where out of reach), `margin` (null for none). */
+export function valuesAt(plan, index) {
+  const margin = plan.margin?.[index] ?? null;
+  return { lifts: heightsAt(plan, index), strokes: plan.strokes_mm?.[index] ?? null, margin: margin === null ? null : margin * 1000 };
+}

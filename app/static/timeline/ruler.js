@@ -1,7 +1,7 @@
 /** The ruler over the timeline: planned seconds, the robot's seconds, loop, findings; it scrubs the playback. */
 
-import { clamp } from "../lib/clamp.js";
 import { byId, h } from "../lib/dom.js";
+import { hasRobotTimes, plannedAt } from "../state/robot_seconds.js";
 import { hasNoMotion, shownPlan } from "../state/store.js";
 import { axisKey, axisOf, fractionAt, labelEvery, momentOf, timeAt } from "../state/time_axis.js";
 
@@ -26,17 +26,6 @@ function ticks(axis, width) {
   return marks;
 }
 
-/** Robot seconds at a moment of the plan, and the other way round: straight between two waypoints. */
-function between(value, from, to) {
-  if (value >= from.at(-1)) return to.at(-1);
-  const after = clamp(from.findIndex((known) => known >= value), 1, from.length - 1);
-  const share = (value - from[after - 1]) / (from[after] - from[after - 1] || 1);
-  return to[after - 1] + share * (to[after] - to[after - 1]);
-}
-
-/** Whether a plan's own seconds are others than the robot's; those of poses are the robot's already. */
-const hasRobotTimes = (plan) => plan?.poses === null && plan.waypoint_seconds?.length > 1;
-
 /** The second line of the ruler: the robot's seconds, where it is at that moment of the plan. */
 function robotTicks(axis, plan, width) {
   if (!hasRobotTimes(plan) || hasNoMotion(plan)) return [];
@@ -45,7 +34,7 @@ function robotTicks(axis, plan, width) {
   const marks = [];
   for (let count = 0; count * every <= takes.at(-1) + 1e-9; count += 1) {
     const time = count * every;
-    const left = fractionAt(axis, between(time, takes, planned));
+    const left = fractionAt(axis, plannedAt(plan, time));
     if (isShown(left)) marks.push(placed(h("span", { class: "on-robot", text: time === 0 ? "0 s" : String(Math.round(time * 10) / 10) }), left));
   }
   return marks;

@@ -8,6 +8,7 @@ import { previewedDocument, shownDocument, shownPlan } from "../state/store.js";
 import { axisKey, axisOf } from "../state/time_axis.js";
 import { mountPhaseFlags } from "./phase_flags.js";
 import { mountRuler } from "./ruler.js";
+import { drawBars } from "./swing_bars.js";
 import { mountTimelineInput } from "./timeline_input.js";
 import { buildRow, DENSE, drawRow, findingsByCell, fitRow } from "./timeline_rows.js";
 
@@ -39,6 +40,7 @@ export function mountTimeline(store, edits, playback, reveal) {
   const marks = h("div", { class: "timeline-marks", "aria-hidden": "true" });
   const [findingsOf, missingOf] = [memoised(findingsByCell), memoised(missingMotionByCell)];
   let parts = [];
+  let width = 0;
   const input = mountTimelineInput(store, edits, grid, () => parts, reveal);
 
   function fit(feet, samples) {
@@ -56,11 +58,21 @@ export function mountTimeline(store, edits, playback, reveal) {
 
   function place({ samples, shown, first, borders }) {
     grid.toggleAttribute("data-dense", shown > DENSE);
-    for (const { strip, cells } of parts) {
+    for (const { strip, cells, bars } of parts) {
       cells.forEach((cell, sample) => { cell.style.flexGrow = borders ? borders[sample + 1] - borders[sample] : ""; });
-      strip.style.width = `${(100 * samples) / shown}%`;
-      strip.style.transform = first ? `translateX(${(-100 * first) / samples}%)` : "";
+      for (const { style } of [strip, bars.layer]) {
+        style.width = `${(100 * samples) / shown}%`;
+        style.transform = first ? `translateX(${(-100 * first) / samples}%)` : "";
+      }
     }
+    showBars();
+  }
+
+  /** Marks, durations and duty factors of what is shown. */
+  function showBars() {
+    const gait = previewedDocument(store.state);
+    const axis = axisOf(store.state);
+    if (gait && parts.length === gait.timeline.feet.length) parts.forEach(({ bars }, foot) => drawBars(bars, gait.timeline.feet[foot], axis, width));
   }
 
   function render(state) {
@@ -74,6 +86,7 @@ export function mountTimeline(store, edits, playback, reveal) {
       foot, steps: feet[foot], locked: locked?.[foot], findings, lacks, periodic: gait.options?.boundary === "periodic",
       before: before && { steps: before.feet[foot], locked: before.locked?.[foot] }, role: state.view.roles?.[foot] ?? "",
     }));
+    showBars();
     grid.toggleAttribute("data-refused", Boolean(state.refused));
   }
 
@@ -82,6 +95,10 @@ export function mountTimeline(store, edits, playback, reveal) {
   store.watch((state) => [state.view, state.refused, shownPlan(state), isRefusedDrawing(state)], () => showNote(store, edits));
   store.watch(({ selected }) => [selected], () => store.set({ selection: null, preview: null, zoom: null }));
   store.watch(({ view, pending }) => [view, pending], ({ preview }) => { if (preview) store.set({ preview: null }); });
+  new ResizeObserver(([{ contentRect }]) => {
+    width = contentRect.width;
+    showBars();
+  }).observe(marks);
   mountPhaseFlags(store, marks);
   mountSelection(store, marks, () => parts);
   mountRuler(store, playback);

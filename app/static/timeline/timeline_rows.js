@@ -2,6 +2,7 @@
 
 import { h, setAttribute, setText } from "../lib/dom.js";
 import { partOf } from "../document/swings.js";
+import { buildBars } from "./swing_bars.js";
 
 /** With more columns in the window the cells stand without gaps. */
 export const DENSE = 140;
@@ -16,9 +17,10 @@ export function buildRow(foot) {
   const strip = h("div", { class: "cells", role: "presentation" });
   const label = h("div", { class: "row-label", role: "rowheader", title: "Click: the whole row; with Shift more rows" },
     h("span", { class: "foot-dot" }), h("span", { text: `Foot ${foot + 1}` }), role);
+  const bars = buildBars();
   const row = h("div", { class: "timeline-row", role: "row", "aria-label": `Foot ${foot + 1}`, data: { foot: foot + 1 } },
-    label, h("div", { class: "cells-window", role: "presentation" }, strip));
-  return { row, role, strip, cells: [], words: [], drawn: [], seen: [] };
+    label, h("div", { class: "cells-window", role: "presentation" }, strip, bars.layer), bars.duty);
+  return { row, role, strip, bars, cells: [], words: [], drawn: [], seen: [] };
 }
 
 /** Gives a row as many cells as there are samples; those that stay are left as they are. */

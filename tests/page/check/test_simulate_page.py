@@ -56,18 +56,18 @@ def test_a_gait_is_simulated_shown_over_its_plan_and_stale_after_an_edit(page: P
     assert time is not None
     expect(page.get_by_label("Time", exact=True)).to_contain_text(time.group(1))
 
-    expect(page.locator(".measured-key")).to_have_text("simulated dashed, planned dotted")
+    expect(page.get_by_role("note", name="Lines of the plots")).to_have_text("plannedsimulated")
     page.wait_for_function(GHOST)
     found = Axe().run(page, context={"include": [["#simulate"]]}).response["violations"]
     assert [one["id"] for one in found if one["impact"] in ("serious", "critical")] == []
 
     page.get_by_role("gridcell", name="foot 3, sample 12: stance").click()
     expect(panel(page)).to_contain_text("The gait changed since")
-    expect(page.locator(".measured-key").filter(has_text="simulated")).to_have_count(0)
+    expect(page.get_by_role("note", name="Lines of the plots")).to_be_hidden()
     expect(jobs).to_contain_text("older version of the gait")
     page.wait_for_function(f"() => !({GHOST})()")
     page.get_by_role("button", name="Undo").click()
-    expect(page.locator(".measured-key")).to_have_count(1)
+    expect(page.get_by_role("note", name="Lines of the plots")).to_be_visible()
 
 
 def test_a_simulation_is_cancelled_and_a_reload_brings_the_last_one_back(page: Page) -> None:
@@ -136,7 +136,7 @@ OVERS = """async () => {
 
 def test_a_run_and_a_simulation_lie_over_each_other_and_a_stale_one_over_nothing(page: Page) -> None:
     shown = page.evaluate(OVERS)
-    assert shown["both"] == ["simulated dashed", "measured solid"]
-    assert shown["simulated"] == ["simulated dashed"]
-    assert shown["stale"] == ["measured solid"]
+    assert shown["both"] == ["simulated", "measured"]
+    assert shown["simulated"] == ["simulated"]
+    assert shown["stale"] == ["measured"]
     assert shown["iterate"] == []

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import csv
 import re
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
@@ -73,10 +76,21 @@ BANDS = """(strip) => {
   return data.filter((_, at) => at % 4 === 3).filter((alpha) => alpha > 20 && alpha < 80).length;
 }"""
 """Columns whose topmost pixel is tinted."""
-LIMITS = """(strip) => {
-  const box = strip.getBoundingClientRect();
-  const tops = [...strip.querySelectorAll(".limit")].map((line) => line.getBoundingClientRect().top);
-  return tops.map((top) => (top - box.top) / box.height);
+PICTURE = """async ({ content, overs }) => {
+  const { stripPicture } = await import("/static/plots/strip_picture.js");
+  const { acrossOf } = await import("/static/plots/curves.js");
+  const times = content.rows[0].map((_, index) => index);
+  const axis = { start: -.5, step: 1, first: 0, shown: times.length };
+  const series = content.rows.map((row, at) => ({
+    foot: content.feet[at], motor: content.lanes ? at % 3 : null, valueAt: (index) => row[index],
+  }));
+  const across = acrossOf(axis, times);
+  const view = { axis, across, count: times.length, overs: overs ?? [], rules: [], grey: null };
+  const picture = stripPicture({ floor: null, ...content, series }, view);
+  return {
+    ...picture, at: content.probe.map(([foot, value]) => picture.scaleFor(foot)(value)),
+    curves: picture.drawing.curves, clips: picture.drawing.clips, lines: picture.drawing.lines,
+  };
 }"""
 
 
@@ -140,28 +154,107 @@ def test_every_strip_says_its_range_and_its_limits(page: Page) -> None:
     expect(strip(page, "strokes")).to_have_attribute("aria-label", both)
 
 
-def test_the_pointer_reads_a_value_with_its_foot_and_time(page: Page) -> None:
+def test_the_pointer_reads_the_values_of_all_feet_and_both_times(page: Page) -> None:
     box = strip(page, "heights").bounding_box()
     assert box is not None
     # Foot 3 is at its highest at 2.8 s; a sample's column is 1/45 of the strip.
     page.mouse.move(box["x"] + box["width"] * 7.5 / 45, box["y"] + 3)
-    expect(page.locator(".plot-hover")).to_contain_text("foot 3 · 3.0 mm · 2.8 s")
+    card = page.locator(".plot-card")
+    expect(card).to_contain_text(re.compile(r"2\.80 s plan\s*[0-9.]+ s on the robot"))
+    rows = card.locator("tbody tr")
+    expect(rows).to_have_count(4)
+    expect(rows.nth(2)).to_have_text(re.compile(r"^ ?3 \w+3\.0[0-9.]{9,}$"))
+    expect(rows.nth(2)).to_have_attribute("data-near", "")
+    expect(rows.nth(0)).to_contain_text("down")
+    expect(card).to_contain_text(re.compile(r"Margin[0-9.]+ mm"))
     page.mouse.move(box["x"] + box["width"] / 2, 20)
-    expect(page.locator(".plot-hover")).to_be_hidden()
+    expect(card).to_be_hidden()
 
 
-def test_what_passes_a_limit_is_drawn_in_the_bad_colour_where_it_is(
-    page: Page, studio: StudioProcess
-) -> None:
+def test_what_passes_a_limit_is_drawn_in_the_bad_colour(page: Page, studio: StudioProcess) -> None:
     assert "bad" not in painted(page, "strokes")
     document: dict[str, Any] = studio.ask("GET", "/api/gaits/walk").content
     answer = studio.ask("PUT", "/api/gaits/walk?label=Too%20far", {**document, "step": [0.04, 0.04, 0.0]})
     assert answer.status == 200
     wait_for(lambda: "bad" in painted(page, "strokes"), "a stroke passes its limit")
-    upper, lower = sorted(strip(page, "strokes").evaluate(LIMITS))
-    assert all(row < upper + 0.04 or row > lower - 0.04 for row in painted(page, "strokes")["bad"])
     assert studio.ask("POST", "/api/gaits/walk/undo").status == 200
     wait_for(lambda: "bad" not in painted(page, "strokes"), "every stroke keeps its limits")
+
+
+def test_a_foot_has_a_row_of_its_own_and_the_bad_colour_is_beyond_its_limit(page: Page) -> None:
+    rows = [[5.0, 9.0, 12.0, 5.0]] * 3 + [[5.0, 6.0, 7.0, 5.0]] * 3
+    content = {"rows": rows, "feet": [0, 0, 0, 1, 1, 1], "lanes": True, "low": 0.0, "high": 10.0}
+    seen = page.evaluate(PICTURE, {"content": {**content, "probe": [[0, 10.0], [1, 10.0], [1, 5.0]]}})
+    assert [(band["top"], band["bottom"]) for band in seen["bands"]] == [(0, 50), (50, 100)]
+    assert seen["at"][0] == pytest.approx(seen["clips"][0]["height"])
+    assert seen["clips"][1] == {"y": 50, "height": pytest.approx(seen["at"][1] - 50)}
+    assert 50 < seen["at"][1] < seen["at"][2] < 100
+    assert [curve["width"] for curve in seen["curves"]] == [2, 1.25, 0.75] * 2
+
+
+def test_a_limit_far_from_the_values_is_named_but_not_drawn(page: Page) -> None:
+    content = {"rows": [[3.0, 4.0, 5.0]], "feet": [0], "low": 0.5, "high": 30.0, "most": None, "probe": []}
+    seen = page.evaluate(PICTURE, {"content": content})
+    assert {(one["value"], one["away"]) for one in seen["named"]} == {(30.0, "up"), (0.5, None)}
+    assert [line["kind"] for line in seen["lines"]] == ["limit"]
+
+
+def test_feet_that_rise_together_share_one_line_and_feet_that_stand_are_not_drawn(page: Page) -> None:
+    rise = [0.0, 0.0, 1.0, 3.0, 3.0, 1.0, 0.0, 0.0]
+    later = [0.0] * 8
+    content = {"rows": [rise, later, rise], "feet": [0, 1, 2], "rises": True, "floor": 0, "probe": []}
+    first, never, third = page.evaluate(PICTURE, {"content": content})["curves"]
+    assert never["d"] == ""
+    assert first["dash"] == third["dash"] == [7, 7]
+    assert first["offset"] != third["offset"]
+    assert first["d"].count("L") == 5, "the sample before the rise and the one after it belong to it"
+    peaks = page.evaluate(PICTURE, {"content": content})["peaks"]
+    assert [peak["foot"] for peak in peaks] == [0, 2]
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "most", "ticks"),
+    [(0, 30, 4, [0, 10, 20, 30]), (3.2, 8.1, 2, [5]), (-0.1, 0.1, 3, [-0.1, 0, 0.1]), (2, 2, 4, [])],
+)
+def test_ticks_are_round_values(page: Page, low: float, high: float, most: int, ticks: list[float]) -> None:
+    found = page.evaluate(
+        """async ([low, high, most]) => {
+          const { ticksOf } = await import("/static/plots/curves.js");
+          return ticksOf(low, high, most);
+        }""",
+        [low, high, most],
+    )
+    assert found == pytest.approx(ticks)
+
+
+def test_a_plot_is_at_least_72_pixels_high_with_ticks_and_named_limits(page: Page) -> None:
+    for key in ("margin", "strokes", "heights"):
+        box = strip(page, key).bounding_box()
+        assert box is not None
+        assert box["height"] >= 72
+    expect(page.locator(".plot-ticks").first.locator("span")).not_to_have_count(0)
+    expect(strip(page, "strokes")).to_contain_text(re.compile(r"limit 19\.5 ?↑.*limit 0\.5"))
+    expect(strip(page, "margin")).to_contain_text("asked 6")
+
+
+def test_a_plot_is_saved_as_picture_and_as_values_in_one_click(page: Page, tmp_path: Path) -> None:
+    saved = {}
+    for form in ("SVG", "PNG", "CSV"):
+        with page.expect_download() as download:
+            page.get_by_role("button", name=f"Save Strokes as {form}").click()
+        saved[form] = tmp_path / download.value.suggested_filename
+        download.value.save_as(saved[form])
+    assert saved["SVG"].name == "Walk 10 mm strokes.svg"
+    drawing = ElementTree.parse(saved["SVG"]).getroot()
+    assert len(drawing.findall(".//{*}path")) == 12
+    words = {text.text for text in drawing.findall(".//{*}text")}
+    assert {"Strokes, mm", "Walk 10 mm", "limit 19.5", "plan, s"} <= words
+    assert saved["PNG"].read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    rows = list(csv.reader(saved["CSV"].read_text().splitlines()))
+    assert rows[0][:4] == ["curve", "plan_s", "robot_s", "foot 1 motor 1, mm"]
+    assert {row[0] for row in rows[1:]} == {"planned"}
+    assert len(rows) == 46
+    assert all(0.5 <= float(value) <= 19.5 for row in rows[1:] for value in row[3:])
 
 
 @pytest.mark.heavy

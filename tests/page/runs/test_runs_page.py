@@ -66,7 +66,7 @@ def test_a_run_lies_over_the_plan_with_its_errors_and_its_note(page: Page, studi
     open_drawer(page, "Runs")
     listed(page).nth(1).get_by_role("button").click()
     expect(page.get_by_label("Gait name")).to_have_value("Manual walk, v0")
-    expect(page.locator(".measured-key")).to_have_text("measured solid, planned dotted")
+    expect(page.get_by_role("note", name="Lines of the plots")).to_have_text("plannedmeasured")
     expect(panel(page)).to_contain_text("Bob")
     feet = panel(page).get_by_role("table", name="Feet, mm").get_by_role("row")
     expect(feet).to_have_count(5)
@@ -88,7 +88,7 @@ def test_a_run_lies_over_the_plan_with_its_errors_and_its_note(page: Page, studi
     found = Axe().run(page, context={"include": [["#drawer-runs"]]}).response["violations"]
     assert [one["id"] for one in found if one["impact"] in ("serious", "critical")] == []
     panel(page).get_by_role("button", name="Close runs").click()
-    expect(page.locator(".measured-key")).to_have_count(0)
+    expect(page.get_by_role("note", name="Lines of the plots")).to_be_hidden()
 
 
 def test_the_run_that_was_opened_last_stays_and_a_closed_panel_lays_nothing_over_the_plan(page: Page) -> None:
@@ -99,7 +99,7 @@ def test_the_run_that_was_opened_last_stays_and_a_closed_panel_lays_nothing_over
     rows.nth(0).get_by_role("button").click()
     wait_for(lambda: late.count == 1, "the first run is on its way")
     rows.nth(1).get_by_role("button").click()
-    expect(page.locator(".measured-key")).to_have_count(1)
+    expect(page.get_by_role("note", name="Lines of the plots")).to_be_visible()
     with page.expect_event("requestfinished", lambda request: request.url.endswith(f"/api/runs/{first}")):
         late.let_go()
     page.evaluate("() => new Promise(requestAnimationFrame)")
@@ -111,7 +111,7 @@ def test_the_run_that_was_opened_last_stays_and_a_closed_panel_lays_nothing_over
     panel(page).get_by_role("button", name="Close runs").click()
     late.let_go()
     page.evaluate("() => new Promise(requestAnimationFrame)")
-    expect(page.locator(".measured-key")).to_have_count(0)
+    expect(page.get_by_role("note", name="Lines of the plots")).to_be_hidden()
 
 
 def test_a_deleted_run_comes_back(page: Page) -> None:

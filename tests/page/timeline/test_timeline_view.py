@@ -235,3 +235,27 @@ def test_control_s_saves(timeline: TimelinePage) -> None:
     expect(timeline.page.get_by_role("button", name="Save", exact=True)).to_have_attribute(
         "aria-disabled", "true"
     )
+
+
+def test_swings_carry_mark_and_duration_and_rows_their_duty(timeline: TimelinePage) -> None:
+    timeline.open("Marks and durations")
+    rows = timeline.page.locator(".timeline-row")
+    expect(rows.first.locator(".swing-bar")).to_have_count(1)
+    bars = rows.first.locator(".swing-bar").first.bounding_box()
+    swing = timeline.cell(1, FOUR[0].index("0") + 1).bounding_box()
+    assert bars is not None
+    assert swing is not None
+    assert abs(bars["x"] - swing["x"]) <= 1
+    duty = round(100 * FOUR[0].count("1") / len(FOUR[0]))
+    expect(rows.first.locator(".row-duty")).to_have_text(f"{duty} %")
+    timeline.press("+")
+    timeline.press("+")
+    words = rows.first.locator(".swing-bar").first
+    expect(words).to_have_text(re.compile(r"^[0-9.]+ s$"))
+    assert timeline.page.evaluate(
+        """async () => {
+          const { swingSpans } = await import("/static/timeline/swing_bars.js");
+          return swingSpans("0110010");
+        }"""
+    ) == [{"first": 0, "last": 0}, {"first": 3, "last": 4}, {"first": 6, "last": 6}]
+    timeline.press("f")

@@ -1,0 +1,54 @@
+/** Over the cells: each swing's mark and duration, and at the end of each row the foot's duty factor. */
+
+import { h, setText } from "../lib/dom.js";
+import { columnTime, placeOf } from "../state/time_axis.js";
+
+/** Narrower swings carry the mark alone, and still narrower ones nothing, px. */
+const LEAST_WORDS = 44;
+const LEAST_MARK = 14;
+
+/** Spans of swing in a row of 1 and 0. */
+export function swingSpans(steps) {
+  return [...steps.matchAll(/0+/g)].map(({ index, 0: span }) => ({ first: index, last: index + span.length - 1 }));
+}
+
+const seconds = (time) => `${time.toFixed(time < 9.95 ? 2 : 1)} s`;
+
+/** Share of the drawn time in which the foot is on the ground. */
+function dutyOf(axis, spans) {
+  const whole = columnTime(axis, axis.samples) - columnTime(axis, 0);
+  const air = spans.reduce((sum, { first, last }) => sum + columnTime(axis, last + 1) - columnTime(axis, first), 0);
+  return whole > 0 ? 1 - air / whole : 1;
+}
+
+/** The layer of a row: it lies over the cells and goes along with them. */
+export function buildBars() {
+  return { layer: h("div", { class: "swing-bars", "aria-hidden": "true" }), duty: h("span", { class: "row-duty" }), seen: "" };
+}
+
+/**
+ * Draws a row's bars.
+ * @param {object} bars of `buildBars`
+ * @param {string} steps the row, 1 and 0
+ * @param {object} axis of `axisOf`
+ * @param {number} width of the window, px
+ */
+export function drawBars(bars, steps, axis, width) {
+  const key = `${steps} ${axis.shown} ${axis.step} ${axis.borders ?? ""} ${Math.round(width)}`;
+  if (bars.seen === key) return;
+  bars.seen = key;
+  const spans = swingSpans(steps);
+  const duty = `${Math.round(100 * dutyOf(axis, spans))} %`;
+  setText(bars.duty, duty);
+  bars.duty.title = `Duty factor: this foot is on the ground ${duty} of the time`;
+  const place = (column) => placeOf(axis, column) / axis.samples;
+  bars.layer.replaceChildren(...spans.flatMap(({ first, last }) => {
+    const wide = (placeOf(axis, last + 1) - placeOf(axis, first)) / axis.shown * width;
+    if (wide < LEAST_MARK) return [];
+    const words = wide < LEAST_WORDS ? "" : seconds(columnTime(axis, last + 1) - columnTime(axis, first));
+    const bar = h("div", { class: "swing-bar" }, h("span", {}, h("i", { class: "foot-dot" }), words));
+    bar.style.left = `${100 * place(first)}%`;
+    bar.style.width = `${100 * (place(last + 1) - place(first))}%`;
+    return [bar];
+  }));
+}

@@ -16,13 +16,20 @@ from core.robot.model import RobotModel
 
 Colour = tuple[int, int, int]
 
-INK: Colour = (27, 36, 48)
-GOOD: Colour = (31, 138, 91)
-BAD: Colour = (192, 54, 44)
-ACCENT: Colour = (58, 92, 204)
+INK: Colour = (22, 27, 34)
+PAPER: Colour = (255, 255, 255)
+GOOD: Colour = (11, 116, 112)
+BAD: Colour = (179, 20, 95)
+ACCENT: Colour = (75, 72, 200)
 
 COP_NODE = "/overlay/cop"
 """Scene path of the marker on the floor at the centre of pressure."""
+
+COM_RADIUS = 0.0045
+"""Of the mark at the centre of mass, m."""
+
+SHADOW_NODE = "/overlay/contact_shadow"
+"""Scene path of the soft shadows under standing feet; the page makes their discs."""
 
 REACH_NODE = f"{ROBOT_ROOT}/{BODY}/reach"
 """Scene path of the lines round each foot's reach; it moves along with the body."""
@@ -104,8 +111,9 @@ def add_floor(server: viser.ViserServer, model: RobotModel) -> None:
 
 
 def add_overlay(server: viser.ViserServer, model: RobotModel) -> None:
-    """Hidden marks: support polygon, centres of mass and pressure, swings, footholds, reach, and ghosts."""
+    """Hidden marks: shadows, support polygon, points of balance, swings, footholds, reach, and ghosts."""
     floor = -model.sole_depth
+    _add_contact_shadow(server, floor)
     triangle = np.array([[0, 0, floor], [1e-3, 0, floor], [0, 1e-3, floor]], dtype=np.float32)
     server.scene.add_mesh_simple(
         "/overlay/polygon",
@@ -135,7 +143,8 @@ def add_overlay(server: viser.ViserServer, model: RobotModel) -> None:
         rgb = (int(colour[1:3], 16), int(colour[3:5], 16), int(colour[5:7], 16))
         _add_lines(server, f"/overlay/swing{leg + 1}", rgb, 2.5)
         _add_lines(server, f"/overlay/foothold{leg + 1}", rgb, 2.0)
-    _add_point(server, COM_NODE, 0.003, 20, INK, floor + 3 * FLOOR_GAP)
+    _add_point(server, COM_NODE, COM_RADIUS, 24, INK, floor + 3 * FLOOR_GAP)
+    _add_quarters(server, COM_RADIUS * 0.8)
     _add_point(server, COP_NODE, 0.0034, 4, ACCENT, floor + 4 * FLOOR_GAP)
 
 
@@ -196,6 +205,39 @@ def _add_point(
         receive_shadow=False,
         position=(0, 0, height),
         visible=False,
+    )
+
+
+def _add_contact_shadow(server: viser.ViserServer, floor: float) -> None:
+    # Before the support polygon: what is clear is drawn in the order in which it was made.
+    server.scene.add_mesh_simple(
+        SHADOW_NODE,
+        np.array([[0, 0, floor], [1e-3, 0, floor], [0, 1e-3, floor]], dtype=np.float32),
+        np.array([[0, 1, 2]], dtype=np.uint32),
+        color=(0, 0, 0),
+        opacity=0.09,
+        side="double",
+        cast_shadow=False,
+        receive_shadow=False,
+        visible=False,
+    )
+
+
+def _add_quarters(server: viser.ViserServer, radius: float) -> None:
+    """Two light quarters on the mark of the centre of mass, which move along with it."""
+    rim = [np.linspace(start, start + np.pi / 2, 7) for start in (0, np.pi)]
+    points = [np.stack([np.cos(angles), np.sin(angles), np.zeros(7)], axis=-1) for angles in rim]
+    corners = radius * np.vstack([*points, np.zeros(3)])
+    faces = [[14, first + at, first + at + 1] for first in (0, 7) for at in range(6)]
+    server.scene.add_mesh_simple(
+        f"{COM_NODE}/quarters",
+        corners.astype(np.float32),
+        np.array(faces, dtype=np.uint32),
+        color=PAPER,
+        side="double",
+        cast_shadow=False,
+        receive_shadow=False,
+        position=(0.0, 0.0, FLOOR_GAP / 2),
     )
 
 

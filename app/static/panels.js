@@ -7,7 +7,7 @@ import { mountSegments } from "./segments/segments.js";
 import { mountSequence } from "./sequence/sequence.js";
 import { mountSequenceBand } from "./sequence/sequence_band.js";
 import { mountSimulate } from "./check/simulate.js";
-import { mountStage } from "./preview/stage.js";
+import { mountStage } from "./stage/stage.js";
 import { mountTrialEntry } from "./lab/entry.js";
 import { mountNextActs } from "./steps/next_act.js";
 import { mountVersions } from "./shell/versions.js";

@@ -108,6 +108,7 @@ ORDER: dict[str, tuple[str, ...]] = {
         "app/static/check",
         "app/static/robot",
         "app/static/preview",
+        "app/static/stage",
         "app/static/trials",
         "app/static/pictures",
         "app/static/cameras",

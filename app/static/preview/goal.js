@@ -20,7 +20,7 @@ const FLATTEST_PX = 40;
 const radians = (degrees) => (degrees * Math.PI) / 180;
 
 /** Where the goal lies and which way the robot looks there, in the scene. */
-function goalOf(document, plan) {
+export function goalOf(document, plan) {
   const [x, y] = worldStep(document).map((value) => value * document.iterations);
   const front = (document.orientation === "FB" ? 45 : 0) + 90 * (document.direction - 1);
   const body = plan?.body?.[0] ?? [0, 0];

@@ -1,4 +1,4 @@
-/** The floor as a camera sees it: one projective map between places on it and pixels, and its inverse. */
+/** The floor as a camera sees it: one projective map between places on it and pixels, and its inverse; and places over it. */
 
 /** Product of two 4 × 4 matrices given by columns. */
 function product(a, b) {
@@ -9,6 +9,28 @@ function product(a, b) {
     }
   }
   return out;
+}
+
+/**
+ * What a camera sees of the scene.
+ * @param {number[][]} matrices projection, view and the scene's root, each 4 × 4 by columns
+ * @param {{width: number, height: number}} size of the canvas, pixels
+ * @returns {{toScreen: (at: number[]) => number[]|null, right: number[], up: number[], back: number[], eye: number[], key: string}}
+ *   `toScreen` maps [x, y, z] in m to pixels of the canvas, null for what lies behind the camera; the camera's axes and place
+ *   in the scene; `key` changes with the camera and the size
+ */
+export function spaceView([projection, view, root], { width, height }) {
+  const inCamera = product(view, root);
+  const m = product(projection, inCamera);
+  const row = (of, index) => [of[index], of[4 + index], of[8 + index]];
+  const [right, up, back] = [0, 1, 2].map((index) => row(inCamera, index));
+  const eye = right.map((_, axis) => -(right[axis] * inCamera[12] + up[axis] * inCamera[13] + back[axis] * inCamera[14]));
+  const along = (index, [x, y, z]) => m[index] * x + m[4 + index] * y + m[8 + index] * z + m[12 + index];
+  const toScreen = (at) => {
+    const depth = along(3, at);
+    return depth > 0 ? [(width / 2) * (1 + along(0, at) / depth), (height / 2) * (1 - along(1, at) / depth)] : null;
+  };
+  return { toScreen, right, up, back, eye, key: `${width} ${height} ${m.map((value) => value.toFixed(5)).join()}` };
 }
 
 /** Inverse of a 3 × 3 matrix given by rows, up to its scale. */

@@ -3,18 +3,20 @@
  * traces, swings, footholds, what is infeasible, and the reach of the legs. Only changes are sent.
  */
 
-import { planUpdates, polygonUpdates, pressureAt, sampleAt, troubleUpdates } from "./overlay.js";
+import { contactShadow } from "./contact_shadow.js";
+import { floorOf, planUpdates, polygonUpdates, pressureAt, sampleAt, standing, troubleUpdates } from "./overlay.js";
 import { visibleMessage } from "./viser_client.js";
 
 export const COM = "/overlay/com";
 const COP = "/overlay/cop";
 const SHELLS = "/robot/body/reach";
+const SHADOW = "/overlay/contact_shadow";
 export const STILL = 1e-7;
 
 /** Marks of a fixed name by the part that shows or hides them; swings and footholds have a mark a foot. */
 const PARTS = {
   polygon: ["/overlay/polygon", "/overlay/polygon_edge"], com: [COM, "/overlay/com_trace"], cop: [COP, "/overlay/cop_trace"],
-  trouble: ["/overlay/trouble"], reach: [SHELLS],
+  trouble: ["/overlay/trouble"], reach: [SHELLS], shadow: [SHADOW],
 };
 
 export class Marks {
@@ -24,13 +26,13 @@ export class Marks {
   #shells = null;
   #caution = 0.003;
   #theme = "light";
-  #visible = { polygon: true, com: true, cop: true, traces: true, footholds: true, trouble: true, robot: true, reach: false };
+  #visible = { polygon: true, com: true, cop: true, traces: true, footholds: true, trouble: true, robot: true, reach: false, shadow: true };
   #planSent = false;
   #visibleSent = null;
   #sample = -1;
   #shellSent = null;
   #pressure = null;
-  #points = new Map();
+  #sent = new Map();
 
   /** @param {import("./viser_client.js").ViserClient} client */
   constructor(client) {
@@ -69,6 +71,7 @@ export class Marks {
   setDark(dark) {
     this.#theme = dark ? "dark" : "light";
     this.#planSent = false;
+    this.#sample = -1;
   }
 
   show(part, visible) {
@@ -80,7 +83,7 @@ export class Marks {
   /** The client's scene is new: everything has to be sent again. */
   forget() {
     this.#visibleSent = null;
-    this.#points.clear();
+    this.#sent.clear();
     this.#again();
   }
 
@@ -110,7 +113,8 @@ export class Marks {
     if (sample === this.#sample) return [];
     this.#sample = sample;
     return this.#updates([
-      ...polygonUpdates(this.#overlay, sample, this.#caution, this.#trouble), troubleUpdates(this.#overlay, sample, this.#trouble), ...this.#shellUpdates(sample),
+      ...polygonUpdates(this.#overlay, sample, this.#caution, this.#trouble, this.#theme), troubleUpdates(this.#overlay, sample, this.#trouble, this.#theme),
+      ...this.#shellUpdates(sample), [SHADOW, contactShadow(standing(this.#overlay, sample), floorOf(this.#overlay))],
     ]);
   }
 
@@ -154,11 +158,11 @@ export class Marks {
     return updates.filter(([name, values]) => this.#client.node(name) && this.#isNews(name, values)).map(([name, values]) => this.#client.updateMessage(name, values));
   }
 
-  /** Whether lines differ from those sent last: new ones cost the client a new geometry, and most feet keep theirs in an edit. */
-  #isNews(name, { points, colors }) {
-    if (!points) return true;
-    const [before, now] = [this.#points.get(name), [...points, ...(colors ?? [])]];
-    this.#points.set(name, now);
+  /** Whether a mark differs from what was sent last: it costs the client a new geometry or material, and most feet keep theirs. */
+  #isNews(name, values) {
+    const key = `${name} ${Object.keys(values)}`;
+    const [before, now] = [this.#sent.get(key), Object.values(values).flatMap((value) => (ArrayBuffer.isView(value) ? [...value] : value))];
+    this.#sent.set(key, now);
     return !before || before.length !== now.length || now.some((value, index) => value !== before[index]);
   }
 }

@@ -10,11 +10,17 @@ const SHOD_FLOOR = -0.018;
 const GAP = 0.0004;
 const RING_RADIUS = 0.0125;
 const RING_PIECES = 20;
-const GOOD = [31, 138, 91];
-const CAUTION = [183, 121, 31];
-const BAD = [192, 54, 44];
-const INK = { light: [27, 36, 48], dark: [214, 221, 231] };
-const ACCENT = { light: [58, 92, 204], dark: [125, 152, 243] };
+/** Length of a dash of a broken edge, and of the gap behind it, m. */
+const [DASH, SPACE] = [0.004, 0.003];
+/** The page's own colours (shell/base.css), as the client shows them in each theme. */
+const GOOD = { light: [11, 116, 112], dark: [79, 208, 196] };
+const CAUTION = { light: [160, 115, 0], dark: [230, 198, 90] };
+const BAD = { light: [179, 20, 95], dark: [255, 134, 187] };
+const INK = { light: [22, 27, 34], dark: [232, 235, 240] };
+const PAPER = { light: [255, 255, 255], dark: [23, 27, 33] };
+const ACCENT = { light: [75, 72, 200], dark: [165, 163, 255] };
+/** Of each of the discs that a contact shadow is made of. */
+const SHADOW = { light: 0.12, dark: 0.26 };
 
 /** Convex hull of [x, y] points, counter-clockwise (monotone chain). */
 export function hull(points) {
@@ -55,7 +61,19 @@ export function sampleAt(times, time) {
   return low;
 }
 
-/** Colour of a support polygon by its margin (m). */
+/** Line pieces round corners with gaps between them. */
+function dashes(corners) {
+  const parts = [];
+  corners.forEach((start, index) => {
+    const end = corners[(index + 1) % corners.length];
+    const length = Math.hypot(...start.map((value, axis) => end[axis] - value));
+    const at = (place) => start.map((value, axis) => value + ((end[axis] - value) * Math.min(place, length)) / length);
+    for (let place = 0; place < length; place += DASH + SPACE) parts.push(...at(place), ...at(place + DASH));
+  });
+  return parts.length ? Float32Array.from(parts) : new Float32Array(6);
+}
+
+/** Colours of a support polygon by its margin (m). */
 function marginColour(margin, caution) {
   if (margin < 0) return BAD;
   return margin < caution ? CAUTION : GOOD;
@@ -69,12 +87,14 @@ const floorPoint = (overlay, [x, y], layer) => [x, y, floorOf(overlay) + layer *
 const BALANCE = new Set(["body_torque", "margin"]);
 const missing = (trouble, sample) => trouble.filter(({ first, last }) => first <= sample && sample <= last);
 
-/** Updates that show one sample's support polygon: [node, properties] pairs; it is red where balance is lacking. */
-export function polygonUpdates(overlay, sample, caution, trouble = []) {
-  const standing = overlay.feet[sample].filter((_, foot) => overlay.contact[sample][foot]);
-  const corners = hull(standing.map(([x, y]) => [x, y]));
+/** The feet that stand at a sample. */
+export const standing = (overlay, sample) => overlay.feet[sample].filter((_, foot) => overlay.contact[sample][foot]);
+
+/** Updates that show one sample's support polygon: [node, properties] pairs; its edge is broken where balance is lacking. */
+export function polygonUpdates(overlay, sample, caution, trouble = [], theme = "light") {
+  const corners = hull(standing(overlay, sample).map(([x, y]) => [x, y]));
   const lacks = missing(trouble, sample).some(({ family }) => BALANCE.has(family));
-  const colour = Uint8Array.from(lacks ? BAD : marginColour(overlay.margins[sample], caution));
+  const colour = Uint8Array.from((lacks ? BAD : marginColour(overlay.margins[sample], caution))[theme]);
   const edge = corners.map((corner) => floorPoint(overlay, corner, 2));
   const area = corners.length >= 3 ? corners : [[0, 0], [0, 0], [0, 0]];
   const vertices = Float32Array.from(area.flatMap((corner) => floorPoint(overlay, corner, 1)));
@@ -82,12 +102,12 @@ export function polygonUpdates(overlay, sample, caution, trouble = []) {
   for (let i = 0; i < area.length - 2; i += 1) faces.set([0, i + 1, i + 2], 3 * i);
   return [
     ["/overlay/polygon", { vertices, faces, color: [...colour] }],
-    ["/overlay/polygon_edge", { points: pieces(edge, corners.length > 2), colors: colour }],
+    ["/overlay/polygon_edge", { points: lacks ? dashes(edge) : pieces(edge, corners.length > 2), colors: colour }],
   ];
 }
 
 /** The update that marks an infeasible sample: the polygon's edge, and where the foot could be. */
-export function troubleUpdates(overlay, sample, trouble) {
+export function troubleUpdates(overlay, sample, trouble, theme = "light") {
   const at = (foot) => floorPoint(overlay, overlay.feet[sample][foot], 4);
   const lines = [];
   for (const { first, feet, rings, places } of missing(trouble, sample)) {
@@ -95,7 +115,7 @@ export function troubleUpdates(overlay, sample, trouble) {
     if (ring) lines.push(...pieces(ring.map((corner) => floorPoint(overlay, corner, 4)), true), ...cross(place ? floorPoint(overlay, place, 4) : at(feet[0])));
     else if (feet.length === 2) lines.push(...pieces(feet.map(at)));
   }
-  return ["/overlay/trouble", { points: lines.length ? Float32Array.from(lines) : new Float32Array(6), colors: Uint8Array.from(BAD) }];
+  return ["/overlay/trouble", { points: lines.length ? Float32Array.from(lines) : new Float32Array(6), colors: Uint8Array.from(BAD[theme]) }];
 }
 
 /** Line pieces of several drawings. */
@@ -122,6 +142,8 @@ export function planUpdates(overlay, theme) {
   const updates = [
     ["/overlay/com_trace", { points: joined([pieces(trace), ...(overlay.stops ?? []).map((at) => cross(trace[at], 0.0022))]), colors: ink }],
     ["/overlay/com", { color: [...ink] }],
+    ["/overlay/com/quarters", { color: PAPER[theme] }],
+    ["/overlay/contact_shadow", { opacity: SHADOW[theme] }],
   ];
   if (overlay.cop) {
     const accent = Uint8Array.from(ACCENT[theme]);

@@ -26,16 +26,19 @@
  *   setGhost(kind, buffer | null) another version of the gait as a quiet second robot: "before", "saved", "measured", "simulated" or "jog"
  *   setTracks(tracks)             where feet were in trials, lines over the gait: list of `GET /api/trials/{id}/scene`, none takes them away
  *   setReach(reach | null)        where the feet can be, of the poses that are shown (`GET …/reach`)
- *   show(part, visible)           part: "polygon", "com", "cop", "traces", "footholds", "trouble", "robot", "reach"
+ *   show(part, visible)           part: "polygon", "com", "shadow", "cop", "traces", "footholds", "trouble", "robot", "reach"
  *   setCaution(metres)            margin below which the polygon is amber (0.003 by default; below 0 it is red)
  *   setDark(dark)                 backdrop and floor for the dark theme
- *   setView(name)                 "perspective", "top", "front", "side", so that the whole way is in view
+ *   setView(name, front = 0)      "perspective", "top", "front", "left", "back", "right", so that the whole way is in view; front: the
+ *                                 way that the robot looks, degrees
+ *   refit()                       after another size: fits the view again; one that was moved by hand keeps what it shows
+ *   view()                        what the camera sees (see `ViserClient.view`), null where it is not known
  *   ground()                      how the floor is seen now: { toScreen([x, y]), toGround([px, py]) } between m on the
  *                                 floor and pixels of the frame; null where the client's camera is unknown
  *   setBusy(busy)                 whether more is about to change: coarse pixels meanwhile where there is no GPU
  *   drawn()                       Promise: what was shown before has been handed to a frame of the client
  *   dispose()
- * Properties: time, knowsPressure, info (of the loaded plan or null), route ("direct", "server" or "none"), posesShown (count).
+ * Properties: time, knowsPressure, isMeasured, overlay and info (of the loaded plan or null), route ("direct", "server" or "none"), posesShown (count).
  * Events: "opening" (detail: the robot whose scene is being loaded), "ready" (its scene is there; also when it was
  *   made anew after a reconnection),
  *   "poses" (of a plan are shown from now on), "route" (detail: the new route; "server" means the slower way, through the server).
@@ -44,13 +47,14 @@
 import { Ghosts } from "./viser_ghosts.js";
 import { shadowMessages } from "./shadow.js";
 import { COM, Marks, STILL } from "./marks.js";
+import { Camera, wayOf } from "./camera.js";
 import { floorOf } from "./overlay.js";
 import { paintGrey } from "./plain_surfaces.js";
 import { PoseTable, VALUES_A_NODE } from "./poses.js";
 import { ServerRoute } from "./server_route.js";
 import { Sharpness } from "./sharpness.js";
 import { Tracks } from "./tracks.js";
-import { ViserClient, cameraMessages, poseMessages, visibleMessage } from "./viser_client.js";
+import { ViserClient, poseMessages, visibleMessage } from "./viser_client.js";
 
 const FIRST_ROBOT = "deltawalker";
 const ROBOT = "/robot";
@@ -59,17 +63,10 @@ const WATCH_MS = 250;
 const DIRECT_PATIENCE_MS = 8000;
 const STRAY = 1e-5;
 const SETTLING_POLLS = new Set([2, 4, 8]);
-const TARGET = [0, 0, 0.034];
-const VIEW_DISTANCE = 4.6;
-const VIEWS = {
-  perspective: [0.363, -0.865, 0.346],
-  top: [0, -0.02, 1],
-  front: [0, -1, 0.06],
-  side: [1, 0, 0.06],
-};
 
 export class Preview extends EventTarget {
   #client;
+  #camera;
   #table = null;
   #measured = null;
   #isGrey = false;
@@ -99,6 +96,7 @@ export class Preview extends EventTarget {
   constructor(frame, robot = FIRST_ROBOT) {
     super();
     this.#client = new ViserClient(frame);
+    this.#camera = new Camera(this.#client);
     this.#marks = new Marks(this.#client);
     this.#ghosts = new Ghosts(this.#client);
     this.#tracks = new Tracks(this.#client);
@@ -129,6 +127,12 @@ export class Preview extends EventTarget {
 
   /** Whether the shown motion has centres of pressure. */
   get knowsPressure() { return Boolean(this.#marks.overlay?.cop); }
+
+  /** What lies on the floor, or null. */
+  get overlay() { return this.#marks.overlay; }
+
+  /** Whether the robot is drawn by measured strokes. */
+  get isMeasured() { return this.#measured !== null; }
 
   /** The client underneath, for tests. */
   get client() { return this.#client; }
@@ -221,12 +225,16 @@ export class Preview extends EventTarget {
     this.#request();
   }
 
-  setView(name) {
-    const direction = VIEWS[name] ?? VIEWS.perspective;
-    const { middle, radius } = this.#way();
-    const target = [...middle, TARGET[2]];
-    const distance = (this.#reach() + radius) * VIEW_DISTANCE;
-    this.#client.push(cameraMessages(target.map((value, axis) => value + distance * direction[axis]), target));
+  setView(name, front = 0) {
+    if (this.#bodyNode) this.#camera.view(name, front, this.#way());
+  }
+
+  refit() {
+    if (this.#bodyNode) this.#camera.refit(this.#way());
+  }
+
+  view() {
+    return this.#bodyNode ? this.#client.view() : null;
   }
 
   setBusy(busy) {
@@ -261,6 +269,7 @@ export class Preview extends EventTarget {
       this.#setRoute("direct");
       this.#sharpness.attach();
       this.#client.push(shadowMessages(this.#client));
+      this.#client.keepCameraAbove(floorOf(this.#marks.overlay));
       this.#pushAll();
       this.dispatchEvent(new CustomEvent("ready"));
     }
@@ -365,21 +374,8 @@ export class Preview extends EventTarget {
     this.#client.push([visibleMessage("/floor/light", !this.#dark), visibleMessage("/floor/dark", this.#dark)]);
   }
 
-  /** Middle of the body's way over the plan, and how far it goes from there, m. */
   #way() {
-    const body = this.#client.position(BODY) ?? [0, 0, 0];
-    const places = [...(this.#marks.overlay?.com ?? []), body];
-    const ends = [0, 1].map((axis) => [Math.min(...places.map((at) => at[axis])), Math.max(...places.map((at) => at[axis]))]);
-    return { middle: ends.map(([low, high]) => (low + high) / 2), radius: Math.hypot(...ends.map(([low, high]) => (high - low) / 2)) };
-  }
-
-  #reach() {
-    const body = this.#client.position(BODY) ?? [0, 0, 0];
-    const distances = (this.#table?.nodes ?? []).map((name) => {
-      const at = this.#client.position(name) ?? body;
-      return Math.hypot(at[0] - body[0], at[1] - body[1]);
-    });
-    return Math.max(0.053, ...distances) + 0.027;
+    return wayOf(this.#client, this.#marks.overlay, this.#table?.nodes ?? [], BODY);
   }
 }
 

@@ -7,11 +7,13 @@
  * browser tests fail then.
  */
 
-import { groundView } from "./ground.js";
+import { groundView, spaceView } from "./ground.js";
 import { drawLinePlainly, moveEnds } from "./plain_lines.js";
 import { drawSurfacePlainly, leaveOutNoPicture } from "./plain_surfaces.js";
 
 const SETTLE_MS = 250;
+/** Angle of the view from straight above at most, rad: a little over the floor. */
+const LOWEST_VIEW = 1.53;
 
 export class ViserClient {
   #frame;
@@ -167,6 +169,41 @@ export class ViserClient {
     const { left, top, width, height: tall } = inside.canvas.getBoundingClientRect();
     const { projectionMatrix, matrixWorldInverse } = inside.camera;
     return groundView([projectionMatrix, matrixWorldInverse, root.matrixWorld].map(({ elements }) => elements), height, { left, top, width, height: tall });
+  }
+
+  /** What the camera sees now: places of the scene in pixels of the frame, and the camera's axes; null where they are not known. */
+  view() {
+    const inside = this.#inside;
+    const root = this.node("/floor/light")?.parent;
+    if (!inside?.camera || !inside.canvas || !root) return null;
+    const { projectionMatrix, matrixWorldInverse } = inside.camera;
+    const size = { width: inside.canvas.clientWidth, height: inside.canvas.clientHeight };
+    return spaceView([projectionMatrix, matrixWorldInverse, root.matrixWorld].map(({ elements }) => elements), size);
+  }
+
+  /** Where the camera is going to stand, and what it looks at, [x, y, z] m in the scene; null where it is not known. */
+  cameraPose() {
+    const control = this.#inside?.cameraControl;
+    const root = this.node("/floor/light")?.parent;
+    if (!control?.getPosition || !root) return null;
+    const e = root.matrixWorld.elements;
+    const inScene = ({ x, y, z }) => [0, 4, 8].map((column) => e[column] * x + e[column + 1] * y + e[column + 2] * z);
+    return { position: inScene(control.getPosition()), target: inScene(control.getTarget()) };
+  }
+
+  /** Keeps the camera, and what it turns around, above a level plane of the scene, m. */
+  keepCameraAbove(height) {
+    const control = this.#inside?.cameraControl;
+    if (!control?.setBoundary) return;
+    control.maxPolarAngle = LOWEST_VIEW;
+    // The client's own y points up.
+    control.setBoundary({ min: { x: -Infinity, y: height, z: -Infinity }, max: { x: Infinity, y: Infinity, z: Infinity } });
+  }
+
+  /** Width and height of what is seen of the frame, px. */
+  get visibleSize() {
+    const { clientWidth, clientHeight, parentElement } = this.#frame;
+    return { width: Math.min(clientWidth, parentElement?.clientWidth ?? clientWidth), height: clientHeight };
   }
 
   /** Root element of the client's page. */

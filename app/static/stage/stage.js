@@ -1,18 +1,24 @@
-/** The 3D preview's frame: loads a plan's poses once, follows the playhead, shows the state of the plan. */
+/** The stage: loads a plan's poses once, follows the playhead, shows the state of the plan, and lays over the scene what belongs to it. */
 
 import { CONFLICT, api } from "../api/gaits.js";
-import { byId, h, painted, setText } from "../lib/dom.js";
-import { mountGhosts } from "./ghosts.js";
-import { mountGoal } from "./goal.js";
+import { byId, painted, setText } from "../lib/dom.js";
+import { mountGhosts } from "../preview/ghosts.js";
+import { mountGoal } from "../preview/goal.js";
 import { missingMotionOf } from "../document/missing_motion.js";
-import { mountJogGhost } from "./jog_ghost.js";
+import { mountJogGhost } from "../preview/jog_ghost.js";
 import { latestOnly } from "../lib/latest_only.js";
 import { measured } from "../state/live_plan.js";
-import { mountPoseHandle } from "./pose_handle.js";
+import { mountPoseHandle } from "../preview/pose_handle.js";
 import { mountMeasuredRobot } from "../robot/measured_robot.js";
-import { Preview } from "./preview.js";
+import { Preview } from "../preview/preview.js";
+import { fitByItself } from "./refit.js";
+import { FloorGuides } from "./floor_guides.js";
+import { followScene } from "./follow_scene.js";
+import { FootLabels } from "./foot_labels.js";
+import { mountLegend } from "./legend.js";
 import { mountTools } from "./stage_tools.js";
-import { shownPlan } from "../state/store.js";
+import { ViewCube, frontOf } from "./view_cube.js";
+import { shownDocument, shownPlan } from "../state/store.js";
 import { drawnPlan, greyOf } from "../state/worked_plan.js";
 
 function message(text) {
@@ -29,14 +35,18 @@ async function openPreview(dark) {
   return preview;
 }
 
-function mountLegend(store) {
-  store.watch(({ view }) => [view?.roles], ({ view }) => {
-    const feet = (view?.roles ?? []).map((role, foot) =>
-      h("span", { data: { foot: foot + 1 }, title: `Foot ${foot + 1}: ${role}` }, h("i", { class: "foot-dot" }), String(foot + 1)));
-    byId("legend").hidden = feet.length === 0;
-    byId("legend").toggleAttribute("data-many", feet.length > 4);
-    byId("legend").replaceChildren("foot", ...feet);
-  });
+/** Lays labels, arrow, scale and cube over the scene, and fits the view. */
+function mountOverScene(store, preview, legend) {
+  const look = (view) => {
+    byId("camera").value = view;
+    preview.setView(view, frontOf(shownDocument(store.state)));
+  };
+  const labels = new FootLabels(byId("foot-labels"), preview);
+  store.watch(({ view }) => [view?.roles], ({ view }) => labels.setRoles(view?.roles ?? []));
+  store.watch((state) => [greyOf(state)], (state) => byId("foot-labels").toggleAttribute("data-grey", greyOf(state) !== null));
+  mountTools(store, preview, look, legend.show);
+  followScene(preview, [new ViewCube(store, look), new FloorGuides(byId("guides"), store, preview), labels]);
+  fitByItself(preview, () => look(byId("camera").value));
 }
 
 /** What the state's own plan lacks, to be marked on the plan that is drawn: nothing where their samples are not the same. */
@@ -107,7 +117,7 @@ function followHand(store, preview) {
 
 /** Opens the preview; without it the page works and shows a message. */
 export async function mountStage(store, edits, playback) {
-  mountLegend(store);
+  const legend = mountLegend(store, playback);
   let preview;
   try {
     preview = await openPreview(matchMedia("(prefers-color-scheme: dark)"));
@@ -118,7 +128,7 @@ export async function mountStage(store, edits, playback) {
   preview.addEventListener("opening", () => message("The 3D scene of this robot is being loaded."));
   preview.addEventListener("ready", () => message(null));
   mountMeasuredRobot(store, preview);
-  mountTools(store, preview);
+  mountOverScene(store, preview, legend);
   mountGhosts(store, preview);
   mountJogGhost(store, preview, playback);
   store.watch(({ tracks, view }) => [tracks, view?.document.robot], ({ tracks, view }) => preview.setTracks(tracks.filter(({ robot }) => robot === view?.document.robot)));

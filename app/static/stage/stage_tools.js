@@ -1,4 +1,4 @@
-/** The tools over the 3D preview: camera, fit, and the menu of visible layers. */
+/** The tools over the 3D preview: views where there is no cube, fit, and the menu of visible layers. */
 
 import { api } from "../api/gaits.js";
 import { checkMenu } from "../lib/check_menu.js";
@@ -8,16 +8,19 @@ import { latestOnly } from "../lib/latest_only.js";
 import { shownDocument } from "../state/store.js";
 import { drawnPlan } from "../state/worked_plan.js";
 
-/** What the menu shows and hides: its parts of the preview, and how it begins. */
+/** What the menu shows and hides: its parts of the preview, the layer over it, and how it begins. */
 const ENTRIES = [
   { key: "robot", text: "Robot", shown: true, parts: ["robot"], help: "Without it everything on the floor is seen; it is back when the page is loaded again" },
-  { key: "polygon", text: "Support polygon", shown: true, parts: ["polygon", "trouble"], help: "Green inside, amber near the edge, red outside" },
+  { key: "polygon", text: "Support polygon", shown: true, parts: ["polygon", "trouble"], help: "The area between the standing feet: teal, mustard where the centre of mass is near its edge, magenta where it is outside" },
   { key: "com", text: "Centre of mass", shown: true, parts: ["com"], help: "A disc on the floor, and its way" },
   { key: "cop", text: "Centre of pressure", shown: true, parts: ["cop"], help: "A diamond on the floor, and its way: where the ground pushes" },
   { key: "traces", text: "Swings and footholds", shown: true, parts: ["traces", "footholds"], help: "Ways of the feet, and a ring where each comes to stand" },
   { key: "reach", text: "Reach of the feet", shown: false, parts: ["reach"], help: "Where each foot can be at the body's present height: outlines on the floor and up to 12 mm over it" },
-  { key: "goal", text: "Goal", shown: true, parts: [], help: "The goal to be dragged: it changes the step and the turn. It hides where the floor is seen from its edge" },
-  { key: "pose", text: "Pose", shown: true, parts: [], help: "The body of the pose under the playhead, to be dragged, in a gait for the robot's clock" },
+  { key: "shadow", text: "Contact shadows", shown: true, parts: ["shadow"], help: "A soft shadow under each foot that stands" },
+  { key: "labels", text: "Labels", shown: true, parts: [], layer: "foot-labels", help: "Number and place of each foot; an arrow while it is lifted" },
+  { key: "guides", text: "Arrow and scale", shown: true, parts: [], layer: "guides", help: "The way of a step, and 10 mm on the floor" },
+  { key: "goal", text: "Goal", shown: true, parts: [], layer: "goal", help: "The goal to be dragged: it changes the step and the turn. It hides where the floor is seen from its edge" },
+  { key: "pose", text: "Pose", shown: true, parts: [], layer: "pose", help: "The body of the pose under the playhead, to be dragged, in a gait for the robot's clock" },
 ];
 
 const NO_PRESSURE = "Not known: this motion has no accelerations. Optimised and live plans have.";
@@ -48,16 +51,22 @@ function followReach(store, preview, isOn) {
   return ask;
 }
 
-/** Builds the tools; the choice of layers is kept. */
-export function mountTools(store, preview) {
-  byId("camera").addEventListener("change", () => preview.setView(byId("camera").value));
-  byId("fit-view").addEventListener("click", () => preview.setView(byId("camera").value));
+/**
+ * Builds the tools; the choice of layers is kept.
+ * @param {object} store
+ * @param {import("../preview/preview.js").Preview} preview
+ * @param {(view: string) => void} look
+ * @param {(layer: string, shown: boolean) => void} onShow
+ */
+export function mountTools(store, preview, look, onShow) {
+  for (const [id, type] of [["camera", "change"], ["fit-view", "click"]]) byId(id).addEventListener(type, () => look(byId("camera").value));
 
   const choice = recalled("scene", Object.fromEntries(ENTRIES.map(({ key, shown }) => [key, shown])));
   const requestReach = followReach(store, preview, () => choice.reach);
-  const apply = ({ key, parts }) => {
+  const apply = ({ key, parts, layer }) => {
     parts.forEach((part) => preview.show(part, choice[key]));
-    if (!parts.length) byId(key).hidden = !choice[key];
+    if (layer) byId(layer).hidden = !choice[key];
+    onShow(key, choice[key]);
     if (key === "reach") requestReach();
   };
   const menu = checkMenu({

@@ -1,0 +1,58 @@
+/**
+ * What lies over the 3D scene and follows it: one look a frame at what the camera sees, and work only where something moved.
+ */
+
+import { byId } from "../lib/dom.js";
+
+/** What stands on the stage for good, which labels keep off. */
+const STANDING = ["badge", "stage-tools", "view-cube", "legend"];
+/** A lower stage shows nothing but the scene and its tools, px. */
+const LEAST_HEIGHT = 170;
+
+/** Sizes on the stage, measured only where one changed: the stage, where the scene's frame begins, and what stands over it. */
+function stageSizes() {
+  const stage = byId("viser").parentElement;
+  const sizes = { width: 0, height: 0, left: 0, standing: [], version: 0 };
+  const measure = () => {
+    const box = stage.getBoundingClientRect();
+    stage.toggleAttribute("data-low", box.height < LEAST_HEIGHT);
+    const boxes = STANDING.map((id) => byId(id).getBoundingClientRect()).filter(({ width }) => width > 0);
+    sizes.standing = boxes.map(({ left, top, width, height }) => ({ x: left - box.left + width / 2, y: top - box.top + height / 2, width, height }));
+    Object.assign(sizes, { width: box.width, height: box.height, left: byId("viser").getBoundingClientRect().left - box.left });
+    sizes.version += 1;
+  };
+  const observer = new ResizeObserver(measure);
+  [stage, byId("viser"), ...STANDING.map(byId)].forEach((element) => observer.observe(element));
+  return sizes;
+}
+
+/**
+ * Calls parts whenever the camera or the stage changed, and where their own `isChanged` says so.
+ * @param {import("../preview/preview.js").Preview} preview
+ * @param {{draw: (seen: object) => void, isChanged: (seen: object) => boolean}[]} parts `seen` has `toStage` ([x, y, z] in m to
+ *   pixels of the stage, or null), the camera's axes, the stage's size, and `taken`: boxes that later parts keep off
+ */
+export function followScene(preview, parts) {
+  const sizes = stageSizes();
+  const layer = byId("scene-labels");
+  let drawn = null;
+
+  function follow() {
+    requestAnimationFrame(follow);
+    const view = sizes.height >= LEAST_HEIGHT ? preview.view() : null;
+    layer.toggleAttribute("data-off", view === null);
+    if (!view) { drawn = null; return; }
+    const key = `${sizes.version} ${view.key}`;
+    const seen = { ...view, ...sizes, taken: [], toStage: (at) => shifted(view.toScreen(at), sizes.left) };
+    let isMoved = key !== drawn;
+    drawn = key;
+    for (const part of parts) {
+      isMoved = part.isChanged(seen) || isMoved;
+      if (isMoved) part.draw(seen);
+      seen.taken.push(...(part.boxes ?? []));
+    }
+  }
+  follow();
+}
+
+const shifted = (at, left) => at && [at[0] + left, at[1]];

@@ -1,0 +1,122 @@
+/** The labels of the feet over the 3D scene: mark, number and place of each, with an arrow while it is lifted. */
+
+import { h, setText } from "../lib/dom.js";
+import { sampleAt } from "../preview/overlay.js";
+import { moveApart } from "./apart.js";
+
+/** Labels of more feet have number and mark only. */
+const MOST_PLACES = 4;
+/** From the foot's middle outwards, and of the sole's depth downwards, m. */
+const [OUTWARDS, LOW] = [0.02, 0.5];
+const BESIDE_PX = 3;
+/** A foot is that high at least when a robot's measured foot counts as lifted, m. */
+const LIFTED = 0.001;
+/** Labels move by no less than this, px: a foot that stands leaves its label alone. */
+const STEP_PX = 0.5;
+
+const UP = " ↑";
+
+/** Where a label is to stand: beside the foot, on the side away from the body. */
+function besideFoot(seen, [x, y, z], [bodyX, bodyY], floor) {
+  const away = Math.hypot(x - bodyX, y - bodyY) || 1;
+  const height = z + floor * LOW;
+  const foot = seen.toStage([x, y, height]);
+  const edge = seen.toStage([x + ((x - bodyX) / away) * OUTWARDS, y + ((y - bodyY) / away) * OUTWARDS, height]);
+  return foot && edge ? { foot, edge } : null;
+}
+
+/** The label's box with its middle in px, so that its edge touches the place beside the foot. */
+function boxAt({ foot, edge }, { width, height }) {
+  const [dx, dy] = [edge[0] - foot[0], edge[1] - foot[1]];
+  const length = Math.hypot(dx, dy) || 1;
+  const reach = (Math.abs(dx) * width + Math.abs(dy) * height) / (2 * length) + BESIDE_PX;
+  return { x: edge[0] + (dx / length) * reach, y: edge[1] + (dy / length) * reach, width, height };
+}
+
+/** Puts an element's middle to a place. */
+function put(label, { x, y, width, height }) {
+  const at = [x - width / 2, y - height / 2].map((value) => Math.round(value / STEP_PX) * STEP_PX);
+  const transform = `translate(${at[0]}px, ${at[1]}px)`;
+  if (transform !== label.transform) label.element.style.transform = label.transform = transform;
+}
+
+export class FootLabels {
+  #layer;
+  #preview;
+  #labels = [];
+  #sizes = new Map();
+  #places = new Float64Array(0);
+  #sample = -1;
+  #overlay = null;
+  #isNew = true;
+
+  /**
+   * @param {HTMLElement} layer
+   * @param {import("../preview/preview.js").Preview} preview
+   */
+  constructor(layer, preview) {
+    this.#layer = layer;
+    this.#preview = preview;
+  }
+
+  /** Gives each foot its label. */
+  setRoles(roles) {
+    const isMany = roles.length > MOST_PLACES;
+    this.#labels = roles.map((role, foot) => {
+      const text = h("span");
+      const words = isMany || role === String(foot + 1) ? String(foot + 1) : `${foot + 1} ${role}`;
+      return { words, text, node: `/robot/leg${foot + 1}_foot`, transform: "", element: h("div", { class: "foot-label", data: { foot: foot + 1 } }, h("i", { class: "foot-dot" }), text) };
+    });
+    this.#layer.toggleAttribute("data-many", isMany);
+    this.#layer.replaceChildren(...this.#labels.map(({ element }) => element));
+    this.#places = new Float64Array(3 * roles.length);
+    this.#sizes.clear();
+    this.#isNew = true;
+  }
+
+  /** Whether a foot moved, or was lifted or set down. */
+  isChanged() {
+    if (this.#layer.hidden) return false;
+    const { overlay, time } = this.#preview;
+    const sample = overlay ? sampleAt(overlay.times, time) : -1;
+    let isChanged = this.#isNew || sample !== this.#sample || overlay !== this.#overlay;
+    [this.#sample, this.#overlay, this.#isNew] = [sample, overlay, false];
+    this.#labels.forEach(({ node }, foot) => {
+      const at = this.#preview.client.position(node) ?? [NaN, NaN, NaN];
+      at.forEach((value, axis) => {
+        if (Object.is(value, this.#places[3 * foot + axis])) return;
+        this.#places[3 * foot + axis] = value;
+        isChanged = true;
+      });
+    });
+    return isChanged;
+  }
+
+  draw(seen) {
+    if (this.#layer.hidden) return;
+    const body = this.#preview.client.position("/robot/body");
+    const shown = [];
+    this.#labels.forEach((label, foot) => {
+      const at = [...this.#places.subarray(3 * foot, 3 * foot + 3)];
+      const beside = body && this.#overlay && at.every(Number.isFinite) ? besideFoot(seen, at, body, this.#overlay.floor) : null;
+      label.element.hidden = beside === null;
+      if (!beside) return;
+      setText(label.text, label.words + (this.#isLifted(foot) ? UP : ""));
+      shown.push({ label, box: boxAt(beside, this.#sizeOf(label)) });
+    });
+    moveApart(shown.map(({ box }) => box), [...seen.standing, ...seen.taken], seen);
+    for (const { label, box } of shown) put(label, box);
+  }
+
+  #isLifted(foot) {
+    if (this.#preview.isMeasured) return this.#places[3 * foot + 2] > LIFTED;
+    return this.#overlay.contact[this.#sample]?.[foot] === false;
+  }
+
+  /** Measured once for each text: to ask for a size makes the page lay itself out. */
+  #sizeOf({ element, text }) {
+    const words = text.textContent;
+    if (!this.#sizes.has(words)) this.#sizes.set(words, { width: element.offsetWidth, height: element.offsetHeight });
+    return this.#sizes.get(words);
+  }
+}

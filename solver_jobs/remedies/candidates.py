@@ -133,7 +133,7 @@ class Candidates:
         """More margin, longer pauses and swings, a shorter step: for a gait that has a motion and tips."""
         asked = self._asked.options.margin
         if self._raised > asked and self._trial.works(_margin(self._asked, self._raised)):
-            yield self._margin_remedy(self._asked, self._raised, "This robot tips below that margin.")
+            yield self._margin_remedy(self._asked, self._raised, "Below it this robot is likely to tip.")
         else:
             yield self._largest_margin(self._asked, asked + MORE_MARGIN, asked + MOST_MORE_MARGIN)
         yield from self._for_shape()
@@ -209,6 +209,8 @@ class Candidates:
         if gait is None:
             return None
         label = "One foot after the other" if is_one_by_one(gait) else "One group after the other"
+        if is_one_by_one(self._mended):
+            label = "Longer swings" if not self._keeps_swings(gait) else "Other pauses"
         return self._in_same_time(label, gait)
 
     def _in_same_time(self, label: str, gait: Gait) -> Remedy | None:
@@ -219,6 +221,8 @@ class Candidates:
         return None if gait is None else self._longer_remedy(gait)
 
     def _longer_remedy(self, gait: Gait) -> Remedy | None:
+        if gait.timeline.sample_count <= self._asked.timeline.sample_count:
+            return None
         words = f"{order_words(gait)}; {duration_words(gait)} instead of {duration_words(self._asked)}."
         label = "Same swings, longer gait" if self._keeps_swings(gait) else "Longer swings, longer gait"
         return self._remedy(RemedyKind.LONGER, label, words, gait)
@@ -283,7 +287,11 @@ class Candidates:
             dx, dy, yaw = (part / times for part in self._mended.step)
             gait = self._at_best_margin(replace(repeated, step=(dx, dy, yaw)))
             if gait is not None:
-                words = f"The same way; {duration_words(gait)} instead of {duration_words(self._asked)}."
+                size = self._step_words(gait).lower()
+                words = (
+                    f"The same distance, each with {size}; "
+                    f"{duration_words(gait)} instead of {duration_words(self._asked)}."
+                )
                 return self._remedy(RemedyKind.ITERATIONS, f"{count} iterations", words, gait)
         return None
 

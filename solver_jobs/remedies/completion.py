@@ -27,8 +27,11 @@ def completion_question(gait: Gait, model: RobotModel) -> PatternProblem | None:
         model: its robot.
 
     Returns:
-        None where the drawing cannot be finished so, such as one whose iterations are not alike.
+        None where the drawing cannot be finished so, such as one whose iterations are not alike, or with feet
+        that are held in the air: the rules want a swing of every foot.
     """
+    if gait.held.any:
+        return None
     try:
         one = _one_iteration(gait, model)
         return completion_problem(one, rules=walking_rules(one))

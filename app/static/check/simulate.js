@@ -5,6 +5,7 @@ import { byId, h, onPress, setAllowed, setAttribute, setText } from "../lib/dom.
 import { fixed, mm } from "../lib/format.js";
 import { attempt, report, toast } from "../lib/toasts.js";
 import { followSimulation, simulationJob, simulationOf, simulationOver } from "../state/simulation.js";
+import { fallOf } from "../state/live_plan.js";
 import { shownPlan } from "../state/store.js";
 import { openedStep, openStep } from "../steps/steps.js";
 import { jobIsOn } from "../shell/job_list.js";
@@ -86,6 +87,7 @@ export function mountSimulate(store, goToTime) {
   const { select, element: sets } = setChooser(store);
   const progress = progressPart();
   const [note, figures, map] = [h("p", { class: "box-note" }), h("div", { class: "simulated" }), robustness()];
+  const help = h("button", { class: "link", text: "See what would help", hidden: true, on: { click: () => openStep("design") } });
   let begun = null;
   const press = (variations) => attempt(async () => {
     const { selected, view } = store.state;
@@ -95,7 +97,7 @@ export function mountSimulate(store, goToTime) {
   onPress(run, press(0), (why) => toast(why));
   onPress(vary, press(VARIATIONS), (why) => toast(why));
   byId("foot-simulate").append(h("div", { class: "solve" }, run, vary));
-  byId("simulate").append(sets, progress.element, note, figures, map.element, h("p", { class: "why", text: AXIS }));
+  byId("simulate").append(sets, progress.element, note, help, figures, map.element, h("p", { class: "why", text: AXIS }));
   followSimulation(store);
 
   /** Opens the next step where what was begun here has come out well and is looked at. Variations are to be read. */
@@ -123,6 +125,7 @@ export function mountSimulate(store, goToTime) {
     note.hidden = !words;
     setText(note, words?.[0] ?? "");
     setAttribute(note, "data-tone", words?.[1]);
+    help.hidden = !fallOf(state);
     const stale = simulation !== null && simulationOver(state) === null;
     figures.replaceChildren(...(simulation ? reportParts(simulation, goToTime) : []));
     figures.toggleAttribute("data-stale", stale);

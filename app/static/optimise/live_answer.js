@@ -14,6 +14,8 @@ const FAMILIES = {
   shoe_distance: "Shoes",
 };
 const SHOWN_MISSING = 3;
+/** Scrolled so far, the answer is out of sight. */
+const SCROLLED_PX = 40;
 const FOR_EVERY_MOTION = /^This is proven/;
 
 /** The feet of an entry, counted from 1. */
@@ -82,10 +84,14 @@ export function liveAnswer(store, edits, goTo) {
     edits.edit(({ name, notes }) => ({ ...document, name, notes }), label);
   };
   const remedies = remedyList({ use, show: tryout.show, end: tryout.end });
-  const title = h("h3", { class: "advice-title" });
+  const [title, up] = [h("span", {}), h("button", { class: "link", text: "See what would help", hidden: true })];
+  const panel = byId("sections");
+  const top = () => { up.hidden = panel.scrollTop < SCROLLED_PX; };
+  up.addEventListener("click", () => { panel.scrollTop = 0; });
+  panel.addEventListener("scroll", top, { passive: true });
   const why = h("div", { class: "advice-why" });
   const body = h("div", { class: "advice" }, why, remedies.element);
-  const element = h("div", { class: "advice-card", role: "region", "aria-label": "Why it is infeasible", hidden: true }, title, body);
+  const element = h("div", { class: "advice-card", role: "region", "aria-label": "Why it is infeasible", hidden: true }, h("h3", { class: "advice-title" }, title, up), body);
   keepPlace(store, body);
   return {
     element,
@@ -94,6 +100,7 @@ export function liveAnswer(store, edits, goTo) {
       element.hidden = body.hidden = !verdict;
       if (!verdict) return;
       setText(title, verdict.title);
+      top();
       why.replaceChildren(...verdict.parts);
       remedies.element.hidden = !verdict.mendable;
       if (verdict.mendable) remedies.show(state.remedies);

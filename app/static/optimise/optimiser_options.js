@@ -135,7 +135,7 @@ function phaseFields(store, edits) {
     const { order, options } = edits.shown();
     edits.redraw({ order, phase_knots: options.phase_knots, closing_knots: options.closing_knots, ...change });
   };
-  const knots = { unit: "knots", step: 1, decimals: 0, whole: true, fallback: 5, unsaid: "as drawn by hand" };
+  const knots = { unit: "knots", step: 1, decimals: 0, whole: true, fallback: 5, unsaid: "as drawn" };
   const asDrawn = (name) => ({ read: (document) => (isDrawn(document) ? document.options[name] : null) });
   return [
     { label: "Phase length", name: "Phase knots", min: 2, max: 50, help: "Length of each stance phase and of each swing. Another length draws the timeline anew",

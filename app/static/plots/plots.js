@@ -19,10 +19,10 @@ import { STRIPS, valuesAt } from "./strips.js";
 import { GREY, drawnPlan, greyOf } from "../state/worked_plan.js";
 
 /** Height of a foot's row in a plot that has one for each, px. */
-const laneHeight = (feet) => (feet <= 4 ? 24 : feet <= 6 ? 20 : 16);
+const laneHeight = (feet) => (feet <= 4 ? 24 : feet <= 6 ? 18 : 12);
 
 /** Least distance of two texts beside a plot, as a share of its height. */
-const APART = 14;
+const APART = 16;
 
 const atHeight = (element, y) => {
   element.style.top = `${y}%`;
@@ -30,24 +30,37 @@ const atHeight = (element, y) => {
 };
 const tickText = (value) => String(Number(value.toFixed(2)));
 
-/** The texts at the right of a plot, none on another. */
+/** The texts at the right of a plot, none on another and none beyond its ends. */
 function namedTexts(named) {
-  let free = -APART;
-  return named.toSorted((a, b) => a.y - b.y).map(({ value, name, kind, away, y }) => {
-    const place = Math.max(y, free + APART);
-    free = place;
+  const sorted = named.toSorted((a, b) => a.y - b.y);
+  const places = sorted.map(({ y }) => y);
+  for (let at = 0; at < places.length; at += 1) places[at] = Math.max(places[at], at ? places[at - 1] + APART : APART / 2);
+  for (let at = places.length - 1; at >= 0; at -= 1) places[at] = Math.min(places[at], at + 1 < places.length ? places[at + 1] - APART : 100 - APART / 2);
+  return sorted.map(({ value, name, kind, away }, at) => {
     const arrow = away ? h("span", { "aria-hidden": "true", text: away === "up" ? " ↑" : " ↓" }) : null;
-    return atHeight(h("span", { data: { kind, away: away ?? "in" } }, `${name} ${tickText(value)}`, arrow), Math.min(place, 100));
+    return atHeight(h("span", { data: { kind } }, `${name} ${tickText(value)}`, arrow), places[at]);
   });
+}
+
+/** Rises that have their highest sample at one place, as lists. */
+function together(peaks) {
+  const groups = [];
+  for (const peak of peaks) {
+    const group = groups.find(([one]) => Math.abs(one.x - peak.x) < 0.02 * WIDTH && Math.abs(one.y - peak.y) < APART);
+    if (group) group.push(peak);
+    else groups.push([peak]);
+  }
+  return groups;
 }
 
 /** The mark of each foot: at its rises, or at the left end of its row. */
 function footMarks({ bands, peaks }) {
-  const mark = (foot, kind) => h("span", { class: "plot-mark", data: { foot: foot + 1, kind } }, h("i", { class: "foot-dot" }), String(foot + 1));
-  if (bands.length > 1) return bands.map(({ foot, top, bottom }) => atHeight(mark(foot, "lane"), (top + bottom) / 2));
-  return peaks.map(({ foot, x, y }) => {
-    const element = atHeight(mark(foot, "peak"), Math.max(y - 4, 10));
-    element.style.left = `${(100 * x) / WIDTH}%`;
+  const feet = (numbers) => numbers.map((foot) => h("span", { data: { foot: foot + 1 } }, h("i", { class: "foot-dot" }), String(foot + 1)));
+  const mark = (numbers, kind) => h("span", { class: "plot-mark", data: { kind } }, ...feet(numbers));
+  if (bands.length > 1) return bands.map(({ foot, top, bottom }) => atHeight(mark([foot], "lane"), (top + bottom) / 2));
+  return together(peaks).map((group) => {
+    const element = atHeight(mark(group.map(({ foot }) => foot), "peak"), Math.max(group[0].y - 4, 10));
+    element.style.left = `${(100 * group[0].x) / WIDTH}%`;
     return element;
   });
 }

@@ -4,7 +4,7 @@ import { h, setText } from "../lib/dom.js";
 import { columnTime, placeOf } from "../state/time_axis.js";
 
 /** Narrower swings carry the mark alone, and still narrower ones nothing, px. */
-const LEAST_WORDS = 44;
+const LEAST_WORDS = 56;
 const LEAST_MARK = 14;
 
 /** Spans of swing in a row of 1 and 0. */

@@ -129,7 +129,7 @@ def test_phases_of_a_timeline_drawn_by_hand_are_empty_until_one_is_typed(
     foot = studio.document("c-gait")["order"][0]
     drag(page, foot, 6, 7)
     expect(phases).to_have_value("")
-    expect(phases).to_have_attribute("placeholder", "as drawn by hand")
+    expect(phases).to_have_attribute("placeholder", "as drawn")
     assert phases.evaluate(ROOM_FOR_PLACEHOLDER)
     expect(number(page, "Closing knots")).to_have_value("")
     phases.fill("5")

@@ -8,7 +8,7 @@ import { cameraMessages } from "./viser_client.js";
 /** Height that is looked at, m: the middle between soles and board. */
 const MIDDLE = 0.034;
 /** Of the camera, in radii of what is looked at, where nothing stands over the scene. */
-const DISTANCE = 3.75;
+const DISTANCE = 3.55;
 /** What stands over the scene at its upper and lower edge takes as much of its height, px. */
 const TAKEN = 64;
 /** Width of the stage over its height below which the width decides how far away the camera stands. */

@@ -26,6 +26,7 @@ export class Marks {
   #shells = null;
   #caution = 0.003;
   #theme = "light";
+  #isGrey = false;
   #visible = { polygon: true, com: true, cop: true, traces: true, footholds: true, trouble: true, robot: true, reach: false, shadow: true };
   #planSent = false;
   #visibleSent = null;
@@ -61,6 +62,12 @@ export class Marks {
     this.#shellSent = null;
     this.#sample = -1;
     this.#planSent = false;
+  }
+
+  /** The robot is drawn by another plan than the gait's own: its support is no support of the gait. */
+  setGrey(isGrey) {
+    this.#isGrey = isGrey;
+    this.#sample = -1;
   }
 
   setCaution(metres) {
@@ -113,7 +120,7 @@ export class Marks {
     if (sample === this.#sample) return [];
     this.#sample = sample;
     return this.#updates([
-      ...polygonUpdates(this.#overlay, sample, this.#caution, this.#trouble, this.#theme), troubleUpdates(this.#overlay, sample, this.#trouble, this.#theme),
+      ...polygonUpdates(this.#overlay, sample, this.#caution, this.#trouble, this.#theme, this.#isGrey), troubleUpdates(this.#overlay, sample, this.#trouble, this.#theme),
       ...this.#shellUpdates(sample), [SHADOW, contactShadow(standing(this.#overlay, sample), floorOf(this.#overlay))],
     ]);
   }

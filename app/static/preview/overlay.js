@@ -12,9 +12,9 @@ const RING_RADIUS = 0.0125;
 const RING_PIECES = 20;
 /** Length of a dash of a broken edge, and of the gap behind it, m. */
 const [DASH, SPACE] = [0.004, 0.003];
-/** The page's own colours (shell/base.css), as the client shows them in each theme. */
+/** The colours of shell/base.css in each theme. */
 const GOOD = { light: [11, 116, 112], dark: [79, 208, 196] };
-const CAUTION = { light: [160, 115, 0], dark: [230, 198, 90] };
+const CAUTION = { light: [125, 90, 0], dark: [230, 198, 90] };
 const BAD = { light: [179, 20, 95], dark: [255, 134, 187] };
 const INK = { light: [22, 27, 34], dark: [232, 235, 240] };
 const PAPER = { light: [255, 255, 255], dark: [23, 27, 33] };
@@ -90,10 +90,10 @@ const missing = (trouble, sample) => trouble.filter(({ first, last }) => first <
 /** The feet that stand at a sample. */
 export const standing = (overlay, sample) => overlay.feet[sample].filter((_, foot) => overlay.contact[sample][foot]);
 
-/** Updates that show one sample's support polygon: [node, properties] pairs; its edge is broken where balance is lacking. */
-export function polygonUpdates(overlay, sample, caution, trouble = [], theme = "light") {
+/** Updates that show one sample's support polygon: [node, properties] pairs; its edge is broken where balance or the motion is lacking. */
+export function polygonUpdates(overlay, sample, caution, trouble = [], theme = "light", isGrey = false) {
   const corners = hull(standing(overlay, sample).map(([x, y]) => [x, y]));
-  const lacks = missing(trouble, sample).some(({ family }) => BALANCE.has(family));
+  const lacks = isGrey || missing(trouble, sample).some(({ family }) => BALANCE.has(family));
   const colour = Uint8Array.from((lacks ? BAD : marginColour(overlay.margins[sample], caution))[theme]);
   const edge = corners.map((corner) => floorPoint(overlay, corner, 2));
   const area = corners.length >= 3 ? corners : [[0, 0], [0, 0], [0, 0]];

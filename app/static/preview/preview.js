@@ -170,7 +170,9 @@ export class Preview extends EventTarget {
   setGrey(grey) {
     if (grey === this.#isGrey) return;
     this.#isGrey = grey;
+    this.#marks.setGrey(grey);
     this.#paint();
+    this.#request();
   }
 
   setGhost(kind, buffer) {

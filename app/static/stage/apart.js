@@ -6,15 +6,32 @@ const MOST_ROUNDS = 16;
 /** How far two boxes lie over each other each way, px; not at all where one is 0 or less. */
 const overlap = (a, b) => [(a.width + b.width) / 2 + GAP - Math.abs(a.x - b.x), (a.height + b.height) / 2 + GAP - Math.abs(a.y - b.y)];
 
-/** Moves the first of two boxes off the other, and with `share` below 1 the other one as well. */
-function part(a, b, share) {
+/** Moves two boxes off each other, half the way each. */
+function part(a, b) {
   const [across, along] = overlap(a, b);
   if (across <= 0 || along <= 0) return false;
   const axis = across < along ? "x" : "y";
-  const by = Math.min(across, along) * (a[axis] < b[axis] ? -1 : 1);
-  a[axis] += by * share;
-  b[axis] -= by * (1 - share);
+  const by = (Math.min(across, along) / 2) * (a[axis] < b[axis] ? -1 : 1);
+  a[axis] += by;
+  b[axis] -= by;
   return true;
+}
+
+/** Whether a box with its middle there is inside the frame, one way. */
+const fits = (at, size, room) => at >= size / 2 + GAP && at <= room - size / 2 - GAP;
+
+/** Moves a box off what stays where it is: the shortest of the four ways that keeps it inside the frame. */
+function clear(box, other, { width, height }) {
+  const [across, along] = overlap(box, other);
+  if (across <= 0 || along <= 0) return false;
+  const [right, below] = [other.x + (box.width + other.width) / 2 + GAP, other.y + (box.height + other.height) / 2 + GAP];
+  const ways = [
+    ...[right, 2 * other.x - right].filter((x) => fits(x, box.width, width)).map((x) => ({ x, y: box.y })),
+    ...[below, 2 * other.y - below].filter((y) => fits(y, box.height, height)).map((y) => ({ x: box.x, y })),
+  ];
+  const far = (way) => Math.abs(way.x - box.x) + Math.abs(way.y - box.y);
+  if (ways.length) Object.assign(box, ways.reduce((best, way) => (far(way) < far(best) ? way : best)));
+  return ways.length > 0;
 }
 
 function hold(box, { width, height }) {
@@ -32,9 +49,9 @@ export function moveApart(boxes, fixed, frame) {
   for (let round = 0, isMoved = true; isMoved && round < MOST_ROUNDS; round += 1) {
     isMoved = false;
     boxes.forEach((box, index) => {
-      for (const other of boxes.slice(index + 1)) isMoved = part(box, other, 0.5) || isMoved;
-      for (const other of fixed) isMoved = part(box, other, 1) || isMoved;
+      for (const other of boxes.slice(index + 1)) isMoved = part(box, other) || isMoved;
       hold(box, frame);
+      for (const other of fixed) isMoved = clear(box, other, frame) || isMoved;
     });
   }
   return boxes;

@@ -10,12 +10,12 @@ import { drawnPlan, greyOf } from "../state/worked_plan.js";
 import { moveApart } from "./apart.js";
 
 /** The arrow, m: from the goal's ring to its tail, its length, the head's, and half their widths. */
-const ARROW = { before: 0.012, length: 0.04, head: 0.017, shaft: 0.0026, wide: 0.0085 };
+const ARROW = { before: 0.012, length: 0.046, head: 0.02, shaft: 0.0036, wide: 0.0105 };
 /** The arrow of a gait that turns on the spot, degrees: where it begins beside the front, and how far it goes round. */
 const ARC = { start: 14, span: 34, pieces: 10 };
 const BAR = 0.01;
 /** From the middle of what stands on the floor to the bar, in its radii, and from the line of sight to it, degrees. */
-const [BAR_OUT, BAR_ASIDE] = [1.12, 52];
+const [BAR_OUT, BAR_ASIDE] = [1.3, 50];
 /** Seen flatter than this, the floor shows neither. */
 const FLATTEST = 0.13;
 const LEAST_STEP = 5e-5;

@@ -1,6 +1,6 @@
 /** The labels of the feet over the 3D scene: mark, number and place of each, with an arrow while it is lifted. */
 
-import { h, setText } from "../lib/dom.js";
+import { byId, h, setText } from "../lib/dom.js";
 import { sampleAt } from "../preview/overlay.js";
 import { moveApart } from "./apart.js";
 
@@ -13,6 +13,9 @@ const BESIDE_PX = 3;
 const LIFTED = 0.001;
 /** Labels move by no less than this, px: a foot that stands leaves its label alone. */
 const STEP_PX = 0.5;
+
+/** What the handle of a pose takes at the body's place on the floor, px: its knob, and its label beside it. */
+const POSE = [{ dx: 0, dy: 0, width: 24, height: 24 }, { dx: 54, dy: 18, width: 88, height: 22 }];
 
 const UP = " ↑";
 
@@ -48,6 +51,7 @@ export class FootLabels {
   #places = new Float64Array(0);
   #sample = -1;
   #overlay = null;
+  #hasPose = false;
   #isNew = true;
 
   /**
@@ -79,8 +83,9 @@ export class FootLabels {
     if (this.#layer.hidden) return false;
     const { overlay, time } = this.#preview;
     const sample = overlay ? sampleAt(overlay.times, time) : -1;
-    let isChanged = this.#isNew || sample !== this.#sample || overlay !== this.#overlay;
-    [this.#sample, this.#overlay, this.#isNew] = [sample, overlay, false];
+    const hasPose = !byId("pose").hidden && !byId("pose").hasAttribute("data-off");
+    let isChanged = this.#isNew || sample !== this.#sample || overlay !== this.#overlay || hasPose !== this.#hasPose;
+    [this.#sample, this.#overlay, this.#hasPose, this.#isNew] = [sample, overlay, hasPose, false];
     this.#labels.forEach(({ node }, foot) => {
       const at = this.#preview.client.position(node) ?? [NaN, NaN, NaN];
       at.forEach((value, axis) => {
@@ -104,7 +109,9 @@ export class FootLabels {
       setText(label.text, label.words + (this.#isLifted(foot) ? UP : ""));
       shown.push({ label, box: boxAt(beside, this.#sizeOf(label)) });
     });
-    moveApart(shown.map(({ box }) => box), [...seen.standing, ...seen.taken], seen);
+    const pose = this.#hasPose && body && this.#overlay ? seen.toStage([body[0], body[1], this.#overlay.floor]) : null;
+    const held = pose ? POSE.map(({ dx, dy, ...size }) => ({ x: pose[0] + dx, y: pose[1] + dy, ...size })) : [];
+    moveApart(shown.map(({ box }) => box), [...seen.standing, ...seen.taken, ...held], seen);
     for (const { label, box } of shown) put(label, box);
   }
 

@@ -108,7 +108,7 @@ def test_without_a_gpu_a_playing_robot_is_drawn_once_in_each_frame_of_the_page(p
 
 
 def test_polygon_is_drawn_on_the_floor_in_the_colour_of_its_margin(page: Page) -> None:
-    for margin, colour in ((0.01, "1f8a5b"), (0.001, "b7791f"), (-0.002, "c0362c")):
+    for margin, colour in ((0.01, "0b7470"), (0.001, "7d5a00"), (-0.002, "b3145f")):
         page.evaluate(
             """margin => preview.setOverlay({
               times: [0], com: [[0, 0, 0.07]], margins: [margin], contact: [[true, true, true, false]],

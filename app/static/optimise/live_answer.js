@@ -84,7 +84,7 @@ export function liveAnswer(store, edits, goTo) {
     edits.edit(({ name, notes }) => ({ ...document, name, notes }), label);
   };
   const remedies = remedyList({ use, show: tryout.show, end: tryout.end });
-  const [title, up] = [h("span", {}), h("button", { class: "link", text: "See what would help", hidden: true })];
+  const [title, up] = [h("span", {}), h("button", { class: "link", text: "What would help", hidden: true })];
   const panel = byId("sections");
   const top = () => { up.hidden = panel.scrollTop < SCROLLED_PX; };
   up.addEventListener("click", () => { panel.scrollTop = 0; });

@@ -53,12 +53,13 @@ function noteOf({ searching, trying, complete, list, sentence }) {
  */
 export function remedyList(acts) {
   const head = h("div", { class: "remedies-head" }, h("h4", { text: "What would help" }), h("span", { class: "quiet", text: "Margin" }));
-  const list = h("ul", { class: "remedies", role: "group", "aria-label": "What would help" });
+  const list = h("ul", { class: "remedies", role: "list" });
+  const group = h("div", { role: "group", "aria-label": "What would help" }, list);
   const note = h("p", { class: "why" });
   const rows = new Map();
   let shown = [];
   return {
-    element: h("div", {}, head, list, note),
+    element: h("div", {}, head, group, note),
     show(remedies) {
       const known = remedies ?? { list: [], searching: true, trying: true, complete: false };
       const labels = known.list.map(({ label }) => label);
@@ -83,7 +84,7 @@ export function remedyList(acts) {
         const { element } = rows.get(label);
         if (list.children[index] !== element) list.insertBefore(element, list.children[index] ?? null);
       });
-      head.hidden = list.hidden = !labels.length;
+      head.hidden = group.hidden = !labels.length;
       const text = noteOf(known);
       setText(note, text);
       note.hidden = !text;

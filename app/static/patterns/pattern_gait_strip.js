@@ -44,7 +44,7 @@ export function patternGaitStrip({ side, name, help, choose, move }) {
     title: "The sample whose state the transition has at this end: click, drag, or Left and Right (Shift: ten), Home, End" }, image, lines, cursor);
   const element = h("div", { class: "pattern-lane" }, h("div", { class: "pattern-head" }, h("b", { class: "pattern-letter", text: side === "from" ? "A" : "B", "aria-hidden": "true" }), select, words),
     h("div", { class: "pattern-row" }, h("span", { class: "quiet pattern-side", text: side === "from" ? "from here" : "to here" }), strip));
-  let [drawn, count, at] = [null, 1, 0];
+  let [drawn, count, at, sampleTime] = [null, 1, 0, 0];
 
   const go = (sample) => { const next = clamp(sample, 0, count - 1); if (next !== at) move(next); };
   const sampleAt = (event) => {
@@ -77,7 +77,7 @@ export function patternGaitStrip({ side, name, help, choose, move }) {
     element.toggleAttribute("data-empty", !document);
     if (!document) return;
     const { feet, sample_time: step } = document.timeline;
-    [count, at] = [feet[0].length, clamp(sample, 0, feet[0].length - 1)];
+    [count, at, sampleTime] = [feet[0].length, clamp(sample, 0, feet[0].length - 1), step];
     const key = JSON.stringify([feet, document.timeline.locked, document.held]);
     if (drawn !== key) {
       drawn = key;
@@ -95,5 +95,5 @@ export function patternGaitStrip({ side, name, help, choose, move }) {
     setAttribute(strip, "aria-valuenow", at + 1);
     setAttribute(strip, "aria-valuetext", `sample ${at + 1} of ${count}, ${fixed(at * step)} s: ${state}`);
   }
-  return { element, show, cursorAt: () => (at + 0.5) / count };
+  return { element, show, cursorAt: () => (at + 0.5) / count, sampleTime: () => sampleTime, seconds: () => count * sampleTime };
 }

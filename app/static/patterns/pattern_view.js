@@ -67,6 +67,14 @@ function limbLocking(store, problem, shown) {
   return (foot) => ({ transition: lock, limbs: hold }[problem.state.mode]?.(foot));
 }
 
+/** Gives each lane its share of one time axis, 0 to 1: the longest lane is as wide as there is room. */
+function shareAxis(lanes, seconds) {
+  const longest = Math.max(...Object.values(seconds));
+  const shares = Object.fromEntries(Object.entries(seconds).map(([name, value]) => [name, longest > 0 ? value / longest : 1]));
+  for (const [name, share] of Object.entries(shares)) lanes[name].style.setProperty("--share", share);
+  return shares;
+}
+
 function lowerPart(store, problem, lock) {
   const [parts, grid] = [gaitParts(store, problem), patternGrid(problem, { lockLimb: lock })];
   const [title, note] = [h("b"), h("span", { class: "quiet pattern-state" })];
@@ -76,8 +84,9 @@ function lowerPart(store, problem, lock) {
   const sought = h("div", { class: "pattern-lane pattern-sought" }, h("div", { class: "pattern-head" }, title, note, clear), grid.element, empty);
   const element = h("div", { class: "pattern-view", role: "group", "aria-label": "Pattern search" }, hatch(), parts.from.element, above.element,
     sought, below.element, parts.to.element);
+  const lanes = { from: parts.from.element, sought, to: parts.to.element };
   return {
-    element, cancel: grid.cancel, lanes: { from: parts.from.element, sought, to: parts.to.element },
+    element, cancel: grid.cancel, lanes,
     show(shown) {
       const isTransition = problem.state.mode === "transition";
       for (const one of [parts.from, above, below, parts.to]) one.element.hidden = !isTransition;
@@ -92,8 +101,10 @@ function lowerPart(store, problem, lock) {
       grid.show(shown);
       element.dataset.feet = shown.legs;
       setText(note, `${shown.samples} samples · ${drawnText(problem.state)}`);
-      above.show(parts.from.cursorAt(), 50 / shown.samples);
-      below.show(parts.to.cursorAt(), 100 - 50 / shown.samples);
+      const seconds = { from: parts.from.seconds(), sought: shown.samples * parts.from.sampleTime(), to: parts.to.seconds() };
+      const share = shareAxis(lanes, isTransition ? seconds : { from: 1, sought: 1, to: 1 });
+      above.show(parts.from.cursorAt() * share.from, (50 / shown.samples) * share.sought);
+      below.show(parts.to.cursorAt() * share.to, (100 - 50 / shown.samples) * share.sought);
     },
   };
 }

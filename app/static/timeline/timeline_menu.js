@@ -72,6 +72,8 @@ function buildMenu({ actions, plain, choose, close }) {
     }
     setText(note, "What a line does is shown on the timeline while you point at it.");
   };
+  // The list may scroll: its first item is in the order of Tab.
+  items[0].item.tabIndex = 0;
   const menu = h("div", { class: "op-popover edit", role: "presentation" }, scope, note, h("div", { class: "op-menu", role: "menu", "aria-label": "Edit the timeline" }, ...columns));
   menu.addEventListener("keydown", (event) => roam(event, items, close));
   refresh();

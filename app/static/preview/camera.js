@@ -5,14 +5,16 @@
 
 import { cameraMessages } from "./viser_client.js";
 
-/** Height that is looked at, m: the middle between soles and board. */
-const MIDDLE = 0.034;
-/** Of the camera, in radii of what is looked at, where nothing stands over the scene. */
-const DISTANCE = 3.55;
-/** What stands over the scene at its upper and lower edge takes as much of its height, px. */
-const TAKEN = 64;
-/** Width of the stage over its height below which the width decides how far away the camera stands. */
-const NARROW = 1.1;
+/** Height that is looked at, m: the middle between floor and board. */
+const MIDDLE = 0.048;
+/** From the floor to the robot's board, m, and the floor under the robot's middle. */
+const [TOP, FLOOR] = [0.128, -0.018];
+/** Half the field of view upwards (app/scene/environment.py), as a slope. */
+const SLOPE = Math.tan((16 * Math.PI) / 180);
+/** What stands over the scene, px: at its upper and lower edge, and labels beside the robot; at most this share of the stage. */
+const [TAKEN, ASIDE, MOST_TAKEN] = [32, 76, 0.55];
+/** Corners of the circle that the robot fills. */
+const CORNERS = 12;
 /** A robot that stands still reaches this far, m, and what is drawn around its nodes goes farther. */
 const [LEAST_REACH, AROUND] = [0.053, 0.027];
 /** The view counts as moved by hand from here on, as a share of its distance. */
@@ -46,18 +48,36 @@ export function wayOf(client, overlay, nodes, bodyName) {
   const ends = [0, 1].map((axis) => [Math.min(...places.map((at) => at[axis])), Math.max(...places.map((at) => at[axis]))]);
   const flat = (at, middle) => Math.hypot(at[0] - middle[0], at[1] - middle[1]);
   // In a scene that has just opened the nodes are not in their places yet; the plan knows where the feet stand.
-  const reaches = [...nodes.map((name) => flat(client.position(name) ?? body, body)), ...(overlay?.feet[0] ?? []).map((at) => flat(at, overlay.com[0]))];
+  const feet = (overlay?.feet[0] ?? []).map((at) => flat(at, overlay.com[0]));
+  const reaches = [...nodes.map((name) => flat(client.position(name) ?? body, body)), ...feet];
   return {
     middle: ends.map(([low, high]) => (low + high) / 2),
     radius: Math.max(LEAST_REACH, ...reaches) + AROUND + Math.hypot(...ends.map(([low, high]) => (high - low) / 2)),
   };
 }
 
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const unit = (a) => a.map((value) => value / Math.hypot(...a));
+
+/** The least distance from which all that fills a circle, from the floor to the top, is seen in the free part of a stage. */
+function distanceFor(direction, radius, { width, height }) {
+  const back = unit(direction);
+  const right = unit(cross([0, 0, 1], back));
+  const up = cross(back, right);
+  const free = (taken, size) => 1 - Math.min((2 * taken) / size, MOST_TAKEN);
+  const [across, along] = [(SLOPE * free(ASIDE, width) * width) / height, SLOPE * free(TAKEN, height)];
+  const needed = (at) => dot(at, back) + Math.max(Math.abs(dot(at, right)) / across, Math.abs(dot(at, up)) / along);
+  const angles = Array.from({ length: CORNERS }, (_, corner) => (2 * Math.PI * corner) / CORNERS);
+  const rim = angles.map((angle) => [radius * Math.cos(angle), radius * Math.sin(angle)]);
+  return Math.max(...rim.flatMap((at) => [FLOOR, TOP].map((z) => needed([...at, z - MIDDLE]))));
+}
+
 export class Camera {
   #client;
   #direction = DIRECTIONS.perspective();
   #fitted = null;
-  #share = 1;
+  #size = null;
 
   /** @param {import("./viser_client.js").ViserClient} client */
   constructor(client) {
@@ -78,23 +98,25 @@ export class Camera {
   /** After another size of the stage: fits the view again; one that was moved by hand keeps what it shows. */
   refit(way) {
     const now = this.#client.cameraPose();
-    if (!now) return;
-    if (!this.#isMoved(now)) {
+    const [before, size] = [this.#size, this.#client.visibleSize];
+    if (!now || !(size.height > 0)) return;
+    if (!before || !this.#isMoved(now)) {
       this.#fit(way);
       return;
     }
-    const before = this.#share;
-    this.#share = this.#smallness();
-    const farther = this.#share / before;
-    const position = now.target.map((value, axis) => value + (now.position[axis] - value) * farther);
-    if (Math.abs(farther - 1) > 1e-3) this.#client.push(cameraMessages(position, now.target));
+    this.#size = size;
+    const [from, to] = [before, size].map((one) => distanceFor(this.#direction, way.radius, one));
+    const position = now.target.map((value, axis) => value + ((now.position[axis] - value) * to) / from);
+    this.#client.push(cameraMessages(position, now.target));
   }
 
   #fit({ middle, radius }) {
-    this.#share = this.#smallness();
+    this.#size = this.#client.visibleSize;
+    if (!(this.#size.height > 0)) return;
     const target = [...middle, MIDDLE];
-    const distance = (radius * DISTANCE * this.#share) / Math.hypot(...this.#direction);
-    const position = target.map((value, axis) => value + distance * this.#direction[axis]);
+    const distance = distanceFor(this.#direction, radius, this.#size);
+    const back = unit(this.#direction);
+    const position = target.map((value, axis) => value + distance * back[axis]);
     this.#fitted = { position, target };
     this.#client.push(cameraMessages(position, target));
   }
@@ -103,11 +125,5 @@ export class Camera {
     if (!this.#fitted) return false;
     const near = MOVED * apart(position, target);
     return apart(position, this.#fitted.position) > near || apart(target, this.#fitted.target) > near;
-  }
-
-  /** How much farther away the camera has to stand where the stage is low or narrow. */
-  #smallness() {
-    const { width, height } = this.#client.visibleSize;
-    return width > 0 && height > 2 * TAKEN ? Math.max(height / (height - TAKEN), (NARROW * height) / width) : 1;
   }
 }

@@ -42,7 +42,7 @@ function hold(box, { width, height }) {
 /**
  * Moves boxes until none lies over another or over what stays where it is, inside a frame.
  * @param {{x: number, y: number, width: number, height: number}[]} boxes by their middles, px; they are changed
- * @param {{x: number, y: number, width: number, height: number}[]} fixed
+ * @param {{x: number, y: number, width: number, height: number}[]} fixed first what counts most
  * @param {{width: number, height: number}} frame
  */
 export function moveApart(boxes, fixed, frame) {
@@ -54,5 +54,16 @@ export function moveApart(boxes, fixed, frame) {
       for (const other of fixed) isMoved = clear(box, other, frame) || isMoved;
     });
   }
+  // Where there is no room for all, a label rather lies over another one than under what stands there for good.
+  for (const box of boxes) for (const other of [...fixed].reverse()) clear(box, other, frame);
   return boxes;
+}
+
+/** Whether a box is inside the frame and lies over nothing. */
+export const isFree = (box, fixed, { width, height }) =>
+  fits(box.x, box.width, width) && fits(box.y, box.height, height) && !fixed.some((other) => Math.min(...overlap(box, other)) > 0);
+
+/** The first of some places for a box where it is free; the first one, moved, where none is. */
+export function firstFree(places, fixed, frame) {
+  return places.find((box) => isFree(box, fixed, frame)) ?? moveApart([places[0]], fixed, frame)[0];
 }

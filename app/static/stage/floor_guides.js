@@ -7,15 +7,17 @@ import { floorOf } from "../preview/overlay.js";
 import { goalOf } from "../preview/goal.js";
 import { shownDocument } from "../state/store.js";
 import { drawnPlan, greyOf } from "../state/worked_plan.js";
-import { moveApart } from "./apart.js";
+import { firstFree, isFree } from "./apart.js";
 
 /** The arrow, m: from the goal's ring to its tail, its length, the head's, and half their widths. */
 const ARROW = { before: 0.012, length: 0.046, head: 0.02, shaft: 0.0036, wide: 0.0105 };
 /** The arrow of a gait that turns on the spot, degrees: where it begins beside the front, and how far it goes round. */
 const ARC = { start: 14, span: 34, pieces: 10 };
 const BAR = 0.01;
-/** From the middle of what stands on the floor to the bar, in its radii, and from the line of sight to it, degrees. */
-const [BAR_OUT, BAR_ASIDE] = [1.3, 50];
+/** From the middle of what stands on the floor to the bar, in its radii, and from the line of sight to the places it may have, degrees. */
+const [BAR_OUT, BAR_ASIDE] = [1.3, [50, 65, 80, 100, 125, -60, -90]];
+/** A lower stage has no room for the bar, px. */
+const LEAST_HEIGHT = 260;
 /** Seen flatter than this, the floor shows neither. */
 const FLATTEST = 0.13;
 const LEAST_STEP = 5e-5;
@@ -30,14 +32,15 @@ const pathOf = (points) => `${points.map(([x, y], index) => `${index ? "L" : "M"
 /** A number without a decimal that says nothing. */
 const short = (value) => fixed(value).replace(/\.0$/, "");
 
-/** What the arrow says of a gait: "Walks 19 mm a step", "Turns 15° left a step"; "" where it stays where it is. */
+/** What the arrow says of a gait: "Walks 19 mm a step", "Turns 15° left a step", of a sequence "Walks 50 mm in all"; "" where it stays where it is. */
 export function stepText(document, isGrey) {
   const [length, turn] = [stepLength(document), stepTurn(document)];
   const walks = length > LEAST_STEP ? `${short(length * 1000)} mm` : "";
   const turns = Math.abs(turn) > LEAST_TURN ? `${short(Math.abs(turn))}° ${turn > 0 ? "left" : "right"}` : "";
   if (!walks && !turns) return "";
-  if (isGrey) return `Goal: ${[walks, turns].filter(Boolean).join(", ")} a step`;
-  return walks ? `Walks ${walks}${turns && `, turns ${turns}`} a step` : `Turns ${turns} a step`;
+  const each = document.sequence ? "in all" : "a step";
+  if (isGrey) return `Goal: ${[walks, turns].filter(Boolean).join(", ")} ${each}`;
+  return walks ? `Walks ${walks}${turns && `, turns ${turns}`} ${each}` : `Turns ${turns} ${each}`;
 }
 
 /** Corners [x, y] in m of the arrow that goes straight on from the goal, and which of them is its tip. */
@@ -61,9 +64,9 @@ function round({ x, y, radius, front }, turn) {
   return { corners: [...side(1), at(1, 0), ...side(-1).reverse()], tip: parts.length + 1 };
 }
 
-/** Both ends of the bar: before the robot at the left, along that axis of the floor that lies more level in the picture. */
-function barEnds({ right, back }, { x, y, radius }) {
-  const angle = Math.atan2(back[1], back[0]) - radians(BAR_ASIDE);
+/** Both ends of the bar: so far aside before the robot, at the left or, below 0, at the right, along that axis of the floor that lies more level in the picture. */
+function barEnds({ right, back }, { x, y, radius }, aside) {
+  const angle = Math.atan2(back[1], back[0]) - radians(aside);
   const out = BAR_OUT * radius;
   const axis = Math.abs(right[0]) >= Math.abs(right[1]) ? [Math.sign(right[0]), 0] : [0, Math.sign(right[1])];
   const middle = [x + out * Math.cos(angle), y + out * Math.sin(angle)];
@@ -136,22 +139,31 @@ export class FloorGuides {
     if (!places) return;
     this.boxes.push(boxOf(places));
     const neck = places[tip - 1].map((value, axis) => (value + places[tip + 1][axis]) / 2);
-    this.#put(seen, this.#words, beyond(places[tip], neck, this.#sizeOf(this.#words)));
+    const size = this.#sizeOf(this.#words);
+    const [first, { x, y, height }] = [beyond(places[tip], neck, size), this.boxes.at(-1)];
+    const away = (height + size.height) / 2 + BEYOND;
+    this.#put(seen, this.#words, [first, { x, y: y + away }, { x, y: y - away }, { x: x - size.width / 2, y: y + away }, { x: x - size.width / 2, y: y - away }]);
   }
 
   #drawBar(seen, goal) {
     const [[x, y], radius] = [[goal.x / 2, goal.y / 2], goal.radius + Math.hypot(goal.x, goal.y) / 2];
-    const ends = this.#onStage(seen, barEnds(seen, { x, y, radius }));
+    this.#scale.hidden = false;
+    const size = this.#sizeOf(this.#scale);
+    const written = (ends) => ({ x: (ends[0][0] + ends[1][0]) / 2, y: Math.max(ends[0][1], ends[1][1]) + BELOW, ...size });
+    const isClear = (ends) => ends && [boxOf(ends), written(ends)].every((box) => isFree(box, [...seen.standing, ...this.boxes], seen));
+    const ends = seen.height < LEAST_HEIGHT ? undefined : BAR_ASIDE.map((aside) => this.#onStage(seen, barEnds(seen, { x, y, radius }, aside))).find(isClear);
+    // Where nothing of the floor is free there is no room for a scale.
     this.#scale.hidden = !ends;
     this.#bar.setAttribute("d", ends ? barPath(ends) : "");
     if (!ends) return;
+    this.#put(seen, this.#scale, [written(ends)]);
     this.boxes.push(boxOf(ends));
-    this.#put(seen, this.#scale, { x: (ends[0][0] + ends[1][0]) / 2, y: Math.max(ends[0][1], ends[1][1]) + BELOW });
   }
 
-  #put(seen, element, at) {
-    const box = { ...at, ...this.#sizeOf(element) };
-    moveApart([box], [...seen.standing, ...this.boxes], seen);
+  /** Puts what is written to the first of some places where it is free. */
+  #put(seen, element, places) {
+    const size = this.#sizeOf(element);
+    const box = firstFree(places.map((at) => ({ ...at, ...size })), [...seen.standing, ...this.boxes], seen);
     element.style.transform = `translate(${Math.round(box.x - box.width / 2)}px, ${Math.round(box.y - box.height / 2)}px)`;
     this.boxes.push(box);
   }

@@ -1,6 +1,7 @@
 /**
  * The height of the lower part: dragged by its upper edge, or set by keys while the edge has the focus. Rows and plots
- * grow and shrink with it; where they cannot shrink further, the part scrolls. Remembered in this browser.
+ * grow and shrink with it; where they cannot shrink further, the part scrolls. Its usual height leaves the robot room: what
+ * is more than that is seen by scrolling. Remembered in this browser.
  */
 
 import { clamp } from "../lib/clamp.js";
@@ -14,6 +15,10 @@ const LEAST_PX = 150;
 const LEAST_STAGE_PX = 220;
 /** How far rows and plots shrink before the part scrolls, and how far they grow. */
 const [LEAST_SCALE, MOST_SCALE] = [0.8, 3];
+/** Share of the window for the chart at its usual height; of a low window two plots are in sight. */
+const [USUAL_SHARE, LOW_SHARE, LOW_PX] = [0.5, 0.43, 800];
+/** Narrower pages scroll as a whole. */
+const NARROW_PX = 900;
 const HELP = "Drag it, or use Up and Down; Home and End for the smallest and largest, double click or Enter for the usual height";
 
 const most = () => Math.max(LEAST_PX, window.innerHeight - byId("stop").closest("header").offsetHeight - LEAST_STAGE_PX);
@@ -30,6 +35,12 @@ function growing() {
   return byId("timeline").offsetHeight + strips.reduce((sum, strip) => sum + strip.offsetHeight, 0);
 }
 
+/** The most that the chart takes at its usual height, px. */
+function mostUsual() {
+  const { innerWidth, innerHeight } = window;
+  return innerWidth <= NARROW_PX ? Infinity : innerHeight * (innerHeight <= LOW_PX ? LOW_SHARE : USUAL_SHARE);
+}
+
 /** Gives the lower part a height, or its usual one for null. */
 function apply(lower, height) {
   const scale = Number(lower.style.getPropertyValue("--scale") || 1);
@@ -40,9 +51,10 @@ function apply(lower, height) {
   const wanted = height === null ? 1 : (scale * (clamp(height, LEAST_PX, most()) - fixed)) / natural;
   const next = clamp(wanted, LEAST_SCALE, MOST_SCALE);
   if (Math.abs(next - scale) > 0.003) lower.style.setProperty("--scale", next.toFixed(4));
-  const scrolls = height !== null && wanted < LEAST_SCALE;
+  const usual = above + mostUsual();
+  const scrolls = height === null ? fixed + natural / scale > usual + BORDER_PX : wanted < LEAST_SCALE;
   lower.toggleAttribute("data-scrolls", scrolls);
-  lower.style.height = scrolls ? `${clamp(height, LEAST_PX, most())}px` : "";
+  lower.style.height = scrolls ? `${Math.round(height === null ? usual : clamp(height, LEAST_PX, most()))}px` : "";
   // What lies over the chart, such as the playhead, goes down to its end.
   byId("overlay").style.height = scrolls ? `${byId("chart").scrollHeight}px` : "";
 }

@@ -77,7 +77,7 @@ def test_the_lower_part_is_dragged_set_by_keys_and_remembered(page: Page) -> Non
     page.mouse.move(500, box["y"] + box["height"] / 2 - 100, steps=4)
     page.mouse.up()
     wait_for(lambda: abs(height(page) - usual - 100) <= 2, "it is 100 pixels higher")
-    assert strip_height(page) > strip + 15
+    assert strip_height(page) > strip + 8
     expect(edge(page)).to_have_attribute("aria-valuenow", str(height(page)))
     edge(page).press("ArrowDown")
     wait_for(lambda: abs(height(page) - usual - 84) <= 2, "an arrow moves it by 16 pixels")
@@ -88,6 +88,7 @@ def test_the_lower_part_is_dragged_set_by_keys_and_remembered(page: Page) -> Non
 
 
 def test_a_small_lower_part_scrolls_and_the_playhead_reaches_down(page: Page) -> None:
+    usual = height(page)
     edge(page).press("Home")
     expect(edge(page)).to_have_attribute("aria-valuenow", edge(page).get_attribute("aria-valuemin") or "")
     chart = page.locator("#chart")
@@ -105,4 +106,4 @@ def test_a_small_lower_part_scrolls_and_the_playhead_reaches_down(page: Page) ->
     expect(page.get_by_role("dialog", name="Stretch")).to_be_in_viewport(ratio=1)
     page.keyboard.press("Escape")
     edge(page).press("Enter")
-    expect(page.locator(".lower")).not_to_have_attribute("data-scrolls", "")
+    wait_for(lambda: abs(height(page) - usual) <= 1, "Enter brings the usual height back")

@@ -155,6 +155,7 @@ def test_every_strip_says_its_range_and_its_limits(page: Page) -> None:
 
 
 def test_the_pointer_reads_the_values_of_all_feet_and_both_times(page: Page) -> None:
+    strip(page, "heights").scroll_into_view_if_needed()
     box = strip(page, "heights").bounding_box()
     assert box is not None
     # Foot 3 is at its highest at 2.8 s; a sample's column is 1/45 of the strip.

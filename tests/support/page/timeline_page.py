@@ -159,4 +159,6 @@ def opened_timeline(browser: Browser, studio: StudioProcess) -> Iterator[Timelin
     """A page with its timeline drawn."""
     with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
         page.get_by_role("grid", name="Footfall timeline").get_by_role("row").first.wait_for()
+        # The gait that the page opens by itself must not come after the one that a test opens.
+        expect(page.get_by_role("status", name="Verdict")).to_contain_text("Plan margin")
         yield TimelinePage(page, studio)

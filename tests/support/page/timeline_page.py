@@ -44,7 +44,8 @@ class TimelinePage:
         made = self.studio.ask("POST", "/api/gaits", content)
         assert made.status == 201, made.content
         gait: str = made.content["id"]
-        self.page.get_by_role("list", name="Gaits").locator(f'[data-gait="{gait}"]').click()
+        # The list of a page that was just opened may still scroll, between the two halves of a click.
+        self.page.get_by_role("list", name="Gaits").locator(f'[data-gait="{gait}"]').dispatch_event("click")
         expect(self.page.get_by_label("Gait name")).to_have_value(name)
         expect(self.grid).to_have_attribute("aria-colcount", str(len(feet[0])))
         return gait

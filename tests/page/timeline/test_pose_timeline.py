@@ -114,7 +114,7 @@ def test_a_pose_that_is_dragged_too_far_is_drawn_nearer_and_a_click_moves_nothin
     page.mouse.up()
     expect(undo).to_have_attribute("aria-disabled", "true")
     page.mouse.down()
-    page.mouse.move(place["x"] + 150, place["y"] - 150, steps=4)
+    page.mouse.move(place["x"] + 180, place["y"] - 30, steps=4)
     expect(page.get_by_role("status", name="Plan")).to_contain_text("it is drawn nearer")
     expect(page.locator("#pose")).not_to_have_attribute("data-off", "")
     page.keyboard.press("Escape")

@@ -221,16 +221,19 @@ export function mountGaits(store) {
     if (kept.has(selected)) {
       const shown = parts.get(selected)?.element;
       // A name that sorts elsewhere takes its row along.
-      if (shown && (listed !== selected || shown.offsetTop !== place)) bringIntoSight(shown);
+      if (shown && (listed !== selected || (shown.offsetTop !== place && !isPointedAt(shown)))) bringIntoSight(shown);
       listed = selected;
     } else if (greeted && selected && selected === listed && gaits.length) selectGait(store, gaits[0].id);
   });
 }
 
+/** Whether the pointer is over a row's list: what lies under it must not move away from a click. */
+const isPointedAt = (row) => row.parentElement.matches(":hover");
+
 /** Scrolls to the chosen row, for some frames: rows above it have their true height only once they are drawn. */
 function bringIntoSight(row, frames = SETTLING_FRAMES) {
   row.scrollIntoView({ block: "nearest" });
-  const goOn = () => { if (row.firstChild.getAttribute("aria-current")) bringIntoSight(row, frames - 1); };
+  const goOn = () => { if (row.firstChild.getAttribute("aria-current") && !isPointedAt(row)) bringIntoSight(row, frames - 1); };
   if (frames > 0) requestAnimationFrame(goOn);
 }
 

@@ -227,13 +227,13 @@ export function mountGaits(store) {
   });
 }
 
-/** Whether the pointer is over a row's list: what lies under it must not move away from a click. */
-const isPointedAt = (row) => row.parentElement.matches(":hover");
+/** Whether the pointer is over a row's list: what lies under it must not move away from a click. A closed group's rows have no list. */
+const isPointedAt = (row) => row.parentElement?.matches(":hover") ?? false;
 
 /** Scrolls to the chosen row, for some frames: rows above it have their true height only once they are drawn. */
 function bringIntoSight(row, frames = SETTLING_FRAMES) {
   row.scrollIntoView({ block: "nearest" });
-  const goOn = () => { if (row.firstChild.getAttribute("aria-current") && !isPointedAt(row)) bringIntoSight(row, frames - 1); };
+  const goOn = () => { if (row.isConnected && row.firstChild.getAttribute("aria-current") && !isPointedAt(row)) bringIntoSight(row, frames - 1); };
   if (frames > 0) requestAnimationFrame(goOn);
 }
 

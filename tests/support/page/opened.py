@@ -53,7 +53,7 @@ def opened_page(
         except BaseException:
             print("The page said:", page.locator("#toasts").all_inner_texts())  # noqa: T201
             raise
-    assert problems == []
+    assert problems == [], problems
 
 
 def said_by_us(message: ConsoleMessage) -> list[str]:

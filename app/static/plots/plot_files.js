@@ -5,6 +5,7 @@ import { h } from "../lib/dom.js";
 import { robotSecondsAt } from "../state/robot_seconds.js";
 import { fractionAt, labelEvery } from "../state/time_axis.js";
 import { HEIGHT, WIDTH } from "./curves.js";
+import { footMark } from "./foot_marks.js";
 import { lineNames } from "./strip_picture.js";
 
 const SIZE = { width: 960, height: 260, left: 70, right: 90, top: 44, bottom: 44 };
@@ -22,17 +23,6 @@ const escaped = (text) => String(text).replace(/[&<>"]/g, (mark) => ({ "&": "&am
 const text = (x, y, words, { anchor = "start", fill = INK.text, size = 12, weight = 400 } = {}) =>
   `<text x="${x.toFixed(1)}" y="${y.toFixed(1)}" text-anchor="${anchor}" fill="${fill}" font-size="${size}" font-weight="${weight}">${escaped(words)}</text>`;
 const rule = (x1, y1, x2, y2, stroke, dash = "") => `<line x1="${x1.toFixed(1)}" y1="${y1.toFixed(1)}" x2="${x2.toFixed(1)}" y2="${y2.toFixed(1)}" stroke="${stroke}"${dash && ` stroke-dasharray="${dash}"`}/>`;
-
-/** A foot's mark: disc, square, triangle, diamond, as on the page. */
-export function footMark(foot, x, y, fill, r = 4.5) {
-  const at = (points) => `<polygon points="${points.map(([dx, dy]) => `${(x + r * dx).toFixed(1)},${(y + r * dy).toFixed(1)}`).join(" ")}" fill="${fill}"/>`;
-  return [
-    () => `<circle cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="${r}" fill="${fill}"/>`,
-    () => at([[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]]),
-    () => at([[0, -1], [1, 0.9], [-1, 0.9]]),
-    () => at([[0, -1.15], [1.15, 0], [0, 1.15], [-1.15, 0]]),
-  ][foot % 4]();
-}
 
 function axisLabels(axis, width, bottom) {
   const every = labelEvery(axis, width);

@@ -3,8 +3,8 @@
 import { axisKey, axisOf, fractionAt, timeAt } from "../state/time_axis.js";
 import { checkMenu } from "../lib/check_menu.js";
 import { recalled, remember } from "../lib/remembered.js";
-import { HEIGHT, WIDTH, acrossOf, indexAt } from "./curves.js";
-import { byId, h, setText, svg } from "../lib/dom.js";
+import { HEIGHT, acrossOf, indexAt } from "./curves.js";
+import { byId, h, setAttribute, setText, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { oversOf, runOver } from "./measured.js";
 import { plotCard } from "./plot_card.js";
@@ -14,15 +14,12 @@ import { simulationOver } from "../state/simulation.js";
 import { isRefusedDrawing } from "../state/live_plan.js";
 import { shownDocument } from "../state/store.js";
 import { stripCanvas } from "./strip_canvas.js";
-import { lineNames, rulesOf, stripPicture } from "./strip_picture.js";
+import { APART, lineNames, rulesOf, stripPicture } from "./strip_picture.js";
 import { STRIPS, valuesAt } from "./strips.js";
 import { GREY, drawnPlan, greyOf } from "../state/worked_plan.js";
 
 /** Height of a foot's row in a plot that has one for each, px. */
 const laneHeight = (feet) => (feet <= 4 ? 24 : feet <= 6 ? 18 : 12);
-
-/** Least distance of two texts beside a plot, as a share of its height. */
-const APART = 16;
 
 const atHeight = (element, y) => {
   element.style.top = `${y}%`;
@@ -42,39 +39,24 @@ function namedTexts(named) {
   });
 }
 
-/** Rises that have their highest sample at one place, as lists. */
-function together(peaks) {
-  const groups = [];
-  for (const peak of peaks) {
-    const group = groups.find(([one]) => Math.abs(one.x - peak.x) < 0.02 * WIDTH && Math.abs(one.y - peak.y) < APART);
-    if (group) group.push(peak);
-    else groups.push([peak]);
-  }
-  return groups;
-}
-
-/** The mark of each foot: at its rises, or at the left end of its row. */
-function footMarks({ bands, peaks }) {
-  const feet = (numbers) => numbers.map((foot) => h("span", { data: { foot: foot + 1 } }, h("i", { class: "foot-dot" }), String(foot + 1)));
-  const mark = (numbers, kind) => h("span", { class: "plot-mark", data: { kind } }, ...feet(numbers));
-  if (bands.length > 1) return bands.map(({ foot, top, bottom }) => atHeight(mark([foot], "lane"), (top + bottom) / 2));
-  return together(peaks).map((group) => {
-    const element = atHeight(mark(group.map(({ foot }) => foot), "peak"), Math.max(group[0].y - 4, 10));
-    element.style.left = `${(100 * group[0].x) / WIDTH}%`;
-    return element;
-  });
+/** Builds children anew only where they differ: while a finger drags, most of them stay. */
+function keep(element, key, build) {
+  if (element.dataset.key === key) return;
+  element.dataset.key = key;
+  element.replaceChildren(...build());
 }
 
 /** Draws a strip; returns what the pointer and the files need. */
 function draw(row, content, view) {
   const picture = stripPicture(content, view);
-  const feet = picture.bands.length;
-  row.strip.style.setProperty("--lanes", feet > 1 ? `${feet * laneHeight(feet)}px` : "0px");
+  const { named, ticks, range, bands } = picture;
+  row.strip.style.setProperty("--lanes", bands.length > 1 ? `${bands.length * laneHeight(bands.length)}px` : "0px");
+  row.strip.toggleAttribute("data-empty", false);
   row.canvas.show(picture.drawing);
-  row.strip.replaceChildren(row.canvas.element, ...footMarks(picture), h("div", { class: "plot-named" }, ...namedTexts(picture.named)));
-  row.ticks.replaceChildren(...picture.ticks.map(({ value, y }) => atHeight(h("span", { text: tickText(value) }), y)));
+  keep(row.named, named.map(({ name, value, y, away }) => `${name} ${tickText(value)} ${y.toFixed(1)} ${away}`).join(), () => namedTexts(named));
+  keep(row.ticks, ticks.map(({ value, y }) => `${tickText(value)} ${y.toFixed(1)}`).join(), () => ticks.map(({ value, y }) => atHeight(h("span", { text: tickText(value) }), y)));
   const limits = [content.low ?? null, content.high ?? null].filter((value) => value !== null);
-  row.strip.setAttribute("aria-label", [view.grey && `${GREY[view.grey].stage} `, summary(row.kind, picture.range, limits)].filter(Boolean).join(""));
+  setAttribute(row.strip, "aria-label", [view.grey && `${GREY[view.grey].stage} `, summary(row.kind, range, limits)].filter(Boolean).join(""));
   return { content, picture, ...view };
 }
 
@@ -87,7 +69,8 @@ function summary({ name, unit, help }, [least, most], limits) {
 function buildRow(kind, store) {
   const row = { kind, value: h("span", { class: "value" }), ticks: h("div", { class: "plot-ticks", "aria-hidden": "true" }), drawn: null };
   row.strip = h("div", { class: "strip", role: "img", "aria-label": kind.help, data: { strip: kind.key } });
-  row.canvas = stripCanvas(row.strip);
+  [row.canvas, row.named, row.empty] = [stripCanvas(row.strip), h("div", { class: "plot-named" }), h("div", { class: "empty" })];
+  row.strip.append(row.canvas.element, row.named, row.empty);
   const drawn = () => {
     const { view } = store.state;
     return row.drawn && { kind, ...row.drawn, plan: drawnPlan(store.state), gait: view.document.name ?? "gait", feet: view.document.timeline.feet.length };
@@ -99,9 +82,10 @@ function buildRow(kind, store) {
 function showSentence(row, sentence) {
   row.drawn = null;
   row.strip.style.setProperty("--lanes", "0px");
-  row.ticks.replaceChildren();
-  row.strip.replaceChildren(h("div", { class: "empty", text: sentence }));
-  row.strip.setAttribute("aria-label", `${row.kind.name}: ${sentence || "nothing to show."}`);
+  keep(row.ticks, "", () => []);
+  row.strip.toggleAttribute("data-empty", true);
+  setText(row.empty, sentence);
+  setAttribute(row.strip, "aria-label", `${row.kind.name}: ${sentence || "nothing to show."}`);
 }
 
 /** What is said where there is nothing to draw. */
@@ -114,7 +98,7 @@ function emptyWords(state, plan) {
 /** One legend for all plots: what each kind of line is. */
 function showLegend(key, names) {
   key.hidden = names.length === 0;
-  key.replaceChildren(...names.map(({ word, dash }) => h("span", {},
+  keep(key, names.map(({ word, dash }) => `${word} ${dash}`).join(), () => names.map(({ word, dash }) => h("span", {},
     svg("svg", { width: 24, height: 8, "aria-hidden": "true" }, svg("line", { x1: 0, x2: 24, y1: 4, y2: 4, "stroke-dasharray": dash.join(" ") })), word)));
 }
 

@@ -4,13 +4,16 @@
  */
 
 import { HEIGHT, WIDTH } from "./curves.js";
+import { paintFootMark } from "./foot_marks.js";
 import { h } from "../lib/dom.js";
 
 const FEET = 12;
-const NAMES = { fine: "--good", broken: "--bad", rule: "--quiet", grey: "--edge", grid: "--line", border: "--line-2", limit: "--bad", wanted: "--caution" };
+const NAMES = { fine: "--good", broken: "--bad", rule: "--quiet", grey: "--edge", grid: "--line", text: "--ink", border: "--line-2", limit: "--bad", wanted: "--caution" };
 const LINE_DASHES = { limit: [4, 3], wanted: [2, 3] };
 const dark = matchMedia("(prefers-color-scheme: dark)");
 let palette = null;
+let font = null;
+const fontNow = () => (font ??= getComputedStyle(document.body).fontFamily);
 dark.addEventListener("change", () => { palette = null; });
 
 function coloursNow() {
@@ -45,6 +48,49 @@ function paintLevels(pen, colours, { width, height }, { grid = [], borders = [],
   lines.forEach(({ y, kind }) => level(y, kind, LINE_DASHES[kind], borders.length ? 0.5 : 1));
 }
 
+/** Half a mark's width, what lies between its parts and around them, and its height, px. */
+const MARK = { half: 4, gap: 3, edge: 2, line: 12 };
+const sprites = new Map();
+
+/** A foot's mark with its number: painted once, since text on a canvas of the page has the whole page laid out first. */
+function sprite(foot, fill, ink, ratio) {
+  const key = `${foot} ${fill} ${ink} ${ratio}`;
+  if (sprites.has(key)) return sprites.get(key);
+  const { half, gap, line } = MARK;
+  const font = `10px ${fontNow()}`;
+  const ruler = new OffscreenCanvas(1, 1).getContext("2d");
+  ruler.font = font;
+  const width = Math.ceil(2 * half + gap + ruler.measureText(foot + 1).width);
+  const image = new OffscreenCanvas(Math.ceil(width * ratio), Math.ceil(line * ratio));
+  const pen = image.getContext("2d", { willReadFrequently: true });
+  pen.scale(ratio, ratio);
+  [pen.font, pen.textBaseline, pen.fillStyle] = [font, "middle", fill];
+  paintFootMark(pen, foot, half, line / 2, half);
+  pen.fillStyle = ink;
+  pen.fillText(foot + 1, 2 * half + gap, line / 2 + 0.5);
+  sprites.set(key, { image, width });
+  return sprites.get(key);
+}
+
+/** The marks of feet: above their rises, or at the left end of their rows. What is under them is cleared. */
+function paintMarks(pen, colours, { width, height }, ratio, { marks = [], isGrey }) {
+  const { half, gap, edge, line } = MARK;
+  pen.globalAlpha = 1;
+  for (const { feet, x, y } of marks) {
+    const parts = feet.map((foot) => sprite(foot, isGrey ? colours.grey : colours[foot + 1], colours.text, ratio));
+    const wide = parts.reduce((sum, part) => sum + part.width + gap, -gap) + 2 * edge;
+    const middle = (y * height) / HEIGHT;
+    const top = Math.round(x === null ? middle - line / 2 : Math.max(middle - half - 1 - line / 2, 1));
+    let left = Math.round(x === null ? edge : (x * width) / WIDTH - wide / 2);
+    pen.clearRect(left, top, wide, line);
+    left += edge;
+    for (const part of parts) {
+      pen.drawImage(part.image, left, top, part.image.width / ratio, line);
+      left += part.width + gap;
+    }
+  }
+}
+
 function paint(element, size, drawing) {
   const { bands = [], rules = [], curves = [], clips = [] } = drawing;
   const ratio = window.devicePixelRatio || 1;
@@ -56,7 +102,7 @@ function paint(element, size, drawing) {
   pen.scale(ratio, ratio);
   pen.lineJoin = "round";
   const colours = coloursNow();
-  const [sx, sy] = [size.width / WIDTH, size.height / HEIGHT];
+  const sx = size.width / WIDTH;
   pen.fillStyle = colours.broken;
   pen.globalAlpha = 0.16;
   for (const { x, width } of bands) pen.fillRect(x * sx, 0, width * sx, size.height);
@@ -74,20 +120,28 @@ function paint(element, size, drawing) {
     pen.stroke(path);
     return path;
   });
-  if (!clips.length) return;
+  if (clips.length) paintBeyond(pen, colours, size, paths, clips);
+  paintMarks(pen, colours, size, ratio, drawing);
+}
+
+/** Curves once more in the bad colour, where they pass a limit. */
+function paintBeyond(pen, colours, { width, height }, paths, clips) {
   const where = new Path2D();
-  for (const { y, height } of clips) where.rect(0, y * sy, size.width, height * sy);
+  for (const clip of clips) where.rect(0, (clip.y * height) / HEIGHT, width, (clip.height * height) / HEIGHT);
+  pen.save();
   pen.clip(where);
   pen.setLineDash([]);
   [pen.strokeStyle, pen.lineWidth, pen.globalAlpha] = [colours.broken, 2, 1];
   paths.forEach((path) => pen.stroke(path));
+  pen.restore();
 }
 
 /**
  * Makes a strip's canvas, which follows the strip's size and the theme.
  * @returns {{element: HTMLCanvasElement, show: (drawing: object) => void}} a drawing has `bands` of missing values {x, width},
  *   `rules`, upright lines {x, from}, from a share of the height downwards, `grid` and `borders` (heights), `lines` {y, kind ("limit", "wanted")},
- *   `curves` {d, tone (a foot's number, "fine", "grey"), width, alpha, dash, offset} and `clips` {y, height}, where curves are drawn in the bad colour
+ *   `curves` {d, tone (a foot's number, "fine", "grey"), width, alpha, dash, offset}, `clips` {y, height}, where curves are drawn in the bad colour, and `marks` {feet, x, y}, x null at
+ *   the left end, in grey where `isGrey`
  */
 export function stripCanvas(strip) {
   const element = h("canvas", { "aria-hidden": "true" });

@@ -17,6 +17,8 @@ const MOTOR_WIDTHS = [2, 1.25, 0.75];
 const TOGETHER = 3;
 const TURN = 7;
 const MOST_TICKS = 4;
+/** Least distance of two texts or marks, as a share of a plot's height, %. */
+export const APART = 16;
 
 const isKnown = (value) => value !== null && Number.isFinite(value);
 
@@ -124,6 +126,17 @@ function peaksOf({ series }, across, scaleFor) {
   });
 }
 
+/** Rises that have their highest sample at one place share a mark, with each of their feet. */
+function peakMarks(peaks) {
+  const marks = [];
+  for (const { foot, x, y } of peaks) {
+    const mark = marks.find((one) => Math.abs(one.x - x) < 0.02 * WIDTH && Math.abs(one.y - y) < APART);
+    if (mark) mark.feet.push(foot);
+    else marks.push({ feet: [foot], x, y });
+  }
+  return marks;
+}
+
 /** Of a gait for the robot's clock: a line at each pose, and a short one from where Stop is heard in each move. */
 export function rulesOf(axis, { poses, times }) {
   if (!poses) return [];
@@ -156,8 +169,9 @@ export function stripPicture(content, { axis, across, count, overs, rules, grey 
   const bands = feet.map((foot) => ({ foot, ...bandOf(foot) }));
   const values = ticksOf(span.low, span.high, content.lanes ? 2 : MOST_TICKS);
   const named = namedValues(content, span);
+  const peaks = content.rises ? peaksOf(content, across, scaleFor) : [];
   return {
-    scaleFor, range: span.range, bands, peaks: content.rises ? peaksOf(content, across, scaleFor) : [],
+    scaleFor, range: span.range, bands, peaks,
     ticks: values.map((value) => ({ value, y: scaleFor(bands[0].foot)(value) })),
     named: named.map((one) => ({ ...one, y: one.away === "up" ? 0 : one.away === "down" ? HEIGHT : scaleFor(bands[0].foot)(one.value) })),
     drawing: {
@@ -165,7 +179,8 @@ export function stripPicture(content, { axis, across, count, overs, rules, grey 
       grid: bands.flatMap(({ foot }) => values.map((value) => scaleFor(foot)(value))), borders: bands.slice(1).map(({ top }) => top),
       lines: named.filter(({ away }) => !away).flatMap(({ value, kind }) => bands.map(({ foot }) => ({ y: scaleFor(foot)(value), kind }))),
       curves: [...plannedCurves(content, across, scaleFor, { isUnder: overs.length > 0, grey, count, span }), ...overs.flatMap((over) => measuredCurves(over, axis, scaleFor))],
-      clips: grey === "worked" ? [] : beyond(content, scaleFor, bands, span.range),
+      clips: grey === "worked" ? [] : beyond(content, scaleFor, bands, span.range), isGrey: grey !== null,
+      marks: bands.length > 1 ? bands.map(({ foot, top, bottom }) => ({ feet: [foot], x: null, y: (top + bottom) / 2 })) : peakMarks(peaks),
     },
   };
 }

@@ -56,12 +56,15 @@ function loopMark(axis, [start, end]) {
   return placed(h("b", { class: "loop", title: `Plays from ${start.toFixed(1)} to ${end.toFixed(1)} s over and over (L ends it)` }), from, Math.min(1, fractionAt(axis, end)) - from);
 }
 
-function draw(state, playback, width) {
+function draw(state, playback, width, names) {
   const [axis, plan] = [axisOf(state), shownPlan(state)];
   const loop = playback.loop && (playback.loop[0] > 0 || playback.loop[1] < playback.duration - 1e-9) ? [loopMark(axis, playback.loop)] : [];
   const ruler = byId("ruler");
   // Without a motion its second line is free for the flags; as high as before, rows stay under the hand that draws.
-  ruler.toggleAttribute("data-robot", hasRobotTimes(plan) || hasNoMotion(plan));
+  const hasTwoLines = hasRobotTimes(plan) || hasNoMotion(plan);
+  ruler.toggleAttribute("data-robot", hasTwoLines);
+  // Not a rule with :has: each change under the chart would have the style of every cell found anew.
+  names.hidden = !hasTwoLines;
   ruler.replaceChildren(...loop, ...ticks(axis, width), ...robotTicks(axis, plan, width), ...heardMarks(axis, plan), ...findingMarks(axis, state.live ? null : state.view?.verdict));
 }
 
@@ -83,8 +86,9 @@ function mountScrubbing(store, playback) {
 /** Draws the ruler and keeps it current; it scrubs `playback`. */
 export function mountRuler(store, playback) {
   let width = byId("ruler").clientWidth;
-  byId("chart-corner").append(h("div", { class: "ruler-names", "aria-hidden": "true" }, h("span", { text: "planned" }), h("span", { class: "on-robot", text: "robot" })));
-  const again = () => draw(store.state, playback, width || 1000);
+  const names = h("div", { class: "ruler-names", "aria-hidden": "true", hidden: true }, h("span", { text: "planned" }), h("span", { class: "on-robot", text: "robot" }));
+  byId("chart-corner").append(names);
+  const again = () => draw(store.state, playback, width || 1000, names);
   store.watch((state) => [state.view?.id, shownPlan(state), state.view?.verdict, axisKey(state)], again);
   playback.addEventListener("state", again);
   new ResizeObserver(([{ contentRect }]) => {

@@ -26,6 +26,8 @@ export function buildBars() {
   return { layer: h("div", { class: "swing-bars", "aria-hidden": "true" }), duty: h("span", { class: "row-duty" }), seen: "" };
 }
 
+const buildBar = () => h("div", { class: "swing-bar" }, h("span", {}, h("i", { class: "foot-dot" }), h("b")));
+
 /**
  * Draws a row's bars.
  * @param {object} bars of `buildBars`
@@ -42,13 +44,15 @@ export function drawBars(bars, steps, axis, width) {
   setText(bars.duty, duty);
   bars.duty.title = `Duty factor: this foot is on the ground ${duty} of the time`;
   const place = (column) => placeOf(axis, column) / axis.samples;
-  bars.layer.replaceChildren(...spans.flatMap(({ first, last }) => {
-    const wide = (placeOf(axis, last + 1) - placeOf(axis, first)) / axis.shown * width;
-    if (wide < LEAST_MARK) return [];
-    const words = wide < LEAST_WORDS ? "" : seconds(columnTime(axis, last + 1) - columnTime(axis, first));
-    const bar = h("div", { class: "swing-bar" }, h("span", {}, h("i", { class: "foot-dot" }), words));
+  const wide = ({ first, last }) => ((placeOf(axis, last + 1) - placeOf(axis, first)) / axis.shown) * width;
+  const shown = spans.filter((span) => wide(span) >= LEAST_MARK);
+  while (bars.layer.childElementCount > shown.length) bars.layer.lastElementChild.remove();
+  while (bars.layer.childElementCount < shown.length) bars.layer.append(buildBar());
+  shown.forEach((span, at) => {
+    const bar = bars.layer.children[at];
+    const { first, last } = span;
+    setText(bar.firstElementChild.lastElementChild, wide(span) < LEAST_WORDS ? "" : seconds(columnTime(axis, last + 1) - columnTime(axis, first)));
     bar.style.left = `${100 * place(first)}%`;
     bar.style.width = `${100 * (place(last + 1) - place(first))}%`;
-    return [bar];
-  }));
+  });
 }

@@ -334,7 +334,8 @@ class Candidates:
         return self._largest_margin(gait, min(USUAL_MARGIN, asked), asked)
 
     def _largest_margin(self, gait: Gait, least: float, most: float) -> Remedy | None:
-        best = self._trial.largest(least, most, lambda value: _margin(gait, value), UNIT_MARGIN)
+        near = self._trial.best_margin(gait, most)
+        best = self._trial.largest(least, most, lambda value: _margin(gait, value), UNIT_MARGIN, near)
         if best is None:
             return None
         is_known = best < most or most <= self._asked.options.margin

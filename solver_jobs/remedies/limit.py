@@ -45,8 +45,10 @@ def largest_value(gait: Gait, model: RobotModel, which: Limit, go_on: Callable[[
         None where even a small value does not work, or the search was ended.
     """
     least, most, unit = _RANGES[which]
+    trial = Trial(model, go_on)
+    near = trial.best_margin(gait, most) if which is Limit.MARGIN else None
     try:
-        return Trial(model, go_on).largest(least, most, lambda value: _with(gait, which, value), unit)
+        return trial.largest(least, most, lambda value: _with(gait, which, value), unit, near)
     except InterruptedSearchError:
         return None
 

@@ -80,21 +80,51 @@ class Trial:
         except FootfallError:
             return ()
 
-    def largest(
-        self, least: float, most: float, change: Callable[[float], Gait], unit: float
-    ) -> float | None:
-        """The largest value that works: `most`, `least`, or whole units between; None where none works."""
-        if self.works(change(most)):
-            return most
-        if least >= most or not self.works(change(least)):
+    def best_margin(self, gait: Gait, most: float) -> float | None:
+        """About the largest margin of a gait up to `most`, m; None where there is none."""
+        from solver_jobs.live.best_margin import best_margin
+
+        try:
+            return best_margin(motion_problem(gait.with_options(margin=most), self.model), SIDES)
+        except FootfallError:
             return None
-        # In units: `low` works, or is `least` itself; `high` does not work.
-        low, high = int(np.floor(least / unit + 1e-9)), int(np.ceil(most / unit - 1e-9))
-        first = low
+
+    def largest(
+        self,
+        least: float,
+        most: float,
+        change: Callable[[float], Gait],
+        unit: float,
+        near: float | None = None,
+    ) -> float | None:
+        """The largest value that works: `most`, `least`, or whole units between; None where none works.
+
+        Args:
+            least: not less than this.
+            most: not more than this.
+            change: the gait with a value.
+            unit: of the values between.
+            near: where the answer is likely; only there is it looked for first.
+        """
+        first, last = int(np.floor(least / unit + 1e-9)), int(np.ceil(most / unit - 1e-9))
+
+        def value(number: int) -> float:
+            return most if number >= last else least if number <= first else number * unit
+
+        # `low` works and `high` does not, or they lie beyond the ends.
+        low, high = first - 1, last + 1
+        number = last if near is None else int(np.clip(near // unit, first, last))
+        stride = max(last - first, 1) if near is None else 1
         while high - low > 1:
-            middle = (low + high) // 2
-            low, high = (middle, high) if self.works(change(middle * unit)) else (low, middle)
-        return least if low == first else low * unit
+            low, high = (number, high) if self.works(change(value(number))) else (low, number)
+            if high > last:
+                number = min(low + stride, last)
+            elif low < first:
+                number = max(high - stride, first)
+            else:
+                number = (low + high) // 2
+            stride *= 2
+        return None if low < first else value(low)
 
     def first(self, gaits: Iterable[Gait | None]) -> Gait | None:
         """The first gait that works."""

@@ -1,4 +1,4 @@
-"""The largest stability margin that a drawing allows, by one program in which the margin is an unknown."""
+"""The largest stability margin that a drawing allows: one quadratic program with the margin as unknown."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ _solver = Solver()
 
 
 def best_margin(problem: MotionProblem, sides: int) -> float | None:
-    """The largest margin with the body at its natural height, m; not for several threads at once.
+    """The largest margin with the body at its natural height, m.
 
-    Limits that are not linear (motors, room between shoes) have no part, so a motion with this margin is
-    likely, not certain.
+    Limits that are not linear (motors, room between shoes) are left out, so a motion with this margin is
+    likely but not certain. Not thread-safe: all calls share one solver.
 
     Args:
-        problem: its own margin is the most that is looked for.
-        sides: of the polygons inside discs.
+        problem: the problem; the result is at most its own margin.
+        sides: number of sides of the polygons inside discs.
 
     Returns:
-        None where the drawing cannot walk with any margin, or the solver has no answer.
+        None if the drawing cannot walk with any margin, or the solver fails.
     """
     linearisation = natural_linearisation(problem.turned(-problem.quarter_turns))
     lack = linearisation.size
@@ -49,10 +49,10 @@ def best_margin(problem: MotionProblem, sides: int) -> float | None:
 
 
 def _softened(rows: Rows, lack: int) -> Rows:
-    """Rows that ask for the margin, asking for less by the unknown `lack`, mm; other rows unchanged."""
+    """Rows whose required margin is reduced by the unknown `lack`, mm; rows of other families unchanged."""
     if rows.family is not Family.BODY_TORQUE:
         return rows
-    # Where the robot stands on a line or a point, rows are equations and know no margin.
+    # If the feet support only a line or a point, the rows are equations without a margin.
     asking = np.nonzero(np.isinf(rows.upper))[0]
     return replace(
         rows,

@@ -1,7 +1,7 @@
-"""Changes that may make a drawing walk, the likely ones first, each tried by the live tier.
+"""Changes that may make a drawing walk, the most likely first; the live tier tries each of them.
 
-Which changes help, in which order, was measured on random drawings: a motion runs along the margin that is
-asked, so that every remedy asks for the robot's own margin first (docs/remedies.md).
+Which changes help, and in which order, was measured on random drawings. A motion tends to have exactly the
+margin that is requested, so every remedy tries the robot's own margin first (docs/remedies.md).
 """
 
 from __future__ import annotations
@@ -40,47 +40,47 @@ from solver_jobs.remedies.remedy import (
 from solver_jobs.remedies.trial import Trial
 
 SMALL_STEP, SMALL_TURN = 0.002, np.radians(1.0)
-"""Where this works, m and rad, what is wrong is the step."""
+"""If a drawing works with this step or turn, its own is too large, m and rad."""
 
 LEAST_STEP, LEAST_TURN = 0.005, np.radians(2.0)
-"""No smaller step is offered, m and rad."""
+"""The smallest step and turn that are offered, m and rad."""
 
 USUAL_MARGIN = 0.003
-"""Where this margin works, m, what is wrong is the margin."""
+"""If a drawing works with this margin, its own is too large, m."""
 
 UNIT_STEP, UNIT_TURN, UNIT_MARGIN = 1e-4, np.radians(0.5), 1e-4
-"""Whole units of what is offered, m and rad."""
+"""Offered values are multiples of these, m and rad."""
 
 GAPS = (1, 2, 3, 4, 5, 6, 8)
 LONG_GAPS = (1, 2, 3, 4, 5, 6, 8, 10, 12)
-"""Samples of stance between two swings, in the same time and in a longer gait."""
+"""Samples of stance that are tried between two swings: in the same time, and in a longer gait."""
 
 LONG_SWING = 5
-"""Samples of pauses and swings where a short gait does not do."""
+"""Length of pauses and swings that is tried when shorter ones do not work, samples."""
 
 HEIGHT_STEP = 0.0005
-"""Between body heights that are tried, m."""
+"""Distance between the body heights that are tried, m."""
 
 MORE_MARGIN, MOST_MORE_MARGIN = 0.001, 0.006
-"""How much more margin a gait that tips is offered at least and at most, m."""
+"""Least and largest increase of the margin that is offered to a gait that tips, m."""
 
 SHORTER = (0.75, 0.5)
-"""Shares of its step that a gait that tips is offered."""
+"""Fractions of the step that are tried in place of the full step."""
 
 MM = 1000.0
 
 
 class Candidates:
-    """The changes of one gait that work.
+    """Finds the changes that make one gait work.
 
     Args:
-        gait: one that has no motion, or one that tips in physics.
+        gait: a gait without a motion, or one that tips in physics.
         model: its robot.
-        trial: what tries them.
-        tips: whether it has a motion and tips.
+        trial: tries the changed gaits.
+        tips: whether the gait has a motion but tips in physics.
 
     Attributes:
-        trouble: what is wrong with the gait; None until that was found out.
+        trouble: what is wrong with the gait; None until it is known.
     """
 
     def __init__(self, gait: Gait, model: RobotModel, trial: Trial, *, tips: bool = False) -> None:
@@ -93,7 +93,7 @@ class Candidates:
         self._found: list[Remedy] = []
 
     def remedies(self) -> Iterator[Remedy]:
-        """Every change that works, the likely ones first; no two with one label or one document."""
+        """All changes that work, the most likely first; no two have the same label or the same document."""
         known = [(self._asked, "")]
         for remedy in self._candidates():
             if remedy is None or any(remedy.gait == gait or remedy.label == label for gait, label in known):
@@ -122,7 +122,7 @@ class Candidates:
         yield from self._single_changes()
 
     def _found_out(self) -> Trouble:
-        """What is wrong, by two or three trials."""
+        """Finds what is wrong, with two or three trials."""
         step = self._scaled(self._mended, SMALL_TURN if self._turns else SMALL_STEP)
         if self._at_best_margin(step) is not None:
             return Trouble.STEP
@@ -130,7 +130,7 @@ class Candidates:
         return Trouble.MARGIN if self._trial.works(_margin(self._mended, margin)) else Trouble.SHAPE
 
     def _for_tipping(self) -> Iterator[Remedy | None]:
-        """More margin, longer pauses and swings, a shorter step: for a gait that has a motion and tips."""
+        """Changes for a gait that tips: more margin, longer pauses and swings, a shorter step."""
         asked = self._asked.options.margin
         if self._raised > asked and self._trial.works(_margin(self._asked, self._raised)):
             yield self._margin_remedy(self._asked, self._raised, "Below it this robot is likely to tip.")
@@ -145,7 +145,7 @@ class Candidates:
 
     @property
     def _good(self) -> int:
-        """Remedies found with the robot's own margin."""
+        """Number of remedies found so far that keep at least the robot's own margin."""
         return sum(remedy.gait.options.margin >= self._model.margin for remedy in self._found)
 
     @property
@@ -158,7 +158,7 @@ class Candidates:
         return None if gait is None else self._remedy(RemedyKind.MENDED, "Mend the ends", words, gait)
 
     def _for_shape(self) -> Iterator[Remedy | None]:
-        """Overlaps, swings that are too short."""
+        """Changes for swings that overlap or are too short."""
         found: set[RemedyKind] = set()
         for items in self._item_lists(self._mended):
             for kind, change in (
@@ -171,7 +171,7 @@ class Candidates:
         yield from self._single_swings()
 
     def _single_swings(self) -> Iterator[Remedy | None]:
-        """One swing a foot and iteration, for drawings with more; with a shorter step if needed."""
+        """For drawings with more: one swing for each foot and iteration, with a shorter step if needed."""
         single = with_single_swings(self._mended)
         if single is self._mended:
             return
@@ -186,7 +186,7 @@ class Candidates:
                 return
 
     def _laid_apart(self, gait: Gait) -> Gait | None:
-        """The swings of a gait one after the other in the same time."""
+        """The gait with its swings one after the other in the same time; None if that does not work."""
         for items in self._item_lists(gait):
             found = self._first_at_best_margin([one_after_the_other(gait, items, gap) for gap in GAPS])
             if found is not None:
@@ -194,7 +194,7 @@ class Candidates:
         return None
 
     def _item_lists(self, base: Gait) -> list[list[Item]]:
-        """Swings that may stay beside each other together first, then every swing by itself."""
+        """Item lists to try: first with swings joined that may overlap, then with every swing alone."""
         apart = items_of(base)
         if base.timeline.leg_count <= 4:
             return [apart]
@@ -234,8 +234,8 @@ class Candidates:
         return sorted(before) == sorted(after)
 
     def _for_step(self) -> Iterator[Remedy | None]:
-        """Steps that are too long."""
-        # The quickest answer first: a person waits for it.
+        """Changes for a step that is too long."""
+        # A person waits, so the quickest change comes first.
         yield self._more_iterations()
         shorter = self._shorter_step(self._mended, self._raised)
         if shorter is not None:
@@ -245,7 +245,7 @@ class Candidates:
         yield self._slower()
 
     def _shorter_step(self, gait: Gait, margin: float) -> Gait | None:
-        """The gait with the largest step, or turn, that works; not less than one that is worth it."""
+        """The gait with the largest step or turn that works; None if even the smallest offered one fails."""
         size = self._size(gait)
         if size == 0.0:
             return None
@@ -265,11 +265,11 @@ class Candidates:
         return f"Turn {np.degrees(size):.1f}°" if self._turns else f"Step {size * MM:.1f} mm"
 
     def _size(self, gait: Gait) -> float:
-        """Length of the step, m; of a gait that only turns, its angle, rad."""
+        """Length of the step, m; for a gait that only turns, the angle of its turn, rad."""
         return abs(gait.step[2]) if self._turns else step_length(gait)
 
     def _scaled(self, gait: Gait, value: float) -> Gait:
-        """The gait with another length of step, or another turn."""
+        """The gait with its step or turn scaled to another size, m or rad (see `_size`)."""
         size = self._size(gait)
         if size in (0.0, value):
             return gait
@@ -277,7 +277,7 @@ class Candidates:
         return replace(gait, step=(dx, dy, yaw))
 
     def _more_iterations(self) -> Remedy | None:
-        """The same way in two or three times as many iterations."""
+        """The same distance in two or three times as many iterations."""
         for times in (2, 3):
             count = self._mended.iterations * times
             try:
@@ -296,7 +296,7 @@ class Candidates:
         return None
 
     def _slower(self) -> Remedy | None:
-        """Pauses and swings of five samples or more, and the largest step with them."""
+        """Pauses and swings of five samples or more, with a shorter step if the full one does not work."""
         items = items_of(self._mended)
         for least in range(LONG_SWING, 9):
             slow = longer(self._mended, items, LONG_SWING, least)
@@ -308,7 +308,7 @@ class Candidates:
         return self._with_longer_swings(self._raised)
 
     def _with_longer_swings(self, margin: float) -> Remedy | None:
-        """Pauses and swings of five samples or more with the largest step that works then."""
+        """Pauses and swings of five samples or more, with the largest step that works with them."""
         slow = longer(self._mended, items_of(self._mended), LONG_SWING, LONG_SWING)
         gait = None if slow is None else self._shorter_step(slow, margin)
         if gait is None:
@@ -321,7 +321,7 @@ class Candidates:
         return self._step_remedy(gait, f"With longer swings; {duration_words(gait)} in all.")
 
     def _for_margin(self) -> Iterator[Remedy | None]:
-        """Margins that nobody can keep."""
+        """Changes for a margin that no motion can keep."""
         yield self._kept_margin(self._mended)
         slow = longer(self._mended, items_of(self._mended), LONG_SWING)
         if slow is not None:
@@ -329,7 +329,7 @@ class Candidates:
             yield self._longer_remedy(found) if found is not None else self._kept_margin(slow)
 
     def _kept_margin(self, gait: Gait) -> Remedy | None:
-        """The largest margin up to the asked one."""
+        """The largest margin that works, up to the requested one."""
         asked = self._asked.options.margin
         return self._largest_margin(gait, min(USUAL_MARGIN, asked), asked)
 
@@ -349,7 +349,7 @@ class Candidates:
         return self._remedy(RemedyKind.MARGIN, f"Margin {margin * MM:.1f} mm", words, changed)
 
     def _fallbacks(self) -> Iterator[Remedy | None]:
-        """Long pauses and swings with a shorter step; then the same feet drawn anew."""
+        """Longer pauses and swings with a shorter step; then a standard gait in place of the drawing."""
         for margin in dict.fromkeys((self._raised, self._model.margin)):
             remedy = self._with_longer_swings(margin)
             if remedy is not None and remedy.gait.options.margin >= self._model.margin:
@@ -372,7 +372,7 @@ class Candidates:
         return None
 
     def _single_changes(self) -> Iterator[Remedy | None]:
-        """What else one number can do."""
+        """Changes of one other option: workspace, body height or clearance."""
         if self._asked.options.workspace is Workspace.CYLINDER:
             yield self._workspace()
         if not self._found:
@@ -422,11 +422,11 @@ class Candidates:
         return self._remedy(RemedyKind.NO_MARGIN, "Ask for no margin", words, gait, "Likely to tip.")
 
     def _at_best_margin(self, gait: Gait) -> Gait | None:
-        """The gait with the robot's own margin where that works, else with the one that is asked."""
+        """The gait with the robot's own margin if that works, else with the requested one, or None."""
         return self._first_at_best_margin([gait])
 
     def _first_at_best_margin(self, gaits: Sequence[Gait | None]) -> Gait | None:
-        """The first of some gaits that works with the robot's own margin, else with the one that is asked."""
+        """The first gait that works with the robot's own margin, else the first with the requested one."""
         for margin in dict.fromkeys((self._raised, self._asked.options.margin)):
             found = self._trial.first(None if gait is None else _margin(gait, margin) for gait in gaits)
             if found is not None:
@@ -436,7 +436,7 @@ class Candidates:
     def _remedy(
         self, kind: RemedyKind, label: str, words: str, gait: Gait, caution: str = ""
     ) -> Remedy | None:
-        """What is offered of a change; None where the whole motion is not found or not confirmed."""
+        """The remedy for a changed gait; None if the full live tier finds no confirmed motion."""
         motion = self._trial.solved(gait)
         if motion is None:
             return None

@@ -1,4 +1,4 @@
-"""Finishing a drawing by the rules of footfall patterns: what the pattern solver is asked, and its answer."""
+"""Finishes a drawing by the rules of footfall patterns: the pattern solver's problem, and its result."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ LABEL = "Finish the drawing for me"
 
 
 def completion_question(gait: Gait, model: RobotModel) -> PatternProblem | None:
-    """The search for footfalls near a drawing, in which each foot swings once an iteration.
+    """The problem of finding footfalls close to a drawing, with one swing for each foot and iteration.
 
     Args:
         gait: the drawing.
         model: its robot.
 
     Returns:
-        None where the drawing cannot be finished so, such as one whose iterations are not alike, or with feet
-        that are held in the air: the rules want a swing of every foot.
+        None if the drawing cannot be finished this way: its iterations differ, for example, or feet are held
+        in the air, while the rules require a swing of every foot.
     """
     if gait.held.any:
         return None
@@ -40,7 +40,7 @@ def completion_question(gait: Gait, model: RobotModel) -> PatternProblem | None:
 
 
 def completed_drawing(gait: Gait, model: RobotModel, stance: Bools) -> Gait:
-    """The gait with the footfalls that were found, in all its iterations.
+    """The gait with the footfalls of a solution in all its iterations.
 
     Args:
         gait: the drawing.
@@ -53,12 +53,12 @@ def completed_drawing(gait: Gait, model: RobotModel, stance: Bools) -> Gait:
 
 
 def completion_remedy(asked: Gait, gait: Gait, motion: MotionResult) -> Remedy:
-    """The remedy of a drawing that was finished.
+    """The remedy that offers a finished drawing.
 
     Args:
-        asked: the drawing before.
+        asked: the drawing before it was finished.
         gait: the finished drawing.
-        motion: of it.
+        motion: the motion of the finished drawing.
     """
     words = f"{order_words(gait)}, as near to your drawing as the rules of footfall patterns allow."
     margin = gait.options.margin
@@ -71,7 +71,7 @@ def _one_iteration(gait: Gait, model: RobotModel) -> Gait:
     """One iteration with its ends mended and the robot's own margin.
 
     Raises:
-        InputError: it cannot be cut out.
+        InputError: the gait cannot be reduced to one iteration.
     """
     mended = with_ends(gait).with_options(margin=max(gait.options.margin, model.margin))
     return mended if mended.iterations == 1 else with_iterations(mended, 1)

@@ -1,4 +1,4 @@
-"""A drawing's swings laid out anew in time, so that every one has the others to stand on."""
+"""Rearranges the swings of a drawing in time, so that the other feet stand during each of them."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from core.patterns.limits import needed_swing
 from core.problem.initial_guess import Indices
 
 MOST_ORDERS = 6
-"""Orders that are tried where several swings have their middles side by side."""
+"""Number of orders that are tried if several swings have nearly the same middle."""
 
 CLOSING = 5
-"""Samples of stance that a drawing gets which ends in the air."""
+"""Samples of stance that are added to a drawing that ends in the air."""
 
 MOST_SAMPLES = 240
-"""A drawing is not made longer than this."""
+"""Largest number of samples of a changed drawing."""
 
 
 @dataclass(frozen=True)
 class Item:
-    """Swings that keep their places to each other; mostly one."""
+    """Swings that are moved together; usually one."""
 
     swings: tuple[Swing, ...]
 
@@ -42,18 +42,18 @@ class Item:
 
     @property
     def length(self) -> int:
-        """Samples from the first to the last."""
+        """Number of samples from the first to the last."""
         return self.last - self.first + 1
 
     @property
     def middle(self) -> float:
-        """Between the first and the last."""
+        """Midpoint of the first and the last sample."""
         return (self.first + self.last) / 2
 
 
 @dataclass(frozen=True)
 class _Place:
-    """Where an item begins, and how long it lasts."""
+    """An item with its new first sample and length."""
 
     item: Item
     first: int
@@ -61,7 +61,7 @@ class _Place:
 
     @property
     def swings(self) -> tuple[Swing, ...]:
-        """The item's swings there."""
+        """The item's swings at this place."""
         if len(self.item.swings) == 1:
             return (Swing(self.item.swings[0].foot, self.first, self.first + self.length - 1),)
         shift = self.first - self.item.first
@@ -69,10 +69,10 @@ class _Place:
 
 
 def with_ends(gait: Gait) -> Gait:
-    """The gait with its ends mended: every foot that is not held up rests there.
+    """The gait with its ends mended: every foot that is not held up stands there.
 
-    A foot in the air at the first sample alone stands there; feet in the air at the last sample come down
-    in a closing stance, which is added unless cells are locked.
+    A foot that is in the air only at the first sample is made to stand there. If feet are in the air at the
+    last sample, a closing stance is added; if cells are locked, the feet stand at the last sample instead.
     """
     timeline = gait.timeline
     stance = timeline.stance.copy()
@@ -87,7 +87,10 @@ def with_ends(gait: Gait) -> Gait:
 
 
 def with_forgotten_feet(gait: Gait) -> Gait:
-    """The gait in which every foot that never swings, though the robot walks, swings behind the others."""
+    """The gait with a swing added at the end for every foot that has none and is not held up.
+
+    Nothing changes if no foot swings, cells are locked, or the gait neither steps nor turns.
+    """
     swinging = {swing.foot for swing in gait.timeline.swings()}
     walking = set(range(gait.timeline.leg_count)) - {foot - 1 for foot in gait.held.both}
     forgotten = sorted(walking - swinging)
@@ -103,9 +106,10 @@ def with_forgotten_feet(gait: Gait) -> Gait:
 
 
 def with_single_swings(gait: Gait) -> Gait:
-    """The gait in which each foot swings once an iteration at most; swings beside others are removed first.
+    """The gait in which each foot swings at most once an iteration.
 
-    Swings with locked cells stay, and so do those at the start and at the end.
+    Swings during which the fewest feet stand are removed first. Swings with locked cells stay, and so do
+    those at the start and at the end.
     """
     timeline = gait.timeline
     stance = timeline.stance.copy()
@@ -129,11 +133,11 @@ def with_single_swings(gait: Gait) -> Gait:
 
 
 def items_of(gait: Gait, together: Bools | None = None) -> list[Item]:
-    """The swings of a drawing but those of feet that are held up, by their middles.
+    """The swings of a drawing in the order of their middles, without those of feet that are held up.
 
     Args:
-        gait: whose timeline.
-        together: (samples,) where swings that overlap keep their places to each other; None for nowhere.
+        gait: the drawing.
+        together: (samples,) True where overlapping swings are moved together; None for nowhere.
     """
     last = gait.timeline.sample_count - 1
     swings = [
@@ -155,15 +159,15 @@ def items_of(gait: Gait, together: Bools | None = None) -> list[Item]:
 
 
 def one_after_the_other(gait: Gait, items: Sequence[Item], gap: int) -> Gait | None:
-    """The same swings in the same time, none beside another, with as few changed cells as can be.
+    """The same swings in the same time without overlap, with as few changed cells as possible.
 
     Args:
         gait: the drawing; its locked cells stay as they are.
         items: of `items_of`.
-        gap: samples of stance between two of them, and at both ends.
+        gap: samples of stance between two items, and at both ends.
 
     Returns:
-        None where they have no room.
+        None if the items do not fit.
     """
     layout = _Layout(gait.timeline, gap, needed_swing(gait), *_room(gait))
     found = [placed for order in _orders(items) if (placed := layout.placed(order)) is not None]
@@ -174,7 +178,7 @@ def one_after_the_other(gait: Gait, items: Sequence[Item], gap: int) -> Gait | N
 
 
 def _room(gait: Gait) -> tuple[int, int]:
-    """First and last sample beside the swings of feet that are held up at one end."""
+    """First and last sample that are free of the swings of feet held up at one end."""
     first, last = 0, gait.timeline.sample_count - 1
     end = last
     for swing in gait.timeline.swings():
@@ -193,11 +197,11 @@ def longer(gait: Gait, items: Sequence[Item], gap: int, least: int = 0) -> Gait 
     Args:
         gait: a drawing without locked cells. Feet that are held at one end swing there as before.
         items: of `items_of`.
-        gap: samples of stance between two of them at least, and at both ends.
-        least: samples of every swing at least, beside what the step needs.
+        gap: least samples of stance between two items, and at both ends.
+        least: least samples of each swing, unless the step needs more.
 
     Returns:
-        None where cells are locked, nothing swings, or the gait would be too long.
+        None if cells are locked, nothing swings, or the gait would be too long.
     """
     if gait.timeline.locked.any() or not items:
         return None
@@ -218,7 +222,7 @@ def longer(gait: Gait, items: Sequence[Item], gap: int, least: int = 0) -> Gait 
 
 
 def _orders(items: Sequence[Item]) -> Iterator[list[Item]]:
-    """Orders of items; those whose middles are side by side change places."""
+    """Orders of items; items with nearly the same middle are permuted."""
     groups: list[list[Item]] = []
     for item in items:
         if groups and item.middle - groups[-1][0].middle <= 1:
@@ -230,7 +234,7 @@ def _orders(items: Sequence[Item]) -> Iterator[list[Item]]:
 
 
 class _Layout:
-    """Places items one behind the other by a dynamic programme over the sample at which each ends."""
+    """Places items one after the other, by dynamic programming over the sample at which each ends."""
 
     def __init__(self, timeline: ContactTimeline, gap: int, least: int, first: int, last: int) -> None:
         self._timeline = timeline
@@ -238,7 +242,7 @@ class _Layout:
         self._gap, self._least = max(gap, 1), least
 
     def placed(self, items: Sequence[Item]) -> tuple[float, list[_Place]] | None:
-        """How many cells change at least, and the places; None where there is no room."""
+        """The least number of changed cells and the places that need it; None if the items do not fit."""
         samples = self._timeline.sample_count
         reached = np.zeros(samples)
         chosen: list[tuple[Item, Floats, Indices]] = []
@@ -248,7 +252,7 @@ class _Layout:
                 starts = np.arange(self._from + self._gap, self._to + 1 - self._gap - length + 1)
                 if not len(starts):
                     continue
-                # Nothing stands before the first item, and no other begins at the very first sample.
+                # The first item has no item before it; no later one can begin at the earliest start.
                 before = reached[starts - 1 - self._gap] if chosen else np.zeros(len(starts))
                 before = np.where(starts > self._from + self._gap, before, np.inf if chosen else 0.0)
                 total, ends = before + self._cost(item, starts, length), starts + length - 1
@@ -267,7 +271,7 @@ class _Layout:
         return range(self._least, max(item.length, self._least) + 1)
 
     def _cost(self, item: Item, starts: Indices, length: int) -> Floats:
-        """Changed cells for each start; infinite where a locked one would change."""
+        """Number of changed cells for each start; infinite if a locked cell would change."""
         total = np.zeros(len(starts))
         for swing in item.swings:
             drawn = np.zeros(self._timeline.sample_count)
@@ -292,13 +296,13 @@ class _Layout:
 
 
 def _sums(flags: Floats, first: Indices, count: int) -> Floats:
-    """Sums of flags in windows of so many samples."""
+    """Sums of flags over `count` samples from each of the first ones."""
     sums = np.concatenate([[0.0], np.cumsum(flags)])
     return np.asarray(sums[first + count] - sums[first])
 
 
 def _laid(gait: Gait, places: Sequence[_Place], samples: int) -> Bools:
-    """The stance with swings in their places; those of feet that are held up stay where they were drawn."""
+    """The stance with the items in their places; swings of feet that are held up stay at their end."""
     stance = np.ones((gait.timeline.leg_count, samples), dtype=np.bool_)
     moved = {swing for place in places for swing in place.item.swings}
     count = gait.timeline.sample_count
@@ -315,7 +319,7 @@ def _laid(gait: Gait, places: Sequence[_Place], samples: int) -> Bools:
 
 
 def _with(gait: Gait, stance: Bools) -> Gait:
-    """The gait with another drawing; locks stay where it has as many samples."""
+    """The gait with another drawing; locks are kept if the number of samples is the same."""
     same = stance.shape == gait.timeline.locked.shape
     locked = gait.timeline.locked if same else np.zeros(stance.shape, dtype=np.bool_)
     return replace(gait, timeline=ContactTimeline(stance, locked, gait.timeline.sample_time))

@@ -1,4 +1,4 @@
-"""How far one number of a gait can go while everything else stays: step, turn, margin or clearance."""
+"""The largest step, turn, margin or clearance of a gait, with everything else unchanged."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from solver_jobs.remedies.trial import InterruptedSearchError, Trial
 
 
 class Limit(StrEnum):
-    """The number that is looked at."""
+    """The number whose largest value is sought."""
 
     STEP = "step"
     TURN = "turn"
@@ -29,20 +29,20 @@ _RANGES = {
     Limit.MARGIN: (0.0, 0.030, 1e-4),
     Limit.CLEARANCE: (0.0005, 0.015, 1e-4),
 }
-"""Least and most that is tried, and the unit of the answer, m and rad."""
+"""Least and largest value that are tried, and the unit of the result, m and rad."""
 
 
 def largest_value(gait: Gait, model: RobotModel, which: Limit, go_on: Callable[[], bool]) -> float | None:
-    """The largest value of a number with which the live tier finds a motion, m or rad.
+    """The largest value of a number for which the live tier finds a motion, m or rad.
 
     Args:
-        gait: a drawing; its own value of the number plays no part, but for the sign of a turn.
+        gait: a drawing; its own value of the number is ignored, except for the sign of a turn.
         model: its robot.
         which: the number.
-        go_on: asked before each try; false ends the search.
+        go_on: called before each trial; False ends the search.
 
     Returns:
-        None where even a small value does not work, or the search was ended.
+        None if even the least value does not work, or the search was ended.
     """
     least, most, unit = _RANGES[which]
     trial = Trial(model, go_on)

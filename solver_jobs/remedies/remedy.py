@@ -1,4 +1,4 @@
-"""A remedy: a changed gait with what it gives, and which remedies come first."""
+"""A remedy is a changed gait with its motion; the order and the texts of remedies."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from core.robot.model import RobotModel
 from solver_jobs.results.motion import MotionResult
 
 MOST_REMEDIES = 4
-"""Remedies that a person is offered."""
+"""Number of remedies that a person is offered."""
 
 MOST_NAMED = 8
-"""Swings whose feet a sentence names one by one."""
+"""Up to this number of swings, a sentence names the foot of each."""
 
 SHORT_SWING = 4
-"""Swings that were made this short or shorter tip more easily."""
+"""Swings that are shortened to this length or less tip more easily, samples."""
 
 
 class RemedyKind(StrEnum):
@@ -43,11 +43,11 @@ class Trouble(StrEnum):
     """What is wrong with a drawing."""
 
     SHAPE = "shape"
-    """Overlapping swings, short ones, feet without one."""
+    """Swings overlap or are too short, or a foot has none."""
     STEP = "step"
     MARGIN = "margin"
     TIPS = "tips"
-    """It has a motion, but physics says that it does not walk."""
+    """The gait has a motion but does not walk in physics."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,12 +55,12 @@ class Remedy:
     """A changed gait that the live tier solves.
 
     Args:
-        kind: what is changed.
-        label: text of a button.
-        sentence: what it does, and its price.
-        gait: the changed document.
-        motion: of the changed document.
-        caution: why it comes last; empty for every other one.
+        kind: what the remedy changes.
+        label: text of its button.
+        sentence: what it does, and what it costs.
+        gait: the changed gait.
+        motion: the motion of the changed gait.
+        caution: why the remedy ranks last; empty for a remedy that does not.
     """
 
     kind: RemedyKind
@@ -73,12 +73,12 @@ class Remedy:
 
 @dataclass(frozen=True, eq=False)
 class RemedySearch:
-    """What a search for remedies found.
+    """The result of a search for remedies.
 
     Args:
-        found: best first.
-        complete: whether it was not cut short.
-        trouble: what is wrong with the gait; None where that was not found out.
+        found: the remedies, best first.
+        complete: whether the search ran to its end.
+        trouble: what is wrong with the gait; None if that is not known.
     """
 
     found: tuple[Remedy, ...]
@@ -87,12 +87,12 @@ class RemedySearch:
 
     @property
     def remedies(self) -> tuple[Remedy, ...]:
-        """Those that a person is offered, best first."""
+        """The remedies that a person is offered, best first."""
         return self.found[:MOST_REMEDIES]
 
 
 def nothing_words(gait: Gait) -> str:
-    """The sentence for a drawing that no change helps, with what limited the search."""
+    """The text for a drawing without a remedy, with what limited the search."""
     limits = []
     if gait.timeline.locked.any():
         limits.append(
@@ -106,12 +106,15 @@ def nothing_words(gait: Gait) -> str:
 
 
 def rank(asked: Gait, model: RobotModel, remedy: Remedy) -> tuple[bool, bool, float]:
-    """Smaller is better: caution and too small a margin last; then what is lost, and how much changes.
+    """Sort key of a remedy; smaller is better.
+
+    Remedies with a caution come last, and before them those with less than the robot's own margin. The rest
+    is sorted by the losses of distance, swings and margin and by how much of the drawing changes.
 
     Args:
-        asked: the gait before.
+        asked: the gait before the change.
         model: its robot.
-        remedy: what is offered.
+        remedy: the remedy to rank.
     """
     gait = remedy.gait
     way = way_of(asked)
@@ -125,7 +128,7 @@ def rank(asked: Gait, model: RobotModel, remedy: Remedy) -> tuple[bool, bool, fl
 
 
 def _effort(asked: Gait, gait: Gait) -> float:
-    """Share of the drawing that changes."""
+    """How much of the drawing changes, as a share; swings that become short count extra."""
     before, after = asked.timeline, gait.timeline
     if before.sample_count != after.sample_count:
         return 0.15 + abs(after.sample_count - before.sample_count) / before.sample_count
@@ -142,12 +145,12 @@ def step_length(gait: Gait) -> float:
 
 
 def way_of(gait: Gait) -> float:
-    """How far, m, or how much round, rad, all iterations go."""
+    """Distance that all iterations cover, m; for a gait that only turns, the total angle, rad."""
     return (step_length(gait) or abs(gait.step[2])) * gait.iterations
 
 
 def duration_words(gait: Gait) -> str:
-    """How long a gait takes as drawn."""
+    """Duration of a gait as drawn, as text."""
     return f"{(gait.timeline.sample_count - 1) * gait.timeline.sample_time:.1f} s"
 
 
@@ -157,7 +160,7 @@ def is_one_by_one(gait: Gait) -> bool:
 
 
 def order_words(gait: Gait) -> str:
-    """Feet in the order of their swings, such as “Feet 3, 2, 4, 1”, or “Feet 1 + 4, 2 + 3” with overlaps."""
+    """Feet in the order of their swings: “Feet 3, 2, 4, 1”, or “Feet 1 + 4, 2 + 3” if swings overlap."""
     groups = _groups(gait)
     count = sum(len(group) for group in groups)
     if count <= MOST_NAMED:
@@ -168,7 +171,7 @@ def order_words(gait: Gait) -> str:
 
 
 def _groups(gait: Gait) -> list[list[Swing]]:
-    """Swings in the order of their first samples; those that overlap in time are one group."""
+    """Swings in the order of their first samples; swings that overlap in time form one group."""
     groups: list[list[Swing]] = []
     end = -1
     for swing in sorted(gait.timeline.swings(), key=lambda swing: (swing.first, swing.foot)):

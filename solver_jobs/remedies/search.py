@@ -1,4 +1,4 @@
-"""The search for what would make a drawing walk."""
+"""The search for changes that make a drawing walk."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ def find_remedies(
     *,
     tips: bool = False,
 ) -> RemedySearch:
-    """Looks for changes that make a gait walk.
+    """Finds changes that make a gait walk.
 
     Args:
-        gait: one that has no motion, or one that tips in physics.
+        gait: a gait without a motion, or one that tips in physics.
         model: its robot.
-        go_on: asked before each try; false ends the search with what was found.
-        tell: told of each remedy as it is found.
-        tips: whether the gait has a motion and tips.
+        go_on: called before each trial; False ends the search with the remedies found so far.
+        tell: called with each remedy as soon as it is found.
+        tips: whether the gait has a motion but tips in physics.
     """
     candidates = Candidates(gait, model, Trial(model, go_on), tips=tips)
     found: list[Remedy] = []

@@ -1,4 +1,4 @@
-"""Trials of changed gaits by the live tier: does it work, and up to which value?"""
+"""Trials of changed gaits with the live tier: whether a gait works, and the largest value that works."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from core.robot.model import RobotModel
 from solver_jobs.results.motion import Lack, MotionResult, SolveStatus
 
 SIDES = 32
-"""Edges of the polygons that stand for discs here: within half a per cent."""
+"""Edges of the polygons that approximate discs in trials; the error is below half a per cent."""
 
 
 class InterruptedSearchError(Exception):
-    """Something else is asked meanwhile."""
+    """The search was ended before it was complete."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,7 +26,7 @@ class Trial:
 
     Args:
         model: the robot.
-        go_on: asked before each try; false ends the search.
+        go_on: called before each trial; False ends the search.
     """
 
     model: RobotModel
@@ -34,10 +34,10 @@ class Trial:
     _known: list[tuple[Gait, bool]] = field(default_factory=list)
 
     def works(self, gait: Gait) -> bool:
-        """Whether the live tier solves a gait quickly and the checker confirms it.
+        """Whether the live tier's quick solve finds a motion that the checker confirms.
 
         Raises:
-            InterruptedSearchError: the search shall end.
+            InterruptedSearchError: `go_on` returned False.
         """
         if not self.go_on():
             raise InterruptedSearchError
@@ -59,7 +59,7 @@ class Trial:
         return motion is not None and check_motion(problem, motion).confirmed
 
     def solved(self, gait: Gait) -> MotionResult | None:
-        """A gait's motion by the whole live tier; None where there is none that the checker confirms."""
+        """The motion of a gait by the full live tier; None if the checker confirms none."""
         from core.problem.motion_check import check_motion
         from solver_jobs.live.solve import solve_live
 
@@ -72,7 +72,7 @@ class Trial:
         return result if confirmed else None
 
     def lacks(self, gait: Gait) -> tuple[Lack, ...]:
-        """What the live tier finds missing in a gait."""
+        """What a gait lacks for a motion, as found by the live tier."""
         from solver_jobs.live.solve import solve_live
 
         try:
@@ -81,7 +81,7 @@ class Trial:
             return ()
 
     def best_margin(self, gait: Gait, most: float) -> float | None:
-        """About the largest margin of a gait up to `most`, m; None where there is none."""
+        """Estimate of the largest margin of a gait, at most `most`, m; None if there is none."""
         from solver_jobs.live.best_margin import best_margin
 
         try:
@@ -97,21 +97,21 @@ class Trial:
         unit: float,
         near: float | None = None,
     ) -> float | None:
-        """The largest value that works: `most`, `least`, or whole units between; None where none works.
+        """The largest value that works: `most`, `least`, or a multiple of `unit` between; None if none works.
 
         Args:
-            least: not less than this.
-            most: not more than this.
-            change: the gait with a value.
-            unit: of the values between.
-            near: where the answer is likely; only there is it looked for first.
+            least: the least value.
+            most: the largest value.
+            change: returns the gait with a value.
+            unit: step between two values.
+            near: a likely result, at which the search starts; None to start at `most`.
         """
         first, last = int(np.floor(least / unit + 1e-9)), int(np.ceil(most / unit - 1e-9))
 
         def value(number: int) -> float:
             return most if number >= last else least if number <= first else number * unit
 
-        # `low` works and `high` does not, or they lie beyond the ends.
+        # Invariant: `low` works or lies below the range; `high` fails or lies above it.
         low, high = first - 1, last + 1
         number = last if near is None else int(np.clip(near // unit, first, last))
         stride = max(last - first, 1) if near is None else 1

@@ -103,8 +103,16 @@ def run_live_worker(pipe: Connection, warm_up: MotionProblem | None) -> None:
         return
 
 
+class _PutOffError(Exception):
+    """A limit that waits until remedies are found."""
+
+
 class _Worker:
-    """Answers plans at once, also while it searches; searches one after the other."""
+    """Answers plans at once, also while it searches; searches one after the other.
+
+    Remedies come before limits, which begin anew after them: whoever waits for a remedy has a gait that
+    cannot walk, and a limit is often of the edit that led there.
+    """
 
     def __init__(self, pipe: Connection) -> None:
         self._pipe = pipe
@@ -116,9 +124,14 @@ class _Worker:
         while True:
             while not self._waiting or self._pipe.poll():
                 self._receive()
-            search = self._waiting.popleft()
-            self._reply(search)
-            self._ended.discard(search.number)
+            search = next(filter(_is_first, self._waiting), self._waiting[0])
+            self._waiting.remove(search)
+            try:
+                self._reply(search)
+            except _PutOffError:
+                self._waiting.append(search)
+            else:
+                self._ended.discard(search.number)
 
     def _receive(self) -> None:
         message: Question | EndSearch = self._pipe.recv()
@@ -133,6 +146,8 @@ class _Worker:
     def _reply(self, message: Question) -> None:
         try:
             reply = Answered(message.number, self._answer(message))
+        except _PutOffError:
+            raise
         except Exception as error:
             # A bug in one answer must not end the process; the parent logs it and says so.
             reply = Answered(message.number, None, f"{error!r}\n{traceback.format_exc()}")
@@ -151,6 +166,8 @@ class _Worker:
         def go_on() -> bool:
             while self._pipe.poll():
                 self._receive()
+            if isinstance(message, FindLimit) and any(map(_is_first, self._waiting)):
+                raise _PutOffError
             return number not in self._ended
 
         if isinstance(message, FindLimit):
@@ -162,3 +179,7 @@ class _Worker:
             lambda remedy: self._pipe.send(Found(number, remedy)),
             tips=message.tips,
         )
+
+
+def _is_first(search: Search) -> bool:
+    return isinstance(search, FindRemedies)

@@ -1,4 +1,4 @@
-/** What would help a drawing that cannot walk: a row a remedy, best first, each shown where it leads before it is taken. */
+/** The list of remedies for a drawing that cannot walk, best first. Pointing at a row previews its result. */
 
 import { h, setAttribute, setText } from "../lib/dom.js";
 import { fixed, mm } from "../lib/format.js";
@@ -6,14 +6,14 @@ import { footfalls } from "../shell/footfalls.js";
 
 const NO_PHYSICS = { text: "Being tried in physics…", tone: null, title: null };
 
-/** What physics says of a remedy, in a few words. */
+/** The result of the physics trial of a remedy, as a short text. */
 function physicsWords({ physics, caution }, isTrying) {
   if (!physics) return isTrying ? NO_PHYSICS : { text: caution, tone: "caution", title: null };
   if (physics.walks === null) return { text: "Physics gave no result.", tone: "caution", title: physics.sentence };
   return physics.walks ? { text: "Walks in physics.", tone: "good", title: null } : { text: "Does not walk in physics.", tone: "caution", title: physics.sentence };
 }
 
-/** A row, which keeps its place while what is known of it grows. */
+/** A row for a remedy; `update` shows new results in place. */
 function row(remedy, { use, show, end }) {
   const { label, sentence, document, robot_seconds: robotSeconds } = remedy;
   const [margin, physics] = [h("span", { class: "number remedy-margin" }), h("span", {})];
@@ -33,7 +33,7 @@ function row(remedy, { use, show, end }) {
   };
 }
 
-/** Labels in the order in which they are shown: under a pointer or the focus no row changes its place. */
+/** Labels in the order of their rows; while the list has the pointer or the focus, no row changes its place. */
 function orderOf(labels, shown, isHeld) {
   if (!isHeld) return labels;
   const kept = shown.filter((label) => labels.includes(label));
@@ -72,14 +72,14 @@ export function remedyList(acts) {
       };
       [...rows.keys()].filter((label) => !labels.includes(label)).forEach(remove);
       for (const remedy of known.list) {
-        // A row is of one document: the same words may stand for another one after an edit.
+        // After an edit the same label may belong to another document: build its row again.
         const text = JSON.stringify(remedy.document);
         if (rows.has(remedy.label) && rows.get(remedy.label).text !== text) remove(remedy.label);
         if (!rows.has(remedy.label)) rows.set(remedy.label, { text, ...row(remedy, acts) });
         rows.get(remedy.label).update(remedy, known.trying);
       }
       shown = orderOf(labels, shown, isHeld);
-      // A row that is in its place is not moved, which would take the focus and a click that is under way.
+      // Leave a row that is in its place alone: moving it would lose the focus and a click in progress.
       shown.forEach((label, index) => {
         const { element } = rows.get(label);
         if (list.children[index] !== element) list.insertBefore(element, list.children[index] ?? null);

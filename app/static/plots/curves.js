@@ -1,8 +1,8 @@
-/** Curves of a strip plot: values over time as path data, as fine as the pixels and no finer. */
+/** Curves of a strip plot: values over time as path data, no finer than the pixels. */
 
 import { fractionAt } from "../state/time_axis.js";
 
-/** Width and height of a strip's drawing, stretched over its box. */
+/** Width and height of a strip's drawing before it is stretched to its box. */
 export const WIDTH = 1000;
 export const HEIGHT = 100;
 
@@ -10,14 +10,14 @@ const MOST_POINTS = 2 * WIDTH;
 const tenth = (value) => Math.round(value * 10) / 10;
 const isKnown = (value) => value !== null && Number.isFinite(value);
 
-/** Part of the height that stays free above and below the values. */
+/** Share of the values' span that stays free above and below them. */
 const ROOM = 0.1;
 
 /**
- * A scale: value to place, 0 (top) … HEIGHT (bottom).
+ * A scale: maps a value to a height in the drawing, 0 (top) to HEIGHT (bottom).
  * @param {number} low least value
  * @param {number} high greatest value
- * @param {{top: number, bottom: number}} [band] the part of the height for them
+ * @param {{top: number, bottom: number}} [band] the part of the height that the scale uses
  */
 export function scaleOf(low, high, { top, bottom } = { top: 0, bottom: HEIGHT }) {
   const room = (high - low || 1) * ROOM;
@@ -26,7 +26,7 @@ export function scaleOf(low, high, { top, bottom } = { top: 0, bottom: HEIGHT })
 
 const STEPS = [1, 2, 5, 10];
 
-/** Round values from `low` to `high`, no more than `most` of them. */
+/** At most `most` round values from `low` to `high`. */
 export function ticksOf(low, high, most) {
   const span = high - low;
   if (!(span > 0) || most < 1) return [];
@@ -38,8 +38,8 @@ export function ticksOf(low, high, most) {
 }
 
 /**
- * Where a plan's samples lie across the drawing.
- * @returns {{x: Float64Array, first: number, last: number}} `first` to `last` are those in view and one beyond each end
+ * Horizontal places of a plan's samples in the drawing.
+ * @returns {{x: Float64Array, first: number, last: number}} `first` to `last`: those in view and one beyond each end
  */
 export function acrossOf(axis, times) {
   const x = Float64Array.from(times, (time) => fractionAt(axis, time) * WIDTH);
@@ -50,7 +50,7 @@ export function acrossOf(axis, times) {
   return { x, first, last };
 }
 
-/** Path through the values in view; a value that is not known breaks the line. */
+/** Path through the values in view; a missing value breaks the line. */
 export function pathOf(across, valueAt, scale) {
   const { first, last } = across;
   return last - first > MOST_POINTS ? thinned(across, valueAt, scale) : plain(across, valueAt, scale, first, last);
@@ -68,7 +68,7 @@ function plain({ x }, valueAt, scale, first, last) {
   return path;
 }
 
-/** With more samples than pixels: the least and the greatest value of each pixel's samples. */
+/** Path for more samples than pixels: the least and the greatest value in each pixel. */
 function thinned({ x, first, last }, valueAt, scale) {
   let path = "";
   let open = false;
@@ -90,7 +90,7 @@ function thinned({ x, first, last }, valueAt, scale) {
   return path;
 }
 
-/** Least and greatest known value of some series, [Infinity, -Infinity] where there is none. */
+/** Least and greatest known value of some series; [Infinity, -Infinity] if there is none. */
 export function rangeOf(series, count) {
   let [low, high] = [Infinity, -Infinity];
   for (const { valueAt } of series) {

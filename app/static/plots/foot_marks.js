@@ -1,4 +1,4 @@
-/** The marks that go with the feet's colours, as on the page (base.css): disc, square, triangle, diamond. */
+/** The marks of the feet, as elsewhere on the page (base.css): disc, square, triangle, diamond. */
 
 const CORNERS = [
   null,
@@ -7,7 +7,7 @@ const CORNERS = [
   [[0, -1.15], [1.15, 0], [0, 1.15], [-1.15, 0]],
 ];
 
-/** Corners of a foot's mark around [x, y], `r` its half width; null for a disc. */
+/** Corners of a foot's mark around [x, y] with half width `r`; null for a disc. */
 const cornersAt = (foot, x, y, r) => CORNERS[foot % CORNERS.length]?.map(([dx, dy]) => [x + r * dx, y + r * dy]) ?? null;
 
 /** A foot's mark as SVG text. */

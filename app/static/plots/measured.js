@@ -3,13 +3,13 @@
 import { acrossOf, pathOf } from "./curves.js";
 import { simulationOver, traceOf } from "../state/simulation.js";
 
-/** The strips of a run: its rows, and how many values of a row belong to a foot; none for the body. */
+/** Strips with measured curves: the field of the run, and its values per foot in a row (0: one value for the body). */
 const OVER = { strokes: { of: "measured_mm", aFoot: 3 }, heights: { of: "foot_heights_mm", aFoot: 1 }, margin: { of: "margins_mm", aFoot: 0 } };
 
-/** Long dashes, in every strip: what was measured is solid, what was planned dotted. */
+/** Simulated curves have long dashes; measured ones are solid, planned ones dotted. */
 const SIMULATED_DASH = [8, 3];
 
-/** A run's telemetry an iteration of the plan: the plan's times, which grow, with what was measured then. */
+/** A run's telemetry, split into iterations of the plan: in each, the plan's times rise, with the values measured then. */
 function iterations({ plan_times: times, laps }, values) {
   const byLap = new Map();
   times.forEach((time, index) => {
@@ -24,7 +24,7 @@ function iterations({ plan_times: times, laps }, values) {
 
 const known = new WeakMap();
 
-/** What a run draws over a strip, or null. */
+/** The values of a run that belong to a strip, or null. */
 function measuredOf(run, strip) {
   const values = run?.[OVER[strip]?.of];
   if (!values) return null;
@@ -32,14 +32,14 @@ function measuredOf(run, strip) {
   return known.get(values);
 }
 
-/** What was measured of the shown gait, by the run that is on or else by the one that is open; or null. */
+/** Measured values of the shown gait: from the run in progress, else from the opened run; or null. */
 export function runOver({ run, trace, selected, iterate }) {
   if (iterate) return null;
   if (trace?.gait === selected) return trace;
   return run?.strokes && run.gait === selected ? run.strokes : null;
 }
 
-/** The curves over a strip, the run's on top: each with its name and its line style. */
+/** Simulated, then measured values for a strip, each with its name and its line style. */
 export function oversOf(state, strip) {
   const [simulated, measured] = [measuredOf(traceOf(simulationOver(state)), strip), measuredOf(runOver(state), strip)];
   return [simulated && { ...simulated, word: "simulated", dash: SIMULATED_DASH }, measured && { ...measured, word: "measured", dash: [] }].filter(Boolean);
@@ -51,7 +51,7 @@ export function measuredRange({ laps }) {
   return values.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [Infinity, -Infinity]);
 }
 
-/** A curve a foot, as `stripCanvas` takes them; `scaleFor(foot)` is the scale of a foot. */
+/** One curve for each foot, as `stripCanvas` takes them; `scaleFor(foot)` returns the scale of a foot. */
 export function measuredCurves({ laps, aFoot, dash }, axis, scaleFor) {
   const each = aFoot || 1;
   const feet = Math.ceil((laps[0]?.rows[0].length ?? 0) / each);

@@ -1,4 +1,4 @@
-/** The card under the pointer: the time, and the values of all feet at it. */
+/** The card at the pointer: a time, and the values of all feet at that time. */
 
 import { MOTORS, fixed } from "../lib/format.js";
 import { h, setText } from "../lib/dom.js";
@@ -13,7 +13,7 @@ function footRow(foot, role) {
   return { row, cells };
 }
 
-/** Builds the card in `place`; it is shown by `show` and hidden by `hide`. */
+/** Builds the card in `place`; `show` shows it, `hide` hides it. */
 export function plotCard(place) {
   const [time, robot, note] = [h("b", {}), h("span", { class: "quiet" }), h("p", { class: "quiet" })];
   const body = h("tbody", {});
@@ -30,7 +30,7 @@ export function plotCard(place) {
     body.replaceChildren(...rows.map(({ row }) => row));
   }
 
-  /** Beside the pointer, inside the window. */
+  /** Places the card beside the pointer, inside the window. */
   function put({ clientX, clientY }) {
     const { offsetWidth: width, offsetHeight: height } = element;
     const left = clientX + AWAY_PX + width > window.innerWidth ? clientX - AWAY_PX - width : clientX + AWAY_PX;
@@ -41,8 +41,8 @@ export function plotCard(place) {
   return {
     /**
      * @param {{clientX: number, clientY: number}} event of the pointer
-     * @param {object} values `time`, `robotTime` (null for none), `roles`, `lifts` and `strokes` (mm; null for none), `margin` (mm), `nearest`
-     *   ({foot, motor} under the pointer) and `note`
+     * @param {object} values `time`, `robotTime` (null for none), `roles`, `lifts` and `strokes` (mm; null for none),
+     *   `margin` (mm), `nearest` ({foot, motor} under the pointer) and `note`
      */
     show(event, { time: seconds, robotTime, roles, lifts, strokes, margin: room, nearest, note: words }) {
       fit(roles);

@@ -1,4 +1,4 @@
-/** A strip plot as a file: a picture (SVG, PNG) with its axes, or its values (CSV). */
+/** A strip plot as a file: a picture with axes (SVG, PNG), or the values (CSV). */
 
 import { MOTORS } from "../lib/format.js";
 import { h } from "../lib/dom.js";
@@ -10,7 +10,7 @@ import { lineNames } from "./strip_picture.js";
 
 const SIZE = { width: 960, height: 260, left: 70, right: 90, top: 44, bottom: 44 };
 const PNG_SCALE = 2;
-/** A printed sheet is light, whatever the page is. */
+/** Colours of the picture: light for print, also when the page is dark. */
 const INK = { text: "#161b22", quiet: "#5f6978", grid: "#e2e5ea", border: "#8a929f", fine: "#0b7470", limit: "#b3145f", wanted: "#7d5a00", grey: "#8a929f" };
 const SHEET = "#ffffff";
 /** The page's own colours of feet (see base.css). */
@@ -36,7 +36,7 @@ function axisLabels(axis, width, bottom) {
   return labels;
 }
 
-/** The curves in their own drawing, stretched over the plot; lines keep their thickness. */
+/** The curves as a drawing that is stretched over the plot; lines keep their thickness. */
 function curveLayer({ curves }, width, height, colour) {
   const path = ({ d, tone, width: line, dash, offset = 0 }) => d && `<path d="${d}" fill="none" stroke="${colour(tone)}" stroke-width="${line}" vector-effect="non-scaling-stroke"${dash?.length ? ` stroke-dasharray="${dash.join(" ")}" stroke-dashoffset="${offset}"` : ""}/>`;
   return `<svg x="${SIZE.left}" y="${SIZE.top}" width="${width}" height="${height}" viewBox="0 0 ${WIDTH} ${HEIGHT}" preserveAspectRatio="none">${curves.map(path).join("")}</svg>`;
@@ -93,7 +93,7 @@ async function png(source) {
 const columnName = ({ unit }, { foot, motor }) => [foot === null ? "value" : `foot ${foot + 1}`, motor === null ? "" : `motor ${motor + 1}`].filter(Boolean).join(" ") + `, ${unit}`;
 const number = (value) => ((value ?? null) === null || !Number.isFinite(value) ? "" : String(Number(value.toFixed(6))));
 
-/** Every value of the strip: a row a sample, first what was planned, then what lies over it. */
+/** Every value of the strip, one row for each sample: the planned values, then the simulated and the measured ones. */
 export function plotCsv({ kind, content, plan, overs }) {
   const { series } = content;
   const lines = [["curve", "plan_s", "robot_s", ...series.map((one) => columnName(kind, one))].map((name) => (name.includes(",") ? `"${name}"` : name)).join(",")];
@@ -116,11 +116,11 @@ const FORMS = {
 async function save(form, drawn) {
   const address = URL.createObjectURL(await FORMS[form](drawn));
   h("a", { href: address, download: `${drawn.gait} ${drawn.kind.name.toLowerCase()}.${form.toLowerCase()}` }).click();
-  // The download has begun by then.
+  // By then the download has begun.
   setTimeout(() => URL.revokeObjectURL(address), 1000);
 }
 
-/** Buttons that save a plot, a form each; `drawn()` is what `plotSvg` and `plotCsv` take, or null. */
+/** Buttons that save a plot, one for each format; `drawn()` returns the argument of `plotSvg` and `plotCsv`, or null. */
 export function saveButtons(kind, drawn) {
   const help = { SVG: "a picture for papers", PNG: "a picture for slides", CSV: "every value, a row a sample" };
   return h("div", { class: "plot-save", role: "group", "aria-label": `Save ${kind.name}` }, ...Object.keys(FORMS).map((form) => h("button", {

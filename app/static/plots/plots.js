@@ -1,4 +1,4 @@
-/** Strip plots under the timeline, on its time axis: which are shown, their curves, and the figures under the pointer. */
+/** Strip plots under the timeline, on its time axis: the choice of strips, their curves, and the values under the pointer. */
 
 import { axisKey, axisOf, fractionAt, timeAt } from "../state/time_axis.js";
 import { checkMenu } from "../lib/check_menu.js";
@@ -18,7 +18,7 @@ import { APART, lineNames, rulesOf, stripPicture } from "./strip_picture.js";
 import { STRIPS, valuesAt } from "./strips.js";
 import { GREY, drawnPlan, greyOf } from "../state/worked_plan.js";
 
-/** Height of a foot's row in a plot that has one for each, px. */
+/** Height of a foot's row in a plot with a row for each foot, px. */
 const laneHeight = (feet) => (feet <= 4 ? 24 : feet <= 6 ? 18 : 12);
 
 const atHeight = (element, y) => {
@@ -27,7 +27,7 @@ const atHeight = (element, y) => {
 };
 const tickText = (value) => String(Number(value.toFixed(2)));
 
-/** The texts at the right of a plot, none on another and none beyond its ends. */
+/** The texts at the right of a plot, without overlap and inside the plot. */
 function namedTexts(named) {
   const sorted = named.toSorted((a, b) => a.y - b.y);
   const places = sorted.map(({ y }) => y);
@@ -39,14 +39,14 @@ function namedTexts(named) {
   });
 }
 
-/** Builds children anew only where they differ: while a finger drags, most of them stay. */
+/** Replaces an element's children only when the key changes; during a drag most stay the same. */
 function keep(element, key, build) {
   if (element.dataset.key === key) return;
   element.dataset.key = key;
   element.replaceChildren(...build());
 }
 
-/** Draws a strip; returns what the pointer and the files need. */
+/** Draws a strip; returns the data for the pointer's card and for saved files. */
 function draw(row, content, view) {
   const picture = stripPicture(content, view);
   const { named, ticks, range, bands } = picture;
@@ -88,14 +88,14 @@ function showSentence(row, sentence) {
   setAttribute(row.strip, "aria-label", `${row.kind.name}: ${sentence || "nothing to show."}`);
 }
 
-/** What is said where there is nothing to draw. */
+/** The text of a strip that has nothing to draw. */
 function emptyWords(state, plan) {
   if (!state.view) return "";
   if (isRefusedDrawing(state)) return "No motion: the inspector says why.";
   return plan?.refusal ? "No motion: the reason stands at the timeline." : "No plan yet.";
 }
 
-/** One legend for all plots: what each kind of line is. */
+/** Shows the legend of all plots: a name for each line style. */
 function showLegend(key, names) {
   key.hidden = names.length === 0;
   keep(key, names.map(({ word, dash }) => `${word} ${dash}`).join(), () => names.map(({ word, dash }) => h("span", {},
@@ -129,7 +129,7 @@ function render(rows, key, state) {
   showLegend(key, lineNames(grey, most));
 }
 
-/** The series that passes nearest to a height of the strip, 0 to 1, at a sample. */
+/** The series nearest to a height in the strip (0 to 1) at a sample, or null. */
 function nearest({ content, picture }, index, height) {
   const near = content.series.map((series) => ({ series, value: series.valueAt(index) })).filter(({ value }) => value !== null && Number.isFinite(value));
   const away = ({ series, value }) => Math.abs(picture.scaleFor(series.foot)(value) / HEIGHT - height);
@@ -190,7 +190,7 @@ function mountChoice(rows, redraw) {
   byId("chart-corner").append(menu.element);
 }
 
-/** Builds the plots; returns what shows the figures at the playhead. */
+/** Builds the plots; returns a function that shows the values at a time of the playhead. */
 export function mountPlots(store) {
   const rows = STRIPS.map((kind) => buildRow(kind, store));
   const key = h("div", { class: "plot-key", role: "note", "aria-label": "Lines of the plots", hidden: true });

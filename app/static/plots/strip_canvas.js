@@ -1,6 +1,6 @@
 /**
- * The canvas that a strip's curves are painted on: without a GPU a browser needs hundreds of milliseconds for dozens of SVG
- * paths, and a few for these.
+ * The canvas of a strip's curves. Without a GPU, a browser needs hundreds of milliseconds for dozens of SVG paths, but only
+ * a few for a canvas.
  */
 
 import { HEIGHT, WIDTH } from "./curves.js";
@@ -25,14 +25,14 @@ function coloursNow() {
   return palette;
 }
 
-/** Path data of WIDTH × HEIGHT, stretched over `width` × `height` pixels; lines keep their thickness. */
+/** Path data stretched from WIDTH × HEIGHT to `width` × `height` pixels; lines keep their thickness. */
 function stretched(d, { width, height }) {
   const path = new Path2D();
   path.addPath(new Path2D(d), new DOMMatrix([width / WIDTH, 0, 0, height / HEIGHT, 0, 0]));
   return path;
 }
 
-/** Lines from side to side under the curves: the grid, borders between feet, limits and what is asked. */
+/** Paints the level lines under the curves: grid, borders between feet, limits and requested values. */
 function paintLevels(pen, colours, { width, height }, { grid = [], borders = [], lines = [] }) {
   const level = (y, tone, dash, alpha = 1) => {
     const at = Math.round((y * height) / HEIGHT) + 0.5;
@@ -48,11 +48,11 @@ function paintLevels(pen, colours, { width, height }, { grid = [], borders = [],
   lines.forEach(({ y, kind }) => level(y, kind, LINE_DASHES[kind], borders.length ? 0.5 : 1));
 }
 
-/** Half a mark's width, what lies between its parts and around them, and its height, px. */
+/** Marks of feet, px: half a mark's width, gap between its parts, margin around them, and height. */
 const MARK = { half: 4, gap: 3, edge: 2, line: 12 };
 const sprites = new Map();
 
-/** A foot's mark with its number: painted once, since text on a canvas of the page has the whole page laid out first. */
+/** Image of a foot's mark and number, painted once: text on a visible canvas would force a layout of the page. */
 function sprite(foot, fill, ink, ratio) {
   const key = `${foot} ${fill} ${ink} ${ratio}`;
   if (sprites.has(key)) return sprites.get(key);
@@ -72,7 +72,7 @@ function sprite(foot, fill, ink, ratio) {
   return sprites.get(key);
 }
 
-/** The marks of feet: above their rises, or at the left end of their rows. What is under them is cleared. */
+/** Paints the marks of feet, above their rises or at the left end of their rows, on cleared ground. */
 function paintMarks(pen, colours, { width, height }, ratio, { marks = [], isGrey }) {
   const { half, gap, edge, line } = MARK;
   pen.globalAlpha = 1;
@@ -96,7 +96,7 @@ function paint(element, size, drawing) {
   const ratio = window.devicePixelRatio || 1;
   const [across, down] = [Math.round(size.width * ratio), Math.round(size.height * ratio)];
   if (element.width !== across || element.height !== down) [element.width, element.height] = [across, down];
-  // Painted by the processor: as smooth with a graphics card, and far smoother without one.
+  // Paint on the CPU: as smooth with a GPU, and far smoother without one.
   const pen = element.getContext("2d", { willReadFrequently: true });
   pen.reset();
   pen.scale(ratio, ratio);
@@ -124,7 +124,7 @@ function paint(element, size, drawing) {
   paintMarks(pen, colours, size, ratio, drawing);
 }
 
-/** Curves once more in the bad colour, where they pass a limit. */
+/** Paints the curves again, in the colour of errors, where they pass a limit. */
 function paintBeyond(pen, colours, { width, height }, paths, clips) {
   const where = new Path2D();
   for (const clip of clips) where.rect(0, (clip.y * height) / HEIGHT, width, (clip.height * height) / HEIGHT);
@@ -137,11 +137,13 @@ function paintBeyond(pen, colours, { width, height }, paths, clips) {
 }
 
 /**
- * Makes a strip's canvas, which follows the strip's size and the theme.
- * @returns {{element: HTMLCanvasElement, show: (drawing: object) => void}} a drawing has `bands` of missing values {x, width},
- *   `rules`, upright lines {x, from}, from a share of the height downwards, `grid` and `borders` (heights), `lines` {y, kind ("limit", "wanted")},
- *   `curves` {d, tone (a foot's number, "fine", "grey"), width, alpha, dash, offset}, `clips` {y, height}, where curves are drawn in the bad colour, and `marks` {feet, x, y}, x null at
- *   the left end, in grey where `isGrey`
+ * Builds a strip's canvas; it is painted again when the strip's size or the theme changes.
+ * @returns {{element: HTMLCanvasElement, show: (drawing: object) => void}} a drawing has
+ *   `bands` of missing values {x, width}; `rules`, vertical lines {x, from}, `from` a share of the height from the top;
+ *   `grid` and `borders`, heights of level lines; `lines` {y, kind ("limit", "wanted")};
+ *   `curves` {d, tone (a foot's number, "fine", "grey"), width, alpha, dash, offset};
+ *   `clips` {y, height}, where the curves pass a limit; `marks` {feet, x, y}, x null for the left end;
+ *   `isGrey`, whether the marks are grey
  */
 export function stripCanvas(strip) {
   const element = h("canvas", { "aria-hidden": "true" });

@@ -1,35 +1,35 @@
-/** What a strip plot draws, in numbers: its scale, curves, grid, ticks and marks. The page paints it, files are made of it. */
+/** Computes a strip plot: scale, curves, grid, ticks and marks. The page and saved files draw from it. */
 
 import { GREY } from "../state/worked_plan.js";
 import { fractionAt } from "../state/time_axis.js";
 import { HEIGHT, WIDTH, pathOf, rangeOf, scaleOf, ticksOf } from "./curves.js";
 import { measuredCurves, measuredRange } from "./measured.js";
 
-/** Rounding of the figures that come from the server: a limit passed by less is kept. */
+/** The server rounds its values, so a limit passed by less than this counts as kept. */
 export const ROUNDING = 0.006;
-/** What a planned curve looks like under a simulated or a measured one. */
+/** Dashes of a planned curve under a simulated or a measured one. */
 const DOTTED = [2, 3];
-/** A limit that is further from the values than this share of their span is named, not drawn. */
+/** A limit further from the values than this share of their span is named but not drawn. */
 const FAR = 0.75;
 /** Line widths of a foot's motors 1, 2 and 3. */
 const MOTOR_WIDTHS = [2, 1.25, 0.75];
-/** Feet whose curves lie on each other for so many samples share one line, in turns of so many pixels. */
+/** Curves that coincide for TOGETHER samples share one line, in which they alternate every TURN pixels. */
 const TOGETHER = 3;
 const TURN = 7;
 const MOST_TICKS = 4;
-/** Least distance of two texts or marks, as a share of a plot's height, %. */
+/** Least distance of two texts or marks, % of a plot's height. */
 export const APART = 16;
 
 const isKnown = (value) => value !== null && Number.isFinite(value);
 
-/** The band of each foot where every foot has a row of its own, else one band for all. */
+/** Function from a foot to its band: its own row if the strip has lanes, else the whole height. */
 function bandsOf({ lanes, series }) {
   if (!lanes) return () => ({ top: 0, bottom: HEIGHT });
   const feet = new Set(series.map(({ foot }) => foot)).size;
   return (foot) => ({ top: (HEIGHT * foot) / feet, bottom: (HEIGHT * (foot + 1)) / feet });
 }
 
-/** What the scale spans: every value, what the strip always shows, and limits that are not far. */
+/** Range of the scale: all values, those that the strip always shows, and limits that are not far. */
 function spanOf(content, overs, count) {
   const ranges = [rangeOf(content.series, count), ...overs.map(measuredRange)];
   const range = [Math.min(...ranges.map(([least]) => least)), Math.max(...ranges.map(([, greatest]) => greatest))];
@@ -39,7 +39,7 @@ function spanOf(content, overs, count) {
   return { range, low: Math.min(low, ...near), high: Math.max(high, ...near) };
 }
 
-/** Where values pass a limit: curves are drawn there once more in the bad colour. */
+/** Bands in which values pass a limit; the curves are painted there again in the colour of errors. */
 function beyond({ low = null, high = null }, scaleFor, bands, [least, most]) {
   const over = high !== null && most > high + ROUNDING;
   const under = low !== null && least < low - ROUNDING;
@@ -49,7 +49,7 @@ function beyond({ low = null, high = null }, scaleFor, bands, [least, most]) {
   ]).filter(Boolean);
 }
 
-/** Where a value is missing in the midst of a motion, such as a stroke whose rod is too short. */
+/** Bands of samples with a missing value, such as a stroke for which the rod is too short. */
 function missing({ series }, across) {
   const bands = [];
   const half = across.x.length > 1 ? (across.x[1] - across.x[0]) / 2 : 0;
@@ -65,13 +65,13 @@ function missing({ series }, across) {
   return bands;
 }
 
-/** Of a foot that stands only the rise and the way down are drawn: feet that stand would lie on each other. */
+/** Values without the stance phases, in which all curves would coincide. */
 function risen({ valueAt }, count) {
   const stands = (index) => index < 0 || index >= count || Math.abs(valueAt(index) ?? 1) < ROUNDING;
   return (index) => (stands(index - 1) && stands(index) && stands(index + 1) ? null : valueAt(index));
 }
 
-/** Feet whose curves lie on each other, as one list for each foot; alone, a list of itself. */
+/** For each series, the list of those whose curves coincide with it, itself included. */
 function companionsOf(series, { first, last }, tolerance) {
   const groups = series.map((_, at) => [at]);
   const meet = (one, other) => {
@@ -94,7 +94,7 @@ function companionsOf(series, { first, last }, tolerance) {
   return groups;
 }
 
-/** The planned curves; where something lies over them they are dotted. */
+/** The planned curves; dotted if simulated or measured ones lie over them. */
 function plannedCurves(content, across, scaleFor, { isUnder, grey, count, span }) {
   const { series, lanes, rises } = content;
   const values = series.map((one) => (rises ? risen(one, count) : one.valueAt));
@@ -109,7 +109,7 @@ function plannedCurves(content, across, scaleFor, { isUnder, grey, count, span }
   });
 }
 
-/** The highest sample of each rise in view, for the foot's mark. */
+/** The highest sample of each rise in view, where the foot's mark goes. */
 function peaksOf({ series }, across, scaleFor) {
   return series.flatMap(({ foot, valueAt }) => {
     const peaks = [];
@@ -126,7 +126,7 @@ function peaksOf({ series }, across, scaleFor) {
   });
 }
 
-/** Rises that have their highest sample at one place share a mark, with each of their feet. */
+/** Marks of the rises; rises that peak at the same place share one mark that names all their feet. */
 function peakMarks(peaks) {
   const marks = [];
   for (const { foot, x, y } of peaks) {
@@ -137,25 +137,25 @@ function peakMarks(peaks) {
   return marks;
 }
 
-/** Of a gait for the robot's clock: a line at each pose, and a short one from where Stop is heard in each move. */
+/** For a gait on the robot's clock: a line at each pose, and a short one in each move where the robot first hears Stop. */
 export function rulesOf(axis, { poses, times }) {
   if (!poses) return [];
   const at = (from) => (time) => ({ x: fractionAt(axis, time) * WIDTH, from });
   return [...times.map(at(0)), ...poses.heard.map(at(0.8))].filter(({ x }) => x >= 0 && x <= WIDTH);
 }
 
-/** Limits and what the gait asks for: drawn where they are in sight, named in any case. */
+/** Limits and the requested value, each with its name; `away` is the direction of one outside the scale, else null. */
 function namedValues({ low = null, high = null, wanted = null }, { range, low: bottom, high: top }) {
   const named = [{ value: high, name: "limit", kind: "limit" }, { value: wanted, name: "asked", kind: "wanted" }, { value: low, name: "limit", kind: "limit" }];
   return named.filter(({ value }) => isKnown(value) && range[0] <= range[1]).map((one) => ({ ...one, away: one.value > top ? "up" : one.value < bottom ? "down" : null }));
 }
 
 /**
- * What a strip draws.
+ * Computes a strip's plot.
  * @param {object} content of a strip's `of` (see strips.js)
  * @param {{axis: object, across: object, count: number, overs: object[], rules: object[], grey: string|null}} view
- * @returns {object} `scaleFor(foot)`, `range` of all values, `bands` of the feet {foot, top, bottom}, `ticks` {value, y}, `named` values,
- *   `peaks` {foot, x, y}, and `drawing` as `stripCanvas` takes it
+ * @returns {object} `scaleFor(foot)`, `range` of all values, `bands` of the feet {foot, top, bottom}, `ticks` {value, y},
+ *   `named` values, `peaks` {foot, x, y}, and `drawing` as `stripCanvas` takes it
  */
 export function stripPicture(content, { axis, across, count, overs, rules, grey }) {
   const span = spanOf(content, overs, count);
@@ -185,7 +185,7 @@ export function stripPicture(content, { axis, across, count, overs, rules, grey 
   };
 }
 
-/** The names of the lines of the plots: a line style with a word. */
+/** Entries of the plots' legend: a word and the dashes of its line; none if all lines are planned ones. */
 export function lineNames(grey, overs) {
   if (!grey && !overs.length) return [];
   const planned = { word: grey ? GREY[grey].plot : "planned", dash: overs.length ? DOTTED : [] };

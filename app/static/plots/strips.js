@@ -1,4 +1,4 @@
-/** What each strip plot shows: its series, its limits, and the figure at the playhead. */
+/** Contents of the strip plots: series, limits, and the value at the playhead. */
 
 import { MOTORS, fixed } from "../lib/format.js";
 
@@ -8,7 +8,7 @@ const aMotor = (rows) => columns(rows, (row) => row.length, (all, motor) =>
   ({ foot: Math.floor(motor / MOTORS), motor: motor % MOTORS, valueAt: (index) => all[index][motor] }));
 const aFoot = (rows, valueOf) => columns(rows, (row) => row.length, (all, foot) => ({ foot, motor: null, valueAt: (index) => valueOf(all[index][foot]) }));
 
-/** Greatest of some values with its index, null where none is known. */
+/** The greatest of some values and its index; null if no value is known. */
 function greatest(values) {
   const all = known(values);
   if (!all.length) return null;
@@ -17,15 +17,15 @@ function greatest(values) {
 }
 
 const footAndValue = (top, foot, unit) => (top ? `foot ${foot(top.at) + 1}: ${fixed(top.value)} ${unit}` : "–");
-/** The real strokes of a robot with shared actuators, over the plane of the standing feet, or null. */
+/** Heights of the feet, mm; of a robot with shared actuators, those that its real strokes give. */
 const heightsAt = ({ real_heights_mm: real, feet }, index) => real?.[index] ?? (feet?.[index] ?? []).map((foot) => foot[2] * 1000);
 const mmRequested = (value) => (value ? value * 1000 : null);
 
 /**
- * The strips in their order. `of(plan, options)` gives what is drawn, or null with `lack` as the reason: `series` of {foot,
- * motor, valueAt(index)}, `low` and `high` (limits, null for none), `wanted` (asked by the gait), `floor`, `most` (the scale
- * reaches at least there), `lanes` (every foot has a row of its own), `rises` (feet at 0 are not drawn, and each rise has its foot's
- * mark). `now(plan, index)` is the figure at a sample.
+ * The strips in their order. `of(plan, options)` returns the content, or null for the reason `lack`. A content has
+ * `series` {foot, motor, valueAt(index)}, `low` and `high` (limits, null for none), `wanted` (requested by the gait),
+ * `floor` and `most` (values that the scale always includes), `lanes` (each foot has its own row) and `rises` (feet at 0
+ * are not drawn, and each rise has its foot's mark). `now(plan, index)` returns the text for a sample.
  */
 export const STRIPS = [
   {
@@ -71,7 +71,7 @@ export const STRIPS = [
   },
 ];
 
-/** All values of a sample, mm: `lifts` a foot, `strokes` a motor (null where out of reach), `margin` (null for none). */
+/** Values of a sample, mm: `lifts` of the feet, `strokes` of the motors (null if out of reach), `margin` (null for none). */
 export function valuesAt(plan, index) {
   const margin = plan.margin?.[index] ?? null;
   return { lifts: heightsAt(plan, index), strokes: plan.strokes_mm?.[index] ?? null, margin: margin === null ? null : margin * 1000 };

@@ -1,12 +1,15 @@
-/** Keeps labels off one another: boxes that lie over each other are moved apart the shorter way. */
+/** Keeps labels apart: overlapping boxes are moved along the axis with the smaller overlap. */
 
 const GAP = 3;
 const MOST_ROUNDS = 16;
 
-/** How far two boxes lie over each other each way, px; not at all where one is 0 or less. */
-const overlap = (a, b) => [(a.width + b.width) / 2 + GAP - Math.abs(a.x - b.x), (a.height + b.height) / 2 + GAP - Math.abs(a.y - b.y)];
+/** Overlap of two boxes along x and y, px, GAP included; they overlap if both are above 0. */
+const overlap = (a, b) => [
+  (a.width + b.width) / 2 + GAP - Math.abs(a.x - b.x),
+  (a.height + b.height) / 2 + GAP - Math.abs(a.y - b.y),
+];
 
-/** Moves two boxes off each other, half the way each. */
+/** Moves two overlapping boxes apart, each by half the overlap. */
 function part(a, b) {
   const [across, along] = overlap(a, b);
   if (across <= 0 || along <= 0) return false;
@@ -17,10 +20,10 @@ function part(a, b) {
   return true;
 }
 
-/** Whether a box with its middle there is inside the frame, one way. */
+/** Whether a box with this middle lies inside the frame along one axis. */
 const fits = (at, size, room) => at >= size / 2 + GAP && at <= room - size / 2 - GAP;
 
-/** Moves a box off what stays where it is: the shortest of the four ways that keeps it inside the frame. */
+/** Moves a box off a fixed one, by the shortest of the four moves that keep it inside the frame. */
 function clear(box, other, { width, height }) {
   const [across, along] = overlap(box, other);
   if (across <= 0 || along <= 0) return false;
@@ -40,9 +43,9 @@ function hold(box, { width, height }) {
 }
 
 /**
- * Moves boxes until none lies over another or over what stays where it is, inside a frame.
- * @param {{x: number, y: number, width: number, height: number}[]} boxes by their middles, px; they are changed
- * @param {{x: number, y: number, width: number, height: number}[]} fixed first what counts most
+ * Moves boxes inside a frame until none overlaps another or a fixed one.
+ * @param {{x: number, y: number, width: number, height: number}[]} boxes given by their middles, px; changed in place
+ * @param {{x: number, y: number, width: number, height: number}[]} fixed the most important first
  * @param {{width: number, height: number}} frame
  */
 export function moveApart(boxes, fixed, frame) {
@@ -54,16 +57,17 @@ export function moveApart(boxes, fixed, frame) {
       for (const other of fixed) isMoved = clear(box, other, frame) || isMoved;
     });
   }
-  // Where there is no room for all, a label rather lies over another one than under what stands there for good.
+  // Without room for all, labels may overlap each other, but not the fixed boxes.
   for (const box of boxes) for (const other of [...fixed].reverse()) clear(box, other, frame);
   return boxes;
 }
 
-/** Whether a box is inside the frame and lies over nothing. */
+/** Whether a box lies inside the frame and overlaps no fixed box. */
 export const isFree = (box, fixed, { width, height }) =>
-  fits(box.x, box.width, width) && fits(box.y, box.height, height) && !fixed.some((other) => Math.min(...overlap(box, other)) > 0);
+  fits(box.x, box.width, width) && fits(box.y, box.height, height)
+  && !fixed.some((other) => Math.min(...overlap(box, other)) > 0);
 
-/** The first of some places for a box where it is free; the first one, moved, where none is. */
+/** The first of some places at which a box is free. If there is none, the first place, moved. */
 export function firstFree(places, fixed, frame) {
   return places.find((box) => isFree(box, fixed, frame)) ?? moveApart([places[0]], fixed, frame)[0];
 }

@@ -1,4 +1,4 @@
-/** On the floor of the 3D scene: an arrow the way the robot walks with its step in words, and a bar of 10 mm. */
+/** Guides on the floor of the 3D scene: an arrow in the walking direction with the step as text, and a bar of 10 mm. */
 
 import { stepLength, stepTurn, worldStep } from "../document/step.js";
 import { byId, h, setText, svg } from "../lib/dom.js";
@@ -9,30 +9,36 @@ import { shownDocument } from "../state/store.js";
 import { drawnPlan, greyOf } from "../state/worked_plan.js";
 import { firstFree, isFree } from "./apart.js";
 
-/** The arrow, m: from the goal's ring to its tail, its length, the head's, and half their widths. */
+/** The arrow, m: gap between the goal's ring and its tail, length, length of the head, half widths of shaft and head. */
 const ARROW = { before: 0.012, length: 0.046, head: 0.02, shaft: 0.0036, wide: 0.0105 };
-/** The arrow of a gait that turns on the spot, degrees: where it begins beside the front, and how far it goes round. */
+/** The arrow of a gait that turns on the spot: start beside the robot's front and span, degrees. */
 const ARC = { start: 14, span: 34, pieces: 10 };
 const BAR = 0.01;
-/** From the middle of what stands on the floor to the bar, in its radii, and from the line of sight to the places it may have, degrees. */
+/**
+ * Places of the bar around the circle that encloses robot and goal: distance from its middle in radii, and angles to the
+ * line of sight in the order in which they are tried, degrees.
+ */
 const [BAR_OUT, BAR_ASIDE] = [1.3, [50, 65, 80, 100, 125, -60, -90]];
-/** A lower stage has no room for the bar, px. */
+/** Below this height the stage has no room for the bar, px. */
 const LEAST_HEIGHT = 260;
-/** Seen flatter than this, the floor shows neither. */
+/** If the camera's axis has a smaller vertical part, the floor looks too flat for arrow and bar. */
 const FLATTEST = 0.13;
 const LEAST_STEP = 5e-5;
 const LEAST_TURN = 0.05;
-/** What the goal's handle and its knob take, px. */
+/** Size of the goal's handle and of its knob, px. */
 const HANDLE = 26;
-/** From the tip of the arrow, and from the bar down, to the middle of what is written there, px. */
+/** Gap between the arrow and its text, and distance of the scale's text below the bar, px. */
 const [BEYOND, BELOW] = [6, 18];
 
 const radians = (degrees) => (degrees * Math.PI) / 180;
 const pathOf = (points) => `${points.map(([x, y], index) => `${index ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("")}Z`;
-/** A number without a decimal that says nothing. */
+/** A number as text, without a trailing “.0”. */
 const short = (value) => fixed(value).replace(/\.0$/, "");
 
-/** What the arrow says of a gait: "Walks 19 mm a step", "Turns 15° left a step", of a sequence "Walks 50 mm in all"; "" where it stays where it is. */
+/**
+ * The arrow's text: "Walks 19 mm a step", "Turns 15° left a step", for a sequence "Walks 50 mm in all"; "" for a gait
+ * that neither walks nor turns.
+ */
 export function stepText(document, isGrey) {
   const [length, turn] = [stepLength(document), stepTurn(document)];
   const walks = length > LEAST_STEP ? `${short(length * 1000)} mm` : "";
@@ -43,15 +49,19 @@ export function stepText(document, isGrey) {
   return walks ? `Walks ${walks}${turns && `, turns ${turns}`} ${each}` : `Turns ${turns} ${each}`;
 }
 
-/** Corners [x, y] in m of the arrow that goes straight on from the goal, and which of them is its tip. */
+/** Corners [x, y] of the arrow straight on from the goal, m, and the index of its tip. */
 function straight({ x, y, radius }, [dx, dy]) {
-  const at = (along, aside) => [x + dx * (radius + ARROW.before + along) - dy * aside, y + dy * (radius + ARROW.before + along) + dx * aside];
+  const at = (along, aside) => {
+    const ahead = radius + ARROW.before + along;
+    return [x + dx * ahead - dy * aside, y + dy * ahead + dx * aside];
+  };
   const neck = ARROW.length - ARROW.head;
-  const [left, right] = [[at(0, ARROW.shaft), at(neck, ARROW.shaft), at(neck, ARROW.wide)], [at(neck, -ARROW.wide), at(neck, -ARROW.shaft), at(0, -ARROW.shaft)]];
+  const left = [at(0, ARROW.shaft), at(neck, ARROW.shaft), at(neck, ARROW.wide)];
+  const right = [at(neck, -ARROW.wide), at(neck, -ARROW.shaft), at(0, -ARROW.shaft)];
   return { corners: [...left, at(ARROW.length, 0), ...right], tip: left.length };
 }
 
-/** Corners of the arrow that goes round the robot. */
+/** Corners of the arrow round the robot, m, and the index of its tip. */
 function round({ x, y, radius, front }, turn) {
   const sign = Math.sign(turn);
   const at = (part, aside) => {
@@ -64,7 +74,10 @@ function round({ x, y, radius, front }, turn) {
   return { corners: [...side(1), at(1, 0), ...side(-1).reverse()], tip: parts.length + 1 };
 }
 
-/** Both ends of the bar: so far aside before the robot, at the left or, below 0, at the right, along that axis of the floor that lies more level in the picture. */
+/**
+ * Both ends of the bar, m. Its middle lies `aside` degrees to the left of the line of sight, to the right if negative. It
+ * is parallel to the axis of the floor that looks more level in the picture.
+ */
 function barEnds({ right, back }, { x, y, radius }, aside) {
   const angle = Math.atan2(back[1], back[0]) - radians(aside);
   const out = BAR_OUT * radius;
@@ -95,12 +108,15 @@ export class FloorGuides {
     layer.append(svg("svg", { "aria-hidden": "true" }, this.#arrow, this.#bar), this.#words, this.#scale);
   }
 
-  /** Whether the goal, its words or the plan's place is another one. */
+  /** Whether anything that the guides show has changed. */
   isChanged() {
     const { state } = this.#store;
     const document = shownDocument(state);
     const [plan, goalHidden] = [drawnPlan(state), byId("goal").hidden];
-    const key = [this.#layer.hidden, document?.step, document?.direction, document?.orientation, document?.iterations, plan?.hash, greyOf(state), goalHidden].join();
+    const key = [
+      this.#layer.hidden, document?.step, document?.direction, document?.orientation, document?.iterations,
+      plan?.hash, greyOf(state), goalHidden,
+    ].join();
     if (key === this.#key) return false;
     this.#key = key;
     return true;
@@ -142,7 +158,9 @@ export class FloorGuides {
     const size = this.#sizeOf(this.#words);
     const [first, { x, y, height }] = [beyond(places[tip], neck, size), this.boxes.at(-1)];
     const away = (height + size.height) / 2 + BEYOND;
-    this.#put(seen, this.#words, [first, { x, y: y + away }, { x, y: y - away }, { x: x - size.width / 2, y: y + away }, { x: x - size.width / 2, y: y - away }]);
+    const [below, above, left] = [y + away, y - away, x - size.width / 2];
+    const others = [{ x, y: below }, { x, y: above }, { x: left, y: below }, { x: left, y: above }];
+    this.#put(seen, this.#words, [first, ...others]);
   }
 
   #drawBar(seen, goal) {
@@ -150,9 +168,11 @@ export class FloorGuides {
     this.#scale.hidden = false;
     const size = this.#sizeOf(this.#scale);
     const written = (ends) => ({ x: (ends[0][0] + ends[1][0]) / 2, y: Math.max(ends[0][1], ends[1][1]) + BELOW, ...size });
-    const isClear = (ends) => ends && [boxOf(ends), written(ends)].every((box) => isFree(box, [...seen.standing, ...this.boxes], seen));
-    const ends = seen.height < LEAST_HEIGHT ? undefined : BAR_ASIDE.map((aside) => this.#onStage(seen, barEnds(seen, { x, y, radius }, aside))).find(isClear);
-    // Where nothing of the floor is free there is no room for a scale.
+    const taken = [...seen.standing, ...this.boxes];
+    const isClear = (ends) => ends && [boxOf(ends), written(ends)].every((box) => isFree(box, taken, seen));
+    const endsAt = (aside) => this.#onStage(seen, barEnds(seen, { x, y, radius }, aside));
+    const ends = seen.height < LEAST_HEIGHT ? undefined : BAR_ASIDE.map(endsAt).find(isClear);
+    // Without a free place on the floor there is no scale.
     this.#scale.hidden = !ends;
     this.#bar.setAttribute("d", ends ? barPath(ends) : "");
     if (!ends) return;
@@ -160,7 +180,7 @@ export class FloorGuides {
     this.boxes.push(boxOf(ends));
   }
 
-  /** Puts what is written to the first of some places where it is free. */
+  /** Puts a text at the first of some places that is free. */
   #put(seen, element, places) {
     const size = this.#sizeOf(element);
     const box = firstFree(places.map((at) => ({ ...at, ...size })), [...seen.standing, ...this.boxes], seen);
@@ -168,11 +188,13 @@ export class FloorGuides {
     this.boxes.push(box);
   }
 
-  /** What the goal's handles cover. */
+  /** Boxes of the goal's handles on the stage. */
   #goalBoxes(seen, { x, y, heading, radius }) {
     const layer = byId("goal");
     if (layer.hidden || layer.hasAttribute("data-off")) return [];
-    const [place, knob] = [[x, y], [x + radius * Math.cos(radians(heading)), y + radius * Math.sin(radians(heading))]].map((at) => this.#onStage(seen, [at])?.[0]);
+    const angle = radians(heading);
+    const onFloor = [[x, y], [x + radius * Math.cos(angle), y + radius * Math.sin(angle)]];
+    const [place, knob] = onFloor.map((at) => this.#onStage(seen, [at])?.[0]);
     const square = (at) => at && { x: at[0], y: at[1], width: HANDLE, height: HANDLE };
     return [square(place), square(knob)].filter(Boolean);
   }
@@ -184,13 +206,14 @@ export class FloorGuides {
   }
 }
 
-/** The box round places on the stage. */
+/** The smallest box around places on the stage. */
 function boxOf(places) {
-  const [[left, right], [top, bottom]] = [0, 1].map((axis) => places.map((at) => at[axis])).map((values) => [Math.min(...values), Math.max(...values)]);
+  const [xs, ys] = [0, 1].map((axis) => places.map((at) => at[axis]));
+  const [left, right, top, bottom] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
   return { x: (left + right) / 2, y: (top + bottom) / 2, width: right - left, height: bottom - top };
 }
 
-/** The middle of a box that touches the tip of an arrow from beyond it. */
+/** The middle of a text's box just beyond the tip of an arrow. */
 function beyond(tip, tail, { width, height }) {
   const [dx, dy] = [tip[0] - tail[0], tip[1] - tail[1]];
   const length = Math.hypot(dx, dy) || 1;
@@ -198,7 +221,7 @@ function beyond(tip, tail, { width, height }) {
   return { x: tip[0] + (dx / length) * out, y: tip[1] + (dy / length) * out };
 }
 
-/** A line with a stroke across each end. */
+/** A line with a short stroke across each end. */
 function barPath([[ax, ay], [bx, by]]) {
   const length = Math.hypot(bx - ax, by - ay) || 1;
   const [nx, ny] = [(-(by - ay) / length) * 4, ((bx - ax) / length) * 4];

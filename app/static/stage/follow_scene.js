@@ -1,15 +1,13 @@
-/**
- * What lies over the 3D scene and follows it: one look a frame at what the camera sees, and work only where something moved.
- */
+/** Redraws what lies over the 3D scene: reads the camera once a frame, and draws only after a change. */
 
 import { byId } from "../lib/dom.js";
 
-/** What stands on the stage for good, which labels keep off. */
+/** Fixed elements of the stage; labels keep clear of them. */
 const STANDING = ["badge", "stage-tools", "view-cube", "legend"];
-/** A lower stage shows nothing but the scene and its tools, px. */
+/** Below this height the stage shows only the scene and its tools, px. */
 const LEAST_HEIGHT = 170;
 
-/** Sizes on the stage, measured only where one changed: the stage, where the scene's frame begins, and what stands over it. */
+/** Size of the stage, left edge of the scene's frame, and boxes of the fixed elements; measured again after a resize. */
 function stageSizes() {
   const stage = byId("viser").parentElement;
   const sizes = { width: 0, height: 0, left: 0, standing: [], version: 0 };
@@ -17,7 +15,8 @@ function stageSizes() {
     const box = stage.getBoundingClientRect();
     stage.toggleAttribute("data-low", box.height < LEAST_HEIGHT);
     const boxes = STANDING.map((id) => byId(id).getBoundingClientRect()).filter(({ width }) => width > 0);
-    sizes.standing = boxes.map(({ left, top, width, height }) => ({ x: left - box.left + width / 2, y: top - box.top + height / 2, width, height }));
+    sizes.standing = boxes.map(({ left, top, width, height }) =>
+      ({ x: left - box.left + width / 2, y: top - box.top + height / 2, width, height }));
     Object.assign(sizes, { width: box.width, height: box.height, left: byId("viser").getBoundingClientRect().left - box.left });
     sizes.version += 1;
   };
@@ -27,10 +26,12 @@ function stageSizes() {
 }
 
 /**
- * Calls parts whenever the camera or the stage changed, and where their own `isChanged` says so.
+ * Draws parts whenever the camera or the stage changes, or their own `isChanged` returns true. A part that is drawn makes
+ * all later ones draw too, since they keep clear of it.
  * @param {import("../preview/preview.js").Preview} preview
- * @param {{draw: (seen: object) => void, isChanged: (seen: object) => boolean}[]} parts `seen` has `toStage` ([x, y, z] in m to
- *   pixels of the stage, or null), the camera's axes, the stage's size, and `taken`: boxes that later parts keep off
+ * @param {{draw: (seen: object) => void, isChanged: (seen: object) => boolean}[]} parts `seen` has
+ *   `toStage` (from [x, y, z] in m to pixels of the stage, or null), the camera's axes, the stage's size, and `taken`: the
+ *   boxes of earlier parts
  */
 export function followScene(preview, parts) {
   const sizes = stageSizes();

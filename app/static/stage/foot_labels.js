@@ -1,25 +1,25 @@
-/** The labels of the feet over the 3D scene: mark, number and place of each, with an arrow while it is lifted. */
+/** Labels of the feet over the 3D scene: mark, number and place of each, and an arrow while it is lifted. */
 
 import { byId, h, setText } from "../lib/dom.js";
 import { sampleAt } from "../preview/overlay.js";
 import { moveApart } from "./apart.js";
 
-/** Labels of more feet have number and mark only. */
+/** With more feet than this, labels show only mark and number. */
 const MOST_PLACES = 4;
-/** From the foot's middle outwards, and of the sole's depth downwards, m. */
+/** Where a label begins: distance outwards from the foot's middle, m, and share of the sole's depth downwards. */
 const [OUTWARDS, LOW] = [0.02, 0.5];
 const BESIDE_PX = 3;
-/** A foot is that high at least when a robot's measured foot counts as lifted, m. */
+/** A measured foot above this height counts as lifted, m. */
 const LIFTED = 0.001;
-/** Labels move by no less than this, px: a foot that stands leaves its label alone. */
+/** Labels move in steps of this size, so that the label of a standing foot does not move, px. */
 const STEP_PX = 0.5;
 
-/** What the handle of a pose takes at the body's place on the floor, px: its knob, and its label beside it. */
+/** Boxes of a pose's handle, relative to the body's place on the floor, px: its knob, and the label beside it. */
 const POSE = [{ dx: 0, dy: 0, width: 24, height: 24 }, { dx: 54, dy: 18, width: 88, height: 22 }];
 
 const UP = " ↑";
 
-/** Where a label is to stand: beside the foot, on the side away from the body. */
+/** Places on the stage of the foot and of the point beside it, on the side away from the body; null if out of sight. */
 function besideFoot(seen, [x, y, z], [bodyX, bodyY], floor) {
   const away = Math.hypot(x - bodyX, y - bodyY) || 1;
   const height = z + floor * LOW;
@@ -28,7 +28,7 @@ function besideFoot(seen, [x, y, z], [bodyX, bodyY], floor) {
   return foot && edge ? { foot, edge } : null;
 }
 
-/** The label's box with its middle in px, so that its edge touches the place beside the foot. */
+/** The label's box, given by its middle, px; it touches the point beside the foot. */
 function boxAt({ foot, edge }, { width, height }) {
   const [dx, dy] = [edge[0] - foot[0], edge[1] - foot[1]];
   const length = Math.hypot(dx, dy) || 1;
@@ -36,7 +36,7 @@ function boxAt({ foot, edge }, { width, height }) {
   return { x: edge[0] + (dx / length) * reach, y: edge[1] + (dy / length) * reach, width, height };
 }
 
-/** Puts an element's middle to a place. */
+/** Moves an element's middle to a place. */
 function put(label, { x, y, width, height }) {
   const at = [x - width / 2, y - height / 2].map((value) => Math.round(value / STEP_PX) * STEP_PX);
   const transform = `translate(${at[0]}px, ${at[1]}px)`;
@@ -63,13 +63,14 @@ export class FootLabels {
     this.#preview = preview;
   }
 
-  /** Gives each foot its label. */
+  /** Builds a label for each foot. */
   setRoles(roles) {
     const isMany = roles.length > MOST_PLACES;
     this.#labels = roles.map((role, foot) => {
       const text = h("span");
       const words = isMany || role === String(foot + 1) ? String(foot + 1) : `${foot + 1} ${role}`;
-      return { words, text, node: `/robot/leg${foot + 1}_foot`, transform: "", element: h("div", { class: "foot-label", data: { foot: foot + 1 } }, h("i", { class: "foot-dot" }), text) };
+      const element = h("div", { class: "foot-label", data: { foot: foot + 1 } }, h("i", { class: "foot-dot" }), text);
+      return { words, text, node: `/robot/leg${foot + 1}_foot`, transform: "", element };
     });
     this.#layer.toggleAttribute("data-many", isMany);
     this.#layer.replaceChildren(...this.#labels.map(({ element }) => element));
@@ -78,7 +79,7 @@ export class FootLabels {
     this.#isNew = true;
   }
 
-  /** Whether a foot moved, or was lifted or set down. */
+  /** Whether a label may change: a foot moved, was lifted or set down, or the pose's handle came or went. */
   isChanged() {
     if (this.#layer.hidden) return false;
     const { overlay, time } = this.#preview;
@@ -120,7 +121,7 @@ export class FootLabels {
     return this.#overlay.contact[this.#sample]?.[foot] === false;
   }
 
-  /** Measured once for each text: to ask for a size makes the page lay itself out. */
+  /** Size of a label. Each text is measured only once, because reading a size forces a layout of the page. */
   #sizeOf({ element, text }) {
     const words = text.textContent;
     if (!this.#sizes.has(words)) this.#sizes.set(words, { width: element.offsetWidth, height: element.offsetHeight });

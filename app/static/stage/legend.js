@@ -1,25 +1,25 @@
-/** The legend at the stage's lower right: what the marks on the floor are, and the margin at the playhead. */
+/** The legend at the lower right of the stage: the marks on the floor, and the margin at the playhead. */
 
 import { byId, h, setText, svg } from "../lib/dom.js";
 import { mm } from "../lib/format.js";
 import { indexAt } from "../plots/curves.js";
 import { drawnPlan, greyOf } from "../state/worked_plan.js";
 
-/** The mark of a centre of mass, as drawings have it. */
+/** The usual symbol of a centre of mass in drawings. */
 const centreMark = () => svg("svg", { class: "centre-mark", viewBox: "-6 -6 12 12", "aria-hidden": "true" },
   svg("circle", { r: 5 }), svg("path", { d: "M0 0V-4A4 4 0 0 1 4 0ZM0 0V4A4 4 0 0 1 -4 0Z" }));
 
-const feetEntries = (roles) => [
-  h("span", { text: "foot" }),
-  ...roles.map((role, foot) => h("span", { data: { foot: foot + 1 }, title: `Foot ${foot + 1}: ${role}` }, h("i", { class: "foot-dot" }), String(foot + 1))),
-];
+const footEntry = (role, foot) => h("span", { data: { foot: foot + 1 }, title: `Foot ${foot + 1}: ${role}` },
+  h("i", { class: "foot-dot" }), String(foot + 1));
 
-/** Margin of the drawn plan at a time, m; null where there is none. */
+const feetEntries = (roles) => [h("span", { text: "foot" }), ...roles.map(footEntry)];
+
+/** Margin of the drawn plan at a time, m; null if it has none. */
 function marginAt(plan, time) {
   return plan?.margin && plan.times.length ? (plan.margin[indexAt(plan.times, time)] ?? null) : null;
 }
 
-/** The feet in the air for who does not see their labels. */
+/** The lifted feet as text for screen readers. */
 function liftedText(plan, roles, time) {
   const contact = plan?.times.length ? plan.contact?.[indexAt(plan.times, time)] : null;
   if (!contact) return "";
@@ -31,12 +31,15 @@ function liftedText(plan, roles, time) {
  * Builds the legend.
  * @param {object} store
  * @param {import("../preview/playback.js").Playback} playback
- * @returns {{show: (layer: string, shown: boolean) => void, setMeasured: (measured: boolean) => void}} by layers of the Show menu
+ * @returns {{show: (layer: string, shown: boolean) => void}} `show` adapts the legend to a layer of the Show menu
  */
 export function mountLegend(store, playback) {
   const legend = byId("legend");
-  const [margin, lifted, feet] = [h("span", { class: "legend-margin" }), h("span", { class: "hidden-text" }), h("span", { class: "legend-feet", hidden: true })];
-  const area = h("span", { class: "legend-area" }, h("i", { class: "area-swatch", "aria-hidden": "true" }), "area between standing feet");
+  const margin = h("span", { class: "legend-margin" });
+  const lifted = h("span", { class: "hidden-text" });
+  const feet = h("span", { class: "legend-feet", hidden: true });
+  const swatch = h("i", { class: "area-swatch", "aria-hidden": "true" });
+  const area = h("span", { class: "legend-area" }, swatch, "area between standing feet");
   const centre = h("span", { class: "legend-centre" }, centreMark(), "centre of mass");
   legend.replaceChildren(feet, area, centre, margin, lifted);
 
@@ -58,7 +61,11 @@ export function mountLegend(store, playback) {
     feet.replaceChildren(...feetEntries(view?.roles ?? []));
     render();
   });
-  const entries = { polygon: (shown) => { area.hidden = !shown; }, com: (shown) => { centre.hidden = !shown; }, labels: (shown) => { feet.hidden = shown; } };
+  const entries = {
+    polygon: (shown) => { area.hidden = !shown; },
+    com: (shown) => { centre.hidden = !shown; },
+    labels: (shown) => { feet.hidden = shown; },
+  };
   return {
     show(layer, shown) {
       entries[layer]?.(shown);

@@ -1,13 +1,13 @@
-/** Fits the view of the 3D scene when a robot's scene opens, and again when the stage has another size. */
+/** Fits the view when the 3D scene of a robot opens, and again after the stage is resized. */
 
 import { byId } from "../lib/dom.js";
 
-/** The stage counts as resized when its size has stood for this long, ms. */
+/** A resize is over when the size has been constant for this long, ms. */
 const SETTLED_MS = 120;
 
 /**
  * @param {import("../preview/preview.js").Preview} preview
- * @param {() => void} fit shows the whole way by the view that was chosen last
+ * @param {() => void} fit shows the robot's whole path in the view chosen last
  */
 export function fitByItself(preview, fit) {
   let isFitted = false;
@@ -26,7 +26,7 @@ export function fitByItself(preview, fit) {
     const before = size;
     size = `${width} ${height}`;
     clearTimeout(timer);
-    // A stage that is folded away has no size to fit to.
+    // A collapsed stage has no size to fit to.
     if (before && width && height) timer = setTimeout(() => preview.refit(), SETTLED_MS);
   }).observe(byId("viser").parentElement);
 }

@@ -1,4 +1,4 @@
-/** The stage: loads a plan's poses once, follows the playhead, shows the state of the plan, and lays over the scene what belongs to it. */
+/** The stage: loads each plan's poses once, follows the playhead, shows the plan's state, and mounts the parts over the scene. */
 
 import { CONFLICT, api } from "../api/gaits.js";
 import { byId, painted, setText } from "../lib/dom.js";
@@ -35,7 +35,7 @@ async function openPreview(dark) {
   return preview;
 }
 
-/** Lays labels, arrow, scale and cube over the scene, and fits the view. */
+/** Mounts tools, labels, arrow, scale and cube over the scene, and fits the view. */
 function mountOverScene(store, preview, legend) {
   const look = (view) => {
     byId("camera").value = view;
@@ -49,7 +49,7 @@ function mountOverScene(store, preview, legend) {
   fitByItself(preview, () => look(byId("camera").value));
 }
 
-/** What the state's own plan lacks, to be marked on the plan that is drawn: nothing where their samples are not the same. */
+/** The missing motion of the current plan, to be marked on the drawn one; empty if they differ in their samples. */
 function troubleOf(state) {
   const [own, drawn] = [shownPlan(state), drawnPlan(state)];
   return own === drawn || own?.times.length === drawn.times.length ? missingMotionOf(own) : [];
@@ -65,7 +65,7 @@ function followPlan(store, playback, preview) {
     try {
       if (loaded === key) preview.setTrouble(trouble);
       else {
-        // Drawing without a GPU must not hold up the plots: they are painted first, and so is the pose before.
+        // Without a GPU drawing is slow: first the plots are painted and the previous poses drawn.
         const [poses] = await Promise.all([api.poses(id, plan.hash), painted(), drawn]);
         await preview.loadPoses(poses, trouble);
         loaded = key;
@@ -76,10 +76,10 @@ function followPlan(store, playback, preview) {
       drawn = preview.drawn();
       if (since !== null) drawn.then(() => measured("edit to 3D", since));
     } catch (error) {
-      // A plan that has been replaced meanwhile is no longer wanted.
+      // The plan was replaced meanwhile: its error does not matter.
       if (drawnPlan(store.state) !== plan) return;
       if (isGrey && error.status === CONFLICT) {
-        // The studio no longer has the last plan that worked: the nearest motion is shown, or what was shown before.
+        // The server no longer has the last plan that worked: show the nearest motion, or keep what is shown.
         preview.setGrey(true);
         store.set({ worked: null });
         return;
@@ -97,7 +97,7 @@ function followPlan(store, playback, preview) {
   });
 }
 
-/** Tells the preview that an edit is on, or may begin: the pointer or the keyboard is where edits are made. */
+/** Sets the preview busy during an edit, and while the pointer or the focus is where an edit may begin. */
 function followHand(store, preview) {
   const near = new Set();
   const tell = () => preview.setBusy(near.size > 0 || store.state.gesture !== null);
@@ -115,7 +115,7 @@ function followHand(store, preview) {
   store.watch(({ gesture }) => [gesture !== null], tell);
 }
 
-/** Opens the preview; without it the page works and shows a message. */
+/** Opens the preview; if that fails, shows a message and returns null, and the rest of the page works. */
 export async function mountStage(store, edits, playback) {
   const legend = mountLegend(store, playback);
   let preview;
@@ -131,7 +131,8 @@ export async function mountStage(store, edits, playback) {
   mountOverScene(store, preview, legend);
   mountGhosts(store, preview);
   mountJogGhost(store, preview, playback);
-  store.watch(({ tracks, view }) => [tracks, view?.document.robot], ({ tracks, view }) => preview.setTracks(tracks.filter(({ robot }) => robot === view?.document.robot)));
+  store.watch(({ tracks, view }) => [tracks, view?.document.robot], ({ tracks, view }) =>
+    preview.setTracks(tracks.filter(({ robot }) => robot === view?.document.robot)));
   playback.addEventListener("time", ({ detail }) => preview.setTime(detail.time, detail.cause === "clock"));
   followPlan(store, playback, preview);
   mountGoal(store, edits, preview);

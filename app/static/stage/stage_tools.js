@@ -1,4 +1,4 @@
-/** The tools over the 3D preview: views where there is no cube, fit, and the menu of visible layers. */
+/** The tools over the 3D preview: a list of views if there is no cube, Fit, and the menu of visible layers. */
 
 import { api } from "../api/gaits.js";
 import { checkMenu } from "../lib/check_menu.js";
@@ -8,31 +8,65 @@ import { latestOnly } from "../lib/latest_only.js";
 import { shownDocument } from "../state/store.js";
 import { drawnPlan } from "../state/worked_plan.js";
 
-/** What the menu shows and hides: its parts of the preview, the layer over it, and how it begins. */
+/** Entries of the menu: the parts of the preview and the layer over it that each shows, and whether it is on at first. */
 const ENTRIES = [
-  { key: "robot", text: "Robot", shown: true, parts: ["robot"], help: "Without it everything on the floor is seen; it is back when the page is loaded again" },
-  { key: "polygon", text: "Support polygon", shown: true, parts: ["polygon", "trouble"], help: "The area between the standing feet: teal, mustard where the centre of mass is near its edge, magenta where it is outside" },
-  { key: "com", text: "Centre of mass", shown: true, parts: ["com"], help: "A disc on the floor, and its way" },
-  { key: "cop", text: "Centre of pressure", shown: true, parts: ["cop"], help: "A diamond on the floor, and its way: where the ground pushes" },
-  { key: "traces", text: "Swings and footholds", shown: true, parts: ["traces", "footholds"], help: "Ways of the feet, and a ring where each comes to stand" },
-  { key: "reach", text: "Reach of the feet", shown: false, parts: ["reach"], help: "Where each foot can be at the body's present height: outlines on the floor and up to 12 mm over it" },
-  { key: "shadow", text: "Contact shadows", shown: true, parts: ["shadow"], help: "A soft shadow under each foot that stands" },
-  { key: "labels", text: "Labels", shown: true, parts: [], layer: "foot-labels", help: "Number and place of each foot; an arrow while it is lifted" },
-  { key: "guides", text: "Arrow and scale", shown: true, parts: [], layer: "guides", help: "The way of a step, and 10 mm on the floor" },
-  { key: "goal", text: "Goal", shown: true, parts: [], layer: "goal", help: "The goal to be dragged: it changes the step and the turn. It hides where the floor is seen from its edge" },
-  { key: "pose", text: "Pose", shown: true, parts: [], layer: "pose", help: "The body of the pose under the playhead, to be dragged, in a gait for the robot's clock" },
+  {
+    key: "robot", text: "Robot", shown: true, parts: ["robot"],
+    help: "Without it everything on the floor is seen; it is back when the page is loaded again",
+  },
+  {
+    key: "polygon", text: "Support polygon", shown: true, parts: ["polygon", "trouble"],
+    help: "The area between the standing feet: teal, mustard where the centre of mass is near its edge, "
+      + "magenta where it is outside",
+  },
+  {
+    key: "com", text: "Centre of mass", shown: true, parts: ["com"],
+    help: "A disc on the floor, and its way",
+  },
+  {
+    key: "cop", text: "Centre of pressure", shown: true, parts: ["cop"],
+    help: "A diamond on the floor, and its way: where the ground pushes",
+  },
+  {
+    key: "traces", text: "Swings and footholds", shown: true, parts: ["traces", "footholds"],
+    help: "Ways of the feet, and a ring where each comes to stand",
+  },
+  {
+    key: "reach", text: "Reach of the feet", shown: false, parts: ["reach"],
+    help: "Where each foot can be at the body's present height: outlines on the floor and up to 12 mm over it",
+  },
+  {
+    key: "shadow", text: "Contact shadows", shown: true, parts: ["shadow"],
+    help: "A soft shadow under each foot that stands",
+  },
+  {
+    key: "labels", text: "Labels", shown: true, parts: [], layer: "foot-labels",
+    help: "Number and place of each foot; an arrow while it is lifted",
+  },
+  {
+    key: "guides", text: "Arrow and scale", shown: true, parts: [], layer: "guides",
+    help: "The way of a step, and 10 mm on the floor",
+  },
+  {
+    key: "goal", text: "Goal", shown: true, parts: [], layer: "goal",
+    help: "The goal to be dragged: it changes the step and the turn. It hides where the floor is seen from its edge",
+  },
+  {
+    key: "pose", text: "Pose", shown: true, parts: [], layer: "pose",
+    help: "The body of the pose under the playhead, to be dragged, in a gait for the robot's clock",
+  },
 ];
 
 const NO_PRESSURE = "Not known: this motion has no accelerations. Optimised and live plans have.";
 
-/** Fetches the reach of the shown plan once it is wanted. */
+/** Fetches the reach of the drawn plan while its layer is on. */
 function followReach(store, preview, isOn) {
   const offer = latestOnly(async ({ id, hash, workspace }) => {
     try {
       const reach = await api.reach(id, hash, workspace);
       if (drawnPlan(store.state)?.hash === hash) preview.setReach(reach);
     } catch {
-      // A plan that was replaced meanwhile is no longer needed; the next one requests again.
+      // The plan was replaced meanwhile; the next one makes its own request.
     }
   });
   let requested = null;
@@ -45,21 +79,23 @@ function followReach(store, preview, isOn) {
     requested = key;
     offer(wanted);
   };
-  // New poses take the reach of the old ones away.
+  // New poses remove the reach from the scene: request it again.
   preview.addEventListener("poses", () => { requested = null; ask(); });
   store.watch((state) => [shownDocument(state)?.options?.workspace], ask);
   return ask;
 }
 
 /**
- * Builds the tools; the choice of layers is kept.
+ * Builds the tools; the choice of layers is remembered, but the robot is visible again after a reload.
  * @param {object} store
  * @param {import("../preview/preview.js").Preview} preview
  * @param {(view: string) => void} look
  * @param {(layer: string, shown: boolean) => void} onShow
  */
 export function mountTools(store, preview, look, onShow) {
-  for (const [id, type] of [["camera", "change"], ["fit-view", "click"]]) byId(id).addEventListener(type, () => look(byId("camera").value));
+  const lookAgain = () => look(byId("camera").value);
+  byId("camera").addEventListener("change", lookAgain);
+  byId("fit-view").addEventListener("click", lookAgain);
 
   const choice = recalled("scene", Object.fromEntries(ENTRIES.map(({ key, shown }) => [key, shown])));
   const requestReach = followReach(store, preview, () => choice.reach);

@@ -1,14 +1,14 @@
-/** The cube at the stage's top right: it turns with the camera, and a click on a face looks from there. */
+/** The cube at the top right of the stage: it turns with the camera, and a click on a face selects that view. */
 
 import { byId, h } from "../lib/dom.js";
 import { shownDocument } from "../state/store.js";
 
-/** Half an edge, px, and the middle of the cube in its box. */
+/** Half an edge, and the middle of the cube in its box, px. */
 const [HALF, MIDDLE] = [21, 38];
-/** Faces seen flatter than this count as turned away. */
+/** Faces whose normal has a smaller cosine to the camera's axis count as turned away. */
 const TURNED_AWAY = 0.12;
 
-/** Faces by the way out of them, in the robot's frame: x to its front, y to its left, z up. */
+/** Faces with their outward normals in the robot's frame: x to its front, y to its left, z up. */
 const FACES = [
   { view: "top", text: "Top", out: [0, 0, 1] },
   { view: "front", text: "Front", out: [1, 0, 0] },
@@ -23,10 +23,10 @@ const MOVES = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 };
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 
-/** The way that the robot of a gait looks at its start, degrees. */
+/** Direction in which the robot of a gait faces at the start, degrees. */
 export const frontOf = (document) => (document?.orientation === "FB" ? 45 : 0) + 90 * ((document?.direction ?? 1) - 1);
 
-/** Which way the words on a face run: level, or on the top as level as they can. */
+/** Direction of the text on a face: level; on the top face, the axis nearest to the camera's right. */
 function alongWords(out, right) {
   if (out[2] === 0) return cross(UP, out);
   const ways = [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]];
@@ -45,7 +45,7 @@ function placeFace({ out, button }, { right, up, back }) {
   button.style.setProperty("--facing", facing.toFixed(2));
 }
 
-/** Builds a group of buttons of which one is in the order of tabs; arrow keys go on from there. */
+/** Makes a group of buttons one stop of the Tab key; arrow keys move the focus inside it. */
 function roving(group, buttons) {
   const enter = (button) => buttons.forEach((other) => { other.tabIndex = other === button ? 0 : -1; });
   enter(buttons[0]);
@@ -56,6 +56,11 @@ function roving(group, buttons) {
     event.preventDefault();
     buttons[(buttons.indexOf(document.activeElement) + move + buttons.length) % buttons.length].focus({ preventScroll: true });
   });
+}
+
+function faceButton({ view, text }) {
+  const title = view === "top" ? "Look from above" : `Look at the robot's ${view}`;
+  return h("button", { class: "cube-face", "aria-label": `${text} view`, title, data: { view }, text });
 }
 
 export class ViewCube {
@@ -70,10 +75,7 @@ export class ViewCube {
    */
   constructor(store, look) {
     this.#store = store;
-    this.#faces = FACES.map((face) => ({
-      ...face,
-      button: h("button", { class: "cube-face", "aria-label": `${face.text} view`, title: face.view === "top" ? "Look from above" : `Look at the robot's ${face.view}`, data: { view: face.view }, text: face.text }),
-    }));
+    this.#faces = FACES.map((face) => ({ ...face, button: faceButton(face) }));
     this.#faces.forEach(({ view, button }) => button.addEventListener("click", () => look(view)));
     this.#corner.addEventListener("click", () => look("perspective"));
     const buttons = [...this.#faces.map(({ button }) => button), this.#corner];
@@ -81,7 +83,7 @@ export class ViewCube {
     roving(byId("view-cube"), buttons);
   }
 
-  /** Whether the robot looks another way. */
+  /** Whether the robot's front has changed. */
   isChanged() {
     const front = frontOf(shownDocument(this.#store.state));
     if (front === this.#front) return false;

@@ -1,27 +1,27 @@
-/** Over the cells: each swing's mark and duration, and at the end of each row the foot's duty factor. */
+/** Bars over the cells with each swing's mark and duration, and each foot's duty factor at the end of its row. */
 
 import { h, setText } from "../lib/dom.js";
 import { columnTime, placeOf } from "../state/time_axis.js";
 
-/** Narrower swings carry the mark alone, and still narrower ones nothing, px. */
+/** Least width of a swing that shows its duration, and of one that shows its mark, px. */
 const LEAST_WORDS = 56;
 const LEAST_MARK = 14;
 
-/** Spans of swing in a row of 1 and 0. */
+/** Swings in a row of cells, which are 1 for stance and 0 for swing. */
 export function swingSpans(steps) {
   return [...steps.matchAll(/0+/g)].map(({ index, 0: span }) => ({ first: index, last: index + span.length - 1 }));
 }
 
 const seconds = (time) => `${time.toFixed(time < 9.95 ? 2 : 1)} s`;
 
-/** Share of the drawn time in which the foot is on the ground. */
+/** Share of the drawn time that the foot is on the ground. */
 function dutyOf(axis, spans) {
   const whole = columnTime(axis, axis.samples) - columnTime(axis, 0);
   const air = spans.reduce((sum, { first, last }) => sum + columnTime(axis, last + 1) - columnTime(axis, first), 0);
   return whole > 0 ? 1 - air / whole : 1;
 }
 
-/** The layer of a row: it lies over the cells and goes along with them. */
+/** The elements of a row: the layer over its cells, which scrolls with them, and its duty factor. */
 export function buildBars() {
   return { layer: h("div", { class: "swing-bars", "aria-hidden": "true" }), duty: h("span", { class: "row-duty" }), seen: "" };
 }

@@ -120,6 +120,17 @@ def test_plans_come_before_a_limit_and_do_not_end_it(solver: LiveSolver) -> None
     assert {plan.status for plan in plans} == {SolveStatus.SOLVED}
 
 
+def test_remedies_come_before_a_limit_that_was_asked_first(solver: LiveSolver) -> None:
+    gait, stuck = gait_of("walk", 0.010, margin=0.006), gait_of("walk", 0.050, margin=0.006)
+    with ThreadPoolExecutor(1) as pool:
+        asked = pool.submit(solver.limit, gait, Limit.STEP, 60.0)
+        told: list[Remedy] = []
+        solver.remedies(stuck, told.append, go_on=lambda: not told)
+        assert told
+        assert not asked.done()
+        assert asked.result(60.0) == largest_value(gait, MODEL, Limit.STEP, lambda: True)
+
+
 def test_plans_come_before_remedies_and_do_not_end_their_search(solver: LiveSolver) -> None:
     with ThreadPoolExecutor(1) as pool:
         search = pool.submit(solver.remedies, gait_of("walk", 0.030), timeout=60.0)

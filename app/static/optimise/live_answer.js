@@ -50,19 +50,25 @@ function infeasibleParts(plan, goTo) {
   return [sentence, ...(lacks.length ? missingMotionList(lacks, plan, goTo) : [])];
 }
 
-/** What the card says of a state: its title and its sentences; null where nothing is wrong. */
+/**
+ * What the card says of a state: its title, what its sentences are about, and what makes them; null where nothing is wrong.
+ */
 function verdictOf(state, goTo) {
   const plan = ownPlan(state);
   const why = plan?.poses?.explanation ?? [];
-  if (why.length) return { title: "No motion for this gait", parts: why.map((text) => h("p", { text })), mendable: false };
-  if (plan?.live?.status === "infeasible") return { title: "No motion for this drawing", parts: infeasibleParts(plan, goTo), mendable: true };
-  if (isRefusedDrawing(state)) return { title: "No motion for this drawing", parts: [h("p", { class: "first", text: plan.refusal.sentence })], mendable: true };
+  if (why.length) return { title: "No motion for this gait", about: why, build: () => why.map((text) => h("p", { text })), mendable: false };
+  const title = "No motion for this drawing";
+  const { status, evidence, explanation, lacks } = plan?.live ?? {};
+  if (status === "infeasible") return { title, about: [evidence, explanation, lacks, plan.times], build: () => infeasibleParts(plan, goTo), mendable: true };
+  const first = (text) => () => [h("p", { class: "first", text })];
+  if (isRefusedDrawing(state)) return { title, about: plan.refusal.sentence, build: first(plan.refusal.sentence), mendable: true };
   const fall = fallOf(state);
-  return fall ? { title: "It has a motion, but it tips in physics", parts: [h("p", { class: "first", text: fall.sentence })], mendable: true } : null;
+  return fall ? { title: "It has a motion, but it tips in physics", about: fall.sentence, build: first(fall.sentence), mendable: true } : null;
 }
 
 /**
  * Keeps what a person works on in its place while the card above it grows: a field with the focus, a number that is dragged.
+ * The card itself stays where it is under the pointer.
  */
 function keepPlace(store, element) {
   const panel = byId("sections");
@@ -71,7 +77,7 @@ function keepPlace(store, element) {
     const now = element.offsetHeight;
     const { activeElement } = document;
     const isWorking = (panel.contains(activeElement) && !element.contains(activeElement)) || (store.state.gesture && panel.matches(":hover"));
-    if (isWorking) panel.scrollTop += now - height;
+    if (isWorking && !element.matches(":hover")) panel.scrollTop += now - height;
     height = now;
   }).observe(element);
 }
@@ -92,6 +98,7 @@ export function liveAnswer(store, edits, goTo) {
   const why = h("div", { class: "advice-why" });
   const body = h("div", { class: "advice" }, why, remedies.element);
   const element = h("div", { class: "advice-card", role: "region", "aria-label": "Why it is infeasible", hidden: true }, h("h3", { class: "advice-title" }, title, up), body);
+  let shown = null;
   keepPlace(store, body);
   return {
     element,
@@ -101,7 +108,10 @@ export function liveAnswer(store, edits, goTo) {
       if (!verdict) return;
       setText(title, verdict.title);
       top();
-      why.replaceChildren(...verdict.parts);
+      // What says the same stays: a press and its release may lie on either side of an answer of the server.
+      const about = JSON.stringify(verdict.about);
+      if (about !== shown) why.replaceChildren(...verdict.build());
+      shown = about;
       remedies.element.hidden = !verdict.mendable;
       if (verdict.mendable) remedies.show(state.remedies);
     },

@@ -257,8 +257,9 @@ def test_what_cannot_be_reached_is_marked_in_3d_at_its_time(page: Page) -> None:
     step = page.get_by_role("spinbutton", name="Step", exact=True)
     step.fill("28")
     step.press("Enter")
-    reach = page.get_by_role("button", name=re.compile("^Go to Reach, foot")).first
-    reach.click()
+    # Until then the inspector keeps the field in its place while the answer above it grows.
+    expect(page.get_by_role("group", name="What would help").get_by_role("listitem").first).to_be_visible()
+    page.get_by_role("button", name=re.compile("^Go to Reach, foot")).first.click()
     wait_for(lambda: trouble_extent(page) > 0.005, "the outline of the reach is drawn")
     page.get_by_role("button", name=re.compile("^Undo")).click()
     wait_for(lambda: trouble_extent(page) == 0.0, "the outline is gone")

@@ -63,7 +63,7 @@ function verdictOf(state, goTo) {
   const first = (text) => () => [h("p", { class: "first", text })];
   if (isRefusedDrawing(state)) return { title, about: plan.refusal.sentence, build: first(plan.refusal.sentence), mendable: true };
   const fall = fallOf(state);
-  return fall ? { title: "It has a motion, but it tips in physics", about: fall.sentence, build: first(fall.sentence), mendable: true } : null;
+  return fall ? { title: "It tips in physics", about: fall.sentence, build: first(fall.sentence), mendable: true } : null;
 }
 
 /**
@@ -90,7 +90,7 @@ export function liveAnswer(store, edits, goTo) {
     edits.edit(({ name, notes }) => ({ ...document, name, notes }), label);
   };
   const remedies = remedyList({ use, show: tryout.show, end: tryout.end });
-  const [title, up] = [h("span", {}), h("button", { class: "link", text: "What would help", hidden: true })];
+  const [title, up] = [h("span", {}), h("button", { class: "link", text: "↑", "aria-label": "What would help", title: "Up to what would help", hidden: true })];
   const panel = byId("sections");
   const top = () => { up.hidden = panel.scrollTop < SCROLLED_PX; };
   up.addEventListener("click", () => { panel.scrollTop = 0; });

@@ -253,7 +253,7 @@ def test_a_gait_that_tips_in_physics_is_offered_what_helps(page: Page) -> None:
 @pytest.mark.heavy
 @pytest.mark.scene
 def test_what_cannot_be_reached_is_marked_in_3d_at_its_time(page: Page) -> None:
-    choose(page, "S-Gait 10 mm")
+    choose(page, "C-Gait 10 mm")
     step = page.get_by_role("spinbutton", name="Step", exact=True)
     step.fill("28")
     step.press("Enter")

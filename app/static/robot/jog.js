@@ -134,10 +134,12 @@ export function jogPart(store, edits) {
     showChoice(parts, now, feet);
     rows.show(handlesOf(now), (answer ?? now.answer)?.handles ?? null, now.size);
     parts.findings.replaceChildren(...(answer?.findings ?? []).map(findingRow));
-    setText(parts.target, answer ? targetText(answer, now.steps) : "");
     const why = whyNotMove(state, answer);
     setAllowed(parts.move, why, "Moves the robot to the target, slowly and in small moves");
-    setText(parts.why, why && !answer?.findings.some(({ sentence }) => sentence === why) ? why : "");
+    if (answer || !now.answer) {
+      setText(parts.target, answer ? targetText(answer, now.steps) : "");
+      setText(parts.why, why && !answer?.findings.some(({ sentence }) => sentence === why) ? why : "");
+    }
     setAllowed(parts.back, now.steps.length ? null : "The target is where it stands.");
     const { target_mm: pose = null, wired = false } = answer ?? now.answer ?? {};
     store.set({ jog: { ...body(), pose_mm: pose, target_mm: now.steps.length ? pose : null, wired } });

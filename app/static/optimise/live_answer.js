@@ -82,6 +82,25 @@ function keepPlace(store, element) {
   }).observe(element);
 }
 
+/** Shows nothing new between a press in an element and its release, so that both meet the same button; then it shows the newest. */
+function stillWhilePressed(element, show) {
+  let isPressed = false;
+  let waiting = null;
+  const release = () => setTimeout(() => {
+    isPressed = false;
+    if (waiting) show(waiting);
+    waiting = null;
+  });
+  element.addEventListener("pointerdown", () => {
+    isPressed = true;
+    for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, release, { once: true });
+  });
+  return (state) => {
+    if (isPressed) waiting = state;
+    else show(state);
+  };
+}
+
 /** The card: what is wrong, where, and what would help. It stands first in the inspector; its title stays in sight. */
 export function liveAnswer(store, edits, goTo) {
   const tryout = tryouts(store);
@@ -100,22 +119,19 @@ export function liveAnswer(store, edits, goTo) {
   const element = h("div", { class: "advice-card", role: "region", "aria-label": "Why it is infeasible", hidden: true }, h("h3", { class: "advice-title" }, title, up), body);
   let shown = null;
   keepPlace(store, body);
-  return {
-    element,
-    show(state) {
-      const verdict = verdictOf(state, goTo);
-      element.hidden = body.hidden = !verdict;
-      if (!verdict) return;
-      setText(title, verdict.title);
-      top();
-      // What says the same stays: a press and its release may lie on either side of an answer of the server.
-      const about = JSON.stringify(verdict.about);
-      if (about !== shown) why.replaceChildren(...verdict.build());
-      shown = about;
-      remedies.element.hidden = !verdict.mendable;
-      if (verdict.mendable) remedies.show(state.remedies);
-    },
+  const show = (state) => {
+    const verdict = verdictOf(state, goTo);
+    element.hidden = body.hidden = !verdict;
+    if (!verdict) return;
+    setText(title, verdict.title);
+    top();
+    const about = JSON.stringify(verdict.about);
+    if (about !== shown) why.replaceChildren(...verdict.build());
+    shown = about;
+    remedies.element.hidden = !verdict.mendable;
+    if (verdict.mendable) remedies.show(state.remedies);
   };
+  return { element, show: stillWhilePressed(element, show) };
 }
 
 const TITLES = { infeasible: "Optimise found no motion either", failed: "Optimise failed", interrupted: "Optimise was interrupted" };

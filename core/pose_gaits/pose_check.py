@@ -29,6 +29,11 @@ ARM_STRIDE = 2
 """Arms are looked at at every second of these places."""
 SHOWN_SAMPLES = 8
 """Places of each move at which its motion is shown."""
+HEADING_ROOM = np.radians(10.0)
+"""Within a move the heading is looked for as far as this from an even turn between its two poses, rad."""
+HEADING_ACCURACY = 1e-8
+HEADING_TOLERANCE = 0.002
+"""A heading may leave an even turn by this much more than asked, rad, besides what slip lets it."""
 NEAR_GROUND = 0.0005
 """A swinging foot that is lower than this drags, m."""
 HEIGHT_TOLERANCE = 0.00015
@@ -138,7 +143,8 @@ class MotionInMove:
 def motion_in_move(gait: PoseGait, move: int, samples: int = SAMPLES) -> MotionInMove:
     """Body and feet along a move whose motors all go straight.
 
-    The body is where the farthest of its standing feet is nearest to its foothold, axis by axis.
+    The body is where the farthest of its standing feet is nearest to its foothold, axis by axis; where a gait
+    turns or sways it is turned so that this distance is least.
 
     Args:
         gait: the gait.
@@ -151,6 +157,8 @@ def motion_in_move(gait: PoseGait, move: int, samples: int = SAMPLES) -> MotionI
     mixed = np.array([(1 - s) * gait.strokes[move] + s * gait.strokes[move + 1] for s in shares])
     headings = (1 - shares) * gait.headings[move] + shares * gait.headings[move + 1]
     feet_robot = robot_feet(problem.model, mixed)
+    if problem.is_turned:
+        headings = _fitting_headings(feet_robot[:, standing], gait.feet[move][standing], headings)
     turned = np.array([turned_about_z(feet, angle) for feet, angle in zip(feet_robot, headings, strict=True)])
     asked = gait.feet[move][standing] - turned[:, standing]
     body = (asked.min(axis=1) + asked.max(axis=1)) / 2
@@ -160,6 +168,33 @@ def motion_in_move(gait: PoseGait, move: int, samples: int = SAMPLES) -> MotionI
     arms = np.nan_to_num(arm_gaps(problem.model, mixed[::ARM_STRIDE]), nan=np.inf).min(axis=0)
     heights = heights_over_plane(feet, standing)
     return MotionInMove(shares, body, headings, arms, feet, margins, slips, heights, standing)
+
+
+def _fitting_headings(feet_robot: Floats, footholds: Floats, near: Floats) -> Floats:
+    """(n,) headings with which the farthest standing foot is nearest to its foothold, by golden section, rad.
+
+    For small turns the distance is convex in the heading.
+
+    Args:
+        feet_robot: (n, standing, 3) in the body's frame, m.
+        footholds: (standing, 3) m.
+        near: (n,) headings about which to look, rad.
+    """
+    lower, upper = near - HEADING_ROOM, near + HEADING_ROOM
+    golden = (np.sqrt(5.0) - 1.0) / 2.0
+    while float((upper - lower).max()) > HEADING_ACCURACY:
+        left, right = upper - golden * (upper - lower), lower + golden * (upper - lower)
+        is_left = _farthest(feet_robot, footholds, left) < _farthest(feet_robot, footholds, right)
+        lower, upper = np.where(is_left, lower, left), np.where(is_left, right, upper)
+    return np.asarray((lower + upper) / 2.0)
+
+
+def _farthest(feet_robot: Floats, footholds: Floats, headings: Floats) -> Floats:
+    """(n,) horizontal distance of the farthest foot from its foothold, axis by axis, with the best body."""
+    cosine, sine = np.cos(headings)[:, None], np.sin(headings)[:, None]
+    x, y = feet_robot[..., 0], feet_robot[..., 1]
+    away = footholds[:, :2] - np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
+    return np.asarray((away.max(axis=1) - away.min(axis=1)).max(axis=1) / 2.0)
 
 
 def motion_along(gait: PoseGait, samples: int = SHOWN_SAMPLES) -> Trajectory:
@@ -209,6 +244,7 @@ def check_poses(gait: PoseGait, samples: int = SAMPLES) -> PoseCheck:
     findings = [*_end_findings(gait), *_stroke_findings(gait)]
     for move, motion in enumerate(motions):
         findings += _move_findings(gait.problem, move, motion)
+        findings += _sway_findings(gait, move, motion)
     return PoseCheck(_figures(gait, motions), tuple(findings))
 
 
@@ -295,6 +331,22 @@ def _move_findings(problem: PoseProblem, move: int, motion: MotionInMove) -> Ite
         yield _finding("arm distance", move, one, near, sentence)
 
 
+def _sway_findings(gait: PoseGait, move: int, motion: MotionInMove) -> Iterator[PoseFinding]:
+    """The heading is nowhere farther from an even turn than asked."""
+    problem = gait.problem
+    if not problem.is_turned:
+        return
+    total = gait.turn * problem.all_cycles
+    even = total * (move + motion.shares) / problem.move_count
+    over = float(np.abs(motion.heading - even).max()) - problem.sway
+    if over > HEADING_TOLERANCE + problem.bounds.slip / problem.model.radius:
+        sentence = (
+            f"The heading in move {move + 1} is {np.degrees(over):.2f}° farther from an even turn than the "
+            f"{np.degrees(problem.sway):g}° that are asked."
+        )
+        yield PoseFinding("sway", move + 1, None, over, sentence)
+
+
 def _stroke_findings(gait: PoseGait) -> Iterator[PoseFinding]:
     """Strokes within the motors' range, moves within the stop bound, and motors that share an actuator."""
     problem = gait.problem
@@ -339,6 +391,9 @@ def _end_findings(gait: PoseGait) -> Iterator[PoseFinding]:
     off = float(np.maximum(low - gait.bodies[:, 2], gait.bodies[:, 2] - high).max())
     if off > POSE_TOLERANCE:
         yield _finding("body height", None, None, off, "The body is {} outside its range of heights.")
+    off = 0.0 if problem.free_turn else abs(gait.turn - problem.turn)
+    if off > POSE_TOLERANCE:
+        yield PoseFinding("turn", None, None, off, f"The body turns {np.degrees(off):.2f}° a cycle off.")
     off = float(np.abs(gait.bodies[-1, :2] - gait.bodies[0, :2] - _asked_travel(gait)).max())
     if off > POSE_TOLERANCE:
         yield _finding("step", None, None, off, "The body ends {} off where it should.")
@@ -356,9 +411,7 @@ def _end_findings(gait: PoseGait) -> Iterator[PoseFinding]:
 
 def _asked_travel(gait: PoseGait) -> Floats:
     """(2,) from the first place of the body to the last: every cycle along its own heading, m."""
-    problem = gait.problem
-    directions = [problem.travel_direction(cycle + 0.5) for cycle in range(problem.all_cycles)]
-    return np.asarray(gait.step * np.sum(directions, axis=0))
+    return np.asarray(gait.step * gait.problem.whole_travel())
 
 
 def _end_distance(gait: PoseGait) -> float:

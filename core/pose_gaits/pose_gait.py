@@ -23,7 +23,7 @@ class PoseGait:
         problem: that they answer.
         step: travel of the body a cycle, m.
         bodies: (poses, 3) point of the body axis in the actuator plane, m; z above standing feet's platforms.
-        headings: (poses,) turn of the body, rad.
+        headings: (poses,) turn of the body from its first direction, rad; even but for the problem's sway.
         feet: (poses, legs, 3) platform centres, m.
         strokes: (poses, legs, 3) motor strokes, m.
     """
@@ -67,13 +67,28 @@ class PoseGait:
 
     @property
     def distance(self) -> float:
-        """How far the body goes from the first pose to the last, m."""
-        return float(np.linalg.norm(self.bodies[-1, :2] - self.bodies[0, :2]))
+        """How far the body goes in all cycles, m; in a curve along the chord of each."""
+        return self.step * self.problem.all_cycles
 
     @property
     def speed(self) -> float:
         """Travel a robot second, m/s."""
         return self.distance / self.seconds
+
+    @property
+    def turn(self) -> float:
+        """Turn of the body a cycle, rad."""
+        return float(self.headings[-1] - self.headings[0]) / self.problem.all_cycles
+
+    @property
+    def turn_rate(self) -> float:
+        """Turn a robot second, rad/s."""
+        return float(self.headings[-1] - self.headings[0]) / self.seconds
+
+    @property
+    def pace(self) -> float:
+        """What compares gaits of one problem: travel a second, or on the spot turn a second."""
+        return abs(self.turn_rate) if self.problem.on_the_spot else self.speed
 
     @cached_property
     def waypoints(self) -> Waypoints:

@@ -49,6 +49,10 @@ POSE_BOUNDS: Mapping[str, tuple[float, float]] = MappingProxyType(
 """Least and most of each limit of `PoseBounds` that is one number, SI."""
 MOST_CYCLES = 20
 MOST_PARTS = 4
+MOST_TURN = math.radians(120.0)
+"""Largest turn of the body a cycle, rad."""
+MOST_SWAY = math.radians(40.0)
+"""Farthest that the heading may be allowed to leave an even turn, rad."""
 
 
 @dataclass(frozen=True)
@@ -92,8 +96,10 @@ class PoseProblem:
         model: the robot.
         order: every foot once, in the order of their steps, counted from 1.
         heading: which way the body travels at the beginning, rad from x.
-        step: travel of the body a cycle, m; None for the step of the fastest walk.
-        turn: of the body a cycle, even over its moves, rad.
+        step: travel of the body a cycle, m; None for the step of the fastest walk, 0 for a turn on the spot.
+        turn: of the body a cycle, rad, to the left where it is above 0.
+        free_turn: on the spot, whether the turn is that of the fastest; then only the sign of `turn` counts.
+        sway: how far the heading may leave an even turn, rad.
         cycles: from the standard stance to rest; None for one cycle in mid-walk, which repeats itself.
         parts: moves into which each lift, each lowering and each move of the body alone is divided; None for
             the number with which the gait is fastest.
@@ -107,6 +113,8 @@ class PoseProblem:
     heading: float
     step: float | None = None
     turn: float = 0.0
+    free_turn: bool = False
+    sway: float = 0.0
     cycles: int | None = None
     parts: int | None = None
     bounds: PoseBounds = field(default_factory=PoseBounds)
@@ -120,11 +128,7 @@ class PoseProblem:
                 f"--order is {','.join(map(str, self.order))}; it must name each foot 1 to {legs} once.",
                 "--order",
             )
-        if self.step is not None and not (math.isfinite(self.step) and 0.0 < self.step <= 0.2):
-            raise InputError(
-                f"--step is {self.step * 1000:g} mm; it must lie above 0 and up to 200 mm, or be “free”.",
-                "--step",
-            )
+        self._require_way()
         if self.cycles is not None and not 1 <= self.cycles <= MOST_CYCLES:
             raise InputError(
                 f"--cycles is {self.cycles}; it must lie between 1 and {MOST_CYCLES}.", "--cycles"
@@ -134,14 +138,43 @@ class PoseProblem:
         if self.pinned:
             self._require_pinned()
 
+    def _require_way(self) -> None:
+        """The body goes somewhere or turns, by no more than a cycle can.
+
+        Raises:
+            InputError: it does neither, or too much.
+        """
+        if self.step is not None and not (math.isfinite(self.step) and 0.0 <= self.step <= 0.2):
+            raise InputError(
+                f"--step is {self.step * 1000:g} mm; it must lie above 0 and up to 200 mm, be 0 for a turn "
+                "on the spot, or be “free”.",
+                "--step",
+            )
+        if not abs(self.turn) <= MOST_TURN:
+            raise InputError(
+                f"--turn is {self.turn:g} rad a cycle; it must lie between {-MOST_TURN:.3g} and "
+                f"{MOST_TURN:.3g} rad.",
+                "--turn",
+            )
+        if self.step == 0.0 and self.turn == 0.0:
+            raise InputError("The step is 0 mm and the turn 0 rad; the robot has to go somewhere.", "--step")
+        if self.free_turn and self.step != 0.0:
+            raise InputError("Only a turn on the spot can be as fast as possible; set --step 0.", "--turn")
+        if not 0.0 <= self.sway <= MOST_SWAY:
+            raise InputError(
+                f"--sway is {self.sway:g} rad; it must lie between 0 and {MOST_SWAY:.3g} rad.", "--sway"
+            )
+
     def _require_pinned(self) -> None:
         """Pinned poses are poses of this gait.
 
         Raises:
             InputError: a pinned pose does not exist, or is an end.
         """
-        if self.turn:
-            raise InputError("A gait that turns cannot have pinned poses (poses.pinned).", "poses.pinned")
+        if self.is_turned:
+            raise InputError(
+                "A gait that turns or sways cannot have pinned poses (poses.pinned).", "poses.pinned"
+            )
         if self.may_divide or self.parts not in (None, 1):
             raise InputError(
                 f"A stop bound of {self.bounds.stop_bound:g} s may divide moves, so no pose can be pinned "
@@ -156,6 +189,26 @@ class PoseProblem:
                     "where the gait begins and ends is given.",
                     "poses.pinned",
                 )
+
+    @property
+    def on_the_spot(self) -> bool:
+        """Whether the body turns where it is."""
+        return self.step == 0.0
+
+    @property
+    def is_free(self) -> bool:
+        """Whether the step, or on the spot the turn, is that of the fastest gait."""
+        return self.step is None or self.free_turn
+
+    @property
+    def way_word(self) -> str:
+        """What a cycle is asked to do: "step", or "turn" on the spot."""
+        return "turn" if self.on_the_spot else "step"
+
+    @property
+    def is_turned(self) -> bool:
+        """Whether the heading is anything but 0 throughout."""
+        return self.turn != 0.0 or self.sway > 0.0
 
     @property
     def largest_move(self) -> float:
@@ -217,16 +270,21 @@ class PoseProblem:
             step: travel of the body a cycle, m.
         """
         share = (pin.pose - 1) / self.move_count
-        return share * step * self.all_cycles * self.travel_direction() + self.pinned_offset(pin)
+        return share * step * self.whole_travel() + self.pinned_offset(pin)
 
     def required_height(self, move: int, foot: int, share: float) -> float:
         """Least height of a swinging foot at a share of a move, above the plane of the standing feet, m."""
         return SWING_SHARE * float((1 - share) * self.floor[move, foot] + share * self.floor[move + 1, foot])
 
-    def travel_direction(self, turn_share: float = 0.5) -> Floats:
-        """(2,) unit vector along which a cycle travels: its heading after a share of its turn."""
-        angle = self.heading + self.turn * turn_share
+    def travel_direction(self, cycle: int = 0) -> Floats:
+        """(2,) unit vector along which a cycle travels, counted from 0: its heading after half a turn."""
+        angle = self.heading + self.turn * (cycle + 0.5)
         return np.array([math.cos(angle), math.sin(angle)])
+
+    def whole_travel(self) -> Floats:
+        """(2,) from the first place of the body to the last, for a step of 1."""
+        directions = [self.travel_direction(cycle) for cycle in range(self.all_cycles)]
+        return np.asarray(np.sum(directions, axis=0))
 
 
 def swing_shares(airborne: Bools) -> Floats:

@@ -1,5 +1,7 @@
 """Where the search for a pose gait starts, in mm."""
 
+import math
+
 import numpy as np
 
 from core.arrays import Floats
@@ -7,6 +9,8 @@ from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseProblem
 
 MM = 1000.0
+TURN_GUESS = math.radians(40.0)
+"""Turn a cycle from which the search for the fastest turn on the spot begins, rad."""
 START_HEIGHT = 56.0
 """Actuator plane at the start of the search, mm."""
 
@@ -22,8 +26,8 @@ class StartMotion:
     def __init__(self, problem: PoseProblem, step: float) -> None:
         self._problem = problem
         self._homes = problem.model.module_centres_robot[:, :2] * MM
-        self._travel = step * problem.all_cycles
-        self._turn = problem.turn * problem.all_cycles
+        self._travel = 0.0 if problem.on_the_spot else step * problem.all_cycles
+        self._turn = start_turn(problem) * problem.all_cycles
         done = np.vstack([np.zeros(problem.model.leg_count), np.cumsum(problem.moving, axis=0)])
         self._progress = done / np.maximum(done[-1], 1)
         self._shares = np.linspace(0.0, 1.0, problem.move_count + 1)
@@ -58,6 +62,11 @@ class StartMotion:
         progress = (1 - share) * self._progress[move] + share * self._progress[move + 1]
         heights = (1 - share) * self._problem.floor[move] + share * self._problem.floor[move + 1]
         return self._body(place), self._feet(progress, heights), float(self._turn * place)
+
+
+def start_turn(problem: PoseProblem) -> float:
+    """Turn of the body a cycle with which the search starts, rad."""
+    return math.copysign(TURN_GUESS, problem.turn) if problem.free_turn else problem.turn
 
 
 class PosesStart:

@@ -14,11 +14,12 @@ from casadi import DM, SX, vertcat
 from core.arrays import Floats
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import FRACTIONS
-from core.pose_gaits.start_motion import MM, rotation_about_z
+from core.pose_gaits.start_motion import MM
 from core.robot.arms import arm_bars, nearest_points
 from core.robot.leg import vertex_directions
 from core.robot.model import RobotModel
 from core.robot.shoes import neighbour_pairs
+from solver_jobs.pose_gaits.turning import turned
 
 NEAR = 0.002
 """Arms that are this much farther apart than asked get a row too: the next motion may bring them near, m."""
@@ -88,7 +89,7 @@ def _half_way(first: Floats, second: Floats) -> Plane:
 
 
 def arm_corners(
-    model: RobotModel, leg: int, arm: int, body: SX, foot: SX, stroke: SX, heading: float
+    model: RobotModel, leg: int, arm: int, body: SX, foot: SX, stroke: SX, heading: SX | float
 ) -> Iterator[SX]:
     """The four corners of an arm in the robot's frame, (3,) mm each (numpy: `core.robot.arms.arm_bars`).
 
@@ -107,7 +108,7 @@ def arm_corners(
     rotation = model.R_robot_from_module[leg]
     centre = model.module_centres_robot[leg] * MM + rotation @ (model.leg.base_radius * outwards)
     knee = DM(centre) - vertcat(0.0, 0.0, stroke)
-    foot_robot = vertcat(DM(rotation_about_z(-heading)) @ (foot[:2] - body[:2]), foot[2] - body[2])
+    foot_robot = vertcat(turned(foot[:2] - body[:2], -heading), foot[2] - body[2])
     vertex = foot_robot + DM(rotation @ (model.leg.platform_radius * outwards))
     for end in (knee, vertex):
         yield end - DM(rotation @ across)

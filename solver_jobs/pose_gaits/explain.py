@@ -7,7 +7,7 @@ import numpy as np
 from core.pose_gaits.pose_problem import LEAST_CLEARANCE, PoseProblem
 from core.pose_gaits.start_motion import MM
 from core.wire.robot_time import deaf_seconds
-from solver_jobs.pose_gaits.pose_program import SLACKS, PoseProgram, Weights
+from solver_jobs.pose_gaits.pose_program import LEVER, SLACKS, PoseProgram, Weights, asked_reach
 from solver_jobs.pose_gaits.program import Attempt, Row
 
 FARTHEST = Weights(time=1e-3, reach=1.0)
@@ -46,26 +46,36 @@ def explained(
         run: calls IPOPT.
         longest: the longest step that was found, with its program; None where none was looked for or found.
     """
-    if problem.step is not None and longest is not None:
+    if not problem.is_free and longest is not None:
         of, farthest = longest
-        step = float(farthest.values[of.step_place])
-        if step < problem.step * MM:
-            sentence = (
-                f"A step of {problem.step * MM:.4g} mm a cycle (--step) is too long: with these limits the "
-                f"longest that was found is {np.floor(step * 10) / 10:.1f} mm. It is held back by "
-                f"{_holding_back(of, farthest)}."
-            )
-            return (sentence, NOT_PROVEN)
+        reach = float(farthest.values[of.reach_place])
+        if reach < asked_reach(problem):
+            held = f"It is held back by {_holding_back(of, farthest)}."
+            return (f"{_too_far(problem, reach)} {held}", NOT_PROVEN)
     sentences = tuple(_helpful(problem, program, run))
     if not sentences:
         return ("No gait was found, nor a single limit whose loosening would help.", NOT_PROVEN)
     return (*sentences, NOT_PROVEN)
 
 
+def _too_far(problem: PoseProblem, reach: float) -> str:
+    """That the step or the turn is too long, and the longest that was found, as a way in mm."""
+    if problem.on_the_spot:
+        asked, most = (np.degrees(way / LEVER) for way in (asked_reach(problem), reach))
+        return (
+            f"A turn of {asked:.4g}° a cycle (--turn) is too far: with these limits the farthest that was "
+            f"found is {np.floor(most * 10) / 10:.1f}°."
+        )
+    return (
+        f"A step of {asked_reach(problem):.4g} mm a cycle (--step) is too long: with these limits the "
+        f"longest that was found is {np.floor(reach * 10) / 10:.1f} mm."
+    )
+
+
 def _helpful(problem: PoseProblem, program: PoseProgram, run: Run) -> Iterator[str]:
     """For each limit by itself how far it would have to give way."""
     bounds = problem.bounds
-    step = None if problem.step is None else (problem.step * MM, problem.step * MM)
+    reach = None if problem.is_free else (asked_reach(problem), asked_reach(problem))
     most = {
         "margin": bounds.margin * MM,
         "clearance": (bounds.clearance - LEAST_CLEARANCE) * MM,
@@ -73,7 +83,7 @@ def _helpful(problem: PoseProblem, program: PoseProgram, run: Run) -> Iterator[s
         "stop bound": LONGER_MOVES,
     }
     for name, room in most.items():
-        loosest = run(program.program.start, LOOSEST, step=step, slack={name: room})
+        loosest = run(program.program.start, LOOSEST, reach=reach, slack={name: room})
         slack = float(loosest.values[SLACKS.index(name)])
         if loosest.converged and slack > NOTICED:
             yield f"{_loosened(problem, name, slack)} It is tight for {_holding_back(program, loosest)}."

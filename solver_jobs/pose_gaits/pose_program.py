@@ -16,17 +16,20 @@ from casadi import DM, SX, Function, fmax, horzcat, sqrt, sum1, sumsqr, vertcat
 
 from core.arrays import Floats
 from core.pose_gaits.pose_gait import PoseGait
-from core.pose_gaits.pose_problem import FRACTIONS, REST_HEIGHT, SHORTEST_MOVE, PoseProblem
-from core.pose_gaits.start_motion import MM, PosesStart, StartMotion, rotation_about_z
+from core.pose_gaits.pose_problem import FRACTIONS, MOST_TURN, REST_HEIGHT, SHORTEST_MOVE, PoseProblem
+from core.pose_gaits.start_motion import MM, PosesStart, StartMotion
 from core.wire.robot_time import RAMP_SPEED
 from solver_jobs.nlp.leg_equations import motor_arms, squared_offsets
 from solver_jobs.pose_gaits.arms import ArmPlace, Plane, arm_corners
 from solver_jobs.pose_gaits.program import Program, Row
+from solver_jobs.pose_gaits.turning import turned
 
 STROKE_ROOM = 0.001
 """Strokes stay this much within their range, so that a rounded file does, mm."""
 SHOE_ROOM = 0.05
 """Feet stay this much farther apart at the fractions, so that they do between them, mm."""
+TURNED_SHOE_ROOM = 0.2
+"""The same in a gait that turns or sways, whose feet swing in arcs, mm."""
 HIGHEST_FOOT = 20.0
 FAR = 3000.0
 """No unknown is farther than this, mm."""
@@ -34,6 +37,8 @@ LEAST_DEPTH = 5.0
 """A rod's depth that the equations do not go below while IPOPT looks around, mm."""
 LEAST_NORMAL = 0.25
 """Least squared length of a plane's normal: one of length 0 would separate nothing."""
+LEVER = 80.0
+"""Unknown angles stand as the way at this distance from the body's axis, mm: all unknowns are of one size."""
 SLACKS = ("margin", "clearance", "shoe distance", "stop bound")
 """Limits that an explanation may loosen."""
 
@@ -44,10 +49,11 @@ class Weights:
 
     Args:
         time: of the robot's time, a second.
-        pace: of the robot's time for each 30 mm of travel; in place of `time` where the step is free.
+        pace: of the robot's time for each 30 mm of travel, on the spot at `LEVER`; in place of `time` where
+            step or turn is free.
         slip: of squared deviations of standing feet, mm².
         sway: of squared differences from an even travel of the body, mm².
-        reach: taken off for each mm of the step.
+        reach: taken off for each mm of the step, on the spot at `LEVER`.
         slack: of each mm by which a limit is loosened.
     """
 
@@ -80,6 +86,11 @@ class ArmRows:
 NO_ARMS = ArmRows(0.0, MappingProxyType({}))
 
 
+def asked_reach(problem: PoseProblem) -> float:
+    """Step a cycle that is given, or on the spot the turn as a way at `LEVER`, mm; 0 for a free step."""
+    return abs(problem.turn) * LEVER if problem.on_the_spot else (problem.step or 0.0) * MM
+
+
 class PoseProgram:
     """The compiled program of a problem.
 
@@ -106,6 +117,7 @@ class PoseProgram:
         self._model = problem.model
         self._bounds = problem.bounds
         self._guess = start or StartMotion(problem, step_guess * MM)
+        self._turn_guess = self._guess.headings[-1] - self._guess.headings[0]
         self._longest = problem.largest_move * MM
         self._shortest = min(SHORTEST_MOVE * MM, self._longest)
         self._deviations: list[SX] = []
@@ -113,7 +125,8 @@ class PoseProgram:
         self._slack_symbols = {
             name: self.program.variable(f"slack {name}", [0.0], [0.0], [0.0]) for name in SLACKS
         }
-        self.step = self.program.variable("step", [1.0], [200.0], [step_guess * MM])
+        self.reach_place = self.program.variable_count
+        self.step, self.turn, self.reach = self._way(step_guess)
         count = problem.move_count
         self.lengths = self.program.variable(
             "lengths",
@@ -131,6 +144,17 @@ class PoseProgram:
         self._keep_arms_apart()
         self._compile()
 
+    def _way(self, step_guess: float) -> tuple[SX | float, SX | float, SX]:
+        """Step and turn a cycle, mm and rad, and whichever of them is an unknown, as a way in mm."""
+        problem = self.problem
+        if not problem.on_the_spot:
+            step = self.program.variable("step", [1.0], [200.0], [step_guess * MM])
+            return step, problem.turn, step
+        sign = 1.0 if problem.turn > 0.0 else -1.0
+        start = abs(self._turn_guess) / problem.all_cycles * LEVER
+        reach = self.program.variable("turn", [1.0], [MOST_TURN * LEVER], [start])
+        return 0.0, sign * reach / LEVER, reach
+
     # Poses
 
     def _add_poses(self) -> None:
@@ -142,7 +166,10 @@ class PoseProgram:
             for pose, start in enumerate(self._guess.bodies)
         ]
         self.body_places = tuple(range(first, self.program.variable_count, 3))
-        self.headings = list(self._guess.headings)
+        self.headings = [
+            self._heading(f"sway {pose}", pose / problem.move_count, heading)
+            for pose, heading in enumerate(self._guess.headings)
+        ]
         self._add_ends()
         self.feet = self._pose_feet()
         self.strokes = [
@@ -155,13 +182,33 @@ class PoseProgram:
             if not problem.airborne[pose].any():
                 self._balance(self.bodies[pose], self.feet[pose], list(range(self._model.leg_count)), None)
 
+    def _heading(self, name: str, share: float, start: float) -> SX | float:
+        """The heading after a share of the way, rad: an even turn, and an unknown where it may sway.
+
+        Args:
+            name: of the unknown.
+            share: of the way, 0 to 1.
+            start: heading from which the search starts, rad.
+        """
+        even = share * self.problem.all_cycles * self.turn
+        if self.problem.sway == 0.0:
+            return even
+        most = self.problem.sway * LEVER
+        away = start - share * self._turn_guess
+        return even + self.program.variable(name, [-most], [most], [away * LEVER]) / LEVER
+
     def _add_ends(self) -> None:
-        """The last place of the body, and for a walk from rest to rest the height of both ends."""
+        """Where the body ends and how it is turned there; from rest to rest also the height of both ends."""
         problem, first, last = self.problem, self.bodies[0], self.bodies[-1]
         travel = self._travel()
         self.program.bound(first[:2], 0.0, 0.0)
         self.program.bound(last[:2] - travel, 0.0, 0.0)
         self.program.bound(last[2] - first[2], 0.0, 0.0)
+        if problem.sway > 0.0:
+            turn = self.headings[-1] - self.headings[0] - problem.all_cycles * self.turn
+            self.program.bound(SX(turn * LEVER), 0.0, 0.0)
+            if problem.cycles is not None:
+                self.program.bound(SX(self.headings[0] * LEVER), 0.0, 0.0)
         for pin in problem.pinned:
             even = travel * ((pin.pose - 1) / problem.move_count)
             away = self.bodies[pin.pose - 1][:2] - even - DM(problem.pinned_offset(pin) * MM)
@@ -171,9 +218,7 @@ class PoseProgram:
 
     def _travel(self) -> SX:
         """From the first place of the body to the last."""
-        problem = self.problem
-        directions = [problem.travel_direction(cycle + 0.5) for cycle in range(problem.all_cycles)]
-        return self.step * DM(np.sum(directions, axis=0))
+        return SX(self.step) * DM(self.problem.whole_travel())
 
     def _pose_feet(self) -> list[list[SX]]:
         """Each foot at each pose: its foothold, the same for as long as it stands, or a place in the air."""
@@ -215,14 +260,13 @@ class PoseProgram:
 
     def _last_foothold(self, leg: int, first: SX) -> SX:
         """Where a foot ends: where it began, moved on with the body."""
-        turn = self.problem.turn * self.problem.all_cycles
         away = first - self.bodies[0][:2]
-        return self.bodies[-1][:2] + DM(rotation_about_z(turn)) @ away
+        return self.bodies[-1][:2] + turned(away, self.turn * self.problem.all_cycles)
 
-    def _strokes(self, foot: SX, leg: int, body: SX, heading: float) -> SX:
+    def _strokes(self, foot: SX, leg: int, body: SX, heading: SX | float) -> SX:
         """(3,) inverse kinematics of a leg."""
         model = self._model
-        robot = DM(rotation_about_z(-heading)) @ (foot[:2] - body[:2])
+        robot = turned(foot[:2] - body[:2], -heading)
         rotation = model.R_robot_from_module[leg][:2, :2].T
         module = DM(rotation) @ (robot - DM(model.module_centres_robot[leg, :2] * MM))
         arms = motor_arms(model.leg.reach_radius * MM, (module[0], module[1], SX(0)))
@@ -276,7 +320,7 @@ class PoseProgram:
         least, legs = self._bounds.shoe_distance * MM, self._model.leg_count
         if least <= 0.0:
             return
-        least += SHOE_ROOM
+        least += TURNED_SHOE_ROOM if self.problem.is_turned else SHOE_ROOM
         slack = self._slack_symbols["shoe distance"]
         for first, second in combinations(range(legs), 2):
             if min(second - first, first + legs - second) > 2:
@@ -292,8 +336,10 @@ class PoseProgram:
         for move in range(problem.move_count):
             standing = self._standing(move)
             for share in FRACTIONS:
-                start_body, start_feet, heading = self._guess.within(move, share)
+                start_body, start_feet, start_heading = self._guess.within(move, share)
                 name = f"{move} {share}"
+                place = (move + share) / problem.move_count
+                heading = self._heading(f"sway {name}", place, start_heading)
                 body = self.program.variable(
                     f"body {name}", [-FAR, -FAR, 40.0], [FAR, FAR, 70.0], start_body.tolist()
                 )
@@ -356,10 +402,10 @@ class PoseProgram:
         sways = [sumsqr(self.bodies[k + 1][:2] - self.bodies[k][:2] - DM(even[k])) for k in range(count)]
         cost = (
             weights[0] * seconds
-            + weights[1] * seconds * 30.0 / (self.step * self.problem.all_cycles)
+            + weights[1] * seconds * 30.0 / (self.reach * self.problem.all_cycles)
             + weights[2] * sum(sumsqr(away) for away in self._deviations)
             + weights[3] * sum(sways)
-            - weights[4] * self.step
+            - weights[4] * self.reach
             + weights[5] * sum(self._slack_symbols.values())
         )
         self.program.compile(cost, weights)
@@ -372,13 +418,9 @@ class PoseProgram:
                 horzcat(*(vertcat(*feet) for feet in self.feet)).T,
                 horzcat(*self.strokes).T,
                 seconds,
+                vertcat(*self.headings),
             ],
         )
-
-    @property
-    def step_place(self) -> int:
-        """Where the step stands among the unknowns."""
-        return len(SLACKS)
 
     def seconds(self, values: Floats) -> float:
         """Robot seconds of a solution as the program counts them: every move at least `SHORTEST_MOVE`."""
@@ -386,13 +428,13 @@ class PoseProgram:
 
     def gait(self, values: Floats) -> PoseGait:
         """A solution as a gait, SI."""
-        step, bodies, feet, strokes, _ = (np.array(value) for value in self._values(values))
+        step, bodies, feet, strokes, _, headings = (np.array(value) for value in self._values(values))
         poses, legs = self.problem.airborne.shape
         return PoseGait(
             self.problem,
             step.item() / MM,
             bodies / MM,
-            np.array(self.headings),
+            headings.ravel(),
             feet.reshape(poses, legs, 3) / MM,
             strokes.reshape(poses, legs, 3) / MM,
         )
@@ -412,7 +454,7 @@ class _Posture:
     body: SX
     feet: list[SX]
     strokes: SX
-    heading: float
+    heading: SX | float
 
 
 def _plane_height(foot: SX, standing: list[SX]) -> SX:

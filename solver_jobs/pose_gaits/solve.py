@@ -14,7 +14,7 @@ from core.pose_gaits.start_motion import MM, PosesStart
 from core.robot.arms import arm_gaps
 from solver_jobs.pose_gaits.arms import NEAR, ArmPlace, Plane, near_arms
 from solver_jobs.pose_gaits.explain import FARTHEST, NOT_PROVEN, explained
-from solver_jobs.pose_gaits.pose_program import SLACKS, ArmRows, PoseProgram, Weights
+from solver_jobs.pose_gaits.pose_program import SLACKS, ArmRows, PoseProgram, Weights, asked_reach
 from solver_jobs.pose_gaits.program import MOST_ITERATIONS, Attempt
 from solver_jobs.results.motion import SolveStatus
 from solver_jobs.results.pose import PoseProgress, PoseResult
@@ -49,6 +49,8 @@ ARM_TOLERANCE = 0.00002
 """Less than this is no lack of room between arms, m; the check allows more."""
 ARM_ROOM = 0.0001
 """Arms are kept this much farther apart than asked at the places that have rows, m."""
+SAME_PACE = 1e-3
+"""Starts that lead to gaits as near as this in speed lead to the same one."""
 WORTH = 0.995
 """Longer moves are taken where the gait stays this fast by the law: the board has fewer second ramps then."""
 
@@ -81,7 +83,7 @@ def solve_poses(
     cancelled = [result for result in results if result.status is SolveStatus.CANCELLED]
     solved = [result for result in results if result.gait is not None]
     failed = [result for result in results if result.status is SolveStatus.FAILED]
-    best = [*cancelled, *sorted(solved, key=_result_speed, reverse=True), *failed, results[-1]][0]
+    best = [*cancelled, *sorted(solved, key=_result_pace, reverse=True), *failed, results[-1]][0]
     if best.status is SolveStatus.INFEASIBLE and problem.pinned:
         results.append(_solved_without_pinned(problem, report, near))
         best = _pinned_answer(problem, best, results[-1])
@@ -96,7 +98,7 @@ def _solved_without_pinned(problem: PoseProblem, report: Report, near: PoseGait 
     """The same problem with no pose pinned; its progress is none of the gait that was asked."""
 
     def said(progress: PoseProgress) -> bool:
-        return report(replace(progress, stage="Searching without the pinned poses", speed=None))
+        return report(PoseProgress("Searching without the pinned poses", progress.done))
 
     return _solved(replace(problem, pinned=()), said, near, [], needs_reason=True)
 
@@ -114,12 +116,12 @@ def _pinned_answer(problem: PoseProblem, asked: PoseResult, without: PoseResult)
     return replace(asked, explanation=(sentence, NOT_PROVEN))
 
 
-def _result_speed(result: PoseResult) -> float:
-    return 0.0 if result.gait is None else result.gait.speed
+def _result_pace(result: PoseResult) -> float:
+    return 0.0 if result.gait is None else result.gait.pace
 
 
 Longest = list[tuple[PoseProgram, Attempt]]
-"""Searches for the longest step that converged, each with its program."""
+"""Searches for the longest step or turn that converged, each with its program."""
 
 
 def _solved(
@@ -161,22 +163,22 @@ class _Search:
         self._begin = time.perf_counter()
         self._solve_seconds = 0.0
         self._forced: Forced = ()
-        self._progress = PoseProgress("Building the program", 0.0, None)
+        self._progress = PoseProgress("Building the program", 0.0)
 
     def result(self) -> PoseResult:
         too_near = self._too_near_at_rest()
         if too_near is not None:
             return self.ended(SolveStatus.INFEASIBLE, (too_near,))
         self._tell("Building the program", 0.0)
-        program, best = self._found()
-        if best is None:
+        program, found = self._found()
+        if not found:
             return self.ended(SolveStatus.INFEASIBLE, self._reason(program))
-        apart = self._with_arms_apart(program, best)
+        apart = self._fastest_apart(program, found)
         if apart is None and self._near is not None:
             self._near = None  # other starts may lead to arms that keep apart
             return self.result()
         if apart is None:
-            return self.ended(SolveStatus.INFEASIBLE, self._arms_explained(program, best))
+            return self.ended(SolveStatus.INFEASIBLE, self._arms_explained(program, found[0]))
         program, best = apart
         best = self._lengthened(program, best)
         gait, check = program.gait(best.values), check_poses(program.gait(best.values))
@@ -200,49 +202,51 @@ class _Search:
         if not self._needs_reason:
             return ()
         self._tell("Looking for the reason", 0.8)
-        longest = max(self._longest, key=lambda known: known[1].values[known[0].step_place], default=None)
+        longest = max(self._longest, key=lambda known: known[1].values[known[0].reach_place], default=None)
         return explained(self.problem, program, self._run(program), longest)
 
-    def _found(self) -> tuple[PoseProgram, Attempt | None]:
-        """The program and its fastest gait: beside the poses that are known, else of several starts."""
+    def _found(self) -> tuple[PoseProgram, list[Attempt]]:
+        """The program and its gaits, fastest first: beside the poses that are known, or of several starts."""
         if self._near is not None:
             self._tell("Solving", 0.1)
             program = PoseProgram(self.problem, self._near.step, start=PosesStart(self._near))
-            weights = FREE if self.problem.step is None else FASTEST
-            attempt = self._run(program)(program.program.start, weights, step=self._step)
+            weights = FREE if self.problem.is_free else FASTEST
+            attempt = self._run(program)(program.program.start, weights, reach=self._reach)
             if attempt.converged:
-                return program, attempt
+                return program, [attempt]
         program = PoseProgram(self.problem, self.problem.step or STEP_GUESS)
-        if self.problem.step is None:
+        if self.problem.is_free:
             return program, self._fastest(program)
         self._tell("Solving", 0.1)
-        attempt = self._run(program)(program.program.start, FASTEST, step=self._step)
-        return (program, attempt) if attempt.converged else self._of_farthest()
+        attempt = self._run(program)(program.program.start, FASTEST, reach=self._reach)
+        return (program, [attempt]) if attempt.converged else self._of_farthest()
 
-    def _of_farthest(self) -> tuple[PoseProgram, Attempt | None]:
-        """A gait with the step that is set, by way of the longest step; None where that is too short.
+    def _of_farthest(self) -> tuple[PoseProgram, list[Attempt]]:
+        """A gait with the step or turn that is set, by way of the longest; none where that is too short.
 
         Of 60 steps that an even start did not reach, other starts reached none.
         """
-        self._tell("Looking for the longest step", 0.4)
+        self._tell(f"Looking for the longest {self.problem.way_word}", 0.4)
         program = PoseProgram(self.problem, STEP_GUESS)
         run = self._run(program)
         farthest = run(program.program.start, FARTHEST)
         if not farthest.converged:
-            return program, None
+            return program, []
         self._longest.append((program, farthest))
-        if farthest.values[program.step_place] < (self.problem.step or 0.0) * MM:
-            return program, None
-        attempt = run(farthest.values, FASTEST, step=self._step)
-        return program, attempt if attempt.converged else None
+        if farthest.values[program.reach_place] < asked_reach(self.problem):
+            return program, []
+        attempt = run(farthest.values, FASTEST, reach=self._reach)
+        return program, [attempt] if attempt.converged else []
 
     def ended(self, status: SolveStatus, explanation: tuple[str, ...]) -> PoseResult:
         seconds = time.perf_counter() - self._begin
         return PoseResult(status, None, None, False, explanation, self._solve_seconds, seconds)
 
-    def _tell(self, stage: str, done: float, speed: float | None = None) -> None:
-        speed = self._progress.speed if speed is None else speed
-        self._progress = PoseProgress(stage, done, speed)
+    def _tell(self, stage: str, done: float, gait: PoseGait | None = None) -> None:
+        known = self._progress
+        if gait is not None:
+            known = replace(known, speed=gait.speed, turn_rate=gait.turn_rate)
+        self._progress = replace(known, stage=stage, done=done)
         if not self._report(self._progress):
             raise _Cancelled
 
@@ -250,13 +254,13 @@ class _Search:
         return self._report(self._progress)
 
     def _run(self, program: PoseProgram) -> Callable[..., Attempt]:
-        """Calls IPOPT with a step, weights and changed bounds; an ended search raises."""
+        """Calls IPOPT with a step or turn, weights and changed bounds; an ended search raises."""
 
         def run(
             start: Floats,
             weights: Weights,
             *,
-            step: tuple[float, float] | None = None,
+            reach: tuple[float, float] | None = None,
             seconds: float = np.inf,
             forced: Forced = (),
             slack: Mapping[str, float] | None = None,
@@ -264,8 +268,8 @@ class _Search:
             most_seconds: float = np.inf,
         ) -> Attempt:
             lower, upper = program.program.variable_bounds
-            if step is not None:
-                lower[program.step_place], upper[program.step_place] = step
+            if reach is not None:
+                lower[program.reach_place], upper[program.reach_place] = reach
             for name, most in (slack or {}).items():
                 upper[SLACKS.index(name)] = most
             row_lower, row_upper = program.program.row_bounds
@@ -293,26 +297,39 @@ class _Search:
         return run
 
     @property
-    def _step(self) -> tuple[float, float] | None:
-        step = self.problem.step
-        return None if step is None else (step * MM, step * MM)
+    def _reach(self) -> tuple[float, float] | None:
+        reach = asked_reach(self.problem)
+        return None if self.problem.is_free else (reach, reach)
 
-    def _fastest(self, program: PoseProgram) -> Attempt | None:
-        """With a free step the fastest of several starts; None where none converges."""
+    def _fastest(self, program: PoseProgram) -> list[Attempt]:
+        """With a free step or turn what several starts lead to, the fastest first."""
         run = self._run(program)
         found: list[Attempt] = []
         for number in range(STARTS):
             self._tell(f"Solving, start {number + 1}", 0.1 + 0.2 * number)
             start = _moved_start(program, number)
             if self.problem.cycles is not None:  # a long way from a poor start often fails
-                short = run(start, FREE, step=(LEAST_STEP, STEP_GUESS * MM))
+                short = run(start, FREE, reach=(LEAST_STEP, STEP_GUESS * MM))
                 start = short.values if short.converged else start
             attempt = run(start, FREE)
             if attempt.converged:
                 found.append(attempt)
-                fastest = max(found, key=lambda one: _speed(program, one))
-                self._tell(f"Solved, start {number + 1}", 0.1 + 0.2 * number, _speed(program, fastest))
-        return max(found, key=lambda one: _speed(program, one)) if found else None
+                found.sort(key=lambda one: -_pace(program, one))
+                self._tell(f"Solved, start {number + 1}", 0.1 + 0.2 * number, program.gait(found[0].values))
+        return found
+
+    def _fastest_apart(
+        self, program: PoseProgram, found: list[Attempt]
+    ) -> tuple[PoseProgram, Attempt] | None:
+        """The fastest gait whose arms keep apart, and its program: with room for arms none gets faster."""
+        best: tuple[PoseProgram, Attempt] | None = None
+        for attempt in found:
+            if best is not None and _pace(program, attempt) < (1.0 + SAME_PACE) * _pace(*best):
+                break
+            apart = self._with_arms_apart(program, attempt)
+            if apart is not None and (best is None or _pace(*apart) > _pace(*best)):
+                best = apart
+        return best
 
     def _with_arms_apart(self, program: PoseProgram, best: Attempt) -> tuple[PoseProgram, Attempt] | None:
         """The fastest gait near the one that was found whose arms keep apart, and its program."""
@@ -323,7 +340,7 @@ class _Search:
             lacking = asked - least_arm_distance(gait)
             if asked == 0.0 or lacking <= ARM_TOLERANCE:
                 break
-            self._tell("Keeping arms apart", 0.62 + 0.02 * number, gait.speed)
+            self._tell("Keeping arms apart", 0.62 + 0.02 * number, gait)
             if planes and near_arms(gait, asked - NEAR).keys() <= planes.keys():
                 # Between the places that have rows the arms come a little nearer.
                 room += lacking
@@ -331,8 +348,8 @@ class _Search:
             program = PoseProgram(self.problem, gait.step, ArmRows(asked + room, planes))
             start = program.program.start
             start[: program.own_count] = best.values[: program.own_count]
-            weights = FREE if self.problem.step is None else FASTEST
-            best = self._run(program)(start, weights, step=self._step)
+            weights = FREE if self.problem.is_free else FASTEST
+            best = self._run(program)(start, weights, reach=self._reach)
             if not best.converged:
                 return None
         return program, best
@@ -376,17 +393,17 @@ class _Search:
                 return best
             self._tell("Making short moves long", 0.7 + 0.03 * number)
             forced = (*forced, *short)
-            weights = FREE if self.problem.step is None else FASTEST
+            weights = FREE if self.problem.is_free else FASTEST
             usual = best.seconds / max(best.iterations, 1) * LENGTHENING_ITERATIONS
             attempt = run(
                 best.values,
                 weights,
-                step=self._step,
+                reach=self._reach,
                 forced=forced,
                 most_iterations=LENGTHENING_ITERATIONS,
                 most_seconds=STALLED * usual,
             )
-            if not attempt.converged or _speed(program, attempt) < WORTH * _speed(program, best):
+            if not attempt.converged or _pace(program, attempt) < WORTH * _pace(program, best):
                 return best
             best, self._forced = attempt, forced
         return best
@@ -394,10 +411,10 @@ class _Search:
     def _gentle(self, program: PoseProgram, best: Attempt) -> Attempt | None:
         """Among gaits of the same step and time the one whose standing feet slip least."""
         self._tell("Looking for the gentlest", 0.85)
-        step = float(best.values[program.step_place])
+        reach = float(best.values[program.reach_place])
         seconds = program.seconds(best.values) * (1.0 + SAME_TIME)
         attempt = self._run(program)(
-            best.values, GENTLE, step=(step, step), seconds=seconds, forced=self._forced
+            best.values, GENTLE, reach=(reach, reach), seconds=seconds, forced=self._forced
         )
         return attempt if attempt.converged else None
 
@@ -406,8 +423,8 @@ Forced = tuple[tuple[int, int, int], ...]
 """(move, motor, sign) of motors that have to go at least `SHORTEST_MOVE`."""
 
 
-def _speed(program: PoseProgram, attempt: Attempt) -> float:
-    return program.gait(attempt.values).speed
+def _pace(program: PoseProgram, attempt: Attempt) -> float:
+    return program.gait(attempt.values).pace
 
 
 def _moved_start(program: PoseProgram, number: int) -> Floats:
@@ -420,7 +437,7 @@ def _moved_start(program: PoseProgram, number: int) -> Floats:
     for place in program.body_places:
         disturbed[place : place + 2] = True
     moved = start + np.where(disturbed, noise, 0.0)
-    moved[program.step_place] += 8.0 * number
+    moved[program.reach_place] += 8.0 * number
     return moved
 
 

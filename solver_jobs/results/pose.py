@@ -15,11 +15,13 @@ class PoseProgress:
         stage: what is being done, for a person.
         done: share of the stages, 0 to 1.
         speed: of the fastest gait yet, m/s; None where there is none.
+        turn_rate: of the same, rad/s.
     """
 
     stage: str
     done: float
-    speed: float | None
+    speed: float | None = None
+    turn_rate: float | None = None
 
 
 @dataclass(frozen=True, eq=False)

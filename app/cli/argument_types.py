@@ -6,6 +6,7 @@ from collections.abc import Callable
 from enum import StrEnum
 
 from core.patterns.problem import MOST_SAMPLES
+from core.pose_gaits.pose_problem import MOST_TURN
 from core.robot.model import ROBOT_NAMES
 
 ROBOTS = ", ".join(ROBOT_NAMES)
@@ -61,6 +62,24 @@ def words_of(kind: type[StrEnum]) -> str:
 def free_or(convert: Callable[[str], float]) -> Callable[[str], float | None]:
     """An argument type: a number, or `free`, which is None."""
     return lambda text: None if text == "free" else convert(text)
+
+
+def zero_or(convert: Callable[[str], float]) -> Callable[[str], float]:
+    """An argument type: a number, or 0, which lies outside its bounds."""
+
+    def converted(text: str) -> float:
+        try:
+            is_zero = float(text) == 0.0
+        except ValueError:
+            is_zero = False
+        return 0.0 if is_zero else convert(text)
+
+    return converted
+
+
+def turn_or_side(text: str) -> float | str:
+    """An argument type: a turn a cycle in rad, or `left` or `right` for the fastest that way."""
+    return text if text in ("left", "right") else number(-MOST_TURN, MOST_TURN, "rad")(text)
 
 
 def rule_number(text: str) -> int | None:

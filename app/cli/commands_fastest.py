@@ -1,6 +1,7 @@
 """`fastest`."""
 
 import json
+import math
 import sys
 from argparse import Namespace
 from collections.abc import Callable
@@ -15,12 +16,13 @@ from app.export.way_files import write_pose_gait
 from app.store.gait_files import write_atomically
 from core.errors import InputError
 from core.gait.gait import Gait, heading_step
-from core.gait.poses import Poses
+from core.gait.poses import POSE_LIMITS, Poses
 from core.library.library import Group, library
 from core.library.new_gait import with_robot
 from core.pose_gaits.gait_poses import USUAL_STEP, new_pose_gait, pose_problem, with_poses
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseProblem
+from core.pose_gaits.start_motion import TURN_GUESS
 from core.robot.model import load_robot
 from solver_jobs import PoseGaitSolver, PoseProgress, PoseResult, SolveStatus
 
@@ -90,10 +92,10 @@ def fastest_document(options: Namespace) -> tuple[str, Gait]:
     """
     name = options.gait or _named_by(options.order)
     gait = named_gait(name)
-    if gait.sequence or gait.step[2] != 0.0:
+    if gait.sequence:
         raise InputError(
-            f"{name} is no straight walk. Choose walk, amble, s-gait or c-gait, or give the foot order with "
-            "--order.",
+            f"{name} is a sequence. Choose walk, amble, s-gait, c-gait or rotate, or give the foot order "
+            "with --order.",
             "GAIT",
         )
     if options.robot is not None:
@@ -101,16 +103,38 @@ def fastest_document(options: Namespace) -> tuple[str, Gait]:
     model = load_robot(gait.robot)
     order = gait.order if options.order is None else options.order
     _require_order(order, model.leg_count)
-    step = USUAL_STEP if options.step is None else options.step
+    step, is_free = _way(options, gait)
     asked = replace(
-        gait,
-        order=order,
-        direction=options.direction or gait.direction,
-        step=heading_step(gait.orientation, step),
-        iterations=options.cycles,
+        gait, order=order, direction=options.direction or gait.direction, step=step, iterations=options.cycles
     ).with_options(margin=options.margin, clearance=options.clearance, stop_bound=options.stop_bound)
-    poses = Poses(options.step is None, options.slip, options.shoe_distance, options.arm_distance)
+    limits = {limit: getattr(options, limit) for limit in POSE_LIMITS}
+    poses = Poses(is_free, **limits, sway=options.sway)
     return name, new_pose_gait(f"{gait.name}, fastest", asked, poses, model)
+
+
+def _way(options: Namespace, gait: Gait) -> tuple[tuple[float, float, float], bool]:
+    """Step and turn a cycle that are asked, (dx, dy, yaw), and whether they are those of the fastest gait."""
+    on_the_spot = options.step == 0.0 or (
+        options.step is None and not any(gait.step[:2]) and gait.step[2] != 0.0
+    )
+    side = options.turn if isinstance(options.turn, str) else None
+    turn = gait.step[2] if options.turn is None else options.turn
+    if side is not None and not on_the_spot:
+        raise InputError(
+            f"--turn {side} is the fastest turn on the spot; add --step 0, or give the turn in rad a cycle.",
+            "--turn",
+        )
+    if not on_the_spot:
+        dx, dy, _ = heading_step(gait.orientation, USUAL_STEP if options.step is None else options.step)
+        return (dx, dy, turn), options.step is None
+    is_free = side is not None or (options.turn is None and turn != 0.0)
+    if side is not None:
+        turn = TURN_GUESS if side == "left" else -TURN_GUESS
+    if turn == 0.0:
+        raise InputError(
+            "--step 0 is a turn on the spot; say how far with --turn: rad a cycle, left or right.", "--turn"
+        )
+    return (0.0, 0.0, turn), is_free
 
 
 def _require_order(order: tuple[int, ...], legs: int) -> None:
@@ -156,7 +180,7 @@ def _progress(what: str) -> Callable[[PoseProgress], None]:
         return lambda known: None
 
     def tell(known: PoseProgress) -> None:
-        speed = "" if known.speed is None else f", {known.speed * 1000:.2f} mm/s so far"
+        speed = "" if known.speed is None else f", {_pace(known.speed, known.turn_rate or 0.0)} so far"
         sys.stderr.write(f"\r\033[K{what}: {known.stage}{speed}")
         sys.stderr.flush()
 
@@ -178,6 +202,8 @@ def _content(walk: FastestWalk, problem: PoseProblem, written: str | None) -> Js
         "moves": problem.moves_a_cycle if cycle is None else cycle.problem.move_count,
         "robot_seconds": None if cycle is None else cycle.seconds,
         "speed": None if cycle is None else cycle.speed,
+        "turn": None if cycle is None else cycle.turn,
+        "turn_rate": None if cycle is None else cycle.turn_rate,
         "total_seconds": None if whole is None else whole.seconds,
         "total_distance": None if whole is None else whole.distance,
         "total_speed": None if whole is None else whole.speed,
@@ -195,19 +221,36 @@ def _lines(walk: FastestWalk, written: str | None) -> list[str]:
     cycle, whole, check = walk.cycle.gait, walk.walk.gait, walk.walk.check
     if cycle is None or whole is None or check is None or walk.status is not SolveStatus.SOLVED:
         return [f"No walk ({walk.status.value}).", *walk.explanation]
+    cycles = whole.problem.all_cycles
     lines = [
-        f"{walk.name}, feet {'-'.join(map(str, cycle.problem.order))}: {cycle.speed * 1000:.2f} mm/s in "
-        f"mid-walk, {cycle.step * 1000:.1f} mm in {cycle.problem.move_count} moves and "
-        f"{cycle.seconds:.1f} robot seconds a cycle.",
-        f"From the standard stance to rest, {whole.problem.all_cycles} "
-        f"{'cycle' if whole.problem.all_cycles == 1 else 'cycles'}: {whole.distance * 1000:.1f} mm in "
-        f"{whole.seconds:.1f} s, {whole.speed * 1000:.2f} mm/s.",
+        f"{walk.name}, feet {'-'.join(map(str, cycle.problem.order))}: "
+        f"{_pace(cycle.speed, cycle.turn_rate)} in mid-walk, {_distance(cycle.step, cycle.turn)} in "
+        f"{cycle.problem.move_count} moves and {cycle.seconds:.1f} robot seconds a cycle.",
+        f"From the standard stance to rest, {cycles} {'cycle' if cycles == 1 else 'cycles'}: "
+        f"{_distance(whole.distance, whole.turn * cycles)} in {whole.seconds:.1f} s, "
+        f"{_pace(whole.speed, whole.turn_rate)}.",
         f"Checked along every move: margin {check.figures.margin * 1000:.1f} mm, feet at least "
         f"{check.figures.shoe_distance * 1000:.1f} mm and arms "
         f"{check.figures.arm_distance * 1000:.1f} mm apart, standing feet within "
         f"{check.figures.slip * 1000:.2f} mm; Stop takes effect within {check.figures.stop_seconds:.1f} s.",
     ]
     return lines if written is None else [*lines, f"Wrote {written}."]
+
+
+def _distance(way: float, turn: float) -> str:
+    """How far a gait goes and turns, in words; m and rad."""
+    parts = [f"{way * 1000:.1f} mm" if way else "", f"{_degrees(turn)}" if turn else ""]
+    return " and ".join(filter(None, parts))
+
+
+def _pace(speed: float, turn_rate: float) -> str:
+    """How fast a gait goes, or turns on the spot, in words; m/s and rad/s."""
+    return f"{speed * 1000:.2f} mm/s" if speed else f"{abs(math.degrees(turn_rate)):.2f}°/s"
+
+
+def _degrees(angle: float) -> str:
+    """The size of an angle in words, and to which side it turns."""
+    return f"{abs(math.degrees(angle)):.1f}° to the {'left' if angle > 0.0 else 'right'}"
 
 
 def _origin(walk: FastestWalk) -> Json:
@@ -222,6 +265,8 @@ def origin_of(gait: PoseGait) -> Json:
         "order": list(problem.order),
         "heading": problem.heading,
         "step": gait.step,
+        "turn": gait.turn,
+        "sway": problem.sway,
         "cycles": problem.cycles,
         "margin": bounds.margin,
         "clearance": bounds.clearance,

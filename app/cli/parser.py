@@ -30,8 +30,10 @@ from app.cli.argument_types import (
     pair,
     pixel,
     rule_number,
+    turn_or_side,
     whole,
     words_of,
+    zero_or,
 )
 from app.cli.gait_options import Method
 from app.common.version import VERSION
@@ -40,6 +42,7 @@ from app.emulator.profiles import ProfileName
 from app.export.formats import ExportFormat
 from core.errors import InputError
 from core.gait.options import LEAST_PHASE_KNOTS, MOST_CLOSING_KNOTS, MOST_PHASE_KNOTS
+from core.gait.poses import MOST_SWAY
 from core.patterns.problem import LEAST_SAMPLES, MOST_LEGS, MOST_SAMPLES, PatternRules
 from core.physics.parameters import physics_sets
 from core.physics.problem import Rig
@@ -226,7 +229,7 @@ def _limit_options(parser: argparse.ArgumentParser) -> None:
 
 def _fastest_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    text = "walk (default), amble, s-gait, c-gait, or a gait file: foot order and direction"
+    text = "walk (default), amble, s-gait, c-gait, rotate, or a gait file: foot order and direction"
     add("gait", nargs="?", default=None, help=text)
     add(
         "--order",
@@ -234,8 +237,15 @@ def _fastest_options(parser: argparse.ArgumentParser) -> None:
         default=None,
         help="feet such as 3,2,4,1 at direction 1, instead of the gait's own",
     )
-    step = "m a cycle, or free for the fastest (default free)"
-    add("--step", type=free_or(number(0.0005, 0.2, "m")), default=None, metavar="M|free", help=step)
+    step = "m a cycle, free for the fastest, or 0 for a turn on the spot (default free)"
+    add("--step", type=free_or(zero_or(number(0.0005, 0.2, "m"))), default=None, metavar="M|free", help=step)
+    turn = "rad a cycle, to the left above 0; on the spot also left or right: as fast as possible (default 0)"
+    add("--turn", type=turn_or_side, default=None, metavar="RAD|left|right", help=turn)
+    text = (
+        "how far the heading may leave an even turn, rad (default 0): it makes a gait faster, but soles "
+        "pivot on the ground, and how flat shoes pivot is not known"
+    )
+    add("--sway", type=number(0.0, MOST_SWAY, "rad"), default=0.0, metavar="RAD", help=text)
     text = "from the standard stance to rest (default 1)"
     add("--cycles", type=whole(1, MOST_CYCLES), default=1, metavar="N", help=text)
     bounds = PoseBounds()

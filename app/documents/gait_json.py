@@ -164,7 +164,8 @@ def _to_poses(model: PosesModel | None, feet: int) -> Poses | None:
         raise InputError(f"poses.found.feet needs {feet} feet at each pose.", "poses.found.feet")
     kept = None if found is None else FoundPoses(**found.model_dump())
     pinned = tuple(PinnedPose(pin.pose, pin.along, pin.sideways) for pin in model.pinned)
-    return Poses(model.free_step, model.slip, model.shoe_distance, model.arm_distance, kept, pinned)
+    limits = {name: getattr(model, name) for name in POSE_LIMITS}
+    return Poses(model.free_step, **limits, sway=model.sway, found=kept, pinned=pinned)
 
 
 def _to_recording(model: RecordingModel | None) -> Recording | None:
@@ -222,6 +223,8 @@ def gait_content(gait: Gait) -> Json:
 def _poses_content(poses: Poses) -> Json:
     found = poses.found
     content = {name: getattr(poses, name) for name in ("free_step", *POSE_LIMITS)}
+    if poses.sway:
+        content["sway"] = poses.sway
     if poses.pinned:
         content["pinned"] = [vars(pin) for pin in poses.pinned]
     return content | {"found": None if found is None else found_content(found)}
@@ -229,11 +232,13 @@ def _poses_content(poses: Poses) -> Json:
 
 def found_content(found: FoundPoses) -> Json:
     """Poses that were found, as JSON content."""
+    headings = {} if found.headings is None else {"headings": found.headings.tolist()}
     return {
         "answers": found.answers,
         "step": found.step,
         "bodies": found.bodies.tolist(),
         "feet": found.feet.tolist(),
+        **headings,
     }
 
 
@@ -301,8 +306,10 @@ def _asked_poses(content: Json, poses: Poses) -> Json:
     asked["options"] = {name: content["options"][name] for name in _OF_POSES}
     asked["poses"] = {key: value for key, value in content["poses"].items() if key != "found"}
     if poses.free_step:
-        length = float(np.hypot(*content["step"][:2])) or 1.0
-        asked["step"] = [round(value / length, 9) for value in content["step"]]
+        dx, dy, turn = content["step"]
+        length = float(np.hypot(dx, dy))
+        turn = turn if length else float(np.sign(turn))  # on the spot it is the turn that is free
+        asked["step"] = [round(dx / (length or 1.0), 9), round(dy / (length or 1.0), 9), round(turn, 9)]
     return asked
 
 

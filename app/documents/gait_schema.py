@@ -6,7 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from core.gait.gait import Orientation
 from core.gait.options import OPTION_BOUNDS, GaitOptions
-from core.gait.poses import MOST_PINNED, POSE_LIMITS, Poses
+from core.gait.poses import MOST_PINNED, MOST_SWAY, POSE_LIMITS, Poses
 from core.gait.recording import RecordingForm
 from core.motion.heading_profile import HeadingProfile
 from core.problem.motion_problem import Boundary, Cost, Workspace
@@ -144,6 +144,9 @@ class FoundPosesModel(_Model):
         "point of the body axis in the actuator plane at each pose, m; z above the standing feet's platforms"
     )
     feet: list[list[tuple[Metres, Metres, Metres]]] = _field("platform centre of each foot at each pose, m")
+    headings: list[float] | None = _field(
+        "turn of the body at each pose, rad. Left out where it is 0 throughout", default=None
+    )
 
 
 class PinnedPoseModel(_Model):
@@ -159,11 +162,18 @@ class PinnedPoseModel(_Model):
 class PosesModel(_Model):
     """What a gait for the robot's clock asks beside options, order, step and iterations."""
 
-    free_step: bool = _field("whether the step is that of the fastest walk", default=Poses.free_step)
+    free_step: bool = _field(
+        "whether the step, or on the spot the turn, is that of the fastest gait", default=Poses.free_step
+    )
     slip: float = _pose_limit("slip", "how far a standing foot may be off its foothold within a move, m")
     shoe_distance: float = _pose_limit("shoe_distance", "least distance between the middles of two feet, m")
     arm_distance: float = _pose_limit(
         "arm_distance", "least room between the arms of neighbouring legs, m; 0: they may touch"
+    )
+    sway: float = _field(
+        "how far the heading may leave an even turn, rad. Left out where it is 0",
+        default=Poses.sway,
+        json_schema_extra={"minimum": 0.0, "maximum": MOST_SWAY},
     )
     found: FoundPosesModel | None = _field("the poses; null: none were found yet", default=None)
     pinned: list[PinnedPoseModel] = _field(

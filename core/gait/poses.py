@@ -6,10 +6,14 @@ import math
 import re
 from dataclasses import dataclass
 
+import numpy as np
+
 from core.arrays import Floats, frozen_floats
 from core.errors import InputError
 from core.robot.arms import ARM_GAP
 
+MOST_SWAY = math.radians(40.0)
+"""Farthest that the heading may be allowed to leave an even turn, rad."""
 POSE_LIMITS = {
     "slip": (0.00005, 0.005),
     "shoe_distance": (0.0, 0.06),
@@ -28,15 +32,17 @@ class FoundPoses:
 
     Args:
         answers: SHA-256 of what was asked (`core.pose_gaits.gait_poses.asked_of`).
-        step: travel of the body a cycle, m.
+        step: travel of the body a cycle, m; 0 for a turn on the spot.
         bodies: (poses, 3) point of the body axis in the actuator plane, m; z above standing feet's platforms.
         feet: (poses, legs, 3) platform centres, m.
+        headings: (poses,) turn of the body, rad; None where it is 0 throughout.
     """
 
     answers: str
     step: float
     bodies: Floats
     feet: Floats
+    headings: Floats | None = None
 
     def __post_init__(self) -> None:
         if not _HASH.fullmatch(self.answers):
@@ -44,9 +50,9 @@ class FoundPoses:
                 "poses.found.answers is no SHA-256: 64 digits 0 to 9, a to f. Solve the gait again.",
                 "poses.found.answers",
             )
-        if not (math.isfinite(self.step) and 0.0 < self.step <= 0.2):
+        if not (math.isfinite(self.step) and 0.0 <= self.step <= 0.2):
             raise InputError(
-                f"poses.found.step is {self.step:g} m; it must lie above 0 and up to 0.2 m.",
+                f"poses.found.step is {self.step:g} m; it must lie between 0 and 0.2 m.",
                 "poses.found.step",
             )
         bodies = frozen_floats(self.bodies, (None, 3), "poses.found.bodies")
@@ -56,16 +62,28 @@ class FoundPoses:
             )
         object.__setattr__(self, "bodies", bodies)
         object.__setattr__(self, "feet", frozen_floats(self.feet, (len(bodies), None, 3), "poses.found.feet"))
+        if self.headings is not None:
+            headings = frozen_floats(self.headings, (len(bodies),), "poses.found.headings")
+            object.__setattr__(self, "headings", headings)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, FoundPoses):
             return NotImplemented
         return (self.answers, self.step) == (other.answers, other.step) and all(
             a.shape == b.shape and bool((a == b).all())
-            for a, b in ((self.bodies, other.bodies), (self.feet, other.feet))
+            for a, b in (
+                (self.bodies, other.bodies),
+                (self.feet, other.feet),
+                (self.turns, other.turns),
+            )
         )
 
     __hash__ = None  # type: ignore[assignment]
+
+    @property
+    def turns(self) -> Floats:
+        """(poses,) turn of the body, rad."""
+        return np.zeros(len(self.bodies)) if self.headings is None else self.headings
 
 
 @dataclass(frozen=True)
@@ -104,7 +122,9 @@ class Poses:
     of cycles in the document itself.
 
     Args:
-        free_step: the step is that of the fastest walk; the document's step follows from the poses.
+        free_step: the step, or on the spot the turn, is that of the fastest gait; the document's own
+            follows from the poses.
+        sway: how far the heading may leave an even turn, rad.
         slip: how far a standing foot may be off its foothold within a move, in x and y; half of it in z, m.
         shoe_distance: least distance between the middles of two feet, m.
         arm_distance: least room between the arms of neighbouring legs, m; 0 where they may touch.
@@ -116,6 +136,7 @@ class Poses:
     slip: float = 0.0005
     shoe_distance: float = 0.028
     arm_distance: float = ARM_GAP
+    sway: float = 0.0
     found: FoundPoses | None = None
     pinned: tuple[PinnedPose, ...] = ()
 
@@ -124,6 +145,12 @@ class Poses:
         if len(set(numbers)) < len(numbers):
             raise InputError("poses.pinned names a pose twice; each may stand there once.", "poses.pinned")
         object.__setattr__(self, "pinned", tuple(sorted(self.pinned, key=lambda pin: pin.pose)))
+        if not 0.0 <= self.sway <= MOST_SWAY:
+            raise InputError(
+                f"poses.sway is {math.degrees(self.sway):g}°; it must lie between 0 and "
+                f"{math.degrees(MOST_SWAY):g}°.",
+                "poses.sway",
+            )
         for name, (least, most) in POSE_LIMITS.items():
             value = getattr(self, name)
             if not least <= value <= most:

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -42,22 +43,27 @@ def pose_problem(gait: Gait, model: RobotModel) -> PoseProblem:
     """
     if gait.poses is None:
         raise InputError(f"“{gait.name}” is no gait for the robot's clock.", "poses")
-    if gait.step[2] != 0.0:
-        raise InputError("A gait for the robot's clock cannot turn yet; set the turn to 0.", "step")
     if gait.held.any:
         raise InputError("A gait for the robot's clock has every foot step; none can be held up.", "held")
     if model.leg_count == 3:
         raise InputError("With three legs none can be lifted; choose a robot with at least four.", "robot")
     options, poses, legs = gait.options, gait.poses, model.leg_count
-    length = float(np.hypot(*gait.step[:2]))
-    if length == 0.0 and not poses.free_step:
-        raise InputError("The step is 0 mm; a gait for the robot's clock has to go somewhere.", "step")
+    length, turn = float(np.hypot(*gait.step[:2])), gait.step[2]
+    if not length and not turn and not poses.free_step:
+        raise InputError(
+            "Step and turn are 0; a gait for the robot's clock has to go somewhere or to turn.", "step"
+        )
     along = np.arctan2(gait.step[1], gait.step[0]) if length else heading_angle(gait.orientation)
+    on_the_spot = not length and turn != 0.0
     return PoseProblem(
         model=model,
         order=tuple((foot - 1 + gait.quarter_turns * legs // 4) % legs + 1 for foot in gait.order),
-        heading=float(along) + gait.quarter_turns * np.pi / 2,
-        step=None if poses.free_step else length,
+        # The first cycle goes along the document's step, with half of its turn done in the middle.
+        heading=float(along) + gait.quarter_turns * np.pi / 2 - (0.0 if on_the_spot else turn / 2.0),
+        step=None if poses.free_step and not on_the_spot else length,
+        turn=turn,
+        free_turn=poses.free_step and on_the_spot,
+        sway=poses.sway,
         cycles=gait.iterations,
         bounds=PoseBounds(
             margin=options.margin,
@@ -78,10 +84,14 @@ def asked_of(problem: PoseProblem) -> str:
         "order": problem.order,
         "heading": round(problem.heading, 9),
         "step": problem.step,
-        "turn": problem.turn,
+        "turn": math.copysign(1.0, problem.turn) if problem.free_turn else problem.turn,
         "cycles": problem.cycles,
         **vars(problem.bounds),
     }
+    if problem.free_turn:
+        asked["free_turn"] = True
+    if problem.sway:
+        asked["sway"] = problem.sway
     if problem.pinned:
         asked["pinned"] = [vars(pin) for pin in problem.pinned]
     return hashlib.sha256(json.dumps(asked, sort_keys=True).encode()).hexdigest()
@@ -112,9 +122,8 @@ def gait_of_poses(problem: PoseProblem, found: FoundPoses) -> PoseGait:
         divided = replace(problem, parts=parts)
         shape = (*divided.airborne.shape, 3)
         if shape == found.feet.shape:
-            headings = np.zeros(len(found.bodies))
-            strokes = walker_strokes(problem.model, found.feet, BodyPose(found.bodies, headings))
-            return PoseGait(divided, found.step, found.bodies, headings, found.feet, strokes)
+            strokes = walker_strokes(problem.model, found.feet, BodyPose(found.bodies, found.turns))
+            return PoseGait(divided, found.step, found.bodies, found.turns, found.feet, strokes)
     poses, legs, _ = found.feet.shape
     raise InputError(
         f"poses.found has {poses} poses of {legs} feet, which is no walk of {problem.all_cycles} cycles with "
@@ -126,18 +135,21 @@ def gait_of_poses(problem: PoseProblem, found: FoundPoses) -> PoseGait:
 def found_of(solved: PoseGait) -> FoundPoses:
     """Poses as a document keeps them."""
     bodies, feet = np.round(solved.bodies, ROUNDED), np.round(solved.feet, ROUNDED)
-    return FoundPoses(asked_of(solved.problem), solved.step, bodies, feet)
+    headings = np.round(solved.headings, ROUNDED) if solved.problem.is_turned else None
+    return FoundPoses(asked_of(solved.problem), solved.step, bodies, feet, headings)
 
 
 def with_poses(gait: Gait, solved: PoseGait) -> Gait:
-    """The document with the poses that were found for it; a free step becomes theirs."""
+    """The document with the poses that were found for it; a free step or turn becomes theirs."""
     problem, found = pose_problem(gait, solved.problem.model), found_of(solved)
     if gait.poses is None or asked_of(problem) != found.answers:
         raise InputError("These poses were found for another gait.", "poses.found")
     step = gait.step
-    if gait.poses.free_step:
+    if problem.free_turn:
+        step = (0.0, 0.0, solved.turn)
+    elif gait.poses.free_step:
         way = quarter_turn(-gait.quarter_turns)[:2, :2] @ problem.travel_direction() * solved.step
-        step = (float(way[0]), float(way[1]), 0.0)
+        step = (float(way[0]), float(way[1]), problem.turn)
     return replace(
         gait, poses=replace(gait.poses, found=found), step=step, timeline=pose_timeline(solved.problem)
     )
@@ -175,13 +187,12 @@ def drawn_poses(gait: Gait, model: RobotModel) -> PoseGait:
     """
     found = None if gait.poses is None else gait.poses.found
     problem = _divided(pose_problem(gait, model), found)
-    step = problem.step or (USUAL_STEP if found is None else found.step)
-    adapted = None if found is None else _adapted(problem, found, step)
-    bodies, feet = _straight(problem, step) if adapted is None else adapted
+    step = (USUAL_STEP if found is None else found.step) if problem.step is None else problem.step
+    adapted = None if found is None or problem.is_turned else _adapted(problem, found, step)
+    bodies, headings, feet = _even(problem, step) if adapted is None else adapted
     for pin in problem.pinned:
         pose, place = pin.pose - 1, bodies[0, :2] + problem.pinned_place(pin, step)
         bodies[pose, :2] = _within_reach(model, feet[pose], bodies[pose], place)
-    headings = np.zeros(len(bodies))
     strokes = free_strokes(model, feet, BodyPose(bodies, headings))
     if np.isnan(strokes).any():
         pose, leg, _ = np.argwhere(np.isnan(strokes))[0]
@@ -203,19 +214,20 @@ def _within_reach(model: RobotModel, feet: Floats, body: Floats, place: Floats) 
     return np.asarray(bodies[int(reached.argmax()), :2])
 
 
-def _straight(problem: PoseProblem, step: float) -> tuple[Floats, Floats]:
-    """The start of the solver's search: body and feet go on evenly."""
+def _even(problem: PoseProblem, step: float) -> tuple[Floats, Floats, Floats]:
+    """The start of the solver's search, bodies, headings and feet: everything goes on evenly."""
     start = StartMotion(problem, step * MM)
-    return start.bodies / MM, np.array(start.feet) / MM
+    return start.bodies / MM, np.array(start.headings), np.array(start.feet) / MM
 
 
-def _adapted(problem: PoseProblem, found: FoundPoses, step: float) -> tuple[Floats, Floats] | None:
-    """Found poses turned and stretched to another heading and step; None where they do not fit.
+def _adapted(problem: PoseProblem, found: FoundPoses, step: float) -> tuple[Floats, Floats, Floats] | None:
+    """Bodies, headings and feet of a straight gait turned and stretched to another direction and step.
 
+    They are None where the poses do not fit.
     A motion that fits has its feet in the air at the same poses, by whichever quarter turn of the robot.
     """
     homes, legs = problem.model.module_centres_robot[:, :2], problem.model.leg_count
-    if found.feet.shape != (*problem.airborne.shape, 3):
+    if found.feet.shape != (*problem.airborne.shape, 3) or found.headings is not None:
         return None
     travel = found.bodies[-1, :2] - found.bodies[0, :2]
     before = float(np.arctan2(travel[1], travel[0]))
@@ -233,7 +245,7 @@ def _adapted(problem: PoseProblem, found: FoundPoses, step: float) -> tuple[Floa
     feet[..., :2] = (feet[..., :2] @ rotation.T - own_homes) @ stretch.T + homes
     heights = np.where(problem.airborne, np.maximum(feet[..., 2], problem.floor), 0.0)
     feet[..., 2] = heights
-    return bodies, feet
+    return bodies, np.zeros(len(bodies)), feet
 
 
 def new_pose_gait(name: str, gait: Gait, poses: Poses, model: RobotModel) -> Gait:
@@ -245,7 +257,7 @@ def new_pose_gait(name: str, gait: Gait, poses: Poses, model: RobotModel) -> Gai
         poses: what it asks beside that.
         model: its robot.
     """
-    step = gait.step if np.hypot(*gait.step[:2]) else heading_step(gait.orientation, USUAL_STEP)
+    step = gait.step if any(gait.step) else heading_step(gait.orientation, USUAL_STEP)
     bare = replace(
         gait,
         name=name,

@@ -334,12 +334,11 @@ def _move_findings(problem: PoseProblem, move: int, motion: MotionInMove) -> Ite
 def _sway_findings(gait: PoseGait, move: int, motion: MotionInMove) -> Iterator[PoseFinding]:
     """The heading is nowhere farther from an even turn than asked."""
     problem = gait.problem
-    if not problem.is_turned:
-        return
-    total = gait.turn * problem.all_cycles
-    even = total * (move + motion.shares) / problem.move_count
+    room = HEADING_TOLERANCE + (problem.bounds.slip / problem.model.radius if problem.is_turned else 0.0)
+    whole = gait.turn * problem.all_cycles
+    even = whole * (move + motion.shares) / problem.move_count
     over = float(np.abs(motion.heading - even).max()) - problem.sway
-    if over > HEADING_TOLERANCE + problem.bounds.slip / problem.model.radius:
+    if over > room:
         sentence = (
             f"The heading in move {move + 1} is {np.degrees(over):.2f}° farther from an even turn than the "
             f"{np.degrees(problem.sway):g}° that are asked."

@@ -14,8 +14,8 @@ import numpy as np
 
 from core.arrays import Bools, Floats
 from core.errors import InputError
-from core.gait.poses import POSE_LIMITS, PinnedPose
-from core.motion.support_polygon import support_polygon
+from core.gait.poses import MOST_SWAY, POSE_LIMITS, PinnedPose
+from core.motion.support_polygon import stability_margins, support_polygon
 from core.robot.arms import ARM_GAP
 from core.robot.model import RobotModel
 from core.wire.robot_time import PUBLISHED, TimeLaw, deaf_seconds, longest_move
@@ -51,8 +51,6 @@ MOST_CYCLES = 20
 MOST_PARTS = 4
 MOST_TURN = math.radians(120.0)
 """Largest turn of the body a cycle, rad."""
-MOST_SWAY = math.radians(40.0)
-"""Farthest that the heading may be allowed to leave an even turn, rad."""
 
 
 @dataclass(frozen=True)
@@ -100,6 +98,8 @@ class PoseProblem:
         turn: of the body a cycle, rad, to the left where it is above 0.
         free_turn: on the spot, whether the turn is that of the fastest; then only the sign of `turn` counts.
         sway: how far the heading may leave an even turn, rad.
+        overlap: whether a foot is lifted in the move that lowers the one before it, where the others balance
+            the body; four legs are too few.
         cycles: from the standard stance to rest; None for one cycle in mid-walk, which repeats itself.
         parts: moves into which each lift, each lowering and each move of the body alone is divided; None for
             the number with which the gait is fastest.
@@ -115,6 +115,7 @@ class PoseProblem:
     turn: float = 0.0
     free_turn: bool = False
     sway: float = 0.0
+    overlap: bool = False
     cycles: int | None = None
     parts: int | None = None
     bounds: PoseBounds = field(default_factory=PoseBounds)
@@ -315,8 +316,11 @@ def airborne_feet(problem: PoseProblem, *, in_mid_walk: bool = False) -> Bools:
     """
     order, parts, legs = problem.order, problem.parts or 1, problem.model.leg_count
     cycle: list[int | None] = []
-    for here, following in zip(order, order[1:] + order[:1], strict=True):
-        cycle += [here] * (2 * parts - 1) + [None]
+    for place, (here, following) in enumerate(zip(order, order[1:] + order[:1], strict=True)):
+        cycle += [here] * (2 * parts - 1)
+        if problem.overlap and place < legs - 1 and _is_balanced_without(problem, {here, following}):
+            continue
+        cycle += [None]
         needs_shift = not _shares_balance(problem.model, here, following, problem.bounds.margin)
         cycle += [None] * parts if needs_shift else []
     if in_mid_walk or problem.cycles is None:
@@ -329,6 +333,17 @@ def airborne_feet(problem: PoseProblem, *, in_mid_walk: bool = False) -> Bools:
         if foot is not None:
             airborne[pose, foot - 1] = True
     return airborne
+
+
+def _is_balanced_without(problem: PoseProblem, feet: set[int]) -> bool:
+    """Whether the others balance the body in the middle of the standard stance with these feet in the air."""
+    homes = problem.model.module_centres_robot[:, :2]
+    standing = [leg for leg in range(problem.model.leg_count) if leg + 1 not in feet]
+    if len(standing) < 3:
+        return False
+    contact = np.isin(np.arange(len(homes)), standing)[None]
+    room = stability_margins(np.zeros((1, 2)), np.pad(homes, ((0, 0), (0, 1)))[None], contact)
+    return bool(room[0] > problem.bounds.margin)
 
 
 def _shares_balance(model: RobotModel, first: int, second: int, margin: float) -> bool:

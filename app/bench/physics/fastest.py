@@ -19,6 +19,8 @@ from core.physics.problem import SimulationProblem
 from core.pose_gaits.pose_check import least_arm_distance
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseBounds, PoseProblem
+from core.pose_gaits.start_motion import TURN_GUESS
+from core.problem.motion_problem import turned_about_z
 from core.robot.model import load_robot
 from core.wire.waypoint_merging import plan_of_knots
 from core.wire.waypoints import Waypoints
@@ -39,7 +41,9 @@ class FastCase:
     Args:
         gait: of the library: foot order and direction.
         cycles: from the standard stance to rest; None in mid-walk.
-        step: m a cycle; None where it is free.
+        step: m a cycle; None where it is free, 0 for a turn on the spot.
+        turn: ° a cycle; None for the fastest on the spot, to the left.
+        sway: how far the heading may leave an even turn, °.
         bounds: the limits.
         varied: whether it runs under variations too.
     """
@@ -47,19 +51,30 @@ class FastCase:
     gait: str
     cycles: int | None = None
     step: float | None = None
+    turn: float | None = 0.0
+    sway: float = 0.0
     bounds: PoseBounds = field(default_factory=PoseBounds)
     varied: bool = False
 
 
 _GAITS = ("c-gait", "walk", "amble")
+_TURNS = (10.0, -10.0, 30.0, -30.0)
 CASES = (
     *(FastCase(gait) for gait in ("c-gait", "walk", "amble", "s-gait")),
     *(FastCase(gait, bounds=PoseBounds(stop_bound=bound)) for bound in (1.3, 1.0) for gait in _GAITS),
     *(FastCase(gait, cycles, varied=cycles == 3) for cycles in (3, 5) for gait in _GAITS),
-    FastCase("c-gait", 1, 0.010, PoseBounds(margin=0.003)),
-    FastCase("walk", 1, 0.010, PoseBounds(margin=0.003)),
-    FastCase("c-gait", 1, 0.010, PoseBounds(margin=0.001, clearance=0.0015, stop_bound=2.5)),
-    FastCase("walk", 1, 0.010, PoseBounds(margin=0.001, clearance=0.0015, stop_bound=2.5)),
+    *(FastCase(gait, 1, 0.010, bounds=PoseBounds(margin=0.003)) for gait in ("c-gait", "walk")),
+    *(
+        FastCase(gait, 1, 0.010, bounds=PoseBounds(margin=0.001, clearance=0.0015, stop_bound=2.5))
+        for gait in ("c-gait", "walk")
+    ),
+    FastCase("c-gait", step=0.0, turn=None),
+    FastCase("c-gait", step=0.0, turn=None, bounds=PoseBounds(arm_distance=0.0)),
+    FastCase("c-gait", 3, step=0.0, turn=None, varied=True),
+    *(FastCase("c-gait", turn=turn) for turn in _TURNS),
+    *(FastCase("c-gait", 3, turn=turn, varied=True) for turn in _TURNS),
+    FastCase("c-gait", sway=5.0),
+    FastCase("c-gait", 3, sway=5.0, varied=True),
 )
 """Every walk that is measured, the mid-walk ones first."""
 
@@ -83,7 +98,18 @@ def _problem(case: FastCase) -> PoseProblem:
     gait = library()[case.gait].gait
     heading = heading_angle(gait.orientation)
     model = load_robot(gait.robot)
-    return PoseProblem(model, gait.order, heading, case.step, cycles=case.cycles, bounds=case.bounds)
+    turn = TURN_GUESS if case.turn is None else float(np.radians(case.turn))
+    return PoseProblem(
+        model,
+        gait.order,
+        heading - (0.0 if case.step == 0.0 else turn / 2.0),
+        case.step,
+        turn=turn,
+        free_turn=case.turn is None,
+        sway=float(np.radians(case.sway)),
+        cycles=case.cycles,
+        bounds=case.bounds,
+    )
 
 
 def _row(case: FastCase, result: PoseResult, variations: int) -> Row:
@@ -95,6 +121,8 @@ def _row(case: FastCase, result: PoseResult, variations: int) -> Row:
         "margin_mm": bounds.margin * MM,
         "clearance_mm": bounds.clearance * MM,
         "stop_bound_s": bounds.stop_bound,
+        "arms_asked_mm": bounds.arm_distance * MM,
+        "sway_deg": case.sway,
         "status": result.status.value,
         "solve_s": round(result.solve_seconds, 2),
         "search_s": round(result.seconds, 2),
@@ -106,11 +134,14 @@ def _row(case: FastCase, result: PoseResult, variations: int) -> Row:
         "moves": gait.problem.move_count,
         "way_mm": round(gait.distance * MM, 1),
         "law_s": round(gait.seconds, 2),
+        "turn_deg": round(float(np.degrees(gait.headings[-1] - gait.headings[0])), 1),
         "law_mm_s": round(gait.speed * MM_S, 2),
+        "law_deg_s": round(float(np.degrees(gait.turn_rate)), 2),
     }
     for profile in ProfileName:
         row[f"{profile.value}_s"] = round(board_seconds(gait, profile), 2)
     row["board_mm_s"] = round(gait.distance / row["published_s"] * MM_S, 2)
+    row["board_deg_s"] = round(row["turn_deg"] / row["published_s"], 2)
     return row | _physics(gait, variations if case.varied else 0)
 
 
@@ -127,7 +158,9 @@ def _physics(gait: PoseGait, variations: int) -> Row:
     problem = simulation_of(gait)
     figures = report(problem, simulate(problem))
     row: Row = {
-        "physics_way_%": round(100.0 * figures.distance / figures.planned_distance, 1),
+        "physics_way_%": round(100.0 * figures.distance / figures.planned_distance, 1)
+        if figures.planned_distance
+        else None,
         "physics_heading_deg": round(float(np.degrees(figures.heading)), 2),
         "physics_tilt_deg": round(float(np.degrees(figures.max_tilt)), 2),
         "physics_swing_load": round(float(figures.swing_load.max()), 3),
@@ -138,6 +171,7 @@ def _physics(gait: PoseGait, variations: int) -> Row:
     if variations:
         runs = simulate_variations(problem, variations)
         row["variations"] = f"{sum(run.walks for run in runs)} of {variations} walk"
+        row["variations_fell"] = sum(run.fell for run in runs)
     return row
 
 
@@ -153,19 +187,27 @@ def simulation_of(gait: PoseGait) -> SimulationProblem:
 def repeated(gait: PoseGait, times: int) -> tuple[Trajectory, Waypoints]:
     """A gait in mid-walk run through several times: its motion, and its waypoints."""
     motion = gait.trajectory
-    travel = gait.bodies[-1] - gait.bodies[0]
+    turn = float(motion.heading[-1] - motion.heading[0])
 
     def joined(rows: Floats, offset: Floats | float = 0.0) -> Floats:
         parts = [rows[1:] + number * offset for number in range(times)]
         return np.concatenate([rows[:1], *parts])
 
+    def moved_on(places: Floats) -> Floats:
+        """Places in the world, each cycle where the one before it has taken the body."""
+        first, last = motion.body_world[0], motion.body_world[-1]
+        parts = [places]
+        for _ in range(times - 1):
+            parts.append(turned_about_z(parts[-1] - first, turn) + last)
+        return np.concatenate([places[:1], *(part[1:] for part in parts)])
+
     strokes = joined(gait.strokes)
     seconds = np.append(gait.waypoints.durations[:1], np.tile(gait.waypoints.durations[1:], times))
     trajectory = Trajectory(
         joined(motion.times, float(motion.times[-1])),
-        joined(motion.body_world, travel),
-        joined(motion.heading, float(motion.heading[-1] - motion.heading[0])),
-        joined(motion.feet_world, travel),
+        moved_on(motion.body_world),
+        joined(motion.heading, turn),
+        moved_on(motion.feet_world),
         np.concatenate([motion.contact[:1], *[motion.contact[1:]] * times]),
     )
     return trajectory, Waypoints(strokes, seconds)

@@ -26,6 +26,7 @@ function row(remedy, { use, show, end }) {
     update(known, isTrying) {
       const { text, tone, title } = physicsWords(known, isTrying);
       setText(margin, known.balance === null ? "–" : `${mm(known.balance)} mm`);
+      setAttribute(margin, "data-tone-text", tone === "caution" || known.balance === null ? null : "good");
       setText(physics, text);
       setAttribute(physics, "data-tone-text", tone);
       setAttribute(physics, "title", title);

@@ -18,14 +18,16 @@ export function plotCard(place) {
   const [time, robot, note] = [h("b", {}), h("span", { class: "quiet" }), h("p", { class: "quiet" })];
   const body = h("tbody", {});
   const margin = h("b", { class: "number" });
-  const head = h("tr", {}, ...["Foot", "Lift", ...motors.map((motor) => `M${motor + 1}`)].map((text) => h("th", { scope: "col", text })));
+  const head = h("tr", {}, ...["Foot", "Lift mm", ...motors.map((motor) => `M${motor + 1} mm`)].map((text) => h("th", { scope: "col", text })));
   const element = h("div", { class: "plot-card", "aria-hidden": "true", hidden: true },
     h("div", { class: "plot-card-head" }, time, robot), h("table", {}, h("thead", {}, head), body), h("div", { class: "plot-card-head" }, h("span", { text: "Margin" }), margin), note);
   place.append(element);
   let rows = [];
+  let named = "";
 
   function fit(roles) {
-    if (rows.length === roles.length) return;
+    if (roles.join() === named) return;
+    named = roles.join();
     rows = roles.map((role, foot) => footRow(foot, role));
     body.replaceChildren(...rows.map(({ row }) => row));
   }

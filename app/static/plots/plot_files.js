@@ -51,7 +51,7 @@ function legend(names) {
 }
 
 /** The plot as SVG text. */
-export function plotSvg({ kind, picture, axis, overs, grey, gait, feet }) {
+export function plotSvg({ kind, picture, axis, overs, grey, isUnder, gait, feet }) {
   const { width: whole, left, right, top, bottom: foot } = SIZE;
   const height = SIZE.height - top - foot + (picture.bands.length > 1 ? 24 * (picture.bands.length - 3) : 0);
   const [width, bottom] = [whole - left - right, top + height];
@@ -64,7 +64,7 @@ export function plotSvg({ kind, picture, axis, overs, grey, gait, feet }) {
     : picture.peaks.map(({ foot: one, x, y }) => footMark(one, left + (x / WIDTH) * width, place(y) - 8, footColour(one + 1)));
   const key = feet > 1 && kind.key !== "margin" ? Array.from({ length: feet }, (_, one) => footMark(one, left + 12 + one * 34, bottom + 34, footColour(one + 1)) + text(left + 21 + one * 34, bottom + 38, one + 1, { size: 11 })) : [];
   const parts = [
-    text(left, 20, `${kind.title}`, { weight: 600, size: 14 }), text(left, 36, gait, { fill: INK.quiet }), legend(lineNames(grey, overs)),
+    text(left, 20, `${kind.title}`, { weight: 600, size: 14 }), text(left, 36, gait, { fill: INK.quiet }), legend(lineNames(grey, overs, isUnder)),
     ...drawing.grid.map((y) => rule(left, place(y), left + width, place(y), INK.grid)), ...drawing.borders.map((y) => rule(left, place(y), left + width, place(y), INK.border)),
     ...drawing.lines.map(({ y, kind: name }) => rule(left, place(y), left + width, place(y), INK[name], "4 3")),
     ...picture.ticks.map(({ value, y }) => text(left - 6, place(y) + 4, Number(value.toFixed(3)), { anchor: "end", fill: INK.quiet, size: 11 })),

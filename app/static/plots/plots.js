@@ -12,7 +12,7 @@ import { saveButtons } from "./plot_files.js";
 import { robotSecondsAt } from "../state/robot_seconds.js";
 import { simulationOver } from "../state/simulation.js";
 import { isRefusedDrawing } from "../state/live_plan.js";
-import { shownDocument } from "../state/store.js";
+import { previewedDocument } from "../state/store.js";
 import { stripCanvas } from "./strip_canvas.js";
 import { APART, lineNames, rulesOf, stripPicture } from "./strip_picture.js";
 import { STRIPS, valuesAt } from "./strips.js";
@@ -95,9 +95,9 @@ function emptyWords(state, plan) {
   return plan?.refusal ? "No motion: the reason stands at the timeline." : "No plan yet.";
 }
 
-/** Shows the legend of all plots: a name for each line style. */
-function showLegend(key, names) {
-  key.hidden = names.length === 0;
+/** Shows the legend of all plots: a name for each line style. A preview that has none keeps its row, so that nothing moves. */
+function showLegend(key, names, isPreview = false) {
+  if (names.length > 0 || !isPreview) key.hidden = names.length === 0;
   keep(key, names.map(({ word, dash }) => `${word} ${dash}`).join(), () => names.map(({ word, dash }) => h("span", {},
     svg("svg", { width: 24, height: 8, "aria-hidden": "true" }, svg("line", { x1: 0, x2: 24, y1: 4, y2: 4, "stroke-dasharray": dash.join(" ") })), word)));
 }
@@ -112,21 +112,21 @@ function render(rows, key, state) {
     return;
   }
   const axis = axisOf(state);
-  const view = { axis, across: acrossOf(axis, plan.times), count: plan.times.length, rules: rulesOf(axis, plan), grey };
-  const { options } = shownDocument(state);
-  let most = [];
-  for (const row of rows) {
-    if (row.strip.hidden) continue;
+  const visible = rows.filter(({ strip }) => !strip.hidden);
+  const overs = new Map(visible.map((row) => [row, oversOf(state, row.kind.key)]));
+  const most = [...overs.values()].reduce((longest, one) => (one.length > longest.length ? one : longest), []);
+  // One legend is for all strips, so the plan has the same line in each of them.
+  const view = { axis, across: acrossOf(axis, plan.times), count: plan.times.length, rules: rulesOf(axis, plan), grey, isUnder: most.length > 0 };
+  const { options } = previewedDocument(state);
+  for (const row of visible) {
     const content = row.kind.of(plan, options);
     if (!content) {
       showSentence(row, row.kind.lack);
       continue;
     }
-    const overs = oversOf(state, row.kind.key);
-    if (overs.length >= most.length) most = overs;
-    row.drawn = draw(row, content, { ...view, overs });
+    row.drawn = draw(row, content, { ...view, overs: overs.get(row) });
   }
-  showLegend(key, lineNames(grey, most));
+  showLegend(key, lineNames(grey, most, view.isUnder), Boolean(state.preview));
 }
 
 /** The series nearest to a height in the strip (0 to 1) at a sample, or null. */
@@ -197,7 +197,7 @@ export function mountPlots(store) {
   byId("plots").append(key, ...rows.flatMap(({ label, strip }) => [label, strip]));
   mountChoice(rows, () => render(rows, key, store.state));
   mountHover(store, rows);
-  const drawn = (state) => [drawnPlan(state), greyOf(state), isRefusedDrawing(state), shownDocument(state)?.options, axisKey(state), runOver(state), simulationOver(state)];
+  const drawn = (state) => [drawnPlan(state), greyOf(state), isRefusedDrawing(state), previewedDocument(state)?.options, axisKey(state), runOver(state), simulationOver(state)];
   store.watch(drawn, (state) => render(rows, key, state));
 
   return (time) => {

@@ -153,11 +153,12 @@ function namedValues({ low = null, high = null, wanted = null }, { range, low: b
 /**
  * Computes a strip's plot.
  * @param {object} content of a strip's `of` (see strips.js)
- * @param {{axis: object, across: object, count: number, overs: object[], rules: object[], grey: string|null}} view
+ * @param {{axis: object, across: object, count: number, overs: object[], rules: object[], grey: string|null, isUnder: boolean}} view
+ *   `isUnder`: whether the plan is drawn as the line under measured or simulated ones, here or in another strip
  * @returns {object} `scaleFor(foot)`, `range` of all values, `bands` of the feet {foot, top, bottom}, `ticks` {value, y},
  *   `named` values, `peaks` {foot, x, y}, and `drawing` as `stripCanvas` takes it
  */
-export function stripPicture(content, { axis, across, count, overs, rules, grey }) {
+export function stripPicture(content, { axis, across, count, overs, rules, grey, isUnder }) {
   const span = spanOf(content, overs, count);
   const bandOf = bandsOf(content);
   const scales = new Map();
@@ -178,16 +179,16 @@ export function stripPicture(content, { axis, across, count, overs, rules, grey 
       bands: missing(content, across), rules,
       grid: bands.flatMap(({ foot }) => values.map((value) => scaleFor(foot)(value))), borders: bands.slice(1).map(({ top }) => top),
       lines: named.filter(({ away }) => !away).flatMap(({ value, kind }) => bands.map(({ foot }) => ({ y: scaleFor(foot)(value), kind }))),
-      curves: [...plannedCurves(content, across, scaleFor, { isUnder: overs.length > 0, grey, count, span }), ...overs.flatMap((over) => measuredCurves(over, axis, scaleFor))],
+      curves: [...plannedCurves(content, across, scaleFor, { isUnder, grey, count, span }), ...overs.flatMap((over) => measuredCurves(over, axis, scaleFor))],
       clips: grey === "worked" ? [] : beyond(content, scaleFor, bands, span.range), isGrey: grey !== null,
       marks: bands.length > 1 ? bands.map(({ foot, top, bottom }) => ({ feet: [foot], x: null, y: (top + bottom) / 2 })) : peakMarks(peaks),
     },
   };
 }
 
-/** Entries of the plots' legend: a word and the dashes of its line; none if all lines are planned ones. */
-export function lineNames(grey, overs) {
-  if (!grey && !overs.length) return [];
-  const planned = { word: grey ? GREY[grey].plot : "planned", dash: overs.length ? DOTTED : [] };
+/** Entries of a legend: a word and the dashes of its line; none if all lines are planned ones. */
+export function lineNames(grey, overs, isUnder) {
+  if (!grey && !isUnder) return [];
+  const planned = { word: grey ? GREY[grey].plot : "planned", dash: isUnder ? DOTTED : [] };
   return [planned, ...overs.map(({ word, dash }) => ({ word, dash }))];
 }

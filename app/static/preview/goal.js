@@ -7,7 +7,7 @@ import { stepLength, stepTurn, withTurn, withWorldStep, worldStep } from "../doc
 import { clamp } from "../lib/clamp.js";
 import { byId, h, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
-import { shownDocument, shownPlan } from "../state/store.js";
+import { previewedDocument, shownDocument, shownPlan } from "../state/store.js";
 import { ARROWS, SNAP, floorOf, handle, movable, place, snapped } from "./handle.js";
 
 const TURN_SNAP = 1;
@@ -140,7 +140,7 @@ export function mountGoal(store, edits, preview) {
 
   function follow() {
     requestAnimationFrame(follow);
-    const document = layer.hidden ? null : shownDocument(store.state);
+    const document = layer.hidden ? null : previewedDocument(store.state);
     const floor = document && floorOf(preview);
     if (!floor) return;
     goal = goalOf(document, shownPlan(store.state));

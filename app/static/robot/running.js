@@ -18,10 +18,13 @@ function nowText(state) {
   if (run.phase === "start pose") return "Moving slowly to the start pose.";
   const plan = view?.plan;
   const sample = run.gait === selected && plan ? plan.times.findLastIndex((time) => time <= (run.plan_time ?? 0) + 1e-6) : -1;
-  const rows = shownDocument(state)?.timeline.feet ?? [];
+  const document = shownDocument(state);
+  const [rows, isOfPoses] = [document?.timeline.feet ?? [], Boolean(document?.poses)];
   if (sample < 0 || !rows.length || run.waypoints_hash !== plan.waypoints_hash) return run.gait_name ?? "";
   const next = Math.min(sample + 1, rows[0].length - 1);
-  const feet = rows.flatMap((row, foot) => (row[next] === "0" ? [foot + 1] : []));
+  // A pose gait's foot is in the air in both of its moves: one begins with it down, one ends with it down.
+  const isUp = (row) => row[next] === "0" || (isOfPoses && row[sample] === "0");
+  const feet = rows.flatMap((row, foot) => (isUp(row) ? [foot + 1] : []));
   if (!feet.length) return "All feet stand, the body moves.";
   return feet.length === 1 ? `Foot ${feet[0]} swings, the others stand.` : `Feet ${feet.join(" and ")} swing, the others stand.`;
 }

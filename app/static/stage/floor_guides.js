@@ -5,7 +5,7 @@ import { byId, h, setText, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
 import { floorOf } from "../preview/overlay.js";
 import { goalOf } from "../preview/goal.js";
-import { shownDocument } from "../state/store.js";
+import { previewedDocument } from "../state/store.js";
 import { drawnPlan, greyOf } from "../state/worked_plan.js";
 import { firstFree, isFree } from "./apart.js";
 
@@ -111,7 +111,7 @@ export class FloorGuides {
   /** Whether anything that the guides show has changed. */
   isChanged() {
     const { state } = this.#store;
-    const document = shownDocument(state);
+    const document = previewedDocument(state);
     const [plan, goalHidden] = [drawnPlan(state), byId("goal").hidden];
     const key = [
       this.#layer.hidden, document?.step, document?.direction, document?.orientation, document?.iterations,
@@ -124,7 +124,7 @@ export class FloorGuides {
 
   draw(seen) {
     const { state } = this.#store;
-    const document = shownDocument(state);
+    const document = previewedDocument(state);
     const isFlat = seen.back[2] < FLATTEST;
     const goal = document && goalOf(document, drawnPlan(state));
     this.boxes = [];

@@ -5,6 +5,7 @@
 
 import { byId, h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { toast } from "../lib/toasts.js";
+import { hasNoMotion, shownPlan } from "../state/store.js";
 import { approvalState, checkState, gaitParts, simulateState } from "./step_states.js";
 import { openStep } from "./steps.js";
 
@@ -15,6 +16,9 @@ const ACTS = {
   approve: { step: "check", text: "Go to approval", button: null, focus: "act-approve", help: "Your approval lets it be sent." },
   run: { step: "run", text: "Go to Run", button: null, help: "Approved. Connect, arm and send." },
 };
+
+/** Why the act is not possible yet, in a sentence; why there is no motion stands in the step Design. */
+const lackOf = (state, reason) => (hasNoMotion(shownPlan(state)) ? "There is no motion yet." : reason.split(/(?<=\.) /)[0]);
 
 /** The next act for the shown gait. */
 function nextAct(state) {
@@ -36,8 +40,8 @@ function nextButton(store, step) {
   store.watch(gaitParts, (state) => {
     const act = ACTS[nextAct(state)];
     setText(button, act.text);
-    setText(help, act.help);
     const reason = act.button ? byId(act.button).getAttribute("aria-description") : null;
+    setText(help, reason ? lackOf(state, reason) : act.help);
     setAllowed(button, reason, act.help);
     // Where the step has the button itself, it is not offered twice; who checks first may simulate later.
     element.hidden = act.step === step || (step === "check" && act !== ACTS.run);

@@ -33,10 +33,10 @@ function planPart(state) {
 function robotPart(state) {
   const plan = shownPlan(state);
   const { view } = state;
-  const seconds = plan === view?.plan && !hasNoMotion(plan) ? plan?.robot_seconds : null;
+  const seconds = hasNoMotion(plan) ? null : plan?.robot_seconds;
   if (!seconds) return { figure: NONE, help: "Time and speed on the robot are not known yet." };
-  const speed = view.speed ? `  ${fixed(view.speed * 1000, 2)} mm/s` : "";
-  return { figure: `${fixed(seconds)} s${speed}`, help: `On the robot the motion takes about ${fixed(seconds)} s${view.speed ? `, which is ${fixed(view.speed * 1000, 2)} mm/s` : ""}. It leaves out the way to the start pose.` };
+  const speed = plan === view?.plan && view.speed ? `${fixed(view.speed * 1000, 2)} mm/s` : "";
+  return { figure: [`${fixed(seconds)} s`, speed].filter(Boolean).join("  "), help: `On the robot the motion takes about ${fixed(seconds)} s${speed && `, which is ${speed}`}. It leaves out the way to the start pose.` };
 }
 
 function simulatedPart(state) {

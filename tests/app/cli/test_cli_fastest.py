@@ -9,6 +9,9 @@ import pytest
 
 from app.documents.gait_json import parse_gait
 from core.gait.motion_source import MotionSource, motion_source
+from core.pose_gaits.gait_poses import found_gait
+from core.pose_gaits.pose_check import check_poses
+from core.robot.model import load_robot
 from core.wire.waypoints import parse_waypoint_csv
 from tests.support.command import run, run_json
 from tests.support.patience import patient_robot
@@ -57,7 +60,10 @@ def test_a_walk_is_written_and_every_other_command_takes_it(
     ("words", "sentence"),
     [
         (("nonsense",), "There is no gait “nonsense”"),
-        (("rotate",), "no straight walk"),
+        (("--step", "0"), "say how far with --turn"),
+        (("--turn", "left"), "add --step 0"),
+        (("--step", "0", "--turn", "5"), "--turn"),
+        (("--sway", "2"), "--sway"),
         (("--order", "1,2,3,3"), "each foot 1 to 4 once"),
         (("--order", "1,2,3"), "each foot 1 to 4 once"),
         (("--step", "-0.01"), "--step"),
@@ -91,6 +97,20 @@ def test_a_step_that_no_motor_reaches_is_infeasible_with_the_longest_that_works(
     assert (status, answer["status"], answer["waypoints"]) == (3, "infeasible", None)
     assert "the longest that was found is" in answer["explanation"][0]
     assert not way.exists()
+
+
+def test_a_turn_on_the_spot_is_a_gait_that_turns(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    file = tmp_path / "turn.json"
+    words = ("rotate", "--step", "0", "--turn", "-0.3", "-o", str(file))
+    status, answer = run_json(capsys, "fastest", *words)
+    assert (status, answer["step"], answer["speed"]) == (0, 0.0, 0.0)
+    assert answer["turn"] == pytest.approx(-0.3)
+    gait = parse_gait(file.read_text(), file.name)
+    found = found_gait(gait, load_robot("deltawalker"))
+    assert found is not None
+    assert found.turn == pytest.approx(-0.3)
+    assert check_poses(found).confirmed
+    assert run_json(capsys, "check", str(file))[0] == 0
 
 
 def test_a_gait_file_opens_as_a_gait(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

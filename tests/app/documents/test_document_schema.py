@@ -85,7 +85,9 @@ def test_every_measured_number_says_its_unit() -> None:
     unitless = [
         field
         for field, one in numbers.items()
-        if not any(unit in one["description"] for unit in (", m", ", s", " m ", "no unit", "multiple"))
+        if not any(
+            unit in one["description"] for unit in (", m", ", s", ", rad", " m ", "no unit", "multiple")
+        )
     ]
     assert unitless == []
 

@@ -31,6 +31,7 @@ from solver_jobs.results.motion import Evidence, Iterate, Lack, MotionResult, So
 from solver_jobs.results.pose import PoseProgress, PoseResult
 from solver_jobs.tiers.frontier import Frontier, FrontierSearch
 from solver_jobs.workers.batch_simulation_service import BatchSimulation, BatchSimulator
+from solver_jobs.workers.fastest_search import FastestSearch, SearchStep, TriedGait, fastest_of
 from solver_jobs.workers.job import OPEN_STATES, Job, JobKind, JobState, result_sentence
 from solver_jobs.workers.job_queue import JobQueue
 from solver_jobs.workers.live_service import LiveSolver
@@ -51,6 +52,7 @@ __all__ = [
     "BatchSimulation",
     "BatchSimulator",
     "Evidence",
+    "FastestSearch",
     "Frontier",
     "FrontierSearch",
     "Iterate",
@@ -72,6 +74,7 @@ __all__ = [
     "RemedyKind",
     "RemedySearch",
     "Report",
+    "SearchStep",
     "Simulated",
     "Simulation",
     "Simulator",
@@ -79,12 +82,14 @@ __all__ = [
     "Task",
     "TaskService",
     "TimingResult",
+    "TriedGait",
     "Trouble",
     "WorkerEndedError",
     "WorkerProcess",
     "completed_drawing",
     "completion_question",
     "completion_remedy",
+    "fastest_of",
     "fastest_timing",
     "find_remedies",
     "nothing_words",

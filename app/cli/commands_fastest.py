@@ -8,6 +8,7 @@ from collections.abc import Callable
 from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 
+from app.cli.fastest_search import best_document, order_name, search_content, search_lines
 from app.cli.gait_options import named_gait
 from app.cli.output import INFEASIBLE, NOT_FIT, end_on_signals, note, show
 from app.common.json import Json
@@ -17,7 +18,6 @@ from app.store.gait_files import write_atomically
 from core.errors import InputError
 from core.gait.gait import Gait, heading_step
 from core.gait.poses import POSE_LIMITS, Poses
-from core.library.library import Group, library
 from core.library.new_gait import with_robot
 from core.pose_gaits.gait_poses import USUAL_STEP, new_pose_gait, pose_problem, with_poses
 from core.pose_gaits.pose_gait import PoseGait
@@ -60,12 +60,16 @@ def run_fastest(options: Namespace) -> int:
     """Finds the walk with the most millimetres a robot second, and writes its waypoints."""
     end_on_signals()
     name, document = fastest_document(options)
-    problem = pose_problem(document, load_robot(document.robot))
     if options.output is not None and options.output.suffix not in (".csv", ".json"):
         raise InputError(
             f"{options.output} is neither a waypoint file nor a gait file; end its name in .csv or .json.",
             "-o",
         )
+    model, found = load_robot(document.robot), None
+    if options.search or options.front:
+        document, found = best_document(document, model, options.order, options.front)
+        name = order_name(document.order) or "-".join(map(str, document.order))
+    problem = pose_problem(document, model)
     with closing(PoseGaitSolver(niceness=0)) as solver:
         walk = _solved(solver, name, problem)
     written = None
@@ -80,7 +84,11 @@ def run_fastest(options: Namespace) -> int:
         note(
             f"{problem.model.title} has no firmware of its own here; the DeltaWalker's law of time stands in."
         )
-    show(options, _content(walk, problem, written), _lines(walk, written))
+    content, lines = _content(walk, problem, written), _lines(walk, written)
+    if found is not None:
+        content |= {"search": search_content(found)}
+        lines = [*search_lines(found), *lines]
+    show(options, content, lines)
     return {SolveStatus.SOLVED: 0, SolveStatus.INFEASIBLE: INFEASIBLE}.get(walk.status, NOT_FIT)
 
 
@@ -146,13 +154,7 @@ def _require_order(order: tuple[int, ...], legs: int) -> None:
 
 def _named_by(order: tuple[int, ...] | None) -> str:
     """The optimised gait whose feet step in this order, wherever it begins; else the walk."""
-    for entry in library().values():
-        if order is None or entry.group is not Group.OPTIMISED or entry.gait.step[2] != 0.0:
-            continue
-        own = entry.gait.order
-        if order in [own[first:] + own[:first] for first in range(len(own))]:
-            return entry.id
-    return "walk"
+    return "walk" if order is None else order_name(order) or "walk"
 
 
 def _solved(solver: PoseGaitSolver, name: str, problem: PoseProblem) -> FastestWalk:

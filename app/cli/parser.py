@@ -237,6 +237,10 @@ def _fastest_options(parser: argparse.ArgumentParser) -> None:
         default=None,
         help="feet such as 3,2,4,1 at direction 1, instead of the gait's own",
     )
+    text = "choose foot order, direction and overlaps too: try all that differ, print them, take the fastest"
+    add("--search", action="store_true", help=text)
+    text = "the same, and what other margins and stop bounds cost; a few minutes"
+    add("--front", action="store_true", help=text)
     step = "m a cycle, free for the fastest, or 0 for a turn on the spot (default free)"
     add("--step", type=free_or(zero_or(number(0.0005, 0.2, "m"))), default=None, metavar="M|free", help=step)
     turn = "rad a cycle, to the left above 0; on the spot also left or right: as fast as possible (default 0)"

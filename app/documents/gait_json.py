@@ -165,7 +165,7 @@ def _to_poses(model: PosesModel | None, feet: int) -> Poses | None:
     kept = None if found is None else FoundPoses(**found.model_dump())
     pinned = tuple(PinnedPose(pin.pose, pin.along, pin.sideways) for pin in model.pinned)
     limits = {name: getattr(model, name) for name in POSE_LIMITS}
-    return Poses(model.free_step, **limits, sway=model.sway, found=kept, pinned=pinned)
+    return Poses(model.free_step, **limits, sway=model.sway, overlap=model.overlap, found=kept, pinned=pinned)
 
 
 def _to_recording(model: RecordingModel | None) -> Recording | None:
@@ -223,6 +223,8 @@ def gait_content(gait: Gait) -> Json:
 def _poses_content(poses: Poses) -> Json:
     found = poses.found
     content = {name: getattr(poses, name) for name in ("free_step", *POSE_LIMITS)}
+    if poses.overlap:
+        content["overlap"] = True
     if poses.sway:
         content["sway"] = poses.sway
     if poses.pinned:

@@ -175,6 +175,10 @@ class PosesModel(_Model):
         default=Poses.sway,
         json_schema_extra={"minimum": 0.0, "maximum": MOST_SWAY},
     )
+    overlap: bool = _field(
+        "whether a foot is lifted in the move that lowers the one before it. Left out where it is not",
+        default=Poses.overlap,
+    )
     found: FoundPosesModel | None = _field("the poses; null: none were found yet", default=None)
     pinned: list[PinnedPoseModel] = _field(
         "where the body is to be at some poses. Left out where none is pinned", default_factory=list

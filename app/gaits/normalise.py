@@ -19,6 +19,8 @@ from core.segments.from_timeline_edit import carried
 
 SAME_STEP = 1e-9
 """Steps that differ by less are the same, m."""
+SAME_TURN = 1e-7
+"""Turns that differ by less are the same, rad."""
 LET_GO = (
     "The pinned poses were removed, because foot order, cycles, direction of travel, stop bound or robot "
     "changed. Undo brings them back."
@@ -98,8 +100,13 @@ def _poses_of(gait: Gait) -> object:
 
 def _is_step_set(before: Gait, after: Gait, poses: Poses) -> bool:
     """Whether somebody set the step, which is not the one of the poses that the page knows."""
-    own = poses.found is not None and abs(np.hypot(*after.step[:2]) - poses.found.step) < SAME_STEP
-    return after.step != before.step and not own
+    found, length = poses.found, float(np.hypot(*after.step[:2]))
+    if after.step == before.step or found is None:
+        return after.step != before.step
+    if length == 0.0 and after.step[2] != 0.0:  # on the spot it is the turn that may be free
+        turn = float(found.turns[-1] - found.turns[0]) / after.iterations
+        return abs(after.step[2] - turn) >= SAME_TURN
+    return abs(length - found.step) >= SAME_STEP
 
 
 def require_locks(before: Gait, after: Gait) -> None:

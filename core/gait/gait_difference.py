@@ -101,6 +101,9 @@ def _poses(before: Poses | None, after: Poses | None) -> tuple[str, ...]:
         sentences += [] if old == new else _change(words, *(f"{text} mm" for text in _apart(old, new)))
     sways = [f"{np.degrees(poses.sway):.4g}°" for poses in (before, after)]
     sentences += _change("Sway of the heading:", *sways)
+    sentences += _change(
+        "Overlapping swings:", *("yes" if poses.overlap else "no" for poses in (before, after))
+    )
     sentences += _change("Pinned poses:", *(_pinned(poses) for poses in (before, after)))
     return tuple(sentences)
 

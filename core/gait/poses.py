@@ -125,6 +125,7 @@ class Poses:
         free_step: the step, or on the spot the turn, is that of the fastest gait; the document's own
             follows from the poses.
         sway: how far the heading may leave an even turn, rad.
+        overlap: whether a foot is lifted in the move that lowers the one before it, where the others balance.
         slip: how far a standing foot may be off its foothold within a move, in x and y; half of it in z, m.
         shoe_distance: least distance between the middles of two feet, m.
         arm_distance: least room between the arms of neighbouring legs, m; 0 where they may touch.
@@ -137,6 +138,7 @@ class Poses:
     shoe_distance: float = 0.028
     arm_distance: float = ARM_GAP
     sway: float = 0.0
+    overlap: bool = False
     found: FoundPoses | None = None
     pinned: tuple[PinnedPose, ...] = ()
 

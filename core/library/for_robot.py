@@ -1,5 +1,6 @@
 """The gaits for the robot's clock that come with the program."""
 
+import math
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -23,7 +24,9 @@ def asked_gait(item: dict[str, Any], like: Gait) -> Gait:
         item: the entry.
         like: the gait that gives foot order and heading.
     """
-    step = item.get("step")
+    step, turn = item.get("step"), math.radians(item.get("turn", 0.0))
+    dx, dy, _ = heading_step(like.orientation, USUAL_STEP if step is None else step)
+    is_free = step is None or step == 0.0
     options = replace(
         like.options,
         margin=item.get("margin", MARGIN),
@@ -33,12 +36,13 @@ def asked_gait(item: dict[str, Any], like: Gait) -> Gait:
     )
     asked = replace(
         like,
-        step=heading_step(like.orientation, USUAL_STEP if step is None else step),
+        order=tuple(item.get("order", like.order)),
+        step=(dx, dy, turn),
         iterations=CYCLES,
         options=options,
         notes=item["note"],
     )
-    return new_pose_gait(item["name"], asked, Poses(free_step=step is None), load_robot(like.robot))
+    return new_pose_gait(item["name"], asked, Poses(free_step=is_free), load_robot(like.robot))
 
 
 def gait_for_robot(item: dict[str, Any], like: Gait) -> Gait:

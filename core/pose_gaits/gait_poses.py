@@ -64,6 +64,7 @@ def pose_problem(gait: Gait, model: RobotModel) -> PoseProblem:
         turn=turn,
         free_turn=poses.free_step and on_the_spot,
         sway=poses.sway,
+        overlap=poses.overlap,
         cycles=gait.iterations,
         bounds=PoseBounds(
             margin=options.margin,
@@ -90,6 +91,8 @@ def asked_of(problem: PoseProblem) -> str:
     }
     if problem.free_turn:
         asked["free_turn"] = True
+    if problem.overlap:
+        asked["overlap"] = True
     if problem.sway:
         asked["sway"] = problem.sway
     if problem.pinned:

@@ -7,11 +7,13 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
+
 from core.data.tables import data_table
 from core.gait.poses import FoundPoses
-from core.library.for_robot import asked_gait
+from core.library.for_robot import asked_gait, found_poses
 from core.library.library import library
-from core.pose_gaits.gait_poses import found_of, pose_problem
+from core.pose_gaits.gait_poses import asked_of, found_of, pose_problem
 from core.robot.model import load_robot
 from solver_jobs.pose_gaits.solve import solve_poses
 from solver_jobs.results.motion import SolveStatus
@@ -22,15 +24,21 @@ DECIMALS = 8
 
 
 def main() -> int:
-    """Solves every gait and writes the file; the status says whether all were found."""
+    """Solves every gait whose poses the file does not have yet; the status says whether all were found."""
     tables: list[str] = []
     for item in data_table("for_robot.toml")["gait"]:
         gait = asked_gait(item, library()[item["like"]].gait)
-        result = solve_poses(pose_problem(gait, load_robot(gait.robot)))
+        problem = pose_problem(gait, load_robot(gait.robot))
+        known = found_poses().get(item["id"])
+        if known is not None and known.answers == asked_of(problem):
+            tables.append(_table(item["id"], known))
+            continue
+        result = solve_poses(problem)
         if result.status is not SolveStatus.SOLVED or result.gait is None:
             sys.stderr.write(f"{item['id']}: {' '.join(result.explanation)}\n")
             return 1
-        sys.stdout.write(f"{item['id']}: {result.gait.speed * 1000:.2f} mm/s\n")
+        speed, rate = result.gait.speed * 1000.0, np.degrees(result.gait.turn_rate)
+        sys.stdout.write(f"{item['id']}: {speed:.2f} mm/s, {rate:.2f}°/s\n")
         tables.append(_table(item["id"], found_of(result.gait)))
     head = "# Written by solver_jobs/pose_gaits/library_poses.py; all numbers in m.\n\n"
     FILE.write_text(head + "\n".join(tables))
@@ -41,7 +49,8 @@ def _table(gait_id: str, found: FoundPoses) -> str:
     bodies = ",\n".join(f"  {_row(body)}" for body in found.bodies.tolist())
     feet = ",\n".join("  [" + ", ".join(_row(foot) for foot in pose) + "]" for pose in found.feet.tolist())
     head = f'[{gait_id}]\nanswers = "{found.answers}"\nstep = {found.step!r}\n'
-    return f"{head}bodies = [\n{bodies},\n]\nfeet = [\n{feet},\n]\n"
+    headings = "" if found.headings is None else f"headings = {_row(found.headings.tolist())}\n"
+    return f"{head}{headings}bodies = [\n{bodies},\n]\nfeet = [\n{feet},\n]\n"
 
 
 def _row(values: Sequence[float]) -> str:

@@ -64,7 +64,10 @@ class _Cancelled(Exception):  # noqa: N818 - it is no error
 
 
 def solve_poses(
-    problem: PoseProblem, report: Report = lambda progress: True, near: PoseGait | None = None
+    problem: PoseProblem,
+    report: Report = lambda progress: True,
+    near: PoseGait | None = None,
+    explain: bool = True,
 ) -> PoseResult:
     """Looks for the fastest pose gait.
 
@@ -72,13 +75,14 @@ def solve_poses(
         problem: what is asked.
         report: called between and within the stages.
         near: poses to begin with instead of several starts; they need not answer the problem.
+        explain: whether to look for the reason where there is no gait, which takes as long again.
     """
     results: list[PoseResult] = []
     longest: Longest = []
     for parts in problem.parts_to_try:
         # Finding a reason is slow, so it is looked for only if no number of parts gave a gait.
         is_last = parts == problem.parts_to_try[-1] and all(result.gait is None for result in results)
-        needs_reason = is_last and not problem.pinned
+        needs_reason = explain and is_last and not problem.pinned
         results.append(_solved(replace(problem, parts=parts), report, near, longest, needs_reason))
     cancelled = [result for result in results if result.status is SolveStatus.CANCELLED]
     solved = [result for result in results if result.gait is not None]

@@ -41,6 +41,7 @@ class PoseGaitSolver(TaskService[PoseSearch]):
         problem: PoseProblem,
         progress: Callable[[PoseProgress], object] = lambda known: None,
         near: PoseGait | None = None,
+        explain: bool = True,
     ) -> PoseSearch:
         """Begins a search, after those that were submitted before.
 
@@ -48,5 +49,6 @@ class PoseGaitSolver(TaskService[PoseSearch]):
             problem: what is asked.
             progress: called with what is known, from a thread of the service's.
             near: poses to begin with; None for several starts.
+            explain: whether to look for the reason where there is no gait.
         """
-        return self.ask(PoseSearch(PoseQuestion(problem, near), progress))
+        return self.ask(PoseSearch(PoseQuestion(problem, near, explain), progress))

@@ -16,10 +16,12 @@ class PoseQuestion:
     Args:
         problem: what is asked.
         near: poses to begin with, or None.
+        explain: whether to look for the reason where there is no gait.
     """
 
     problem: PoseProblem
     near: PoseGait | None = None
+    explain: bool = True
 
 
 def run_pose_worker(pipe: Connection, nothing: None) -> None:
@@ -33,6 +35,6 @@ def run_pose_worker(pipe: Connection, nothing: None) -> None:
     from solver_jobs.pose_gaits.solve import solve_poses
 
     def solved(asked: PoseQuestion, report: Report) -> PoseResult:
-        return solve_poses(asked.problem, report, asked.near)
+        return solve_poses(asked.problem, report, asked.near, asked.explain)
 
     run_tasks(pipe, solved)

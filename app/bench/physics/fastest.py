@@ -31,6 +31,8 @@ BOARD_CYCLES = 4
 PHYSICS_CYCLES = 2
 """Cycles in mid-walk that physics walks."""
 VARIATIONS = 64
+NO_WAY = 1e-6
+"""A planned way that is shorter is none, m."""
 MM, MM_S = 1000.0, 1000.0
 
 
@@ -159,7 +161,7 @@ def _physics(gait: PoseGait, variations: int) -> Row:
     figures = report(problem, simulate(problem))
     row: Row = {
         "physics_way_%": round(100.0 * figures.distance / figures.planned_distance, 1)
-        if figures.planned_distance
+        if figures.planned_distance > NO_WAY
         else None,
         "physics_heading_deg": round(float(np.degrees(figures.heading)), 2),
         "physics_tilt_deg": round(float(np.degrees(figures.max_tilt)), 2),

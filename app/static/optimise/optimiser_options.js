@@ -85,17 +85,20 @@ const limit = (name) => ({
 /** What only a gait for the robot's clock has. */
 const POSE_CHOICES = [
   { label: "Step length", name: "Step length", options: [["true", "fastest"], ["false", "as set"]],
-    help: "fastest: the step with which the walk is fastest; as set: the step above",
+    help: "fastest: the step with which the walk is fastest, and on the spot the fastest turn; as set: step and turn above",
     read: ({ poses }) => String(poses?.free_step ?? false), write: (document, value) => ({ ...document, poses: { ...document.poses, free_step: value === "true" } }) },
 ];
+const DEGREES = 180 / Math.PI;
 const POSE_NUMBERS = [
+  { label: "Sway", name: "Sway", unit: "°", min: 0, max: 40, step: 1, decimals: 1, help: "How far the heading may leave an even turn. It makes a gait faster, but soles pivot on the ground, and nobody has tried yet how flat shoes do that",
+    read: ({ poses }) => (poses ? (poses.sway ?? 0) * DEGREES : null), write: (document, value) => ({ ...document, poses: { ...document.poses, sway: value / DEGREES } }) },
   { label: "Slip", name: "Slip", unit: "mm", min: 0.05, max: 5, step: 0.1, decimals: 2, help: "How far a standing foot may leave its foothold within a move, since motors that go straight do not keep it exactly", ...limit("slip") },
   { label: "Shoe distance", name: "Shoe distance", unit: "mm", min: 0, max: 60, step: 0.5, decimals: 1, help: "Least distance between the middles of two feet; a shoe is 25 mm across", ...limit("shoe_distance") },
   { label: "Arm distance", name: "Arm distance", unit: "mm", min: 0, max: 10, step: 0.5, decimals: 1, help: "Least room between the arms of neighbouring legs; 0 where they may touch", ...limit("arm_distance") },
 ];
 
 /** The other fields that such a gait has as well. */
-const OF_POSES = new Set(["Robot", "Foot order", "Step", "Clearance", "Stability margin", "Iterations", "Orientation", "Direction", "Notes"]);
+const OF_POSES = new Set(["Robot", "Foot order", "Step", "Turn", "Clearance", "Stability margin", "Iterations", "Orientation", "Direction", "Notes"]);
 const ONLY_POSES = new Set([...POSE_CHOICES, ...POSE_NUMBERS].map(({ name }) => name));
 
 /** Whether a gait has a field, by its accessible name. */

@@ -131,7 +131,7 @@ def test_a_search_without_an_answer_says_why() -> None:
 
 @pytest.mark.parametrize(
     ("change", "words"),
-    [({"step": (0.01, 0.0, 0.1)}, "cannot turn"), ({"step": (0.0, 0.0, 0.0)}, "has to go somewhere")],
+    [({"step": (0.01, 0.0, 2.5)}, "--turn"), ({"step": (0.0, 0.0, 0.0)}, "has to go somewhere")],
 )
 def test_what_such_a_gait_cannot_have_is_refused(solved: Gait, change: dict[str, object], words: str) -> None:
     with pytest.raises(InputError, match=words):

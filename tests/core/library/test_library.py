@@ -108,7 +108,7 @@ def test_entries_stand_together_by_group() -> None:
     assert list(dict.fromkeys(groups)) == list(Group)
     assert groups == sorted(groups, key=list(Group).index)
     assert {group: groups.count(group) for group in Group} == {
-        Group.FOR_ROBOT: 7,
+        Group.FOR_ROBOT: 10,
         Group.OPTIMISED: 5,
         Group.BY_HAND: 9,
         Group.APPENDIX: 16,

@@ -8,7 +8,14 @@ from collections.abc import Callable
 from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 
-from app.cli.fastest_search import best_document, order_name, search_content, search_lines
+from app.cli.fastest_search import (
+    Searched,
+    chosen_gait,
+    order_name,
+    search_content,
+    search_lines,
+    searched,
+)
 from app.cli.gait_options import named_gait
 from app.cli.output import INFEASIBLE, NOT_FIT, end_on_signals, note, show
 from app.common.json import Json
@@ -23,9 +30,13 @@ from core.pose_gaits.gait_poses import USUAL_STEP, new_pose_gait, pose_problem, 
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseProblem
 from core.pose_gaits.start_motion import TURN_GUESS
-from core.robot.model import load_robot
+from core.robot.model import RobotModel, load_robot
 from solver_jobs import PoseGaitSolver, PoseProgress, PoseResult, SolveStatus
 
+MOST_WALKS = 3
+"""So many of the fastest gaits of a search are tried from the standard stance to rest."""
+NO_TURN = 1e-6
+"""A turn that is smaller is none, rad."""
 TICK_SECONDS = 0.1
 """Between looks for Ctrl-C."""
 
@@ -67,11 +78,15 @@ def run_fastest(options: Namespace) -> int:
         )
     model, found = load_robot(document.robot), None
     if options.search or options.front:
-        document, found = best_document(document, model, options.order, options.front)
-        name = order_name(document.order) or "-".join(map(str, document.order))
-    problem = pose_problem(document, model)
+        if options.direction is not None:
+            raise InputError("The search chooses the direction too; leave out --direction.", "--direction")
+        found = searched(pose_problem(document, model), options.order, options.front)
     with closing(PoseGaitSolver(niceness=0)) as solver:
-        walk = _solved(solver, name, problem)
+        if found is None or not found.ranked:
+            walk = _solved(solver, name, pose_problem(document, model))
+        else:
+            document, walk = _walk_of_search(solver, document, model, found)
+    problem = pose_problem(document, model)
     written = None
     if options.output is not None and walk.walk.gait is not None and walk.status is SolveStatus.SOLVED:
         if options.output.suffix == ".json":
@@ -140,7 +155,8 @@ def _way(options: Namespace, gait: Gait) -> tuple[tuple[float, float, float], bo
         turn = TURN_GUESS if side == "left" else -TURN_GUESS
     if turn == 0.0:
         raise InputError(
-            "--step 0 is a turn on the spot; say how far with --turn: rad a cycle, left or right.", "--turn"
+            "A turn on the spot (step 0) needs a turn; say how far with --turn: rad a cycle, left or right.",
+            "--turn",
         )
     return (0.0, 0.0, turn), is_free
 
@@ -162,6 +178,22 @@ def _solved(solver: PoseGaitSolver, name: str, problem: PoseProblem) -> FastestW
     if cycle.gait is None:
         return FastestWalk(name, cycle, cycle)
     return FastestWalk(name, cycle, _waited(solver, problem, "From stance to rest"))
+
+
+def _walk_of_search(
+    solver: PoseGaitSolver, document: Gait, model: RobotModel, found: Searched
+) -> tuple[Gait, FastestWalk]:
+    """The fastest choices in turn until one also walks from the standard stance to rest; else the fastest."""
+    walks: list[tuple[Gait, FastestWalk]] = []
+    for choice, tried in found.ranked[:MOST_WALKS]:
+        chosen = chosen_gait(document, choice, model)
+        name = order_name(choice.order) or "-".join(map(str, choice.order))
+        whole = _waited(solver, pose_problem(chosen, model), f"{name}, from stance to rest")
+        walks.append((chosen, FastestWalk(name, tried.result, whole)))
+        if whole.status is SolveStatus.SOLVED:
+            return walks[-1]
+        note(f"{name} has no walk from the standard stance to rest: {' '.join(whole.explanation)}")
+    return walks[0]
 
 
 def _waited(solver: PoseGaitSolver, problem: PoseProblem, what: str) -> PoseResult:
@@ -241,7 +273,7 @@ def _lines(walk: FastestWalk, written: str | None) -> list[str]:
 
 def _distance(way: float, turn: float) -> str:
     """How far a gait goes and turns, in words; m and rad."""
-    parts = [f"{way * 1000:.1f} mm" if way else "", f"{_degrees(turn)}" if turn else ""]
+    parts = [f"{way * 1000:.1f} mm" if way else "", _degrees(turn) if abs(turn) > NO_TURN else ""]
     return " and ".join(filter(None, parts))
 
 

@@ -13,10 +13,10 @@ from core.gait.poses import Poses
 from core.library.library import Group, library
 from core.pose_gaits.choices import Choice, Choices, choices
 from core.pose_gaits.front import MARGINS, STOP_BOUNDS, FrontPoint, front
-from core.pose_gaits.gait_poses import USUAL_STEP, pose_problem, with_pose_timeline
+from core.pose_gaits.gait_poses import USUAL_STEP, with_pose_timeline
 from core.pose_gaits.pose_problem import PoseProblem
 from core.robot.model import RobotModel
-from solver_jobs import FastestSearch, SearchStep, TriedGait, fastest_of
+from solver_jobs import FastestSearch, SearchStep, TriedGait
 
 FRONT_CHOICES = 3
 """So many of the fastest choices are tried at the front's other margins and stop bounds."""
@@ -31,7 +31,6 @@ class Searched:
         tried: each of them in mid-walk at the margin and the stop bound that were asked.
         front: gaits that nobody would leave aside, the fastest first; empty where none was asked for.
         front_count: gaits that were tried for it.
-        seconds: of the whole search.
     """
 
     choices: Choices
@@ -40,10 +39,14 @@ class Searched:
     front_count: int = 0
 
     @property
-    def best(self) -> tuple[Choice, TriedGait] | None:
-        """The choice with the fastest gait; None where none has any."""
-        fastest = fastest_of(self.tried)
-        return None if fastest is None else (self.choices.tried[self.tried.index(fastest)], fastest)
+    def ranked(self) -> list[tuple[Choice, TriedGait]]:
+        """The choices that have a gait, the fastest first."""
+        pairs = [
+            pair
+            for pair in zip(self.choices.tried, self.tried, strict=True)
+            if pair[1].result.gait is not None
+        ]
+        return sorted(pairs, key=lambda pair: -pair[1].pace)
 
 
 def searched(problem: PoseProblem, order: tuple[int, ...] | None, has_front: bool) -> Searched:
@@ -69,11 +72,10 @@ def _with_front(search: FastestSearch, problem: PoseProblem, known: Searched) ->
         for margin in MARGINS
         for bound in STOP_BOUNDS
     ]
-    fastest = sorted(zip(known.choices.tried, known.tried, strict=True), key=lambda pair: -pair[1].pace)
     pairs = [
         (choice, tried.result.gait, bounds)
         for bounds in grid
-        for choice, tried in fastest[:FRONT_CHOICES]
+        for choice, tried in known.ranked[:FRONT_CHOICES]
         if bounds != problem.bounds
     ]
     problems = [choice.of(replace(problem, bounds=bounds)) for choice, _, bounds in pairs]
@@ -91,8 +93,13 @@ def chosen_gait(gait: Gait, choice: Choice, model: RobotModel) -> Gait:
     if any(step[:2]):
         length = float(np.hypot(*step[:2])) or USUAL_STEP
         step = (length * float(np.cos(choice.heading)), length * float(np.sin(choice.heading)), step[2])
+    name = order_name(choice.order)
     chosen = replace(
         gait,
+        name=f"{library()[name].gait.name}, fastest"
+        if name
+        else f"{'-'.join(map(str, choice.order))}, fastest",
+        notes="",
         order=choice.order,
         direction=1,
         orientation=Orientation.FBS if choice.heading == 0.0 else Orientation.FB,
@@ -165,6 +172,7 @@ def search_lines(found: Searched) -> list[str]:
     """A search as a table for people, and the front as another."""
     count, every = len(found.tried), found.choices.order_count
     scope = "every foot order" if found.choices.is_complete else f"some of {every:,} foot orders"
+    scope = "the foot order" if every == 1 else scope
     lines = [f"Tried {scope}, {count} gaits that differ, in mid-walk:"]
     for one in sorted(found.tried, key=lambda tried: -tried.pace):
         lines.append(f"  {_choice_words(one.problem):<38} {_outcome_words(one)}")
@@ -202,22 +210,3 @@ def _outcome_words(tried: TriedGait) -> str:
         return tried.result.explanation[0] if tried.result.explanation else tried.result.status.value
     step = f"{np.degrees(gait.turn):.1f}°" if gait.problem.on_the_spot else f"{gait.step * 1000:.1f} mm"
     return f"{pace_words(tried):<12} {step} in {gait.problem.move_count} moves"
-
-
-def best_document(
-    document: Gait, model: RobotModel, order: tuple[int, ...] | None, has_front: bool
-) -> tuple[Gait, Searched]:
-    """The document with the fastest choice, and the search that found it.
-
-    The document stays as it is where no choice has a gait.
-
-    Args:
-        document: what is asked.
-        model: its robot.
-        order: the only foot order to try, or None.
-        has_front: whether a front is asked for.
-    """
-    found = searched(pose_problem(document, model), order, has_front)
-    if found.best is None:
-        return document, found
-    return chosen_gait(document, found.best[0], model), found

@@ -22,8 +22,8 @@ SAME_STEP = 1e-9
 SAME_TURN = 1e-7
 """Turns that differ by less are the same, rad."""
 LET_GO = (
-    "The pinned poses were removed, because foot order, cycles, direction of travel, stop bound or robot "
-    "changed. Undo brings them back."
+    "The pinned poses were removed, because foot order, cycles, direction of travel, turn, sway, stop bound "
+    "or robot changed. Undo brings them back."
 )
 SET_ASIDE = "The recorded motion of {file} was set aside; the motion is computed now. Undo brings it back."
 
@@ -95,7 +95,15 @@ def _poses_of(gait: Gait) -> object:
     bare = None if gait.poses is None else replace(gait.poses, pinned=())
     problem = pose_problem(replace(gait, poses=bare), load_robot(gait.robot))
     turn = problem.heading - gait.quarter_turns * np.pi / 2
-    return gait.robot, gait.order, gait.iterations, problem.parts_to_try, problem.move_count, round(turn, 6)
+    return (
+        gait.robot,
+        gait.order,
+        gait.iterations,
+        problem.parts_to_try,
+        problem.move_count,
+        round(turn, 6),
+        problem.sway,
+    )
 
 
 def _is_step_set(before: Gait, after: Gait, poses: Poses) -> bool:
@@ -103,9 +111,11 @@ def _is_step_set(before: Gait, after: Gait, poses: Poses) -> bool:
     found, length = poses.found, float(np.hypot(*after.step[:2]))
     if after.step == before.step or found is None:
         return after.step != before.step
-    if length == 0.0 and after.step[2] != 0.0:  # on the spot it is the turn that may be free
-        turn = float(found.turns[-1] - found.turns[0]) / after.iterations
-        return abs(after.step[2] - turn) >= SAME_TURN
+    if (length == 0.0) != (found.step == 0.0):
+        return True
+    if length == 0.0:  # on the spot it is the turn that may be free
+        turns = float(found.turns[-1] - found.turns[0]) / np.array([before.iterations, after.iterations])
+        return bool(np.abs(after.step[2] - turns).min() >= SAME_TURN)
     return abs(length - found.step) >= SAME_STEP
 
 

@@ -229,7 +229,7 @@ def _poses_view(plan: Plan) -> Json:
         "solved": plan.source is PlanSource.POSES,
         "explanation": list(plan.infeasible),
         "heard": np.round(heard, 3).tolist(),
-        "pinnable": plan.poses is None or not plan.poses.problem.may_divide,
+        "pinnable": plan.poses is None or plan.poses.problem.is_pinnable,
     }
 
 

@@ -251,7 +251,11 @@ def _poses_note(poses: PoseGait) -> str:
     moves, seconds = poses.problem.move_count, estimate_seconds(poses.waypoints)
     turned = abs(float(np.degrees(poses.headings[-1] - poses.headings[0])))
     pace = f"{poses.distance / seconds * 1000:.2f} mm/s" if poses.distance else f"{turned / seconds:.2f}°/s"
-    pivots = " Soles pivot on the ground; how flat shoes do that is not known yet." if turned else ""
+    pivots = (
+        " Soles pivot on the ground; how flat shoes do that is not known yet."
+        if poses.problem.is_turned
+        else ""
+    )
     return (
         f"Made for the robot's clock: {moves} moves in {seconds:.1f} s on the robot, {pace}; every limit is "
         f"confirmed along every move.{pivots}"

@@ -14,6 +14,8 @@ def robot_times(plan: Plan) -> RobotTimes | None:
         return None
     seconds = estimate_seconds(plan.way.waypoints)
     way = float(np.linalg.norm(trajectory.body_world[-1, :2] - trajectory.body_world[0, :2]))
+    if plan.poses is not None:
+        way = plan.poses.distance
     return RobotTimes(
         plan_seconds=round(float(trajectory.times[-1] - trajectory.times[0]), 3),
         robot_seconds=round(seconds, 1),

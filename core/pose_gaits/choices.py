@@ -57,22 +57,27 @@ def choices(problem: PoseProblem, order: tuple[int, ...] | None = None) -> Choic
     The mirror image of a straight gait is the same gait, so only one of the two is tried.
 
     Args:
-        problem: what is asked; its order and heading are left aside.
+        problem: what is asked; its order is tried first, its heading does not count.
         order: the only foot order to try; None for every one.
     """
     legs = problem.model.leg_count
-    count = 1 if order is not None else factorial(legs - 1)
-    numbers = range(0, count, -(-count // MOST_ORDERS))
-    orders = [_nth_order(legs, number) for number in numbers] if order is None else [_from_one(order)]
-    headings = (0.0,) if problem.on_the_spot else (0.0, np.pi / legs)
+    count = factorial(legs - 1)
+    orders = [
+        _from_one(problem.order),
+        *(_nth_order(legs, n) for n in range(0, count, -(-count // MOST_ORDERS))),
+    ]
+    places = range(2)
+    if order is not None:
+        # In other directions an order goes as other orders do in the first two.
+        count, orders, places = 1, [_from_one(order)], range(2 * legs)
     found: list[Choice] = []
-    for heading in headings:
-        seen: set[tuple[int, ...]] = set()
+    seen: set[tuple[tuple[int, ...], int]] = set()
+    for place in range(1) if problem.on_the_spot else places:
         for one in orders:
-            if one in seen:
+            if (one, place) in seen:
                 continue
-            seen |= set(_same(problem, one, heading))
-            apart = Choice(one, heading)
+            seen |= set(_same(problem, one, place))
+            apart = Choice(one, np.pi / legs * place)
             overlapping = replace(apart, overlap=True)
             # With four legs, or where the others would not balance the body, an overlap changes nothing.
             is_other = overlapping.of(problem).move_count < apart.of(problem).move_count
@@ -81,7 +86,7 @@ def choices(problem: PoseProblem, order: tuple[int, ...] | None = None) -> Choic
 
 
 def _nth_order(legs: int, number: int) -> tuple[int, ...]:
-    """One of the orders that begin with foot 1, counted from 0 as they are sorted."""
+    """The order with this number, counted from 0, in the sorted list of those that begin with foot 1."""
     order, rest = [1], list(range(2, legs + 1))
     while rest:
         place, number = divmod(number, factorial(len(rest) - 1))
@@ -89,17 +94,24 @@ def _nth_order(legs: int, number: int) -> tuple[int, ...]:
     return tuple(order)
 
 
-def _same(problem: PoseProblem, order: tuple[int, ...], heading: float) -> Iterator[tuple[int, ...]]:
-    """Foot orders that are the same gait: the order itself, and where it is straight its mirror image."""
-    yield order
-    azimuths = problem.model.azimuths
-    mirrored = None if problem.turn else mirrored_feet(azimuths, heading)
+def _same(problem: PoseProblem, order: tuple[int, ...], place: int) -> Iterator[tuple[tuple[int, ...], int]]:
+    """Foot orders and directions that are the same gait, the one itself among them.
+
+    Args:
+        problem: what is asked.
+        order: begins with foot 1.
+        place: of the direction, in steps of half the angle between two legs.
+    """
+    legs, azimuths = problem.model.leg_count, problem.model.azimuths
+    is_even = np.allclose(np.diff(azimuths), 2.0 * np.pi / legs)
+    mirrored = None if problem.turn else mirrored_feet(azimuths, np.pi / legs * place)
+    images = [order]
     if mirrored is not None:
-        yield _from_one(tuple(mirrored[foot - 1] + 1 for foot in order))
-    # On the spot every turn of the ring onto itself leads to the same gait.
-    legs = problem.model.leg_count
-    for shift in range(1, legs) if problem.on_the_spot else ():
-        yield _from_one(tuple((foot - 1 + shift) % legs + 1 for foot in order))
+        images.append(tuple(mirrored[foot - 1] + 1 for foot in order))
+    for image in images:
+        for shift in range(legs if is_even else 1):
+            turned = _from_one(tuple((foot - 1 + shift) % legs + 1 for foot in image))
+            yield turned, 0 if problem.on_the_spot else (place + 2 * shift) % (2 * legs)
 
 
 def _from_one(order: tuple[int, ...]) -> tuple[int, ...]:

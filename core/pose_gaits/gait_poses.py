@@ -190,7 +190,8 @@ def drawn_poses(gait: Gait, model: RobotModel) -> PoseGait:
     """
     found = None if gait.poses is None else gait.poses.found
     problem = _divided(pose_problem(gait, model), found)
-    step = (USUAL_STEP if found is None else found.step) if problem.step is None else problem.step
+    usual = USUAL_STEP if found is None or found.step == 0.0 else found.step
+    step = usual if problem.step is None else problem.step
     adapted = None if found is None or problem.is_turned else _adapted(problem, found, step)
     bodies, headings, feet = _even(problem, step) if adapted is None else adapted
     for pin in problem.pinned:
@@ -200,7 +201,8 @@ def drawn_poses(gait: Gait, model: RobotModel) -> PoseGait:
     if np.isnan(strokes).any():
         pose, leg, _ = np.argwhere(np.isnan(strokes))[0]
         raise InputError(
-            f"At pose {pose + 1} no rod is long enough for foot {leg + 1}; take a shorter step.",
+            f"At pose {pose + 1} no rod is long enough for foot {leg + 1}; take a shorter "
+            f"{problem.way_word}.",
             "step",
         )
     return PoseGait(problem, step, bodies, headings, feet, strokes)
@@ -230,7 +232,7 @@ def _adapted(problem: PoseProblem, found: FoundPoses, step: float) -> tuple[Floa
     A motion that fits has its feet in the air at the same poses, by whichever quarter turn of the robot.
     """
     homes, legs = problem.model.module_centres_robot[:, :2], problem.model.leg_count
-    if found.feet.shape != (*problem.airborne.shape, 3) or found.headings is not None:
+    if found.feet.shape != (*problem.airborne.shape, 3) or found.headings is not None or found.step == 0.0:
         return None
     travel = found.bodies[-1, :2] - found.bodies[0, :2]
     before = float(np.arctan2(travel[1], travel[0]))

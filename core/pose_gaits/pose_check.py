@@ -14,7 +14,7 @@ from core.arrays import Bools, Floats
 from core.motion.support_polygon import stability_margins
 from core.motion.trajectory import Trajectory
 from core.pose_gaits.pose_gait import PoseGait
-from core.pose_gaits.pose_problem import REST_HEIGHT, SWING_SHARE, PoseProblem
+from core.pose_gaits.pose_problem import MOST_TURN, REST_HEIGHT, SWING_SHARE, PoseProblem
 from core.problem.motion_problem import standing_pose, turned_about_z
 from core.robot.arms import arm_gaps
 from core.robot.kinematics import BodyPose, UnreachableError, walker_strokes
@@ -53,7 +53,7 @@ class PoseFinding:
         limit: which, as the option is called.
         move: in which move, counted from 1; None where it is about a pose or the whole gait.
         foot: which foot, counted from 1, or None.
-        amount: by how much, m, or s where the limit is a time.
+        amount: by how much, m, s or rad.
         sentence: all of this, for a person.
     """
 
@@ -390,9 +390,10 @@ def _end_findings(gait: PoseGait) -> Iterator[PoseFinding]:
     off = float(np.maximum(low - gait.bodies[:, 2], gait.bodies[:, 2] - high).max())
     if off > POSE_TOLERANCE:
         yield _finding("body height", None, None, off, "The body is {} outside its range of heights.")
-    off = 0.0 if problem.free_turn else abs(gait.turn - problem.turn)
+    off = 0.0 if problem.step is None else abs(gait.step - problem.step)
     if off > POSE_TOLERANCE:
-        yield PoseFinding("turn", None, None, off, f"The body turns {np.degrees(off):.2f}° a cycle off.")
+        yield _finding("step", None, None, off, "The step is {} off what was asked.")
+    yield from _turn_findings(gait)
     off = float(np.abs(gait.bodies[-1, :2] - gait.bodies[0, :2] - _asked_travel(gait)).max())
     if off > POSE_TOLERANCE:
         yield _finding("step", None, None, off, "The body ends {} off where it should.")
@@ -406,6 +407,22 @@ def _end_findings(gait: PoseGait) -> Iterator[PoseFinding]:
     if off > POSE_TOLERANCE:
         ends = "The first and the last pose differ" if problem.cycles is None else "An end is off the stance"
         yield _finding("ends", None, None, off, f"{ends} by {{}}.")
+
+
+def _turn_findings(gait: PoseGait) -> Iterator[PoseFinding]:
+    """The body turns as far as asked, to the side that was asked, and a walk begins with the heading 0."""
+    problem = gait.problem
+    off = abs(gait.turn - problem.turn)
+    if problem.free_turn:
+        is_side = gait.turn * problem.turn > 0.0
+        off = max(abs(gait.turn) - MOST_TURN, 0.0) if is_side else abs(gait.turn)
+        off = off if is_side or off else POSE_TOLERANCE * 2.0
+    if off > POSE_TOLERANCE:
+        yield PoseFinding("turn", None, None, off, f"The body turns {np.degrees(off):.2f}° a cycle off.")
+    begins = 0.0 if problem.cycles is None else abs(float(gait.headings[0]))
+    if begins > POSE_TOLERANCE:
+        sentence = f"The body is turned by {np.degrees(begins):.2f}° where the walk begins."
+        yield PoseFinding("ends", None, None, begins, sentence)
 
 
 def _asked_travel(gait: PoseGait) -> Floats:

@@ -229,6 +229,11 @@ class PoseProblem:
         return self.largest_move < WHOLE_MOVE
 
     @property
+    def is_pinnable(self) -> bool:
+        """Whether poses can be pinned: no move is divided, and the heading is 0 throughout."""
+        return not self.may_divide and not self.is_turned
+
+    @property
     def all_cycles(self) -> int:
         """Cycles that the poses go through."""
         return 1 if self.cycles is None else self.cycles

@@ -40,7 +40,7 @@ def main() -> int:
         speed, rate = result.gait.speed * 1000.0, np.degrees(result.gait.turn_rate)
         sys.stdout.write(f"{item['id']}: {speed:.2f} mm/s, {rate:.2f}°/s\n")
         tables.append(_table(item["id"], found_of(result.gait)))
-    head = "# Written by solver_jobs/pose_gaits/library_poses.py; all numbers in m.\n\n"
+    head = "# Written by solver_jobs/pose_gaits/library_poses.py; lengths in m, headings in rad.\n\n"
     FILE.write_text(head + "\n".join(tables))
     return 0
 

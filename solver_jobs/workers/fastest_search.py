@@ -89,11 +89,11 @@ class FastestSearch:
         known = list(near) or [None] * len(problems)
         tried: dict[int, TriedGait] = {}
         with ThreadPoolExecutor(self._count) as pool:
-            numbers = {
-                pool.submit(self._one, problem, known[number]): number
-                for number, problem in enumerate(problems)
-            }
             try:
+                numbers = {
+                    pool.submit(self._one, problem, known[number]): number
+                    for number, problem in enumerate(problems)
+                }
                 for answered in as_completed(numbers):
                     number = numbers[answered]
                     tried[number] = TriedGait(problems[number], answered.result())
@@ -118,7 +118,7 @@ class FastestSearch:
             self._idle.put(solver)
 
     def cancel(self) -> None:
-        """Ends the search that is under way; what is known by then is its answer."""
+        """Ends the search for good; what is known by then is its answer."""
         self._ending.set()
 
     def close(self) -> None:

@@ -91,9 +91,15 @@ function stillWhilePressed(element, show) {
     if (waiting) show(waiting);
     waiting = null;
   });
-  element.addEventListener("pointerdown", () => {
+  element.addEventListener("pointerdown", ({ pointerId: pressed }) => {
     isPressed = true;
-    for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, release, { once: true });
+    const ended = new AbortController();
+    const end = ({ pointerId }) => {
+      if (pointerId !== pressed) return;
+      ended.abort();
+      release();
+    };
+    for (const name of ["pointerup", "pointercancel"]) window.addEventListener(name, end, { signal: ended.signal });
   });
   return (state) => {
     if (isPressed) waiting = state;

@@ -5,7 +5,7 @@ import { h, setText } from "../lib/dom.js";
 import { shownDocument } from "../state/store.js";
 
 const HOW = "Pause at a pose and drag its mark in the 3D preview, or move it by arrow keys: the body is kept there, and the rest is solved anew.";
-const NOT_HERE = "With this stop bound moves may be divided, so no pose can be pinned.";
+const NOT_HERE = "No pose can be pinned where the gait turns or sways, or where its stop bound divides moves.";
 
 /** The list, hidden for every other gait. */
 export function pinnedPoses(store, edits, goTo) {

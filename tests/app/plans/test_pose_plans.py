@@ -13,6 +13,7 @@ from app.gaits.normalise import normalise
 from app.gaits.pose_searches import result_content
 from app.plans.plan import PlanSource, make_plan, verdict_of
 from app.plans.provenance import with_result
+from app.plans.sequence_plan import plan_of
 from core.errors import InputError, StateError
 from core.gait.gait import Gait, heading_step
 from core.gait.poses import Poses
@@ -20,7 +21,7 @@ from core.library.library import library
 from core.pose_gaits.gait_poses import drawn_poses, found_gait, new_pose_gait, pose_problem, with_poses
 from core.problem.motion_problem import MotionProblem
 from core.robot.model import load_robot
-from solver_jobs import MotionResult, SolveStatus, solve_poses
+from solver_jobs import MotionResult, SolveStatus, solve_live, solve_poses
 
 MODEL = load_robot("deltawalker")
 
@@ -118,6 +119,27 @@ def test_a_step_that_somebody_sets_is_free_no_longer() -> None:
     assert changed.poses is not None
     assert not changed.poses.free_step
     assert pose_problem(changed, MODEL).step == pytest.approx(0.02)
+
+
+def test_the_turn_of_a_fast_turn_is_kept_when_somebody_sets_it() -> None:
+    turn = library()["fast-turn"].gait
+    again, _ = normalise(turn, replace(turn, iterations=2))
+    assert again.poses is not None
+    assert again.poses.free_step
+    changed, _ = normalise(turn, replace(turn, step=(0.0, 0.0, 0.3)))
+    assert changed.poses is not None
+    assert not changed.poses.free_step
+    with pytest.raises(InputError, match="has to go somewhere or to turn"):
+        normalise(turn, replace(turn, step=(0.0, 0.0, 0.0)))
+
+
+def test_a_gait_that_turns_has_no_pinned_poses_and_says_that_soles_pivot() -> None:
+    plan = plan_of(library()["fast-curve-right"].gait, lambda motion: None, lambda gait: solve_live)
+    assert plan.poses is not None
+    assert not plan.poses.problem.is_pinnable
+    assert "Soles pivot" in plan.note
+    turn = plan_of(library()["fast-turn"].gait, lambda motion: None, lambda gait: solve_live)
+    assert "°/s" in turn.note
 
 
 def test_a_search_without_an_answer_says_why() -> None:

@@ -40,8 +40,17 @@ def test_on_the_spot_no_direction_is_chosen() -> None:
     assert {choice.order for choice in tried} >= {(1, 2, 3, 4), (1, 4, 3, 2)}
 
 
-def test_a_given_order_is_the_only_one() -> None:
-    assert {choice.order for choice in choices(problem(), (3, 2, 4, 1)).tried} == {(1, 3, 2, 4)}
+def test_a_given_order_is_tried_in_every_direction_that_differs() -> None:
+    walk = choices(problem(), (3, 2, 4, 1)).tried
+    assert {choice.order for choice in walk} == {(1, 3, 2, 4)}
+    assert np.degrees([choice.heading for choice in walk]).round().tolist() == [0, 45, 135, 180, 225]
+    # A quarter turn makes the C-gait of itself.
+    assert len(choices(problem(), (1, 2, 3, 4)).tried) == 2
+
+
+def test_the_order_that_was_asked_is_tried_first() -> None:
+    ripple = replace(problem("hexapod"), order=(1, 4, 2, 5, 3, 6))
+    assert choices(ripple).tried[0].order == (1, 4, 2, 5, 3, 6)
 
 
 def test_six_legs_may_lower_a_foot_while_the_next_is_lifted() -> None:

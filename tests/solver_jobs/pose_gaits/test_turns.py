@@ -79,3 +79,24 @@ def test_the_check_sees_more_sway_than_was_asked(swaying: PoseGait) -> None:
 def test_what_no_gait_can_do_is_refused(asked: dict[str, Any], sentence: str) -> None:
     with pytest.raises(InputError, match=sentence):
         PoseProblem(load_robot("deltawalker"), C_GAIT, 0.0, **asked)
+
+
+@pytest.mark.parametrize(
+    ("asked", "limit"),
+    [
+        ({"step": 0.03}, "step"),
+        ({"turn": 0.1}, "turn"),
+        ({"turn": 1.0, "step": 0.0, "free_turn": True}, "turn"),
+    ],
+)
+def test_the_check_holds_a_gait_to_what_was_asked(
+    swaying: PoseGait, asked: dict[str, Any], limit: str
+) -> None:
+    other = replace(swaying, problem=replace(swaying.problem, **asked))
+    assert limit in {finding.limit for finding in check_poses(other).findings}
+
+
+def test_a_walk_from_rest_begins_with_the_heading_0() -> None:
+    walk = solved(step=0.01, cycles=1, sway=float(np.radians(5.0)))
+    turned = replace(walk, headings=walk.headings + 0.02)
+    assert "ends" in {finding.limit for finding in check_poses(turned).findings}

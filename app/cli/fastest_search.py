@@ -24,7 +24,7 @@ FRONT_CHOICES = 3
 
 @dataclass(frozen=True, eq=False)
 class Searched:
-    """What a search has tried.
+    """The result of a search.
 
     Args:
         choices: orders, directions and overlaps.
@@ -195,7 +195,7 @@ def _choice_words(problem: PoseProblem) -> str:
 
 
 def order_name(order: tuple[int, ...]) -> str | None:
-    """The optimised gait whose feet step in this order, wherever it begins; None where there is none."""
+    """Id of the optimised gait with this circular foot order, or None."""
     for entry in library().values():
         own = entry.gait.order
         is_straight = entry.group is Group.OPTIMISED and entry.gait.step[2] == 0.0

@@ -15,7 +15,7 @@ MOST_ORDERS = 8
 
 @dataclass(frozen=True)
 class Choice:
-    """What a search may choose freely.
+    """One combination of foot order, direction and overlap.
 
     Args:
         order: every foot once, counted from 1; it begins with foot 1.

@@ -1,4 +1,4 @@
-"""Which gaits nobody would leave aside: none is faster with as much margin and as early a stop."""
+"""The Pareto front of gaits over speed, stability margin and stop bound."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ STOP_BOUNDS = (1.0, 1.2, 1.5, 2.0)
 
 @dataclass(frozen=True)
 class FrontPoint:
-    """What a gait is worth.
+    """Speed, margin and stop bound of a gait.
 
     Args:
         margin: its stability margin, m.

@@ -87,7 +87,7 @@ class PoseGait:
 
     @property
     def pace(self) -> float:
-        """What compares gaits of one problem: travel a second, or on the spot turn a second."""
+        """Speed, m/s; for a turn on the spot the turn rate, rad/s."""
         return abs(self.turn_rate) if self.problem.on_the_spot else self.speed
 
     @cached_property

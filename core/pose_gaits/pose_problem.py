@@ -203,7 +203,7 @@ class PoseProblem:
 
     @property
     def way_word(self) -> str:
-        """What a cycle is asked to do: "step", or "turn" on the spot."""
+        """The word for the motion of a cycle: "step", or "turn" on the spot."""
         return "turn" if self.on_the_spot else "step"
 
     @property

@@ -24,7 +24,7 @@ DECIMALS = 8
 
 
 def main() -> int:
-    """Solves every gait whose poses the file does not have yet; the status says whether all were found."""
+    """Solves the gaits that have no poses in the file yet; exit status 1 if one has no solution."""
     tables: list[str] = []
     for item in data_table("for_robot.toml")["gait"]:
         gait = asked_gait(item, library()[item["like"]].gait)

@@ -325,7 +325,7 @@ class _Search:
     def _fastest_apart(
         self, program: PoseProgram, found: list[Attempt]
     ) -> tuple[PoseProgram, Attempt] | None:
-        """The fastest gait whose arms keep apart, and its program: with room for arms none gets faster."""
+        """The fastest gait whose arms keep apart, and its program. The arm limit only makes gaits slower."""
         best: tuple[PoseProgram, Attempt] | None = None
         for attempt in found:
             if best is not None and _pace(program, attempt) < (1.0 + SAME_PACE) * _pace(*best):

@@ -1,4 +1,4 @@
-"""Turns of horizontal vectors whose angle may be an unknown."""
+"""Rotation of horizontal vectors by a symbolic angle."""
 
 from casadi import SX, cos, sin, vertcat
 

@@ -23,7 +23,7 @@ TICK_SECONDS = 0.1
 
 @dataclass(frozen=True, eq=False)
 class TriedGait:
-    """A problem of a search, and what came of it.
+    """A problem of a search and its result.
 
     Args:
         problem: what was asked.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import factorial
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,9 +15,9 @@ from core.pose_gaits.pose_problem import PoseProblem
 from core.robot.model import load_robot
 
 
-def problem(robot: str = "deltawalker", **asked: float) -> PoseProblem:
+def problem(robot: str = "deltawalker", **asked: Any) -> PoseProblem:
     model = load_robot(robot)
-    return PoseProblem(model, tuple(range(1, model.leg_count + 1)), 0.0, **asked)  # type: ignore[arg-type]
+    return PoseProblem(model, tuple(range(1, model.leg_count + 1)), 0.0, **asked)
 
 
 def test_every_order_of_four_legs_is_tried_along_an_axis_and_between_two() -> None:

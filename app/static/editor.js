@@ -11,7 +11,8 @@ import { mountGaitTools } from "./shell/gait_menu.js";
 import { selectGait } from "./shell/gait_list.js";
 import { mountJobs } from "./shell/job_list.js";
 import { mountKeys } from "./shell/keys.js";
-import { painted } from "./lib/dom.js";
+import { byId, painted } from "./lib/dom.js";
+import { stillWhilePressed } from "./lib/still_while_pressed.js";
 import { mountLivePlan } from "./state/live_plan.js";
 import { mountEdges } from "./shell/edges.js";
 import { mountSplitter } from "./shell/splitter.js";
@@ -94,6 +95,8 @@ export function start(store) {
   const goTo = goToFinding(store, playback, timeline);
   const optimise = mountOptimise(store, edits, goTo);
   mountLivePlan(store);
+  // Not the step Run: what the robot says is shown at once, also while Send is held.
+  for (const id of ["design", "simulate", "check"]) stillWhilePressed(store, byId(id));
   const panels = panelsAfterPaint({ store, edits, playback, goTo, gaitTools });
   const patterns = mountPatternEntry(store, { edits, playback, show: (id) => selectGait(store, id) });
   mountKeys({ store, edits, playback, timeline, actions, zoom, escapes: [patterns.cancel, () => panels.segments?.(), timeline.cancelGesture, () => panels.sequence?.(), tools.close, optimise.cancel, () => panels.countdown?.(), menuIsOpen, () => panels.runs?.(), timeline.clearSelection] });

@@ -82,31 +82,6 @@ function keepPlace(store, element) {
   }).observe(element);
 }
 
-/** Shows nothing new between a press in an element and its release, so that both meet the same button; then it shows the newest. */
-function stillWhilePressed(element, show) {
-  let isPressed = false;
-  let waiting = null;
-  const release = () => setTimeout(() => {
-    isPressed = false;
-    if (waiting) show(waiting);
-    waiting = null;
-  });
-  element.addEventListener("pointerdown", ({ pointerId: pressed }) => {
-    isPressed = true;
-    const ended = new AbortController();
-    const end = ({ pointerId }) => {
-      if (pointerId !== pressed) return;
-      ended.abort();
-      release();
-    };
-    for (const name of ["pointerup", "pointercancel"]) window.addEventListener(name, end, { signal: ended.signal });
-  });
-  return (state) => {
-    if (isPressed) waiting = state;
-    else show(state);
-  };
-}
-
 /** The card: what is wrong, where, and what would help. It stands first in the inspector; its title stays in sight. */
 export function liveAnswer(store, edits, goTo) {
   const tryout = tryouts(store);
@@ -139,7 +114,7 @@ export function liveAnswer(store, edits, goTo) {
     remedies.element.hidden = !verdict.mendable;
     if (verdict.mendable) remedies.show(state.remedies);
   };
-  return { element, show: stillWhilePressed(element, show) };
+  return { element, show };
 }
 
 const TITLES = { infeasible: "Optimise found no motion either", failed: "Optimise failed", interrupted: "Optimise was interrupted" };

@@ -59,9 +59,11 @@ export const createStore = (initial = {}) => watchable({ ...INITIAL, ...initial 
 export function watchable(initial) {
   let state = Object.freeze({ ...initial });
   let scheduled = false;
+  let isHeld = false;
   let watchers = [];
 
   function flush() {
+    if (isHeld) return;
     scheduled = false;
     for (const watcher of watchers) {
       const values = watcher.select(state);
@@ -78,6 +80,11 @@ export function watchable(initial) {
       if (scheduled) return;
       scheduled = true;
       queueMicrotask(flush);
+    },
+    /** Shows nothing new until it is let go; then the newest. */
+    hold(isOn) {
+      isHeld = isOn;
+      if (!isOn && scheduled) queueMicrotask(flush);
     },
     /** `select` returns the list of values that `render` depends on; renders at once and after each change. Gives what ends it. */
     watch(select, render) {

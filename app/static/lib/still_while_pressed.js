@@ -1,0 +1,29 @@
+/** Keeps the page still under a press, so that press and release meet the same button. */
+
+/** A press that lasts longer is a hold. */
+const LONGEST_MS = 2000;
+
+/**
+ * Shows nothing new of the state between a press on a button and its release; then the newest.
+ * @param {object} store
+ * @param {HTMLElement} element whose buttons are meant
+ */
+export function stillWhilePressed(store, element) {
+  element.addEventListener("pointerdown", ({ target, pointerId: pressed }) => {
+    if (!target.closest("button, summary, a")) return;
+    const ended = new AbortController();
+    const letGo = () => {
+      ended.abort();
+      store.hold(false);
+    };
+    const timer = setTimeout(letGo, LONGEST_MS);
+    const release = ({ pointerId }) => {
+      if (pointerId !== pressed) return;
+      clearTimeout(timer);
+      // The click comes after the release.
+      setTimeout(letGo);
+    };
+    store.hold(true);
+    for (const name of ["pointerup", "pointercancel"]) window.addEventListener(name, release, { signal: ended.signal });
+  });
+}

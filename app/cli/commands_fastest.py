@@ -8,19 +8,13 @@ from collections.abc import Callable
 from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 
-from app.cli.fastest_search import (
-    Searched,
-    chosen_gait,
-    order_name,
-    search_content,
-    search_lines,
-    searched,
-)
+from app.cli.fastest_search import search_lines, show_progress
 from app.cli.gait_options import named_gait
 from app.cli.output import INFEASIBLE, NOT_FIT, end_on_signals, note, show
 from app.common.json import Json
 from app.documents.gait_json import gait_content
 from app.export.way_files import write_pose_gait
+from app.fastest.search import Searched, chosen_gait, order_name, search_content, searched
 from app.store.gait_files import write_atomically
 from core.errors import InputError
 from core.gait.gait import Gait, heading_step
@@ -31,7 +25,7 @@ from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseProblem
 from core.pose_gaits.start_motion import TURN_GUESS
 from core.robot.model import RobotModel, load_robot
-from solver_jobs import PoseGaitSolver, PoseProgress, PoseResult, SolveStatus
+from solver_jobs import FastestSearch, PoseGaitSolver, PoseProgress, PoseResult, SolveStatus
 
 MOST_WALKS = 3
 """So many of the fastest gaits of a search are tried from the standard stance to rest."""
@@ -80,7 +74,9 @@ def run_fastest(options: Namespace) -> int:
     if options.search or options.front:
         if options.direction is not None:
             raise InputError("The search chooses the direction too; leave out --direction.", "--direction")
-        found = searched(pose_problem(document, model), options.order, options.front)
+        with closing(FastestSearch(niceness=0)) as search:
+            problem = pose_problem(document, model)
+            found = searched(search, problem, options.order, options.front, show_progress)
     with closing(PoseGaitSolver(niceness=0)) as solver:
         if found is None or not found.ranked:
             walk = _solved(solver, name, pose_problem(document, model))

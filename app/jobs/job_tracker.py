@@ -18,6 +18,13 @@ class JobHandle(Protocol):
         """Ends it."""
 
 
+class Teller(Protocol):
+    """Tells how far a job is."""
+
+    def __call__(self, share: float, more: Json | None = None) -> None:
+        """Takes the share that is done, and what else the job says of itself."""
+
+
 class JobTracker:
     """Jobs that are on. Only the command queue's thread calls this, but for what says otherwise.
 
@@ -49,16 +56,16 @@ class JobTracker:
         """The jobs that are on, as JSON content."""
         return [self._job_repository.content(job_id) for job_id in self._on]
 
-    def teller(self, job_id: str) -> Callable[[float], None]:
+    def teller(self, job_id: str) -> Teller:
         """Returns a thread-safe, throttled progress callback."""
         told_at = 0.0
 
-        def tell(share: float) -> None:
+        def tell(share: float, more: Json | None = None) -> None:
             nonlocal told_at
             now = time.monotonic()
             if now - told_at >= TELL_SECONDS:
                 told_at = now
-                self._later(lambda: self._progressed(job_id, share))
+                self._later(lambda: self._progressed(job_id, share, more or {}))
 
         return tell
 
@@ -79,13 +86,14 @@ class JobTracker:
         """
         self._later(lambda: self._ended(job_id, end))
 
-    def _progressed(self, job_id: str, share: float) -> None:
+    def _progressed(self, job_id: str, share: float, more: Json) -> None:
         if job_id not in self._on:
             return
         job = self._job_repository.content(job_id)
         if job["state"] in ("queued", "running"):
             started = job["started"] or time.time()
             job |= {"state": "running", "started": started, "share": share, "sentence": self._sentence}
+            job |= more
             self._shown(job)
 
     def _ended(self, job_id: str, end: Json) -> None:

@@ -8,9 +8,26 @@ import { mountSequence } from "./sequence/sequence.js";
 import { mountSequenceBand } from "./sequence/sequence_band.js";
 import { mountSimulate } from "./check/simulate.js";
 import { mountStage } from "./stage/stage.js";
+import { attempt } from "./lib/toasts.js";
 import { mountTrialEntry } from "./lab/entry.js";
 import { mountNextActs } from "./steps/next_act.js";
+import { selectGait } from "./shell/gait_list.js";
 import { mountVersions } from "./shell/versions.js";
+
+/** The dialog for the fastest gait, loaded when it is first opened: from the menu New, and from a search in Jobs. */
+function mountFastest(store, gaitTools) {
+  const open = attempt(async () => {
+    const { askFastest } = await import("./fastest/fastest.js");
+    const id = await askFastest(store);
+    if (id) await selectGait(store, id);
+  });
+  gaitTools.addNew({ text: "Fastest gait…", help: "For the robot's clock: each choice with its price in mm/s, and a search over foot orders", act: open });
+  store.watch(({ fastestWanted }) => [fastestWanted], ({ fastestWanted }) => {
+    if (!fastestWanted) return;
+    store.set({ fastestWanted: null });
+    open();
+  });
+}
 
 /**
  * Builds them.
@@ -21,6 +38,7 @@ import { mountVersions } from "./shell/versions.js";
 export function mountPanels({ store, edits, playback, goTo, gaitTools }) {
   const sequence = mountSequence(store, edits, playback, gaitTools);
   mountSequenceBand(store, playback);
+  mountFastest(store, gaitTools);
   const segments = mountSegments(store, edits);
   mountCheck(store, edits, goTo);
   mountSimulate(store, (time) => {

@@ -3,6 +3,9 @@
 from dataclasses import dataclass, replace
 
 from app.common.json import Json
+from app.fastest.question import FastestQuestion
+from app.fastest.service import KIND as FASTEST
+from app.fastest.service import FastestService
 from app.gaits.service import GaitService
 from app.jobs.optimisation_service import OptimisationService
 from app.jobs.repository import JobRepository
@@ -31,6 +34,7 @@ class JobCommands:
         simulating: the simulations.
         sets: the sets of physics parameters.
         tracks: the videos that are tracked.
+        fastest: the searches for the fastest gait.
         publisher: shows a job to the pages.
     """
 
@@ -41,6 +45,7 @@ class JobCommands:
     simulating: SimulationService
     sets: ParameterSets
     tracks: TrackingService
+    fastest: FastestService
     publisher: Publisher
 
     def submit_job(self, gait_id: str, kind: JobKind, author: Author) -> Json:
@@ -88,8 +93,12 @@ class JobCommands:
         """Starts following the feet in a video."""
         return self.publisher.publish_job(self.tracks.submit(order))
 
+    def submit_fastest(self, question: FastestQuestion, has_front: bool) -> Json:
+        """Starts a search for the fastest gait."""
+        return self.publisher.publish_job(self.fastest.submit(question, has_front))
+
     def cancel_job(self, job_id: str) -> Json:
         """Asks a job to end; one that ended already stays as it is."""
-        cancels = {SIMULATE: self.simulating.cancel, TRACK: self.tracks.cancel}
+        cancels = {SIMULATE: self.simulating.cancel, TRACK: self.tracks.cancel, FASTEST: self.fastest.cancel}
         cancel = cancels.get(self.job_repository.content(job_id)["kind"], self.jobs.cancel)
         return self.publisher.publish_job(cancel(job_id))

@@ -6,6 +6,7 @@ from concurrent.futures import Future
 from app.common.json import Json
 from app.common.version import VERSION
 from app.documents.gait_json import asked_hash
+from app.fastest.service import KIND as FASTEST
 from app.gaits.open_gait import OpenGait
 from app.gaits.planner import Planner
 from app.gaits.sequence_documents import source_states
@@ -110,7 +111,7 @@ class Publisher:
 
     def job_view(self, content: Json) -> Json:
         """A job, and whether it is of the gait as it is now; None where its plan is not made yet."""
-        if content["kind"] == TRACK:
+        if content["kind"] in (TRACK, FASTEST):
             return {**content, "fresh": None}
         if content["kind"] == SIMULATE:
             keys = self._simulated_as.get(content["gait"])

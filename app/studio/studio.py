@@ -9,6 +9,7 @@ from typing import Protocol, TypeVar
 
 from app.cameras.address import CameraAddress
 from app.common.json import Json
+from app.fastest.service import FastestService
 from app.gaits.live_plans import LivePlans
 from app.gaits.open_gait import OpenGait
 from app.gaits.planner import Planner
@@ -132,6 +133,8 @@ class Studio:
             simulator, self.job_repository, self.simulations, self.commands.tell, shown
         )
         self._simulating = self._register(simulations)
+        shown_job = self.publisher.publish_job
+        self.fastest = self._register(FastestService(self.job_repository, self.commands.tell, shown_job))
         parts = RemedyParts(self.live, self._solver, self._pattern_solvers[0], simulator)
         self.remedies = self._register(RemedyService(parts))
         self._trial_simulations = self._register(
@@ -154,7 +157,15 @@ class Studio:
         self.reports = TrialReportService(trials, self.comparison, self.photos, runs)
         sets, tracks = self.learning.sets, lab.tracks
         self.job_commands = JobCommands(
-            database, self.gaits, job_repository, self.jobs, self._simulating, sets, tracks, publisher
+            database,
+            self.gaits,
+            job_repository,
+            self.jobs,
+            self._simulating,
+            sets,
+            tracks,
+            self.fastest,
+            publisher,
         )
 
     def _open_robot(self, device: str, ports: RobotPorts) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import suppress
 from dataclasses import dataclass
-from queue import SimpleQueue
+from queue import Empty, SimpleQueue
 
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseProblem
@@ -46,16 +46,20 @@ class SearchStep:
     Args:
         done: problems that are answered.
         count: all of its problems.
+        number: place of the newest answer among the problems, counted from 0.
+        newest: that answer.
         fastest: the fastest gait yet; None where there is none.
     """
 
     done: int
     count: int
+    number: int
+    newest: TriedGait
     fastest: TriedGait | None
 
 
 class FastestSearch:
-    """Processes that solve several problems at a time.
+    """Processes that solve several problems at a time. Thread-safe: calls of `solve` share the processes.
 
     Args:
         processes: how many; None for one a core.
@@ -75,6 +79,7 @@ class FastestSearch:
         problems: Sequence[PoseProblem],
         report: Callable[[SearchStep], object] = lambda step: None,
         near: Sequence[PoseGait | None] = (),
+        ending: threading.Event | None = None,
     ) -> list[TriedGait]:
         """Solves every problem; the answers stand in the order of the problems.
 
@@ -82,37 +87,43 @@ class FastestSearch:
             problems: what is asked.
             report: told after each answer, from this thread.
             near: for each problem poses to begin with, or None; empty for none at all.
+            ending: set by another thread to cancel what is not answered yet.
 
         Raises:
             StateError: a process ended twice.
         """
         known = list(near) or [None] * len(problems)
+        ending = ending or threading.Event()
         tried: dict[int, TriedGait] = {}
         with ThreadPoolExecutor(self._count) as pool:
             try:
                 numbers = {
-                    pool.submit(self._one, problem, known[number]): number
+                    pool.submit(self._one, problem, known[number], ending): number
                     for number, problem in enumerate(problems)
                 }
                 for answered in as_completed(numbers):
                     number = numbers[answered]
-                    tried[number] = TriedGait(problems[number], answered.result())
-                    report(SearchStep(len(tried), len(problems), fastest_of(list(tried.values()))))
+                    newest = tried[number] = TriedGait(problems[number], answered.result())
+                    fastest = fastest_of(list(tried.values()))
+                    report(SearchStep(len(tried), len(problems), number, newest, fastest))
             except BaseException:
-                self.cancel()
+                ending.set()
                 raise
         return [tried[number] for number in range(len(problems))]
 
-    def _one(self, problem: PoseProblem, near: PoseGait | None) -> PoseResult:
-        if self._ending.is_set():
-            return PoseResult(SolveStatus.CANCELLED, None, None, False, (CANCELLED,), 0.0, 0.0)
-        solver = self._idle.get()
+    def _one(self, problem: PoseProblem, near: PoseGait | None, ending: threading.Event) -> PoseResult:
+        solver = None
+        while solver is None:
+            if ending.is_set() or self._ending.is_set():
+                return PoseResult(SolveStatus.CANCELLED, None, None, False, (CANCELLED,), 0.0, 0.0)
+            with suppress(Empty):
+                solver = self._idle.get(timeout=TICK_SECONDS)
         try:
             search = solver.submit(problem, near=near, explain=False)
             while True:
                 with suppress(TimeoutError):
                     return search.result(TICK_SECONDS)
-                if self._ending.is_set():
+                if ending.is_set() or self._ending.is_set():
                     search.cancel()
         finally:
             self._idle.put(solver)

@@ -1,9 +1,6 @@
 """Questions about a changed document, while it is edited: its plan, and what would make it walk."""
 
-import asyncio
-import json
-from collections.abc import AsyncIterator
-from contextlib import suppress
+from collections.abc import Callable
 from typing import Annotated, TypeVar
 
 from fastapi import APIRouter, Request
@@ -16,6 +13,7 @@ from app.documents.gait_json import MOST_BYTES
 from app.gaits.live_plans import changed_gait
 from app.studio.studio import Studio
 from app.web.dependencies import RequestBody, TheStudio, on_command_thread
+from app.web.state_stream import Tell, state_stream
 from core.errors import InputError
 from core.gait.gait import Gait
 from solver_jobs import Limit
@@ -67,23 +65,11 @@ async def remedies(gait_id: str, request: Request, studio: TheStudio) -> Streami
     """
     asked = await _asked(request, Remedies)
     gait = await run_in_threadpool(changed_gait, await _gait(gait_id, studio), asked.document)
-    loop, states = asyncio.get_running_loop(), asyncio.Queue[Json | None]()
 
-    def tell(state: Json | None) -> None:
-        # The server may have ended meanwhile.
-        with suppress(RuntimeError):
-            loop.call_soon_threadsafe(states.put_nowait, state)
+    def begin(tell: Tell) -> Callable[[], None]:
+        return studio.remedies.search(gait, tell, tips=asked.tips)
 
-    end = await run_in_threadpool(studio.remedies.search, gait, tell, tips=asked.tips)
-
-    async def lines() -> AsyncIterator[bytes]:
-        try:
-            while (state := await states.get()) is not None:
-                yield json.dumps(state, allow_nan=False).encode() + b"\n"
-        finally:
-            end()
-
-    return StreamingResponse(lines(), media_type="application/x-ndjson")
+    return await state_stream(begin)
 
 
 @router.post("/{gait_id}/limit", response_model=Json)

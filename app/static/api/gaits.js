@@ -74,6 +74,9 @@ async function linesOf(response, told) {
   }
 }
 
+/** Sends a question and passes on each line of the answer as it comes. */
+export const streamed = async (path, body, signal, told) => linesOf(await answer("POST", path, body, signal), told);
+
 const gait = (id) => `/api/gaits/${encodeURIComponent(id)}`;
 
 export const api = {
@@ -113,7 +116,7 @@ export const api = {
   reach: (id, plan, workspace) => request("GET", `${gait(id)}/reach?plan=${encodeURIComponent(plan)}&workspace=${workspace}`),
   live: (id, body) => request("POST", `${gait(id)}/live`, body),
   limit: async (id, body, signal) => (await request("POST", `${gait(id)}/limit`, body, signal)).value,
-  remedies: async (id, body, signal, told) => linesOf(await answer("POST", `${gait(id)}/remedies`, body, signal), told),
+  remedies: (id, body, signal, told) => streamed(`${gait(id)}/remedies`, body, signal, told),
   iterate: (job, number) => request("GET", `/api/jobs/${encodeURIComponent(job)}/course/${number}`),
   patterns: (question) => request("POST", "/api/patterns", question),
   pattern: (id) => request("GET", `/api/patterns/${id}`),

@@ -20,8 +20,12 @@ function unlock() {
   locked = [];
 }
 
-/** Opens what `build(close)` makes; resolves to what `close` is given, or to null after Escape. */
-export function openDialog(build) {
+/**
+ * Opens what `build(close)` makes; resolves to what `close` is given, or to null after Escape.
+ * @param {(close: (value: any) => void) => HTMLElement} build
+ * @param {() => void} [opened] called once it is open
+ */
+export function openDialog(build, opened = () => {}) {
   return new Promise((resolve) => {
     const before = document.activeElement;
     const close = (value) => {
@@ -39,6 +43,7 @@ export function openDialog(build) {
     byId("dialogs").replaceChildren(h("div", { class: "scrim", "aria-hidden": "true" }), dialog);
     lock();
     (dialog.querySelector("input") ?? dialog.querySelector("button")).focus();
+    opened();
   });
 }
 

@@ -26,17 +26,25 @@ export function jobOf({ jobs, shownJob, selected }) {
 const isTiming = (job) => job.kind === "timing";
 const isSimulation = (job) => job.kind === "simulate";
 const isTracking = (job) => job.kind === "track";
+const isSearch = (job) => job.kind === "fastest";
 const NAMES = { timing: "Fastest timing of", simulate: "Simulate" };
 
-/** What a job is called in the list: a tracking by its video, all others by their gait. */
-const titleOf = (job) => (isTracking(job) ? `Tracking ${job.video_name ?? job.gait_name}` : job.gait_name);
-const spoken = (job) => (isTracking(job) ? titleOf(job) : `${NAMES[job.kind] ?? "Optimise"} ${job.gait_name}`);
-const titleHelp = (job) => (!isTracking(job) ? "Show its curve and result" : job.result?.trial ? "Open its trial" : "Open its video");
+/** What a job is called in the list: a tracking by its video, a search by its robot, all others by their gait. */
+function titleOf(job) {
+  if (isTracking(job)) return `Tracking ${job.video_name ?? job.gait_name}`;
+  return isSearch(job) ? `Fastest gait, ${job.gait_name}` : job.gait_name;
+}
+const spoken = (job) => (isTracking(job) || isSearch(job) ? titleOf(job) : `${NAMES[job.kind] ?? "Optimise"} ${job.gait_name}`);
+function titleHelp(job) {
+  if (isSearch(job)) return "Open the search with its table";
+  return !isTracking(job) ? "Show its curve and result" : job.result?.trial ? "Open its trial" : "Open its video";
+}
 
 function figures(job) {
   const last = job.progress?.at(-1);
   if (isTracking(job)) return job.state === "running" ? `tracked ${fixed((job.share ?? 0) * 100, 0)} %` : job.sentence;
   if (isSimulation(job)) return job.state === "running" ? `simulated ${fixed((job.share ?? 0) * 100, 0)} %` : job.sentence;
+  if (isSearch(job)) return job.sentence;
   if (jobIsOn(job)) return last ? `iteration ${last.iteration} · violation ${compact(last.primal)}` : job.sentence;
   if (job.state === "done" && job.result && isTiming(job)) return `fastest ${seconds(job.result.total_seconds)} s, drawn ${seconds(job.result.drawn_seconds)} s`;
   if (job.state === "done" && job.result) return `${job.result.iterations} iterations · ${seconds(job.result.solve_seconds)} s`;
@@ -59,6 +67,7 @@ function item(store, id) {
 async function pick(store, id) {
   const job = store.state.jobs.find((one) => one.id === id);
   if (isTracking(job)) return store.set({ trialWanted: job.result?.trial ? { trial: job.result.trial } : { video: job.video } });
+  if (isSearch(job)) return store.set({ fastestWanted: job.id });
   const { selectGait } = await import("./gait_list.js");
   if (store.state.gaits.some((gait) => gait.id === job.gait)) await selectGait(store, job.gait);
   if (!isSimulation(job)) store.set({ shownJob: id });

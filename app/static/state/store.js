@@ -3,7 +3,7 @@
  *
  * Everything that several tabs must agree on comes from the server; the rest (`selected`, `shownJob`, `pending`,
  * `left` (edits of gaits that were left before they were sent), `gesture`, `tool`, `selection`, `preview`, `zoom`, `live`, `tryout`, `worked`, `remedies`,
- * `iterate`, `segmentDrafts`, `runRange`, `jog`, `simulation`, `tracks`, `trialWanted`, `physicsSets`) belongs to this tab alone.
+ * `iterate`, `segmentDrafts`, `runRange`, `jog`, `simulation`, `tracks`, `trialWanted`, `fastestWanted`, `physicsSets`) belongs to this tab alone.
  */
 
 const INITIAL = Object.freeze({
@@ -48,6 +48,7 @@ const INITIAL = Object.freeze({
   trialChanges: Object.freeze({}),
   videoChanged: null,
   trialWanted: null,
+  fastestWanted: null,
   physicsSets: 0,
   operator: "",
 });

@@ -149,7 +149,9 @@ def test_delete_takes_a_part_out_and_the_last_one_stays(page: Page, studio: Stud
     expect(last).to_have_attribute("title", re.compile("at least one part"))
 
 
-def test_a_press_meets_its_button_while_another_plan_comes(page: Page, studio: StudioProcess, tour: str) -> None:
+def test_a_press_meets_its_button_while_another_plan_comes(
+    page: Page, studio: StudioProcess, tour: str
+) -> None:
     document = studio.ask("GET", f"/api/gaits/{tour}").content
     document["sequence"][0]["gait"]["name"] = "A walk whose name is so long that it takes a second line"
     rows(page).nth(1).get_by_role("button", name="Take out").hover(position={"x": 12, "y": 2})

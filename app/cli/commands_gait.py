@@ -24,6 +24,7 @@ from core.gait.motion_source import motion_source
 from core.library.library import library, manual_entry
 from core.library.new_gait import with_robot
 from core.library.robot_times import RobotTimes, library_times
+from core.pose_gaits.pace import motion_words
 from core.robot.model import load_robot
 from solver_jobs import SolveStatus, find_remedies
 
@@ -78,9 +79,9 @@ def _listed(gait_id: str, gait: Gait, kind: str, times: RobotTimes | None, group
 
 def _line(listed: Json) -> str:
     order = "-".join(map(str, listed["order"]))
-    seconds, speed = listed["robot_seconds"], listed["speed"]
+    seconds, speed, turn_rate = listed["robot_seconds"], listed["speed"], listed["turn_rate"]
     lasts = "" if seconds is None else f"{seconds:.1f} s"
-    goes = f"{speed * 1000:.2f} mm/s" if speed else ""
+    goes = motion_words(speed, turn_rate) if speed or turn_rate else ""
     return (
         f"  {listed['id']:<18} {listed['name']:<28} {listed['robot']:<12} {listed['orientation']:<4} "
         f"{listed['made']:<10} {listed['kind']:<9} {lasts:>8} {goes:>10}  {order}"

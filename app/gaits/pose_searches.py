@@ -62,7 +62,11 @@ class Progress:
 
     def take(self, known: PoseProgress) -> None:
         """Keeps what is known now, and tells of it."""
-        self.state = self.state | {"stage": known.stage, "speed": known.speed}
+        self.state = self.state | {
+            "stage": known.stage,
+            "speed": known.speed,
+            "turn_rate": known.turn_rate,
+        }
         self._tell(self.state)
 
 
@@ -107,7 +111,8 @@ class PoseSearches:
 
         Returns:
             The state of its search: running, cancelled or failed, what is being done or why it ended, the
-            best speed yet in m/s, the hash of what is asked; None where no search is needed.
+            speed and turn of the fastest yet in m/s and rad/s, the hash of what is asked; None where no
+            search is needed.
         """
         running = self._running.get(gait_id)
         if gait.poses is None and running is None:
@@ -185,7 +190,7 @@ class PoseSearches:
 
 
 def _state(state: str, motion: str, stage: str = "") -> Json:
-    return {"state": state, "motion": motion, "stage": stage, "speed": None}
+    return {"state": state, "motion": motion, "stage": stage, "speed": None, "turn_rate": None}
 
 
 def result_content(result: PoseResult) -> Json | None:

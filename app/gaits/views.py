@@ -98,7 +98,7 @@ def problem_view(gait_id: str, sentence: str, builtin: bool = False, way_out: Wa
 
 
 def times_view(times: RobotTimes | None) -> Json:
-    """How long a gait lasts, s, and its speed on the robot, m/s; null where that is not known."""
+    """How long a gait lasts, s, its speed, m/s, and its turn, rad/s, on the robot; null where not known."""
     values = dict.fromkeys(f.name for f in fields(RobotTimes)) if times is None else asdict(times)
     return dict(values)
 

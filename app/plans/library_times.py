@@ -24,7 +24,7 @@ def found_times(gait: Gait) -> RobotTimes | None:
 
 def main() -> int:
     """Plans every gait and writes the file."""
-    tables = ["# Written by app/plans/library_times.py; seconds, and metres a second.\n"]
+    tables = ["# Written by app/plans/library_times.py; s, m/s and rad/s.\n"]
     for entry in library().values():
         times = found_times(entry.gait)
         sys.stdout.write(f"{entry.id}: {times}\n")

@@ -20,4 +20,5 @@ def robot_times(plan: Plan) -> RobotTimes | None:
         plan_seconds=round(float(trajectory.times[-1] - trajectory.times[0]), 3),
         robot_seconds=round(seconds, 1),
         speed=round(way / seconds, 6),
+        turn_rate=round(float(trajectory.heading[-1] - trajectory.heading[0]) / seconds, 6),
     )

@@ -174,6 +174,12 @@ def _add_times(connection: sqlite3.Connection) -> None:
     )
 
 
+def _add_turn_rates(connection: sqlite3.Connection) -> None:
+    """How fast each gait turns; times without it are found anew with the gait's next plan."""
+    connection.execute("DELETE FROM times")
+    connection.execute("ALTER TABLE times ADD COLUMN turn_rate REAL")
+
+
 _MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     _add_authors_and_versions,
     _add_to_runs,
@@ -183,6 +189,7 @@ _MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     _add_videos,
     _add_learning,
     _add_times,
+    _add_turn_rates,
 )
 
 NEWEST = len(_MIGRATIONS)

@@ -10,7 +10,7 @@ from app.store.database import DATABASE, Database
 from app.store.quick_check import reading
 from core.library.robot_times import RobotTimes
 
-_ALL = "SELECT gait, sent, plan_seconds, robot_seconds, speed FROM times"
+_ALL = "SELECT gait, sent, plan_seconds, robot_seconds, speed, turn_rate FROM times"
 
 
 class TimesStore:
@@ -31,8 +31,8 @@ class TimesStore:
         """Stores a gait's times in place of earlier ones."""
         with self._database.writing() as connection:
             connection.execute(
-                "INSERT OR REPLACE INTO times VALUES(?,?,?,?,?)",
-                (gait_id, sent, times.plan_seconds, times.robot_seconds, times.speed),
+                "INSERT OR REPLACE INTO times VALUES(?,?,?,?,?,?)",
+                (gait_id, sent, times.plan_seconds, times.robot_seconds, times.speed, times.turn_rate),
             )
 
 

@@ -16,11 +16,13 @@ class RobotTimes:
         plan_seconds: of its motion as planned, s.
         robot_seconds: that the robot's firmware takes for the waypoints, s (docs/firmware.md).
         speed: way of the body, from its first place to its last, a robot second, m/s.
+        turn_rate: turn of the body, from first to last, a robot second, rad/s; above 0 to the left.
     """
 
     plan_seconds: float
     robot_seconds: float
     speed: float
+    turn_rate: float
 
 
 @cache

@@ -62,9 +62,30 @@ export const counted = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s
 /** "body_height" as "Body height". */
 export const ruleName = (rule) => capital(rule.replace(/[_-]/g, " "));
 
+export const SPEED_UNIT = "mm/s";
+/** A body that is slower only turns, mm/s. */
+const LEAST_SPEED = 0.005;
+
+/**
+ * Value and unit of a gait's speed on the robot, or of its turn where it only turns; null where not known.
+ * @param {{speed?: number|null, turn_rate?: number|null}} gait m/s and rad/s
+ */
+export function pace({ speed, turn_rate: turn }) {
+  if (speed && speed * 1000 >= LEAST_SPEED) return { value: fixed(speed * 1000, 2), unit: SPEED_UNIT };
+  return turn ? { value: fixed((Math.abs(turn) * 180) / Math.PI, 1), unit: "°/s" } : null;
+}
+
+/** The same in words; "" where it is not known. */
+export function paceText(gait) {
+  const known = pace(gait);
+  if (!known) return "";
+  return known.value + (known.unit === SPEED_UNIT ? " " : "") + known.unit;
+}
+
 /** How long a gait lasts as planned and on the robot, and how fast it goes; "" where that is not known. */
-export function timesText({ plan_seconds: planned, robot_seconds: takes, speed }) {
+export function timesText(gait) {
+  const { plan_seconds: planned, robot_seconds: takes } = gait;
   if (takes === null) return "";
-  const parts = [`${fixed(planned)} s planned`, `${fixed(takes)} s on the robot`];
-  return [...parts, ...(speed ? [`${fixed(speed * 1000, 2)} mm/s`] : [])].join(" · ");
+  const lasts = [`${fixed(planned)} s planned`, `${fixed(takes)} s on the robot`];
+  return [...lasts, paceText(gait)].filter(Boolean).join(" · ");
 }

@@ -2,7 +2,7 @@
 
 import { api } from "../api/gaits.js";
 import { h } from "../lib/dom.js";
-import { fixed } from "../lib/format.js";
+import { paceText } from "../lib/format.js";
 import { attempt } from "../lib/toasts.js";
 
 /** What is known of the shown gait's search; events of the same search are newer than its view. */
@@ -23,7 +23,8 @@ export function poseSearch(store) {
     element.hidden = !search;
     if (!search) return;
     const running = search.state === "running";
-    const best = search.speed ? ` ${fixed(search.speed * 1000, 2)} mm/s so far.` : "";
+    const fastest = paceText(search);
+    const best = fastest && ` ${fastest} so far.`;
     words.textContent = running
       ? `Looking for the fastest motion: ${search.stage.toLowerCase() || "waiting for the solver"}.${best}`
       : `${search.stage} What is shown is the last motion, adapted; it cannot be sent.`;

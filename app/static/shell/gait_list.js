@@ -3,7 +3,7 @@
 import { api } from "../api/gaits.js";
 import { dialogFrame, openDialog } from "../lib/dialogs.js";
 import { byId, h, setAttribute, setText } from "../lib/dom.js";
-import { fixed, timesText } from "../lib/format.js";
+import { SPEED_UNIT, pace, timesText } from "../lib/format.js";
 import { attempt, clearOfGait, report, toast } from "../lib/toasts.js";
 import { acceptView } from "../state/store.js";
 import { closeOverStage } from "./drawers.js";
@@ -111,16 +111,21 @@ function showProblem(part, { name, problem }) {
   setAttribute(part.button, "title", problem);
 }
 
-/** The last word of a row: what is wrong with the gait, else its speed on the robot, else what it is. */
-function tagOf({ outside, walks, source, orientation, speed }) {
+/** The last word of a row: what is wrong with the gait, else its pace on the robot, else what it is. */
+function tagOf(gait) {
+  const { outside, walks, source, orientation } = gait;
   if (outside) return "changed";
   if (walks === false) return "infeasible";
-  return speed ? fixed(speed * 1000, 2) : source === "sequence" ? "seq." : orientation;
+  const known = pace(gait);
+  // The group's heading has the unit of speeds.
+  if (known) return known.unit === SPEED_UNIT ? known.value : known.value + known.unit;
+  return source === "sequence" ? "seq." : orientation;
 }
 
 function show(part, listed, selected, view) {
   // The view of the shown gait is newer than the list.
-  const gait = view?.id === listed.id ? { ...listed, plan_seconds: view.plan_seconds, robot_seconds: view.robot_seconds, speed: view.speed } : listed;
+  const { plan_seconds, robot_seconds, speed, turn_rate } = view ?? {};
+  const gait = view?.id === listed.id ? { ...listed, plan_seconds, robot_seconds, speed, turn_rate } : listed;
   if (gait.problem) {
     showProblem(part, gait);
     return;
@@ -142,7 +147,8 @@ const FOLDED_AT_FIRST = ["By hand", "Orders of Appendix A", "Textbook"];
 
 /** A group's heading, which folds it; the group that is shown stays open. */
 function heading(group, folded, redraw) {
-  const [text, unit] = [h("span", {}), h("span", { class: "unit", title: "Speed on the robot", text: "mm/s" })];
+  const text = h("span", {});
+  const unit = h("span", { class: "unit", title: "Speed on the robot", text: SPEED_UNIT });
   const button = h("button", { class: "group", on: { click: () => {
     if (!folded.delete(group)) folded.add(group);
     redraw();
@@ -192,7 +198,7 @@ export function mountGaits(store) {
       const head = headings.get(group);
       if (open) listed += members.length;
       setText(head.text, open ? group : `${group} (${members.length})`);
-      head.unit.hidden = !open || !members.some(({ speed }) => speed);
+      head.unit.hidden = !open || !members.some((gait) => pace(gait)?.unit === SPEED_UNIT);
       setAttribute(head.button, "aria-expanded", String(open));
       wanted.add(head.element);
       for (const gait of members) {
@@ -210,7 +216,8 @@ export function mountGaits(store) {
     }
   }
 
-  store.watch(({ gaits, selected, view }) => [gaits, selected, view?.id, view?.robot_seconds, view?.speed], (state) => {
+  const timesOf = (view) => [view?.id, view?.robot_seconds, view?.speed, view?.turn_rate];
+  store.watch(({ gaits, selected, view }) => [gaits, selected, ...timesOf(view)], (state) => {
     const { gaits, selected, greeted } = state;
     const kept = new Set(gaits.map(({ id }) => id));
     for (const id of parts.keys()) if (!kept.has(id)) parts.delete(id);

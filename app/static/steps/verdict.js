@@ -2,7 +2,7 @@
 
 import { isThin, planState } from "../state/plan_state.js";
 import { byId, h, setAttribute, setText } from "../lib/dom.js";
-import { capital, fixed, lowered, mm } from "../lib/format.js";
+import { capital, fixed, lowered, mm, paceText } from "../lib/format.js";
 import { simulationOver } from "../state/simulation.js";
 import { announce } from "../lib/toasts.js";
 import { hasNoMotion, shownPlan } from "../state/store.js";
@@ -35,7 +35,7 @@ function robotPart(state) {
   const { view } = state;
   const seconds = hasNoMotion(plan) ? null : plan?.robot_seconds;
   if (!seconds) return { figure: NONE, help: "Time and speed on the robot are not known yet." };
-  const speed = plan === view?.plan && view.speed ? `${fixed(view.speed * 1000, 2)} mm/s` : "";
+  const speed = plan === view?.plan ? paceText(view) : "";
   return { figure: [`${fixed(seconds)} s`, speed].filter(Boolean).join("  "), help: `On the robot the motion takes about ${fixed(seconds)} s${speed && `, which is ${speed}`}. It leaves out the way to the start pose.` };
 }
 

@@ -74,11 +74,14 @@ def test_gaits_are_listed_by_group(capsys: pytest.CaptureFixture[str], tmp_path:
         "plan_seconds",
         "robot_seconds",
         "speed",
+        "turn_rate",
         "group",
     }
     assert answer["gaits"][0]["speed"] == pytest.approx(0.0023, abs=1e-4)
     text = run(capsys, "gaits", "--data", str(tmp_path))[1]
     assert [line[:-1] for line in text.splitlines() if line.endswith(":")] == list(Group)
+    turn = next(line for line in text.splitlines() if line.split()[:1] == ["fast-turn"])
+    assert "43.8 s    4.48°/s" in turn
 
 
 @pytest.mark.parametrize("gait_id", group_ids(Group.BY_HAND))

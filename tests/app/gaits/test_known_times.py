@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import sqlite3
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from app.gaits.live_plans import LivePlans
@@ -13,8 +15,10 @@ from app.gaits.service import GaitService
 from app.gaits.summaries import GaitSummaries
 from app.store.database import DATABASE, Database
 from app.store.gait_files import GaitFiles
+from app.store.schema import NEWEST
+from app.store.times_store import TimesStore, read_times
 from core.library.library import library
-from core.library.robot_times import library_times
+from core.library.robot_times import RobotTimes, library_times
 from solver_jobs import SolveStatus
 from tests.support.command import run_json
 from tests.support.live_tiers import FixedTier
@@ -29,13 +33,13 @@ def service(tmp_path: Path, database: Database) -> GaitService:
 
 def times_of(service: GaitService, gait_id: str) -> tuple[float | None, ...]:
     line = next(line for line in GaitSummaries(service).lines() if line["id"] == gait_id)
-    return line["plan_seconds"], line["robot_seconds"], line["speed"]
+    return line["plan_seconds"], line["robot_seconds"], line["speed"], line["turn_rate"]
 
 
 def test_the_library_s_are_known_before_any_plan_was_made(service: GaitService) -> None:
-    for gait_id in ("fast-c-gait", "walk", MANUAL):
+    for gait_id in ("fast-c-gait", "fast-turn", "walk", MANUAL):
         assert times_of(service, gait_id) == tuple(vars(library_times()[gait_id]).values())
-    assert times_of(service, "textbook-trot") == (None, None, None)
+    assert times_of(service, "textbook-trot") == (None,) * 4
 
 
 def test_an_edited_gait_s_are_known_once_its_plan_was_made_and_stay_after_a_restart(
@@ -43,18 +47,42 @@ def test_an_edited_gait_s_are_known_once_its_plan_was_made_and_stay_after_a_rest
 ) -> None:
     gait = library()["fast-c-gait"].gait
     service.edit("fast-c-gait", gait.with_options(margin=0.007), "Margin", None)
-    assert times_of(service, "fast-c-gait") == (None, None, None)
+    assert times_of(service, "fast-c-gait") == (None,) * 4
     service.plan("fast-c-gait")  # the last poses, adapted: nothing that is sent
-    assert times_of(service, "fast-c-gait") == (None, None, None)
+    assert times_of(service, "fast-c-gait") == (None,) * 4
     turned = replace(library()[MANUAL].gait, iterations=2)
     service.edit(MANUAL, turned, "Iterations", None)
     before = times_of(service, MANUAL)
     service.plan(MANUAL)
     after = times_of(service, MANUAL)
-    assert before == (None, None, None)
+    assert before == (None,) * 4
     assert after[1] is not None
     again = GaitService(GaitFiles(tmp_path), database, LivePlans(FixedTier(SolveStatus.INFEASIBLE)).solve_for)
     assert times_of(again, MANUAL) == after
+
+
+@pytest.mark.parametrize(("gait_id", "degrees"), [("fast-turn", 4.5), ("rotate", 0.6)])
+def test_a_gait_that_only_turns_has_a_rate_in_place_of_a_speed(gait_id: str, degrees: float) -> None:
+    times = library_times()[gait_id]
+    assert (times.speed, np.degrees(times.turn_rate)) == (0.0, pytest.approx(degrees, abs=0.05))
+
+
+def test_times_of_an_earlier_database_are_found_anew(tmp_path: Path) -> None:
+    path = tmp_path / DATABASE
+    Database(path).close()
+    connection = sqlite3.connect(path)
+    with connection:
+        connection.execute("ALTER TABLE times DROP COLUMN turn_rate")
+        connection.execute("INSERT INTO times VALUES('mine', 'sent', 1.0, 2.0, 0.001)")
+        connection.execute(f"PRAGMA user_version = {NEWEST - 1}")
+    connection.close()
+    assert read_times(tmp_path) == {}
+    database = Database(path)
+    times = RobotTimes(plan_seconds=1.0, robot_seconds=2.0, speed=0.0, turn_rate=-0.1)
+    assert TimesStore(database).all() == {}
+    TimesStore(database).put("mine", "sent", times)
+    assert TimesStore(database).all() == read_times(tmp_path) == {"mine": ("sent", times)}
+    database.close()
 
 
 def test_a_failed_write_hides_no_gait(service: GaitService, database: Database) -> None:

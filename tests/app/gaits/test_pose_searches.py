@@ -7,12 +7,13 @@ from typing import Any, cast
 
 import pytest
 
+from app.common.json import Json
 from app.gaits.pose_searches import PoseAnswer, PoseSearches
 from app.plans.plan import make_plan
 from core.errors import StateError
 from core.gait.gait import Gait
 from core.library.library import library
-from solver_jobs import PoseGaitSolver, PoseResult, SolveStatus, solve_live
+from solver_jobs import PoseGaitSolver, PoseProgress, PoseResult, SolveStatus, solve_live
 
 GAIT = library()["fast-c-gait"].gait.with_options(margin=0.0065)
 
@@ -45,8 +46,10 @@ class Solver:
 
     def __init__(self) -> None:
         self.searches: list[Search] = []
+        self.asked: list[tuple[Any, ...]] = []
 
     def submit(self, *asked: Any) -> Search:
+        self.asked.append(asked)
         self.searches.append(Search())
         return self.searches[-1]
 
@@ -75,6 +78,19 @@ def test_one_search_a_gait_until_its_edit(searches: PoseSearches, solver: Solver
     assert len(solver.searches) == 1
     looked_at(searches, GAIT.with_options(margin=0.007))
     assert [search.is_cancelled for search in solver.searches] == [True, False]
+
+
+def test_a_search_tells_speed_and_turn_of_its_fastest_yet(solver: Solver) -> None:
+    told: list[Json] = []
+    searches = PoseSearches(
+        cast(PoseGaitSolver, solver), lambda gait_id, answer: None, lambda gait_id, state: told.append(state)
+    )
+    begun = looked_at(searches)
+    take = solver.asked[0][1]
+    take(PoseProgress("Solved, start 1", 0.1, speed=0.0, turn_rate=-0.1))
+    assert (begun["speed"], begun["turn_rate"]) == (None, None)
+    assert [(state["speed"], state["turn_rate"]) for state in told] == [(0.0, -0.1)]
+    assert looked_at(searches) == told[-1]
 
 
 def test_a_failed_search_says_why_and_is_begun_again_only_when_asked(

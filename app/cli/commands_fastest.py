@@ -21,6 +21,7 @@ from core.gait.gait import Gait, heading_step
 from core.gait.poses import POSE_LIMITS, Poses
 from core.library.new_gait import with_robot
 from core.pose_gaits.gait_poses import USUAL_STEP, new_pose_gait, pose_problem, with_poses
+from core.pose_gaits.pace import motion_words
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseProblem
 from core.pose_gaits.start_motion import TURN_GUESS
@@ -210,8 +211,8 @@ def _progress(what: str) -> Callable[[PoseProgress], None]:
         return lambda known: None
 
     def tell(known: PoseProgress) -> None:
-        speed = "" if known.speed is None else f", {_pace(known.speed, known.turn_rate or 0.0)} so far"
-        sys.stderr.write(f"\r\033[K{what}: {known.stage}{speed}")
+        pace = "" if known.speed is None else f", {motion_words(known.speed, known.turn_rate or 0.0)} so far"
+        sys.stderr.write(f"\r\033[K{what}: {known.stage}{pace}")
         sys.stderr.flush()
 
     return tell
@@ -254,11 +255,11 @@ def _lines(walk: FastestWalk, written: str | None) -> list[str]:
     cycles = whole.problem.all_cycles
     lines = [
         f"{walk.name}, feet {'-'.join(map(str, cycle.problem.order))}: "
-        f"{_pace(cycle.speed, cycle.turn_rate)} in mid-walk, {_distance(cycle.step, cycle.turn)} in "
+        f"{motion_words(cycle.speed, cycle.turn_rate)} in mid-walk, {_distance(cycle.step, cycle.turn)} in "
         f"{cycle.problem.move_count} moves and {cycle.seconds:.1f} robot seconds a cycle.",
         f"From the standard stance to rest, {cycles} {'cycle' if cycles == 1 else 'cycles'}: "
         f"{_distance(whole.distance, whole.turn * cycles)} in {whole.seconds:.1f} s, "
-        f"{_pace(whole.speed, whole.turn_rate)}.",
+        f"{motion_words(whole.speed, whole.turn_rate)}.",
         f"Checked along every move: margin {check.figures.margin * 1000:.1f} mm, feet at least "
         f"{check.figures.shoe_distance * 1000:.1f} mm and arms "
         f"{check.figures.arm_distance * 1000:.1f} mm apart, standing feet within "
@@ -271,11 +272,6 @@ def _distance(way: float, turn: float) -> str:
     """How far a gait goes and turns, in words; m and rad."""
     parts = [f"{way * 1000:.1f} mm" if way else "", _degrees(turn) if abs(turn) > NO_TURN else ""]
     return " and ".join(filter(None, parts))
-
-
-def _pace(speed: float, turn_rate: float) -> str:
-    """How fast a gait goes, or turns on the spot, in words; m/s and rad/s."""
-    return f"{speed * 1000:.2f} mm/s" if speed else f"{abs(math.degrees(turn_rate)):.2f}°/s"
 
 
 def _degrees(angle: float) -> str:

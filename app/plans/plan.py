@@ -32,6 +32,7 @@ from core.motion.balance import balance_margins
 from core.motion.support_polygon import stability_margins
 from core.motion.trajectory import Trajectory
 from core.pose_gaits.gait_poses import asked_of, drawn_poses, found_gait, gait_of_poses, pose_problem
+from core.pose_gaits.pace import motion_words
 from core.pose_gaits.pose_check import check_poses, motion_along
 from core.pose_gaits.pose_gait import PoseGait
 from core.problem.initial_guess import initial_guess
@@ -249,8 +250,8 @@ def _of_poses(source: PlanSource, note: str, poses: PoseGait) -> Plan:
 
 def _poses_note(poses: PoseGait) -> str:
     moves, seconds = poses.problem.move_count, estimate_seconds(poses.waypoints)
-    turned = abs(float(np.degrees(poses.headings[-1] - poses.headings[0])))
-    pace = f"{poses.distance / seconds * 1000:.2f} mm/s" if poses.distance else f"{turned / seconds:.2f}°/s"
+    turned = float(poses.headings[-1] - poses.headings[0])
+    pace = motion_words(poses.distance / seconds, turned / seconds)
     pivots = (
         " Soles pivot on the ground; how flat shoes do that is not known yet."
         if poses.problem.is_turned

@@ -7,13 +7,12 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
-
 from core.data.tables import data_table
 from core.gait.poses import FoundPoses
 from core.library.for_robot import asked_gait, found_poses
 from core.library.library import library
 from core.pose_gaits.gait_poses import asked_of, found_of, pose_problem
+from core.pose_gaits.pace import pace_words
 from core.robot.model import load_robot
 from solver_jobs.pose_gaits.solve import solve_poses
 from solver_jobs.results.motion import SolveStatus
@@ -37,8 +36,8 @@ def main() -> int:
         if result.status is not SolveStatus.SOLVED or result.gait is None:
             sys.stderr.write(f"{item['id']}: {' '.join(result.explanation)}\n")
             return 1
-        speed, rate = result.gait.speed * 1000.0, np.degrees(result.gait.turn_rate)
-        sys.stdout.write(f"{item['id']}: {speed:.2f} mm/s, {rate:.2f}°/s\n")
+        pace = pace_words(result.gait.pace, result.gait.problem.on_the_spot)
+        sys.stdout.write(f"{item['id']}: {pace}\n")
         tables.append(_table(item["id"], found_of(result.gait)))
     head = "# Written by solver_jobs/pose_gaits/library_poses.py; lengths in m, headings in rad.\n\n"
     FILE.write_text(head + "\n".join(tables))

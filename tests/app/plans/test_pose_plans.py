@@ -57,6 +57,11 @@ def test_found_poses_are_the_plan_and_pass_every_rule(solved: Gait) -> None:
     assert plan.trajectory.body_world[-1, 0] == pytest.approx(0.010)
 
 
+@pytest.mark.parametrize(("gait_id", "pace"), [("fast-c-gait", "2.27 mm/s"), ("fast-turn", "4.48°/s")])
+def test_the_note_says_how_fast_a_gait_goes_or_turns(gait_id: str, pace: str) -> None:
+    assert f"on the robot, {pace};" in make_plan(library()[gait_id].gait, None, never_solve).note
+
+
 def test_json_keeps_them(solved: Gait) -> None:
     content = json.loads(json.dumps(gait_content(solved)))
     again = gait_from_content(content)

@@ -29,6 +29,8 @@ DRAWN_SHARES = 101
 """Places on the way to a pinned pose that are tried where no rod is long enough for it."""
 USUAL_STEP = 0.030
 """Step of a drawing where none is known, m."""
+_Drawn = tuple[Floats, Floats, Floats]
+"""Bodies (poses, 3), headings (poses,) and feet (poses, legs, 3), m and rad."""
 
 
 def pose_problem(gait: Gait, model: RobotModel) -> PoseProblem:
@@ -182,8 +184,9 @@ def _divided(problem: PoseProblem, found: FoundPoses | None) -> PoseProblem:
 def drawn_poses(gait: Gait, model: RobotModel) -> PoseGait:
     """Poses for what a gait asks, drawn at once and solved by nobody: the last ones, adapted.
 
-    Where foot order or number of cycles differ, they are drawn anew: the body goes on evenly. A pinned pose
-    for whose place no rod is long enough is drawn as near to it as the rods allow.
+    Where foot order or number of cycles differ, they are drawn anew: the body goes on evenly. A free turn is
+    drawn as far as it was found last. A pinned pose for whose place no rod is long enough is drawn as near to
+    it as the rods allow.
 
     Raises:
         InputError: the gait asks for what it cannot have, or a foot is so far away that no rod is that long.
@@ -192,8 +195,7 @@ def drawn_poses(gait: Gait, model: RobotModel) -> PoseGait:
     problem = _divided(pose_problem(gait, model), found)
     usual = USUAL_STEP if found is None or found.step == 0.0 else found.step
     step = usual if problem.step is None else problem.step
-    adapted = None if found is None or problem.is_turned else _adapted(problem, found, step)
-    bodies, headings, feet = _even(problem, step) if adapted is None else adapted
+    bodies, headings, feet = _adapted(problem, found, step) or _even(problem, step, found)
     for pin in problem.pinned:
         pose, place = pin.pose - 1, bodies[0, :2] + problem.pinned_place(pin, step)
         bodies[pose, :2] = _within_reach(model, feet[pose], bodies[pose], place)
@@ -219,21 +221,59 @@ def _within_reach(model: RobotModel, feet: Floats, body: Floats, place: Floats) 
     return np.asarray(bodies[int(reached.argmax()), :2])
 
 
-def _even(problem: PoseProblem, step: float) -> tuple[Floats, Floats, Floats]:
-    """The start of the solver's search, bodies, headings and feet: everything goes on evenly."""
+def _even(problem: PoseProblem, step: float, found: FoundPoses | None) -> _Drawn:
+    """The start of the solver's search: everything goes on evenly, a free turn as far as it was found last.
+
+    Where no rod is long enough for that turn, it is the one with which a search begins.
+    """
+    if problem.free_turn and found is not None and found.headings is not None:
+        # The turn of a document whose poses were found is theirs, a cycle.
+        drawn = _evenly_on(replace(problem, free_turn=False), step)
+        bodies, headings, feet = drawn
+        if not np.isnan(free_strokes(problem.model, feet, BodyPose(bodies, headings))).any():
+            return drawn
+    return _evenly_on(problem, step)
+
+
+def _evenly_on(problem: PoseProblem, step: float) -> _Drawn:
     start = StartMotion(problem, step * MM)
     return start.bodies / MM, np.array(start.headings), np.array(start.feet) / MM
 
 
-def _adapted(problem: PoseProblem, found: FoundPoses, step: float) -> tuple[Floats, Floats, Floats] | None:
-    """Bodies, headings and feet of a straight gait turned and stretched to another direction and step.
+def _adapted(problem: PoseProblem, found: FoundPoses | None, step: float) -> _Drawn | None:
+    """The poses that were found last for what is asked now; None where they do not fit."""
+    if found is None or found.feet.shape != (*problem.airborne.shape, 3):
+        return None
+    if problem.free_turn:
+        return _kept_turn(problem, found)
+    if problem.is_turned or found.headings is not None or found.step == 0.0:
+        return None
+    return _stretched(problem, found, step)
 
-    They are None where the poses do not fit.
+
+def _kept_turn(problem: PoseProblem, found: FoundPoses) -> _Drawn | None:
+    """A turn on the spot to the same side with the same feet in the air, each as high as is asked."""
+    if found.headings is None or found.step != 0.0:
+        return None
+    turn = float(found.headings[-1] - found.headings[0])
+    if turn * problem.turn <= 0.0 or not np.array_equal(found.feet[..., 2] > 0.0, problem.airborne):
+        return None
+    return found.bodies.copy(), found.headings, _with_heights(problem, found.feet)
+
+
+def _with_heights(problem: PoseProblem, feet: Floats) -> Floats:
+    """Feet at least as high as is asked, and on the ground where they stand, m."""
+    lifted = feet.copy()
+    lifted[..., 2] = np.where(problem.airborne, np.maximum(feet[..., 2], problem.floor), 0.0)
+    return lifted
+
+
+def _stretched(problem: PoseProblem, found: FoundPoses, step: float) -> _Drawn | None:
+    """Poses of a straight gait turned and stretched to another direction and step.
+
     A motion that fits has its feet in the air at the same poses, by whichever quarter turn of the robot.
     """
     homes, legs = problem.model.module_centres_robot[:, :2], problem.model.leg_count
-    if found.feet.shape != (*problem.airborne.shape, 3) or found.headings is not None or found.step == 0.0:
-        return None
     travel = found.bodies[-1, :2] - found.bodies[0, :2]
     before = float(np.arctan2(travel[1], travel[0]))
     turn = problem.heading - before
@@ -248,9 +288,7 @@ def _adapted(problem: PoseProblem, found: FoundPoses, step: float) -> tuple[Floa
     bodies[:, :2] = bodies[:, :2] @ (stretch @ rotation).T
     own_homes = np.roll(homes, shift, axis=0) @ rotation.T
     feet[..., :2] = (feet[..., :2] @ rotation.T - own_homes) @ stretch.T + homes
-    heights = np.where(problem.airborne, np.maximum(feet[..., 2], problem.floor), 0.0)
-    feet[..., 2] = heights
-    return bodies, np.zeros(len(bodies)), feet
+    return bodies, np.zeros(len(bodies)), _with_heights(problem, feet)
 
 
 def new_pose_gait(name: str, gait: Gait, poses: Poses, model: RobotModel) -> Gait:

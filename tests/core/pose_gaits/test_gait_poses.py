@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from core.gait.gait import Gait
 from core.gait.poses import PinnedPose, Poses
 from core.library.library import library
 from core.pose_gaits.gait_poses import asked_of, drawn_poses, found_gait, pose_problem
+from core.pose_gaits.start_motion import TURN_GUESS
 from core.robot.model import load_robot
 
 MODEL = load_robot("deltawalker")
@@ -43,6 +45,38 @@ def test_an_even_travel_is_where_nothing_is_asked() -> None:
     half = (drawn.bodies[0, :2] + drawn.bodies[-1, :2]) / 2
     assert drawn.problem.move_count == 26
     assert drawn.bodies[13, :2] == pytest.approx(half)
+
+
+def turn(**changes: Any) -> Gait:
+    return replace(library()["fast-turn"].gait, **changes)
+
+
+def test_an_edited_free_turn_is_drawn_as_it_was_found() -> None:
+    before, edited = turn(), turn().with_options(margin=0.008, clearance=0.006)
+    known = found_gait(before, MODEL)
+    assert known is not None
+    assert found_gait(edited, MODEL) is None
+    drawn = drawn_poses(edited, MODEL)
+    assert drawn.turn == pytest.approx(known.turn)
+    np.testing.assert_array_equal(drawn.bodies, known.bodies)
+    np.testing.assert_array_equal(drawn.feet[..., :2], known.feet[..., :2])
+    assert (drawn.feet[..., 2] >= drawn.problem.floor).all()
+
+
+@pytest.mark.parametrize("changes", [{"order": (3, 2, 4, 1)}, {"iterations": 2}])
+def test_where_other_poses_are_needed_it_turns_as_far_evenly(changes: dict[str, Any]) -> None:
+    drawn = drawn_poses(turn(**changes), MODEL)
+    assert drawn.turn == pytest.approx(turn().step[2])
+    assert np.diff(drawn.headings) == pytest.approx(drawn.headings[-1] / drawn.problem.move_count)
+
+
+def test_to_the_other_side_it_is_drawn_anew() -> None:
+    other = turn(step=(0.0, 0.0, -turn().step[2]))
+    assert drawn_poses(other, MODEL).turn == pytest.approx(-turn().step[2])
+
+
+def test_a_turn_for_which_no_rod_is_long_enough_is_drawn_with_less() -> None:
+    assert drawn_poses(turn(iterations=5), MODEL).turn == pytest.approx(TURN_GUESS)
 
 
 @pytest.mark.parametrize("pose", [1, 27, 200])

@@ -4,6 +4,8 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from core.pose_gaits.pose_check import least_arm_distance
+from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import LEAST_CLEARANCE, PoseProblem
 from core.pose_gaits.start_motion import MM
 from core.wire.robot_time import deaf_seconds
@@ -69,6 +71,18 @@ def _too_far(problem: PoseProblem, reach: float) -> str:
     return (
         f"A step of {asked_reach(problem):.4g} mm a cycle (--step) is too long: with these limits the "
         f"longest that was found is {np.floor(reach * 10) / 10:.1f} mm."
+    )
+
+
+def arms_explained(gait: PoseGait) -> tuple[str, ...]:
+    """Sentences for a gait that was found and whose arms cannot be kept apart."""
+    problem, least = gait.problem, least_arm_distance(gait) * MM
+    near = f"come within {least:.1f} mm" if least >= 0.0 else f"would be {-least:.1f} mm in one another"
+    less = "Turn less (--turn)" if problem.on_the_spot else "Shorten the step (--step)"
+    return (
+        f"The gait that was found lets the arms of neighbouring legs come too near: they {near}, and "
+        f"{problem.bounds.arm_distance * MM:g} mm are asked (--arm-distance). {less}, or ask for less room.",
+        NOT_PROVEN,
     )
 
 

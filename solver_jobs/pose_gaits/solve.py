@@ -13,7 +13,7 @@ from core.pose_gaits.pose_problem import SHORTEST_MOVE, PoseProblem
 from core.pose_gaits.start_motion import MM, PosesStart
 from core.robot.arms import arm_gaps
 from solver_jobs.pose_gaits.arms import NEAR, ArmPlace, Plane, near_arms
-from solver_jobs.pose_gaits.explain import FARTHEST, NOT_PROVEN, explained
+from solver_jobs.pose_gaits.explain import FARTHEST, NOT_PROVEN, arms_explained, explained
 from solver_jobs.pose_gaits.pose_program import SLACKS, ArmRows, PoseProgram, Weights, asked_reach
 from solver_jobs.pose_gaits.program import MOST_ITERATIONS, Attempt
 from solver_jobs.results.motion import SolveStatus
@@ -182,7 +182,7 @@ class _Search:
             self._near = None  # other starts may lead to arms that keep apart
             return self.result()
         if apart is None:
-            return self.ended(SolveStatus.INFEASIBLE, self._arms_explained(program, found[0]))
+            return self.ended(SolveStatus.INFEASIBLE, arms_explained(program.gait(found[0].values)))
         program, best = apart
         best = self._lengthened(program, best)
         gait, check = program.gait(best.values), check_poses(program.gait(best.values))
@@ -369,17 +369,6 @@ class _Search:
         return (
             f"The arms of neighbouring legs are {gap * MM:.1f} mm apart in the standard stance, and "
             f"{asked * MM:g} mm are asked (--arm-distance). Ask for less."
-        )
-
-    def _arms_explained(self, program: PoseProgram, best: Attempt) -> tuple[str, ...]:
-        """Why a gait that was found cannot keep its arms apart."""
-        least = least_arm_distance(program.gait(best.values)) * MM
-        near = f"come within {least:.1f} mm" if least >= 0.0 else f"would be {-least:.1f} mm in one another"
-        return (
-            f"The gait that was found lets the arms of neighbouring legs come too near: they {near}, and "
-            f"{self.problem.bounds.arm_distance * MM:g} mm are asked (--arm-distance). Shorten the --step, "
-            "or ask for less.",
-            NOT_PROVEN,
         )
 
     def _lengthened(self, program: PoseProgram, best: Attempt) -> Attempt:

@@ -128,7 +128,7 @@ class FastestService:
         if not self._closed:  # else it counts as interrupted
             self._tracker.end(job_id, end)
 
-    def prices(self, question: FastestQuestion, show: Show) -> Work:
+    def prices(self, question: FastestQuestion, show: Show) -> Callable[[], None]:
         """Looks for the prices of every option of a question.
 
         Args:
@@ -136,7 +136,7 @@ class FastestService:
             show: told of the options with the prices that are known, then of each new price, then None.
 
         Returns:
-            What ends it.
+            A function that ends it.
 
         Raises:
             InputError: the question asks for what such a gait cannot have.
@@ -145,7 +145,7 @@ class FastestService:
         listed = [_priced(option) for option in options(question)]
         work = Work()
         self._start(work, lambda: self._price(listed, asked, show, work))
-        return work
+        return work.cancel
 
     def _price(self, listed: "list[_Priced]", asked: PoseProblem, show: Show, work: Work) -> None:
         try:

@@ -13,6 +13,7 @@ from core.gait.held_feet import HeldFeet, feet_words
 from core.gait.held_rules import require_swinging, standing_of
 from core.gait.poses import Poses
 from core.motion.contact_timeline import ContactTimeline
+from core.pose_gaits.conversion import conversion_notice
 from core.pose_gaits.gait_poses import found_gait, pose_problem, with_pose_timeline
 from core.robot.model import load_robot
 from core.segments.from_timeline_edit import carried
@@ -36,8 +37,8 @@ def normalise(before: Gait, after: Gait) -> tuple[Gait, str | None]:
         after: the document as it was changed.
 
     Returns:
-        The gait, and a sentence where its segment table or its recorded motion was set aside, or where
-        pinned poses were removed.
+        The gait, and a sentence where its segment table or its recorded motion was set aside, where pinned
+        poses were removed, or where a conversion leaves something behind.
 
     Raises:
         StateError: a locked cell would change.
@@ -50,7 +51,8 @@ def normalise(before: Gait, after: Gait) -> tuple[Gait, str | None]:
     require_locks(before, after)
     tabled = normalise_table(before, normalise_drawing(before, after))
     changed, notice = normalise_held_feet(*tabled, is_said=before.held != after.held)
-    return normalise_results(before, changed, notice)
+    changed, notice = normalise_results(before, changed, notice)
+    return changed, " ".join(filter(None, (notice, conversion_notice(before, changed)))) or None
 
 
 def normalise_poses(before: Gait, after: Gait, poses: Poses) -> tuple[Gait, str | None]:
@@ -64,13 +66,13 @@ def normalise_poses(before: Gait, after: Gait, poses: Poses) -> tuple[Gait, str 
         poses: of the changed document.
 
     Returns:
-        The gait, and a sentence where pinned poses were let go.
+        The gait, and a sentence where pinned poses were let go, or where a drawn gait lost something.
 
     Raises:
         InputError: it asks for what such a gait cannot have.
         StateError: the timeline was drawn on.
     """
-    model, known, notice = load_robot(after.robot), before.poses, None
+    model, known, notice = load_robot(after.robot), before.poses, conversion_notice(before, after)
     if known is not None:
         if known.pinned and known.pinned == poses.pinned and _poses_of(before) != _poses_of(after):
             poses, notice = replace(poses, pinned=()), LET_GO

@@ -25,6 +25,7 @@ from core.library.library import library
 from core.library.robot_times import RobotTimes
 from core.motion.speeds import foot_speeds, motor_speeds
 from core.motion.trajectory import Trajectory
+from core.pose_gaits.conversion import conversion_refusal
 from core.pose_gaits.pose_gait import heard_times
 from core.problem.motion_problem import MotionLimits
 from core.robot.model import RobotModel, load_robot
@@ -142,6 +143,7 @@ def gait_view(open_gait: OpenGait, plan: Plan, pages: frozenset[str] = frozenset
         "roles": list(gait.roles),
         "mirror": mirror_of(gait, plan.model),
         "notice": open_gait.notice,
+        "conversion_refusal": conversion_refusal(gait, plan.model),
         "changed": open_gait.before is not None,
         "provenance": provenance_view(gait, plan),
         "plan": plan_view(plan),

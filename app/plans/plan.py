@@ -2,7 +2,7 @@
 
 import hashlib
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
@@ -229,10 +229,15 @@ def pose_plan(gait: Gait, model: RobotModel, result: Json | None) -> Plan:
         return _of_poses(PlanSource.POSES, _poses_note(found), found)
     is_infeasible = result is not None and result.get("status") == SolveStatus.INFEASIBLE
     told = result.get("explanation", ()) if result is not None and is_infeasible else ()
-    why = tuple(_OPTION_NAME.sub("", sentence) for sentence in told)
+    why = without_option_names(told)
     drawn = drawn_poses(gait, model)
     note = " ".join(why) or " ".join((ADAPTED_NOTE, *_pins_out_of_reach(drawn)))
     return replace(_of_poses(PlanSource.ADAPTED, note, drawn), infeasible=why)
+
+
+def without_option_names(sentences: Iterable[str]) -> tuple[str, ...]:
+    """Reasons of a search without what the command line calls an option."""
+    return tuple(_OPTION_NAME.sub("", sentence) for sentence in sentences)
 
 
 def _pins_out_of_reach(drawn: PoseGait) -> Iterator[str]:

@@ -12,7 +12,17 @@ from starlette.middleware import Middleware
 from app.common.version import VERSION
 from app.documents.gait_json import gait_schema
 from app.routes import events, jobs, robots, scene
-from app.routes.gaits import approvals, exports, fastest, gaits, live, sequences, simulations, versions
+from app.routes.gaits import (
+    approvals,
+    conversions,
+    exports,
+    fastest,
+    gaits,
+    live,
+    sequences,
+    simulations,
+    versions,
+)
 from app.routes.gaits import segment_tables as tables
 from app.routes.lab import camera_setups as setups
 from app.routes.lab import cameras, learning, trial_comparisons, trial_photos, trials, videos
@@ -37,6 +47,7 @@ _ROUTERS = (
     gaits.router,
     live.router,
     fastest.router,
+    conversions.router,
     approvals.router,
     versions.router,
     jobs.router,

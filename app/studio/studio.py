@@ -10,6 +10,7 @@ from typing import Protocol, TypeVar
 from app.cameras.address import CameraAddress
 from app.common.json import Json
 from app.fastest.service import FastestService
+from app.gaits.faster import FasterGaits
 from app.gaits.live_plans import LivePlans
 from app.gaits.open_gait import OpenGait
 from app.gaits.planner import Planner
@@ -116,6 +117,7 @@ class Studio:
         self.job_repository = JobRepository(database)
         pose_solver = self._register(PoseGaitSolver())
         self.pose_searches = PoseSearches(pose_solver, self._poses_answered, self._poses_sought)
+        self.faster = FasterGaits(pose_solver, self._keep_result)
         self.publisher = Publisher(
             hub, self.gaits, self._plans, self.simulations, self.job_repository, self.pose_searches.look_at
         )
@@ -233,6 +235,10 @@ class Studio:
 
     def _on_result(self, motion: str, content: Json) -> None:
         self.publisher.publish_all_soon(self.gaits.on_result(motion, content))
+
+    def _keep_result(self, motion: str, content: Json) -> None:
+        """Stores a checked result of a motion that no gait may ask for yet. Thread-safe."""
+        self.commands.tell(lambda: self._on_result(motion, content))
 
     def _poses_sought(self, gait_id: str, state: Json) -> None:
         self.hub.publish({"type": "search", "gait": gait_id, "search": state})

@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike
 from core.arrays import Bools, Floats, frozen_bools
 from core.errors import InputError
 
+DRAWN_SAMPLE_TIME = 0.4
+"""Sample time of a timeline that is drawn from a foot order, unless another one is given, s."""
 SAME_INTERVAL = 1e-6
 """Sample times that differ by less than this part are the same; files round theirs."""
 MAX_SAMPLES = 2000
@@ -147,7 +149,7 @@ def timeline_from_order(
     phase_knots: int = 5,
     closing_knots: int = 5,
     iterations: int = 1,
-    sample_time: float = 0.4,
+    sample_time: float = DRAWN_SAMPLE_TIME,
 ) -> ContactTimeline:
     """The published timing (docs/sources.md): for each foot, all feet down, then that foot in the air.
 

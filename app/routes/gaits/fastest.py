@@ -1,17 +1,18 @@
 """The fastest gait for the robot's clock: prices of options, the search, and a gait made of an answer."""
 
 import math
-from collections.abc import Callable
+from functools import partial
 from typing import Annotated
 
 from fastapi import APIRouter
 from fastapi.responses import StreamingResponse
 from pydantic import Field
+from starlette.concurrency import run_in_threadpool
 
 from app.common.json import Json
 from app.fastest.question import FastestQuestion, Way
 from app.web.dependencies import RequestBody, TheStudio, changed, on_command_thread
-from app.web.state_stream import Tell, state_stream
+from app.web.state_lines import state_lines
 from core.gait.gait import MOST_NAME
 from core.pose_gaits.pose_problem import MOST_CYCLES
 from core.robot.arms import ARM_GAP
@@ -77,22 +78,20 @@ async def prices(asked: FastestBody, studio: TheStudio) -> StreamingResponse:
     known yet. Each other line has `prices`, which are options with their `number` in that list. A `price`
     whose `pace` (m/s, on the spot rad/s) is null says that there is no such gait. It ends with the request.
     """
-
-    def begin(tell: Tell) -> Callable[[], None]:
-        return studio.fastest.prices(asked.question(), tell).cancel
-
-    return await state_stream(begin)
+    question = await run_in_threadpool(asked.question)
+    return await state_lines(partial(studio.fastest.prices, question))
 
 
 @router.post("/searches", status_code=202)
 async def search(asked: SearchBody, studio: TheStudio) -> Json:
     """Starts a search as a job; its result has `tried`, and with a front the gaits that none other beats."""
-    question = asked.question()
+    question = await run_in_threadpool(asked.question)
     return await on_command_thread(studio, lambda: studio.job_commands.submit_fastest(question, asked.front))
 
 
 @router.post("/gaits", status_code=201)
 async def create(asked: NewFastest, studio: TheStudio) -> Json:
     """Saves a new gait that asks this, and gives its view; its poses are looked for by themselves."""
-    document = asked.question().document(asked.name)
+    question = await run_in_threadpool(asked.question)
+    document = question.document(asked.name)
     return await changed(studio, lambda: studio.gaits.create(document))

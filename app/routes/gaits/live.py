@@ -1,6 +1,6 @@
 """Questions about a changed document, while it is edited: its plan, and what would make it walk."""
 
-from collections.abc import Callable
+from functools import partial
 from typing import Annotated, TypeVar
 
 from fastapi import APIRouter, Request
@@ -13,7 +13,7 @@ from app.documents.gait_json import MOST_BYTES
 from app.gaits.live_plans import changed_gait
 from app.studio.studio import Studio
 from app.web.dependencies import RequestBody, TheStudio, on_command_thread
-from app.web.state_stream import Tell, state_stream
+from app.web.state_lines import state_lines
 from core.errors import InputError
 from core.gait.gait import Gait
 from solver_jobs import Limit
@@ -65,11 +65,7 @@ async def remedies(gait_id: str, request: Request, studio: TheStudio) -> Streami
     """
     asked = await _asked(request, Remedies)
     gait = await run_in_threadpool(changed_gait, await _gait(gait_id, studio), asked.document)
-
-    def begin(tell: Tell) -> Callable[[], None]:
-        return studio.remedies.search(gait, tell, tips=asked.tips)
-
-    return await state_stream(begin)
+    return await state_lines(partial(studio.remedies.search, gait, tips=asked.tips))
 
 
 @router.post("/{gait_id}/limit", response_model=Json)

@@ -11,6 +11,7 @@ import { presetFor } from "../shell/new_gait.js";
 import { fallOf } from "../state/live_plan.js";
 import { hasNoMotion, ownPlan, shownDocument } from "../state/store.js";
 import { mountConvergence } from "./convergence.js";
+import { drawFreelyButton, fasterButton } from "./faster.js";
 import { mountIterates } from "./iterates.js";
 import { jobAnswer, liveAnswer } from "./live_answer.js";
 import { hasField, optimiserOptions } from "./optimiser_options.js";
@@ -57,7 +58,8 @@ export function mountOptimise(store, edits, goTo) {
   section.append(
     advice.element, h("div", { class: "fields" }, robot.element, order.element, ...main.map(({ element }) => element)), error, poseSearch(store), pinnedPoses(store, edits, goTo), answer.element,
     h("details", { class: "more" }, h("summary", {}, "More", changed), h("div", { class: "fields" }, ...more.map(({ element }) => element))),
-    h("div", { class: "solve" }, exactButton(store), timingButton(store)), timingNote(store), timing.element, why, noteLine(store), originLine(store));
+    h("div", { class: "solve" }, exactButton(store), timingButton(store)),
+    h("div", { class: "solve" }, fasterButton(store, edits, show), drawFreelyButton(store, edits)), timingNote(store), timing.element, why, noteLine(store), originLine(store));
   store.watch(({ view }) => [Boolean(view?.document.poses)], ({ view }) => setText(why, view?.document.poses ? POSES : TIERS));
   mountConvergence(store, section);
   const iterates = mountIterates(store, section);

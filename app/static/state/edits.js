@@ -173,6 +173,14 @@ export function createEdits(store) {
     }
   }
 
+  /** Converts the gait into the other kind; what that leaves behind is said. */
+  async function passConvert(gait, to, revision) {
+    if (isShown(gait)) dropRefused();
+    const view = await api.convert(gait, to, revision);
+    acceptView(store, view);
+    if (isShown(gait) && view.notice) toast(view.notice);
+  }
+
   async function passRestore(gait, number) {
     if (isShown(gait)) dropRefused();
     acceptView(store, await api.restoreVersion(gait, number));
@@ -202,6 +210,7 @@ export function createEdits(store) {
     dropRefused,
     paint: (cells, swing) => edit((document) => paintCells(document, cells, swing), paintLabel(cells, swing), { drawing: true }),
     redraw: (body) => pass(passRedraw, body),
+    convert: (to, revision = null) => pass(passConvert, to, revision),
     restoreVersion: (number) => pass(passRestore, number),
     undo: () => pass(passHistory, "undo"),
     redo: () => pass(passHistory, "redo"),

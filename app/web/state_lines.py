@@ -1,4 +1,4 @@
-"""Answers that grow: one JSON object a line (NDJSON), until the work ends or the client goes."""
+"""Answers that go on for a while: one JSON object a line (NDJSON), each with all that is known so far."""
 
 import asyncio
 import json
@@ -10,24 +10,27 @@ from starlette.concurrency import run_in_threadpool
 
 from app.common.json import Json
 
-Tell = Callable[[Json | None], None]
-"""Takes the next line, and None at the end; any thread may call it."""
+Show = Callable[[Json | None], object]
 
 
-async def state_stream(begin: Callable[[Tell], Callable[[], None]]) -> StreamingResponse:
-    """Streams what some work tells.
+async def state_lines(begin: Callable[[Show], Callable[[], None]]) -> StreamingResponse:
+    """Begins a search, which ends with the request, and answers with its states.
 
     Args:
-        begin: begins the work, in a thread of the pool, and returns what ends it; it ends with the request.
+        begin: begins it, given a function that takes each state, from any thread, and None at the end;
+            returns what ends the search.
+
+    Raises:
+        FootfallError: what `begin` refuses.
     """
     loop, states = asyncio.get_running_loop(), asyncio.Queue[Json | None]()
 
-    def tell(state: Json | None) -> None:
+    def show(state: Json | None) -> None:
         # The server may have ended meanwhile.
         with suppress(RuntimeError):
             loop.call_soon_threadsafe(states.put_nowait, state)
 
-    end = await run_in_threadpool(begin, tell)
+    end = await run_in_threadpool(begin, show)
 
     async def lines() -> AsyncIterator[bytes]:
         try:

@@ -1,0 +1,184 @@
+/**
+ * *Faster on the robot* compares a drawn gait with the same one for the robot's clock.
+ * *Draw it freely* leads back.
+ */
+
+import { api } from "../api/gaits.js";
+import { stepTurn } from "../document/step.js";
+import { freeName } from "../document/gait_names.js";
+import { dialogFrame, openDialog } from "../lib/dialogs.js";
+import { h, onPress, setAllowed, setText } from "../lib/dom.js";
+import { capital, counted, fixed, mm } from "../lib/format.js";
+import { attempt, toast } from "../lib/toasts.js";
+
+const HELP = "The same foot order and step, made for the robot's clock; shows both side by side first";
+const FREELY = "Makes a drawn gait with this foot order and step, whose timeline can be painted";
+const MORE = "More iterations, a longer step or a later stop bound make it gain more.";
+const USE = "Makes this gait one for the robot's clock; one Undo brings the drawn one back";
+const NEW = "Keeps this gait as it is, and makes another one";
+const ABOUT = "made for the robot's clock: few poses, and every motor goes straight from one to the next.";
+const DEGREES = 180 / Math.PI;
+/** Iterations from which a walk has some that are neither the first nor the last. */
+const MIDDLE = 3;
+/** A gait that gains less is told what would make it gain more. */
+const WORTH = 1.1;
+/** Characters of a name that leave room for what is put behind it. */
+const LONGEST = 90;
+const NOTHING = { now: null, faster: null, document: null, notice: null };
+
+/** Why the shown gait cannot be converted; the server's own sentence, but for what the page alone knows. */
+function whyNot({ view, pending }) {
+  if (!view) return "No gait is selected.";
+  return pending.length ? "The last edit is not accepted yet." : view.conversion_refusal;
+}
+
+function conversionButton(store, { text, help, isOf, act }) {
+  const button = h("button", { class: "wide", text });
+  onPress(button, attempt(act), (why) => toast(why));
+  store.watch(({ view, pending }) => [view, pending.length], (state) => {
+    button.hidden = !state.view || !isOf(state.view.document);
+    setAllowed(button, whyNot(state), help);
+  });
+  return button;
+}
+
+/** The button on a gait for the robot's clock. */
+export const drawFreelyButton = (store, edits) => conversionButton(store, {
+  text: "Draw it freely", help: FREELY, isOf: ({ poses }) => Boolean(poses),
+  act: () => edits.convert("drawn"),
+});
+
+/**
+ * The button on a drawn gait.
+ * @param {object} store
+ * @param {object} edits
+ * @param {(id: string) => Promise<void>} show shows a gait
+ */
+export const fasterButton = (store, edits, show) => conversionButton(store, {
+  text: "Faster on the robot", help: HELP, isOf: ({ poses }) => !poses,
+  act: () => compare(store, edits, show),
+});
+
+/** Seconds, speeds and lengths of both gaits as rows: a name, its unit, and how a figure is read. */
+function rowsOf({ step, iterations }) {
+  const isOnTheSpot = Math.hypot(step[0], step[1]) === 0;
+  const turn = Math.abs(stepTurn({ step })) > 0;
+  const degrees = (rate) => fixed(Math.abs(rate) * DEGREES, 2);
+  const pace = isOnTheSpot ? ["°/s", degrees] : ["mm/s", (speed) => mm(speed, 2)];
+  const whole = `From rest to rest, ${counted(iterations, "iteration")}`;
+  const of = (name, unit, read, text) => ({ name, unit, read, text });
+  return [
+    { head: "One iteration in mid-walk" },
+    of("Speed", pace[0], (side) => side[isOnTheSpot ? "cycle_turn_rate" : "cycle_speed"], pace[1]),
+    of("Time", "s", (side) => side.cycle_seconds, (value) => fixed(value)),
+    of("Moves", "", (side) => side.cycle_moves, (value) => fixed(value, Number.isInteger(value) ? 0 : 1)),
+    { head: whole },
+    of("Speed", pace[0], (side) => side[isOnTheSpot ? "turn_rate" : "speed"], pace[1]),
+    of("Time", "s", (side) => side.seconds, (value) => fixed(value)),
+    of("Moves", "", (side) => side.moves, (value) => fixed(value, 0)),
+    ...(isOnTheSpot ? [] : [of("Travel", "mm", (side) => side.distance, (value) => mm(value))]),
+    ...(turn ? [of("Turn", "°", (side) => side.turn, (value) => fixed(value * DEGREES))] : []),
+    of("Least margin", "mm", (side) => side.margin, (value) => mm(value)),
+    of("Stop within", "s", (side) => side.stop_seconds, (value) => fixed(value, 2)),
+  ];
+}
+
+function table(document) {
+  const cells = [];
+  const cell = (row, side) => {
+    const element = h("td", { class: "number", text: "…" });
+    cells.push({ element, row, side });
+    return element;
+  };
+  const rows = rowsOf(document).map((row) => {
+    if (row.head) return h("tr", {}, h("th", { scope: "rowgroup", colspan: "3", text: row.head }));
+    const unit = h("span", { class: "quiet", text: ` ${row.unit}` });
+    const name = h("th", { scope: "row" }, row.name, unit);
+    return h("tr", {}, name, cell(row, "now"), cell(row, "faster"));
+  });
+  const columns = ["Now", "For the robot's clock"].map((text) => h("th", { scope: "col", text }));
+  const element = h("table", { class: "sides" },
+    h("thead", {}, h("tr", {}, h("td"), ...columns)),
+    h("tbody", {}, ...rows));
+  const show = (state) => cells.forEach(({ element: place, row, side }) => {
+    const waits = side === "faster" && state.state === "running";
+    const value = state[side] ? row.read(state[side]) : null;
+    setText(place, waits ? "…" : value === null ? "–" : row.text(value));
+  });
+  return { element, show };
+}
+
+/** How much faster it is, in mid-walk and over all; a gait that is slower says so. */
+function verdict({ now, faster }, { step, iterations }) {
+  const rate = step[0] || step[1] ? "speed" : "turn_rate";
+  const pace = (side, name) => Math.abs(side[`${name}${rate}`]);
+  if (!now) return "Now has no motion that can be sent.";
+  const times = (name) => pace(faster, name) / pace(now, name);
+  const words = (ratio) => `${ratio < 1 ? "slower, " : ""}${fixed(ratio, 2)} times as fast`;
+  const parts = faster.cycle_speed === null ? [] : [`in mid-walk ${words(times("cycle_"))}`];
+  parts.push(`from rest to rest ${words(times(""))}`);
+  const sentences = [`${capital(parts.join(", "))}.`];
+  if (times("") < WORTH) sentences.push(MORE);
+  if (iterations < MIDDLE) sentences.push("With fewer than three iterations, Now in mid-walk is their mean.");
+  return sentences.join(" ");
+}
+
+/** What the line below the table says of a state. */
+function lineOf(state, document) {
+  if (state.state === "running") return `Looking for the fastest motion: ${state.stage}.`;
+  return state.state === "solved" ? verdict(state, document) : state.sentence;
+}
+
+function isWorse({ state, now, faster }, { step }) {
+  const rate = step[0] || step[1] ? "speed" : "turn_rate";
+  if (state === "infeasible" || state === "failed") return true;
+  return Boolean(now && faster && Math.abs(faster[rate]) < Math.abs(now[rate]));
+}
+
+/** Shows both gaits while the search is on; resolves to `use` or `new` with the last state, or to null. */
+function ask(document, name, search) {
+  const signal = new AbortController();
+  return openDialog((close) => {
+    const sides = table(document);
+    const line = h("p", { role: "status", "aria-label": "Comparison" });
+    const notice = h("p", { class: "quiet" });
+    let last = null;
+    const take = (act) => () => { if (last?.state === "solved") close({ act, state: last }); };
+    const use = h("button", { type: "submit", class: "primary", text: "Use this", title: USE });
+    const asNew = h("button", { type: "button", text: "As a new gait", title: NEW });
+    asNew.addEventListener("click", take("new"));
+    const cancel = h("button", { type: "button", text: "Cancel", on: { click: () => close(null) } });
+    const show = (state) => {
+      last = state;
+      sides.show(state);
+      setText(line, lineOf(state, document));
+      setText(notice, state.notice ?? "");
+      line.toggleAttribute("data-worse", isWorse(state, document));
+      use.disabled = asNew.disabled = state.state !== "solved";
+    };
+    show({ ...NOTHING, state: "running", stage: "waiting for the solver" });
+    search(signal.signal, show).catch((error) => {
+      if (!signal.signal.aborted) show({ ...NOTHING, state: "failed", sentence: error.message });
+    });
+    const dialog = dialogFrame("Faster on the robot", close, take("use"),
+      h("p", { class: "quiet", text: `“${name}” with the same foot order and step, ${ABOUT}` }),
+      sides.element, line, notice, h("div", { class: "buttons" }, cancel, asNew, use));
+    dialog.classList.add("faster");
+    return dialog;
+  }).finally(() => signal.abort());
+}
+
+async function compare(store, edits, show) {
+  const { selected } = store.state;
+  await edits.settled();
+  const { view } = store.state;
+  if (!view || view.id !== selected) return;
+  const answer = await ask(view.document, view.name, (signal, told) => api.faster(selected, signal, told));
+  if (!answer) return;
+  if (answer.act === "use") {
+    await edits.convert("poses", view.revision);
+    return;
+  }
+  const name = freeName(store.state, `${view.name.slice(0, LONGEST)}, for the robot's clock`);
+  await show((await api.create({ ...answer.state.document, name })).id);
+}

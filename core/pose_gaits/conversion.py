@@ -244,11 +244,11 @@ def _left_by_poses(gait: Gait) -> list[str]:
     """Sentences on what a gait for the robot's clock does not keep or use of a drawn gait."""
     sentences = []
     if gait.segment_table is not None:
-        sentences.append("The segment table was set aside.")
+        sentences.append("The segment table is set aside.")
     elif gait.recorded is not None:
-        sentences.append(f"The recorded motion of {gait.recorded.file} was set aside.")
+        sentences.append(f"The recorded motion of {gait.recorded.file} is set aside.")
     elif not is_drawn(gait):
-        sentences.append("The timeline that was painted was set aside; only its foot order counts.")
+        sentences.append("The painted timeline is set aside; only its foot order counts.")
     if sentences:
         sentences.append(UNDO_BRINGS_BACK)
     options, usual = gait.options, GaitOptions()

@@ -131,7 +131,7 @@ def test_another_kind_and_an_old_revision_are_refused(studio: StudioProcess, gai
 def test_a_table_is_set_aside_with_a_word(studio: StudioProcess) -> None:
     made = studio.ask("POST", "/api/gaits?copy_of=walk-manual-0&name=Table").content["id"]
     answer = converted(studio, made, "poses").content
-    assert answer["notice"] == "The segment table was set aside. Undo brings it back."
+    assert answer["notice"] == "The segment table is set aside. Undo brings it back."
     assert studio.ask("POST", f"/api/gaits/{made}/undo").content["document"]["segment_table"] is not None
 
 

@@ -117,7 +117,7 @@ def test_a_segment_table_gives_its_order_and_is_set_aside() -> None:
     assert poses.segment_table is None
     assert poses.order == (1, 3, 2, 4)
     notice = conversion_notice(table, poses)
-    assert notice == "The segment table was set aside. Undo brings it back."
+    assert notice == "The segment table is set aside. Undo brings it back."
 
 
 def test_options_that_are_not_used_are_named() -> None:

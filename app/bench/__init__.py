@@ -16,6 +16,7 @@ from app.bench.physics.tables import bench_physics
 from app.bench.robot.all import bench_bridge
 from app.bench.robot.flooded_stop import bench_floods
 from app.bench.robot.law import bench_law
+from app.bench.robot.moves import bench_moves
 from app.bench.robot.telemetry import bench_telemetry
 from app.bench.solvers.edits import bench_edits
 from app.bench.solvers.exact import bench_exact, bench_growth
@@ -50,6 +51,7 @@ BENCHMARKS: dict[str, Benchmark] = {
     "bridge": bench_bridge,
     "law": bench_law,
     "fastest": bench_fastest,
+    "moves": bench_moves,
     "telemetry": bench_telemetry,
     "floods": bench_floods,
     "video": bench_video,

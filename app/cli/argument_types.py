@@ -4,10 +4,13 @@ import argparse
 import math
 from collections.abc import Callable
 from enum import StrEnum
+from typing import TypeVar
 
 from core.patterns.problem import MOST_SAMPLES
 from core.pose_gaits.pose_problem import MOST_TURN
 from core.robot.model import ROBOT_NAMES
+
+Value = TypeVar("Value")
 
 ROBOTS = ", ".join(ROBOT_NAMES)
 
@@ -75,6 +78,11 @@ def zero_or(convert: Callable[[str], float]) -> Callable[[str], float]:
         return 0.0 if is_zero else convert(text)
 
     return converted
+
+
+def listed(convert: Callable[[str], Value]) -> Callable[[str], tuple[Value, ...]]:
+    """An argument type: one or several values of a type, with commas between them."""
+    return lambda text: tuple(convert(part.strip()) for part in text.split(","))
 
 
 def turn_or_side(text: str) -> float | str:

@@ -14,11 +14,12 @@ from app.cli.output import INFEASIBLE, NOT_FIT, end_on_signals, note, show
 from app.common.json import Json
 from app.documents.gait_json import gait_content
 from app.export.way_files import write_pose_gait
-from app.fastest.search import Searched, chosen_gait, order_name, search_content, searched
+from app.fastest.search import Searched, chosen_gait, search_content, searched
 from app.store.gait_files import write_atomically
 from core.errors import InputError
 from core.gait.gait import Gait, heading_step
 from core.gait.poses import POSE_LIMITS, Poses
+from core.library.library import order_name
 from core.library.new_gait import with_robot
 from core.pose_gaits.gait_poses import USUAL_STEP, new_pose_gait, pose_problem, with_poses
 from core.pose_gaits.pace import motion_words

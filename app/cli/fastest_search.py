@@ -4,7 +4,8 @@ import sys
 
 import numpy as np
 
-from app.fastest.search import Searched, order_name, travel_heading
+from app.fastest.search import Searched, travel_heading
+from core.library.library import order_name
 from core.pose_gaits.pose_problem import PoseProblem
 from solver_jobs import SearchStep, TriedGait
 

@@ -6,8 +6,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NoReturn
 
-from app.bench.solvers.edits import COUNT as EDITS
-from app.bench.solvers.edits import SEED
 from app.cli import (
     commands_bench,
     commands_fastest,
@@ -35,6 +33,7 @@ from app.cli.argument_types import (
     words_of,
     zero_or,
 )
+from app.cli.bench_options import add_bench_options
 from app.cli.gait_options import Method
 from app.common.version import VERSION
 from app.emulator.faults import Fault
@@ -111,14 +110,7 @@ def make_parser() -> argparse.ArgumentParser:
     text = "How far recorded foot tracks went, in cm and degrees, beside what was wanted."
     _trial_options(command("trial", commands_trial.run_trial, text))
     bench = command("bench", commands_bench.run_bench, "Measure what users feel.")
-    text = "none: all but page, gaits, scene and learning"
-    bench.add_argument("names", nargs="*", metavar="NAME", help=text)
-    bench.add_argument("--count", type=whole(1, 100_000), default=EDITS, help="edits to try (edits)")
-    bench.add_argument("--seed", type=whole(0, 2**31), default=SEED, help="of the edits (edits)")
-    text = "folder of published data (physics, learning)"
-    bench.add_argument("--reference", type=Path, default=None, help=text)
-    bench.add_argument("--report", type=Path, default=None, help="HTML page with plots to write (physics)")
-    bench.add_argument("--markdown", action="store_true", help="print tables as Markdown")
+    add_bench_options(bench)
     return parser
 
 

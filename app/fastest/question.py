@@ -7,10 +7,10 @@ from enum import StrEnum
 
 import numpy as np
 
-from app.fastest.search import chosen_gait, order_name
+from app.fastest.search import chosen_gait
 from core.gait.gait import Gait
 from core.gait.poses import Poses
-from core.library.library import library
+from core.library.library import library, order_name
 from core.library.new_gait import with_robot
 from core.pose_gaits.choices import Choice, choices
 from core.pose_gaits.front import MARGINS, STOP_BOUNDS

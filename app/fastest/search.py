@@ -9,7 +9,7 @@ import numpy as np
 from app.common.json import Json
 from core.gait.gait import Gait, Orientation
 from core.gait.poses import Poses
-from core.library.library import Group, library
+from core.library.library import order_name
 from core.pose_gaits.choices import Choice, Choices, choices
 from core.pose_gaits.front import MARGINS, STOP_BOUNDS, FrontPoint, front
 from core.pose_gaits.gait_poses import USUAL_STEP, with_pose_timeline
@@ -168,13 +168,3 @@ def tried_content(tried: TriedGait) -> Json:
 def travel_heading(problem: PoseProblem) -> float:
     """Direction half way through a cycle, rad from x."""
     return problem.heading + (0.0 if problem.on_the_spot else problem.turn / 2.0)
-
-
-def order_name(order: tuple[int, ...]) -> str | None:
-    """Id of the optimised gait with this circular foot order, or None."""
-    for entry in library().values():
-        own = entry.gait.order
-        is_straight = entry.group is Group.OPTIMISED and entry.gait.step[2] == 0.0
-        if is_straight and order in [own[first:] + own[:first] for first in range(len(own))]:
-            return entry.id
-    return None

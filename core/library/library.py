@@ -226,3 +226,13 @@ def manual_entry(family: str, version: int) -> LibraryEntry:
             f"{family} has no version {version}; choose one of {', '.join(map(str, versions))}.", "--version"
         )
     return entries[family, version]
+
+
+def order_name(order: tuple[int, ...]) -> str | None:
+    """Id of the optimised gait with this circular foot order, or None."""
+    for entry in library().values():
+        own = entry.gait.order
+        is_straight = entry.group is Group.OPTIMISED and entry.gait.step[2] == 0.0
+        if is_straight and order in [own[first:] + own[:first] for first in range(len(own))]:
+            return entry.id
+    return None

@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from app.common.version import VERSION
+
 Row = dict[str, Any]
 """A line of a benchmark's table; every row of a table has the same keys."""
 
@@ -20,6 +22,7 @@ def conditions() -> dict[str, str]:
     """What the figures were measured on."""
     load = os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")
     return {
+        "footfall": VERSION,
         "machine": platform.machine(),
         "processor": _processor(),
         "cores": str(os.cpu_count()),

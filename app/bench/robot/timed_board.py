@@ -31,6 +31,19 @@ class TimedMoves:
     ramps: NDArray[np.int64]
 
 
+@dataclass(frozen=True)
+class TimedMessage:
+    """One message as the board took it.
+
+    Args:
+        seconds: from its sending to its end line.
+        ramps: when each ramp of its motors begins and ends, s from its sending.
+    """
+
+    seconds: float
+    ramps: tuple[tuple[float, float], ...]
+
+
 class TimedBoard:
     """An emulated board that has started and stands near its first waypoint.
 
@@ -49,12 +62,31 @@ class TimedBoard:
 
     def send(self, strokes: Floats, duration: float = DURATION) -> tuple[float, int]:
         """Sends one waypoint and waits for its end line; seconds and ramps of it."""
-        began, done, sent = self.firmware.now, len(self.firmware.completions), b""
-        self.firmware.board.inbox += encode_waypoint(strokes.reshape(4, 3), duration)
-        while len(self.firmware.completions) == done:
+        message = self.timed(strokes, duration)
+        return message.seconds, len(message.ramps)
+
+    def timed(self, strokes: Floats, duration: float = DURATION) -> TimedMessage:
+        """Sends one waypoint and waits for its end line.
+
+        Args:
+            strokes: (4, 3) or (12,) m.
+            duration: planned time of the message, s.
+        """
+        firmware = self.firmware
+        began, done = firmware.now, len(firmware.completions)
+        ramps: list[tuple[float, float]] = []
+        ramp_began: float | None = None
+        firmware.board.inbox += encode_waypoint(strokes.reshape(4, 3), duration)
+        while len(firmware.completions) == done:
+            before = firmware.now
             next(self._program)
-            sent += b"".join(chunk.data for chunk in self.firmware.board.take_sent())
-        return self.firmware.now - began, sent.count(RAMP_FOLLOWS)
+            sent = firmware.board.take_sent()
+            if sent and ramp_began is not None:  # the board is mute during a ramp
+                ramps.append((ramp_began, before - began))
+                ramp_began = None
+            if RAMP_FOLLOWS in b"".join(chunk.data for chunk in sent):
+                ramp_began = sent[-1].time_us / 1e6 - began
+        return TimedMessage(firmware.now - began, tuple(ramps))
 
     @property
     def strokes(self) -> Floats:

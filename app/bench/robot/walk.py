@@ -66,7 +66,7 @@ def bench_walk(ways: Sequence[tuple[float, float | None]] = WAYS) -> list[Row]:
     rows: list[Row] = []
     if PUBLISHED.exists():
         read = read_trajectory(PUBLISHED).trajectory
-        knots = _as_published(model, read)
+        knots = as_published(model, read)
         plans = [plan_of_knots(model, read, knots, *way) for way in ways]
         published = walked(model, plans[0]).seconds
         rows += [_row("published", model, plan, published, "not judged") for plan in plans]
@@ -123,7 +123,7 @@ def _least_rise(feet: Floats, plan: WaypointPlan) -> float:
     return min(rises)
 
 
-def _as_published(model: RobotModel, motion: Trajectory) -> Waypoints:
+def as_published(model: RobotModel, motion: Trajectory) -> Waypoints:
     """The strokes that the published host sent: wherever they are out of range, at its edge."""
     strokes = free_strokes(model, motion.feet_world, motion.pose(model))
     kept = np.clip(strokes, LOWEST_MM / 1000.0, HIGHEST_MM / 1000.0)

@@ -1,0 +1,55 @@
+"""The picture of moves over time: the one in docs is what is drawn now, and shows what was measured."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from app.bench.robot.moves import moves_svg
+from app.bench.robot.moves_picture import moves_picture
+from app.bench.robot.walked_moves import Move, WalkedMoves, walks_content, walks_of
+from app.export.drawing import Box, Words
+from core.robot.model import load_robot
+from tests.support.command import run
+from tests.support.studio_process import PROJECT
+
+DATA = PROJECT / "docs/fastest_moves.json"
+PICTURE = PROJECT / "docs/fastest_moves.svg"
+
+
+def test_the_picture_in_docs_is_drawn_from_the_data_beside_it() -> None:
+    walks = walks_of(json.loads(DATA.read_text()))
+    assert moves_svg(walks) == PICTURE.read_text()
+    assert json.loads(json.dumps(walks_content(walks))) == json.loads(DATA.read_text())
+
+
+def test_each_ramp_is_a_bar_of_the_body_and_of_the_feet_in_the_air() -> None:
+    still = Move(0.3, (), (2,), 0.0)
+    lifts = Move(1.7, ((0.3, 1.3),), (2,), 5.0)
+    twice = Move(2.0, ((0.3, 0.9), (1.2, 1.5)), (1, 3), 0.0)
+    walk = WalkedMoves("Walk", 5.0, (still, lifts, twice))
+    colours = load_robot("deltawalker").colours
+    drawing = moves_picture((walk,), colours)
+    bars = [shape for shape in drawing.shapes if isinstance(shape, Box) and shape.radius]
+    assert [bar.fill for bar in bars] == [
+        "#475467",
+        colours[1],
+        colours[0],
+        colours[2],
+        colours[0],
+        colours[2],
+    ]
+    assert bars[0].width == pytest.approx(bars[2].width / 0.6)
+    words = [shape.text for shape in drawing.shapes if isinstance(shape, Words)]
+    assert (
+        "5.0 mm in 3 messages, 1 of them move nothing  ·  4.0 s, motors move 1.9 s of them  ·  1.25 mm/s"
+        in words
+    )
+
+
+def test_a_picture_needs_the_name_of_one(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    status, _, error = run(capsys, "bench", "moves", "--report", str(tmp_path / "moves.html"))
+    assert status == 2
+    assert "end its name in .svg" in error

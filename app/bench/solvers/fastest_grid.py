@@ -1,7 +1,7 @@
 """The fastest walk in mid-walk over a grid: foot orders and directions, steps, margins and stop bounds."""
 
 from collections.abc import Callable
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 from itertools import product
 from time import perf_counter
@@ -85,6 +85,8 @@ def _choices(model: RobotModel, orders: tuple[tuple[int, ...], ...]) -> list[Cho
 def bench_fastest_grid(grid: Grid, report: Callable[[SearchStep], object] = lambda step: None) -> list[Row]:
     """Solves every problem of a grid, as many at a time as there are cores.
 
+    Ctrl-C ends it with the rows of the problems that are answered by then.
+
     Args:
         grid: the problems.
         report: told after each answer.
@@ -93,12 +95,19 @@ def bench_fastest_grid(grid: Grid, report: Callable[[SearchStep], object] = lamb
         A row of each problem; of each order and direction the fastest gait of all its problems; the whole.
     """
     problems = grid.problems()
+    answered: dict[PoseProblem, TriedGait] = {}
+
+    def keep(step: SearchStep) -> None:
+        answered[step.newest.problem] = step.newest
+        report(step)
+
     began = perf_counter()
-    with closing(FastestSearch(niceness=0)) as search:
-        tried = search.solve(problems, report)
+    with closing(FastestSearch(niceness=0)) as search, suppress(KeyboardInterrupt):
+        search.solve(problems, keep)
     seconds = perf_counter() - began
+    tried = [answered[problem] for problem in problems if problem in answered]
     rows = [_row(one) for one in tried]
-    return [*rows, *_fastest_rows(tried), _whole(rows, problems[0].bounds, seconds)]
+    return [*rows, *_fastest_rows(tried), _whole(rows, problems, seconds)]
 
 
 def _row(tried: TriedGait) -> Row:
@@ -163,11 +172,13 @@ def _solved_count(tried: list[TriedGait]) -> int:
     return sum(one.result.gait is not None for one in tried)
 
 
-def _whole(rows: list[Row], bounds: PoseBounds, seconds: float) -> Row:
-    """How many were solved and confirmed, the limits that hold for all, and the time it took."""
+def _whole(rows: list[Row], problems: list[PoseProblem], seconds: float) -> Row:
+    """How many were answered, solved and confirmed, the limits that hold for all, and the time it took."""
+    bounds = problems[0].bounds
     low, high = bounds.plane_height
     return {
-        "problems": len(rows),
+        "problems": len(problems),
+        "answered": len(rows),
         "solved": sum(row["moves"] is not None for row in rows),
         "confirmed": sum(row["check"] == "confirmed" for row in rows),
         "clearance_mm": _mm(bounds.clearance),

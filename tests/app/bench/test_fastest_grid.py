@@ -86,6 +86,17 @@ def test_an_order_of_other_feet_is_refused() -> None:
 
 
 @pytest.mark.heavy
+def test_ctrl_c_ends_it_with_what_is_answered() -> None:
+    def interrupted(step: SearchStep) -> None:
+        raise KeyboardInterrupt
+
+    row, first, whole = bench_fastest_grid(Grid(((1, 2, 3, 4),), (0.02, 0.01), (0.006,), (1.5,)), interrupted)
+    assert (row["status"], row["check"]) == ("solved", "confirmed")
+    assert first["solved"] == "1 of 1"
+    assert (whole["problems"], whole["answered"]) == (4, 1)
+
+
+@pytest.mark.heavy
 def test_a_row_has_the_figures_of_a_gait_that_is_confirmed_or_its_status() -> None:
     told: list[SearchStep] = []
     grid = Grid(((1, 2, 3, 4),), (0.02, 0.19), (0.006,), (1.5,))
@@ -111,5 +122,5 @@ def test_a_row_has_the_figures_of_a_gait_that_is_confirmed_or_its_status() -> No
     assert first["fastest_of"] == "1-2-3-4 (c-gait), 0°"
     assert first["mm_s"] >= second["mm_s"]
     assert first["solved"] == second["solved"] == "1 of 2"
-    assert (whole["problems"], whole["solved"], whole["confirmed"]) == (4, 2, 2)
+    assert (whole["problems"], whole["answered"], whole["solved"], whole["confirmed"]) == (4, 4, 2, 2)
     assert [step.done for step in told] == [1, 2, 3, 4]

@@ -85,14 +85,15 @@ export function mountOptimise(store, edits, goTo) {
 
 /** What differs from the usual under the fold, so that it is not forgotten. */
 function moreInShort({ direction, options, held, poses }) {
-  if (poses) return direction > 1 ? `: direction ${direction}` : "";
-  const parts = [
+  const ofPoses = [poses?.overlap && "overlapping swings", direction > 1 && `direction ${direction}`];
+  const parts = poses ? ofPoses : [
     options.workspace !== "stroke" && "cylinder", options.cost !== "gentle" && `cost ${options.cost}`,
     direction > 1 && `direction ${direction}`, options.boundary === "periodic" && "cycle",
     options.friction !== null && "friction", options.motor_speed !== null && "motor speed", options.motor_acceleration !== null && "motor acceleration",
     options.turning === "return" && "turns at the end", held && "feet held up",
-  ].filter(Boolean);
-  return parts.length ? `: ${parts.join(", ")}` : "";
+  ];
+  const said = parts.filter(Boolean);
+  return said.length ? `: ${said.join(", ")}` : "";
 }
 
 /** What there is to say of the plan beside its figures. */

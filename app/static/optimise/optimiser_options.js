@@ -97,12 +97,25 @@ const POSE_NUMBERS = [
   { label: "Arm distance", name: "Arm distance", unit: "mm", min: 0, max: 10, step: 0.5, decimals: 1, help: "Least room between the arms of neighbouring legs; 0 where they may touch", ...limit("arm_distance") },
 ];
 
+const WITH_OVERLAP = 5;
+const OVERLAP = {
+  label: "Swings", name: "Overlap", options: [["false", "apart"], ["true", "overlapping"]],
+  help: "overlapping: a foot is lifted in the move that lowers the one before it, where the others balance the "
+    + "body. A cycle has fewer moves and is faster; the price is that one foot fewer carries the body in these moves",
+  read: ({ poses }) => String(poses?.overlap ?? false),
+  write: (document, value) => ({ ...document, poses: { ...document.poses, overlap: value === "true" } }),
+};
+
 /** The other fields that such a gait has as well. */
 const OF_POSES = new Set(["Robot", "Foot order", "Step", "Turn", "Clearance", "Stability margin", "Iterations", "Orientation", "Direction", "Notes"]);
-const ONLY_POSES = new Set([...POSE_CHOICES, ...POSE_NUMBERS].map(({ name }) => name));
+const ONLY_POSES = new Set([...POSE_CHOICES, ...POSE_NUMBERS, OVERLAP].map(({ name }) => name));
 
 /** Whether a gait has a field, by its accessible name. */
-export const hasField = ({ poses }, name) => (poses ? OF_POSES.has(name) || ONLY_POSES.has(name) : !ONLY_POSES.has(name));
+export function hasField({ poses, timeline }, name) {
+  // With two of four feet in the air the others balance nothing.
+  if (name === OVERLAP.name && timeline.feet.length < WITH_OVERLAP) return false;
+  return poses ? OF_POSES.has(name) || ONLY_POSES.has(name) : !ONLY_POSES.has(name);
+}
 
 const MORE_CHOICES = [
   { label: "Orientation", name: "Orientation", options: [["FB", "FB"], ["FBS", "FBS"]],
@@ -162,7 +175,10 @@ export function optimiserOptions(store, edits, makeNew) {
     robot: robotField(edits, makeNew),
     order: orderField(store, edits),
     main: [...STEP.map(number), ...POSE_CHOICES.map(choice), number(ITERATIONS), ...phaseFields(store, edits), ...LIMITS.map(number)],
-    more: [...POSE_NUMBERS.map(number), ...SHARES.map(number), ...CHOICES.map(choice), ...MORE_NUMBERS.map(number), ...MORE_CHOICES.map(choice), ...heldFields(store, edits), notesField(store, edits)],
+    more: [
+      choice(OVERLAP), ...[...POSE_NUMBERS, ...SHARES].map(number), ...CHOICES.map(choice), ...MORE_NUMBERS.map(number),
+      ...MORE_CHOICES.map(choice), ...heldFields(store, edits), notesField(store, edits),
+    ],
   };
 }
 

@@ -7,6 +7,12 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
+from app.documents.gait_json import gait_content
+from core.gait.gait import Orientation
+from core.gait.poses import Poses
+from core.library.new_gait import drawn_gait
+from core.pose_gaits.gait_poses import new_pose_gait
+from core.robot.model import load_robot
 from tests.support.page.opened import choose, opened_page
 from tests.support.studio_process import StudioProcess, wait_for
 
@@ -72,6 +78,31 @@ def test_another_sample_time_keeps_the_drawing_and_changes_how_long_it_takes(
     expect(page.locator("#undo-label")).to_have_text("sample time to 0.5 s")
     page.locator("#undo").click()
     expect(sample_time(page)).to_have_value("0.4")
+
+
+def test_swings_may_overlap_where_a_gait_for_the_robot_has_more_than_four_legs(
+    page: Page, studio: StudioProcess
+) -> None:
+    overlap = page.get_by_role("combobox", name="Overlap", exact=True)
+    choose(page, "Fast C-Gait")
+    unfold(page)
+    expect(page.get_by_role("spinbutton", name="Slip", exact=True)).to_be_visible()
+    expect(overlap).to_be_hidden()
+    model = load_robot("hexapod")
+    drawn = drawn_gait(model, "Six feet", Orientation.FBS, (1, 4, 2, 5, 3, 6), 0.02)
+    asked = gait_content(new_pose_gait("Six feet", drawn, Poses(free_step=False), model))
+    made = studio.ask("POST", "/api/gaits", asked).content["id"]
+    page.get_by_role("list", name="Gaits").get_by_role("button", name="Six feet").click()
+    expect(page.get_by_label("Gait name")).to_have_value("Six feet")
+    expect(overlap).to_have_value("false")
+    overlap.select_option("overlapping")
+    wait_for(lambda: studio.document(made)["poses"].get("overlap"), "swings overlap")
+    expect(page.locator("#undo-label")).to_have_text("overlap to overlapping")
+    expect(page.locator("#optimise summary").first).to_have_text("More: overlapping swings")
+    page.locator("#undo").click()
+    expect(overlap).to_have_value("false")
+    expect(page.locator("#optimise summary").first).to_have_text("More")
+    studio.ask("DELETE", f"/api/gaits/{made}")  # which ends its search
 
 
 def test_a_sequence_has_notes_of_its_own_and_all_else_from_its_parts(

@@ -5,9 +5,10 @@ from pydantic import Field
 
 from app.common.json import Json
 from app.web.dependencies import FiniteBody, TheStudio, changed
+from core.gait.foot_orders import named_orders
 from core.gait.gait import MOST_NAME, Gait, Orientation
 from core.gait.options import LEAST_PHASE_KNOTS, MOST_CLOSING_KNOTS, MOST_PHASE_KNOTS, GaitOptions
-from core.library.new_gait import DEFAULT_STEP, default_phase_knots, drawn_gait, named_orders
+from core.library.new_gait import DEFAULT_STEP, default_phase_knots, drawn_gait
 from core.robot.model import ROBOT_NAMES, RobotModel, load_robot
 
 router = APIRouter(prefix="/api", tags=["robots"])

@@ -1,12 +1,11 @@
 """New gaits: a timeline drawn from foot order and phase lengths, for any robot."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-
-import numpy as np
+from dataclasses import replace
 
 from core.errors import InputError
-from core.gait.gait import Gait, Orientation, heading_angle, heading_step
+from core.gait.foot_orders import named_orders
+from core.gait.gait import Gait, Orientation, heading_step
 from core.gait.held_feet import HeldFeet
 from core.gait.options import GaitOptions
 from core.library.sequence import derived
@@ -23,49 +22,10 @@ DEFAULT_STEP = 0.010
 MANY_LEGS = 8
 """From so many legs on phases are shorter, or an iteration would last most of a minute."""
 
-_OF_FOUR = {
-    Orientation.FB: (("Walk", (3, 2, 4, 1)), ("Amble", (3, 1, 4, 2))),
-    Orientation.FBS: (("S-Gait", (1, 2, 4, 3)), ("C-Gait", (1, 2, 3, 4))),
-}
-"""Foot orders of the optimised gaits (thesis Figure 3.4)."""
-
-
-@dataclass(frozen=True)
-class FootOrder:
-    """An order in which feet step, and what it is called; feet count from 1."""
-
-    name: str
-    feet: tuple[int, ...]
-
 
 def default_phase_knots(model: RobotModel) -> int:
     """Knots of each stance phase and of each swing: as published, fewer where many feet take turns."""
     return GaitOptions.phase_knots if model.leg_count < MANY_LEGS else 3
-
-
-def named_orders(model: RobotModel, orientation: Orientation) -> tuple[FootOrder, ...]:
-    """Orders that work for a robot, at direction 1; the first is the one to begin with.
-
-    With four legs those of the thesis; else a wave from the back foot to the front one, side by side, and a
-    ripple in which opposite feet follow each other.
-
-    Args:
-        model: the robot.
-        orientation: FB looks along the diagonal between x and y, FBS along x.
-    """
-    if model.leg_count == 4:
-        return tuple(FootOrder(name, feet) for name, feet in _OF_FOUR[orientation])
-    heading = heading_angle(orientation)
-    ahead = np.round(np.cos(model.azimuths - heading), 9)
-    left = np.round(np.sin(model.azimuths - heading), 9)
-    wave = np.lexsort((-left, ahead))
-    half = model.leg_count // 2
-    ripple = [foot for first in range(half) for foot in (first, first + half)]
-    ripple += list(range(2 * half, model.leg_count))
-    return tuple(
-        FootOrder(name, tuple(int(foot) + 1 for foot in feet))
-        for name, feet in (("Wave", wave), ("Ripple", ripple))
-    )
 
 
 def drawn_gait(

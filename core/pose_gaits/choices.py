@@ -6,11 +6,14 @@ from math import factorial
 
 import numpy as np
 
+from core.gait.foot_orders import named_orders
+from core.gait.gait import Orientation
 from core.gait.mirroring import mirrored_feet
 from core.pose_gaits.pose_problem import PoseProblem
+from core.robot.model import RobotModel
 
 MOST_ORDERS = 8
-"""Foot orders that are tried where a robot has more; an even choice of them."""
+"""Foot orders that are tried beside the one that was asked where a robot has more."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +57,8 @@ class Choices:
 def choices(problem: PoseProblem, order: tuple[int, ...] | None = None) -> Choices:
     """Orders, directions and overlaps that lead to different gaits of a problem.
 
-    The mirror image of a straight gait is the same gait, so only one of the two is tried.
+    The mirror image of a straight gait is the same gait, so only one of the two is tried. Where a robot has
+    more than `MOST_ORDERS` foot orders, those that have a name come first, and the rest is an even choice.
 
     Args:
         problem: what is asked; its order is tried first, its heading does not count.
@@ -62,10 +66,7 @@ def choices(problem: PoseProblem, order: tuple[int, ...] | None = None) -> Choic
     """
     legs = problem.model.leg_count
     count = factorial(legs - 1)
-    orders = [
-        _from_one(problem.order),
-        *(_nth_order(legs, n) for n in range(0, count, -(-count // MOST_ORDERS))),
-    ]
+    orders = [_from_one(problem.order), *_other_orders(problem.model)]
     places = range(2)
     if order is not None:
         # In other directions an order goes as other orders do in the first two.
@@ -83,6 +84,19 @@ def choices(problem: PoseProblem, order: tuple[int, ...] | None = None) -> Choic
             is_other = overlapping.of(problem).move_count < apart.of(problem).move_count
             found += [apart, overlapping] if is_other else [apart]
     return Choices(tuple(found), count)
+
+
+def _other_orders(model: RobotModel) -> list[tuple[int, ...]]:
+    """Orders that are tried whichever was asked, at most `MOST_ORDERS`; see `choices`."""
+    legs = model.leg_count
+    count = factorial(legs - 1)
+    if count <= MOST_ORDERS:
+        return [_nth_order(legs, number) for number in range(count)]
+    named = [_from_one(order.feet) for way in Orientation for order in named_orders(model, way)]
+    chosen = list(dict.fromkeys(named))[:MOST_ORDERS]
+    stride = -(-count // max(MOST_ORDERS - len(chosen), 1))
+    others = [_nth_order(legs, number) for number in range(0, count, stride)]
+    return list(dict.fromkeys([*chosen, *others]))[:MOST_ORDERS]
 
 
 def _nth_order(legs: int, number: int) -> tuple[int, ...]:

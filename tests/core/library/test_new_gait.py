@@ -7,9 +7,10 @@ from typing import Any
 import pytest
 
 from core.errors import InputError
+from core.gait.foot_orders import named_orders
 from core.gait.gait import Orientation, drawn_timeline, motion_problem
 from core.library.library import library, manual_entry, optimised_entry
-from core.library.new_gait import DEFAULT_STEP, default_phase_knots, drawn_gait, named_orders, with_robot
+from core.library.new_gait import DEFAULT_STEP, default_phase_knots, drawn_gait, with_robot
 from core.problem.motion_check import check_motion
 from core.robot.model import ROBOT_NAMES, load_robot
 from solver_jobs import SolveStatus, solve_live

@@ -9,7 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from core.pose_gaits.choices import choices
+from core.gait.foot_orders import named_orders
+from core.gait.gait import Orientation
+from core.pose_gaits.choices import MOST_ORDERS, choices
 from core.pose_gaits.front import FrontPoint, front
 from core.pose_gaits.pose_problem import PoseProblem
 from core.robot.model import load_robot
@@ -52,6 +54,20 @@ def test_a_given_order_is_tried_in_every_direction_that_differs() -> None:
 def test_the_order_that_was_asked_is_tried_first() -> None:
     ripple = replace(problem("hexapod"), order=(1, 4, 2, 5, 3, 6))
     assert choices(ripple).tried[0].order == (1, 4, 2, 5, 3, 6)
+
+
+@pytest.mark.parametrize("robot", ["hexapod", "dodecapod"])
+def test_orders_that_have_a_name_are_tried_first(robot: str) -> None:
+    asked = problem(robot)
+    named = {
+        order.feet[order.feet.index(1) :] + order.feet[: order.feet.index(1)]
+        for way in Orientation
+        for order in named_orders(asked.model, way)
+    }
+    tried = list(dict.fromkeys(choice.order for choice in choices(asked).tried))
+    assert tried[0] == asked.order
+    assert set(tried[1 : 1 + len(named)]) == named
+    assert len(tried) <= MOST_ORDERS + 1
 
 
 def test_six_legs_may_lower_a_foot_while_the_next_is_lifted() -> None:

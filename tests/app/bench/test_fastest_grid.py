@@ -119,7 +119,7 @@ def test_a_row_has_the_figures_of_a_gait_that_is_confirmed_or_its_status() -> No
     assert solved["least_margin_mm"] >= 5.95
     assert solved["stop_s"] <= 1.5 + 0.18
     assert (no["status"], no["moves"], no["check"]) == ("infeasible", None, None)
-    assert first["fastest_of"] == "1-2-3-4 (c-gait), 0°"
+    assert {first["fastest_of"], second["fastest_of"]} == {"1-2-3-4 (c-gait), 0°", "1-2-3-4 (c-gait), 45°"}
     assert first["mm_s"] >= second["mm_s"]
     assert first["solved"] == second["solved"] == "1 of 2"
     assert (whole["problems"], whole["answered"], whole["solved"], whole["confirmed"]) == (4, 4, 2, 2)

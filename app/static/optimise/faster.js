@@ -3,7 +3,7 @@
  * *Draw it freely* leads back.
  */
 
-import { api } from "../api/gaits.js";
+import { ApiError, api } from "../api/gaits.js";
 import { stepTurn } from "../document/step.js";
 import { freeName } from "../document/gait_names.js";
 import { dialogFrame, openDialog } from "../lib/dialogs.js";
@@ -13,10 +13,12 @@ import { attempt, toast } from "../lib/toasts.js";
 
 const HELP = "The same foot order and step, made for the robot's clock; shows both side by side first";
 const FREELY = "Makes a drawn gait with this foot order and step, whose timeline can be painted";
+const BROKEN_OFF = "The search broke off. Try again once the studio answers.";
 const MORE = "More iterations, a longer step or a later stop bound make it gain more.";
 const USE = "Makes this gait one for the robot's clock; one Undo brings the drawn one back";
 const NEW = "Keeps this gait as it is, and makes another one";
-const ABOUT = "made for the robot's clock: few poses, and every motor goes straight from one to the next.";
+const ABOUT = "with the same foot order and step, made for the robot's clock: few poses, and every motor "
+  + "goes straight from one to the next.";
 const DEGREES = 180 / Math.PI;
 /** Iterations from which a walk has some that are neither the first nor the last. */
 const MIDDLE = 3;
@@ -135,37 +137,46 @@ function isWorse({ state, now, faster }, { step }) {
   return Boolean(now && faster && Math.abs(faster[rate]) < Math.abs(now[rate]));
 }
 
+/** The dialog's buttons; `take` gives what a press does. */
+function buttons(close, take) {
+  const use = h("button", { type: "submit", class: "primary", text: "Use this", title: USE });
+  const asNew = h("button", { type: "button", text: "As a new gait", title: NEW });
+  asNew.addEventListener("click", () => take("new"));
+  const cancel = h("button", { type: "button", text: "Cancel", on: { click: () => close(null) } });
+  const allow = (isAllowed) => { use.disabled = asNew.disabled = !isAllowed; };
+  return { element: h("div", { class: "buttons" }, cancel, asNew, use), allow };
+}
+
 /** Shows both gaits while the search is on; resolves to `use` or `new` with the last state, or to null. */
 function ask(document, name, search) {
-  const signal = new AbortController();
+  const ending = new AbortController();
   return openDialog((close) => {
     const sides = table(document);
     const line = h("p", { role: "status", "aria-label": "Comparison" });
     const notice = h("p", { class: "quiet" });
     let last = null;
-    const take = (act) => () => { if (last?.state === "solved") close({ act, state: last }); };
-    const use = h("button", { type: "submit", class: "primary", text: "Use this", title: USE });
-    const asNew = h("button", { type: "button", text: "As a new gait", title: NEW });
-    asNew.addEventListener("click", take("new"));
-    const cancel = h("button", { type: "button", text: "Cancel", on: { click: () => close(null) } });
+    const take = (act) => { if (last.state === "solved") close({ act, state: last }); };
+    const acts = buttons(close, take);
     const show = (state) => {
       last = state;
       sides.show(state);
       setText(line, lineOf(state, document));
       setText(notice, state.notice ?? "");
       line.toggleAttribute("data-worse", isWorse(state, document));
-      use.disabled = asNew.disabled = state.state !== "solved";
+      acts.allow(state.state === "solved");
     };
+    const fail = (sentence) => show({ ...NOTHING, now: last.now, state: "failed", sentence });
     show({ ...NOTHING, state: "running", stage: "waiting for the solver" });
-    search(signal.signal, show).catch((error) => {
-      if (!signal.signal.aborted) show({ ...NOTHING, state: "failed", sentence: error.message });
-    });
-    const dialog = dialogFrame("Faster on the robot", close, take("use"),
-      h("p", { class: "quiet", text: `“${name}” with the same foot order and step, ${ABOUT}` }),
-      sides.element, line, notice, h("div", { class: "buttons" }, cancel, asNew, use));
+    search(ending.signal, show).then(
+      () => { if (last.state === "running") fail(BROKEN_OFF); },
+      (error) => fail(error instanceof ApiError ? error.message : BROKEN_OFF),
+    );
+    const about = h("p", { class: "quiet", text: `“${name}” ${ABOUT}` });
+    const content = [about, sides.element, line, notice, acts.element];
+    const dialog = dialogFrame("Faster on the robot", close, () => take("use"), ...content);
     dialog.classList.add("faster");
     return dialog;
-  }).finally(() => signal.abort());
+  }).finally(() => ending.abort());
 }
 
 async function compare(store, edits, show) {

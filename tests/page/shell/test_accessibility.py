@@ -78,6 +78,16 @@ def test_the_dialog_for_a_new_gait_has_no_serious_finding(page: Page, scheme: st
     assert serious_findings(page) == []
 
 
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_the_comparison_with_a_faster_gait_has_no_serious_finding(page: Page, scheme: str) -> None:
+    page.emulate_media(color_scheme="dark" if scheme == "dark" else "light")
+    page.get_by_role("button", name="Faster on the robot").click()
+    dialog = page.get_by_role("dialog", name="Faster on the robot")
+    expect(dialog.get_by_role("status")).to_contain_text("Looking for the fastest motion")
+    assert serious_findings(page) == []
+    dialog.get_by_role("button", name="Cancel").click()
+
+
 def test_a_finding_would_be_found(page: Page) -> None:
     page.evaluate(
         """() => {

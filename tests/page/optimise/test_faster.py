@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
+from tests.support.page.labels import require_whole_labels
 from tests.support.page.opened import choose, look, opened_page
 from tests.support.studio_process import StudioProcess
 
@@ -46,11 +48,12 @@ def compared(page: Page) -> Locator:
     return dialog
 
 
-def test_both_sides_are_compared_and_taken_over_in_one_undo_step(page: Page) -> None:
+def test_both_sides_are_compared_and_taken_over_in_one_undo_step(page: Page, tmp_path: Path) -> None:
     verdict, undo = page.get_by_role("status", name="Verdict"), page.get_by_role("button", name="Undo")
     expect(button(page, "Draw it freely")).to_be_hidden()
     dialog = compared(page)
     look(page, "faster")
+    require_whole_labels(page, "faster", tmp_path)
     speeds = dialog.get_by_role("row", name="Speed")
     expect(speeds).to_have_count(2)
     for row in speeds.all():

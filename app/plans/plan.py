@@ -32,8 +32,9 @@ from core.motion.balance import balance_margins
 from core.motion.support_polygon import stability_margins
 from core.motion.trajectory import Trajectory
 from core.pose_gaits.gait_poses import asked_of, drawn_poses, found_gait, gait_of_poses, pose_problem
+from core.pose_gaits.motion_in_move import motion_along
 from core.pose_gaits.pace import motion_words
-from core.pose_gaits.pose_check import check_poses, motion_along
+from core.pose_gaits.pose_check import check_poses
 from core.pose_gaits.pose_gait import PoseGait
 from core.problem.initial_guess import initial_guess
 from core.problem.motion_check import check_motion

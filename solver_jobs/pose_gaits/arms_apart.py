@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from core.pose_gaits.pose_check import least_arm_distance, rest_strokes
+from core.pose_gaits.motion_in_move import least_arm_distance
+from core.pose_gaits.pose_check import rest_strokes
 from core.pose_gaits.pose_problem import PoseProblem
 from core.pose_gaits.start_motion import MM
 from core.robot.arms import arm_gaps

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from core.pose_gaits.pose_check import least_arm_distance
+from core.pose_gaits.motion_in_move import least_arm_distance
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import LEAST_CLEARANCE, PoseProblem
 from core.pose_gaits.start_motion import MM

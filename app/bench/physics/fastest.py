@@ -16,7 +16,7 @@ from core.motion.trajectory import Trajectory
 from core.physics.masses import default_physics
 from core.physics.metrics import report
 from core.physics.problem import SimulationProblem
-from core.pose_gaits.pose_check import least_arm_distance
+from core.pose_gaits.motion_in_move import least_arm_distance
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseBounds, PoseProblem
 from core.pose_gaits.start_motion import TURN_GUESS

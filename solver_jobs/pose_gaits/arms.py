@@ -5,8 +5,9 @@ it to the corners of either. A row for every two arms at every place would be te
 motion is found first, and the planes stand only where it brings two arms near each other.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 from casadi import DM, SX, vertcat
@@ -53,6 +54,22 @@ class Plane:
 
     normal: tuple[float, float, float]
     offset: float
+
+
+@dataclass(frozen=True, eq=False)
+class ArmRows:
+    """Arms that have to keep apart.
+
+    Args:
+        distance: room between the bars of two arms, m.
+        planes: where, each with the plane between them from which the search starts.
+    """
+
+    distance: float
+    planes: Mapping[ArmPlace, Plane]
+
+
+NO_ARMS = ArmRows(0.0, MappingProxyType({}))
 
 
 def near_arms(gait: PoseGait, distance: float) -> dict[ArmPlace, Plane]:

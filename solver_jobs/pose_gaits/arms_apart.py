@@ -7,8 +7,8 @@ from core.pose_gaits.pose_check import rest_strokes
 from core.pose_gaits.pose_problem import PoseProblem
 from core.pose_gaits.start_motion import MM
 from core.robot.arms import arm_gaps
-from solver_jobs.pose_gaits.arms import NEAR, ArmPlace, Plane, near_arms
-from solver_jobs.pose_gaits.pose_program import ArmRows, PoseProgram
+from solver_jobs.pose_gaits.arms import NEAR, ArmPlace, ArmRows, Plane, near_arms
+from solver_jobs.pose_gaits.pose_program import PoseProgram
 from solver_jobs.pose_gaits.program import Attempt
 from solver_jobs.pose_gaits.runs import Runs, pace_of
 

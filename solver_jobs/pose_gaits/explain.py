@@ -9,8 +9,9 @@ from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import LEAST_CLEARANCE, PoseProblem
 from core.pose_gaits.start_motion import MM
 from core.wire.robot_time import deaf_seconds
-from solver_jobs.pose_gaits.pose_program import LEVER, SLACKS, PoseProgram, Weights, asked_reach
+from solver_jobs.pose_gaits.pose_program import LEVER, PoseProgram, asked_reach
 from solver_jobs.pose_gaits.program import Attempt, Row
+from solver_jobs.pose_gaits.weights import SLACKS, Weights
 
 FARTHEST = Weights(time=1e-3, reach=1.0)
 LOOSEST = Weights(time=1e-3, slack=10.0)

@@ -6,23 +6,21 @@ strokes are (1 − m) h_k + m h_{k+1}, and what body and feet do there has to be
 their footholds a little within a move, since motors that go straight do not keep them exactly.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
 from itertools import combinations
-from types import MappingProxyType
 
 import numpy as np
-from casadi import DM, SX, Function, fmax, horzcat, sqrt, sum1, sumsqr, vertcat
+from casadi import DM, SX, Function, horzcat, sqrt, sum1, sumsqr, vertcat
 
 from core.arrays import Floats
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import FRACTIONS, MOST_TURN, REST_HEIGHT, SHORTEST_MOVE, PoseProblem
 from core.pose_gaits.start_motion import MM, PosesStart, StartMotion
 from core.wire.robot_time import RAMP_SPEED
-from solver_jobs.nlp.leg_equations import motor_arms, squared_offsets
-from solver_jobs.pose_gaits.arms import ArmPlace, Plane, arm_corners
+from solver_jobs.pose_gaits.arms import NO_ARMS, ArmPlace, ArmRows, arm_corners
+from solver_jobs.pose_gaits.postures import Posture, leg_strokes, plane_height
 from solver_jobs.pose_gaits.program import Program, Row
 from solver_jobs.pose_gaits.turning import turned
+from solver_jobs.pose_gaits.weights import SLACKS
 
 STROKE_ROOM = 0.001
 """Strokes stay this much within their range, so that a rounded file does, mm."""
@@ -33,57 +31,10 @@ TURNED_SHOE_ROOM = 0.2
 HIGHEST_FOOT = 20.0
 FAR = 3000.0
 """No unknown is farther than this, mm."""
-LEAST_DEPTH = 5.0
-"""A rod's depth that the equations do not go below while IPOPT looks around, mm."""
 LEAST_NORMAL = 0.25
 """Least squared length of a plane's normal: one of length 0 would separate nothing."""
 LEVER = 80.0
 """Unknown angles stand as the way at this distance from the body's axis, mm: all unknowns are of one size."""
-SLACKS = ("margin", "clearance", "shoe distance", "stop bound")
-"""Limits that an explanation may loosen."""
-
-
-@dataclass(frozen=True)
-class Weights:
-    """What the cost consists of.
-
-    Args:
-        time: of the robot's time, a second.
-        pace: of the robot's time for each 30 mm of travel, on the spot at `LEVER`; in place of `time` where
-            step or turn is free.
-        slip: of squared deviations of standing feet, mm².
-        sway: of squared differences from an even travel of the body, mm².
-        reach: taken off for each mm of the step, on the spot at `LEVER`.
-        slack: of each mm by which a limit is loosened.
-    """
-
-    time: float = 0.0
-    pace: float = 0.0
-    slip: float = 0.0
-    sway: float = 0.0
-    reach: float = 0.0
-    slack: float = 0.0
-
-    @property
-    def values(self) -> Floats:
-        """(6,) as the program's parameters."""
-        return np.array([self.time, self.pace, self.slip, self.sway, self.reach, self.slack])
-
-
-@dataclass(frozen=True, eq=False)
-class ArmRows:
-    """Arms that have to keep apart.
-
-    Args:
-        distance: room between the bars of two arms, m.
-        planes: where, each with the plane between them from which the search starts.
-    """
-
-    distance: float
-    planes: Mapping[ArmPlace, Plane]
-
-
-NO_ARMS = ArmRows(0.0, MappingProxyType({}))
 
 
 def asked_reach(problem: PoseProblem) -> float:
@@ -121,7 +72,7 @@ class PoseProgram:
         self._longest = problem.largest_move * MM
         self._shortest = min(SHORTEST_MOVE * MM, self._longest)
         self._deviations: list[SX] = []
-        self._within: dict[tuple[int, float], _Posture] = {}
+        self._within: dict[tuple[int, float], Posture] = {}
         self._slack_symbols = {
             name: self.program.variable(f"slack {name}", [0.0], [0.0], [0.0]) for name in SLACKS
         }
@@ -173,7 +124,7 @@ class PoseProgram:
         self._add_ends()
         self.feet = self._pose_feet()
         self.strokes = [
-            vertcat(*(self._strokes(foot, leg, body, heading) for leg, foot in enumerate(feet)))
+            vertcat(*(leg_strokes(self._model, leg, body, foot, heading) for leg, foot in enumerate(feet)))
             for feet, body, heading in zip(self.feet, self.bodies, self.headings, strict=True)
         ]
         for pose in range(problem.move_count + 1):
@@ -263,18 +214,6 @@ class PoseProgram:
         away = first - self.bodies[0][:2]
         return self.bodies[-1][:2] + turned(away, self.turn * self.problem.all_cycles)
 
-    def _strokes(self, foot: SX, leg: int, body: SX, heading: SX | float) -> SX:
-        """(3,) inverse kinematics of a leg."""
-        model = self._model
-        robot = turned(foot[:2] - body[:2], -heading)
-        rotation = model.R_robot_from_module[leg][:2, :2].T
-        module = DM(rotation) @ (robot - DM(model.module_centres_robot[leg, :2] * MM))
-        arms = motor_arms(model.leg.reach_radius * MM, (module[0], module[1], SX(0)))
-        depths = [
-            sqrt(fmax((model.leg.link_length * MM) ** 2 - d, LEAST_DEPTH**2)) for d in squared_offsets(arms)
-        ]
-        return vertcat(*(body[2] - foot[2] - depth for depth in depths))
-
     def _bound_strokes(self, pose: int) -> None:
         stroke = self._model.stroke
         for leg in range(self._model.leg_count):
@@ -350,10 +289,12 @@ class PoseProgram:
                     for leg in range(legs)
                 ]
                 mixed = (1 - share) * self.strokes[move] + share * self.strokes[move + 1]
-                self._within[move, share] = _Posture(body, feet, mixed, heading)
+                self._within[move, share] = Posture(body, feet, mixed, heading)
                 for leg in range(legs):
                     asked = mixed[3 * leg : 3 * leg + 3]
-                    self.program.bound(self._strokes(feet[leg], leg, body, heading) - asked, 0.0, 0.0)
+                    self.program.bound(
+                        leg_strokes(self._model, leg, body, feet[leg], heading) - asked, 0.0, 0.0
+                    )
                     if leg in standing:
                         away = feet[leg] - self.feet[move][leg]
                         row = Row("slip", move, leg)
@@ -361,7 +302,7 @@ class PoseProgram:
                         self.program.bound(away[2], -slip / 2, slip / 2, row)
                         self._deviations.append(away)
                     else:
-                        height = feet[leg][2] - _plane_height(feet[leg], [feet[i] for i in standing])
+                        height = feet[leg][2] - plane_height(feet[leg], [feet[i] for i in standing])
                         asked_height = problem.required_height(move, leg, share) * MM
                         row = Row("clearance", move, leg)
                         self.program.bound(height + self._slack_symbols["clearance"], asked_height, row=row)
@@ -384,10 +325,10 @@ class PoseProgram:
                 ):
                     self.program.bound(side * (unit.T @ corner - offset), half, row=row)
 
-    def _posture(self, place: ArmPlace) -> "_Posture":
+    def _posture(self, place: ArmPlace) -> Posture:
         move = place.move
         if place.share == 0.0:
-            return _Posture(self.bodies[move], self.feet[move], self.strokes[move], self.headings[move])
+            return Posture(self.bodies[move], self.feet[move], self.strokes[move], self.headings[move])
         return self._within[move, place.share]
 
     # The cost, and what comes of it
@@ -438,45 +379,3 @@ class PoseProgram:
             feet.reshape(poses, legs, 3) / MM,
             strokes.reshape(poses, legs, 3) / MM,
         )
-
-
-@dataclass(frozen=True, eq=False)
-class _Posture:
-    """The robot at a place of a move.
-
-    Args:
-        body: (3,) mm.
-        feet: (3,) each, mm.
-        strokes: (3·legs,) mm.
-        heading: rad.
-    """
-
-    body: SX
-    feet: list[SX]
-    strokes: SX
-    heading: SX | float
-
-
-def _plane_height(foot: SX, standing: list[SX]) -> SX:
-    """Height at a foot of the plane that fits the standing feet best; three of them lie on it.
-
-    With places relative to the foot it is the intercept of the least-squares plane, by Cramer's rule.
-    """
-    xs, ys = ([point[axis] - foot[axis] for point in standing] for axis in (0, 1))
-    zs = [point[2] for point in standing]
-    sums = {
-        (i, j): sum(a * b for a, b in zip(u, v, strict=True))
-        for i, u in enumerate((xs, ys, [SX(1)] * len(xs)))
-        for j, v in enumerate((xs, ys, [SX(1)] * len(xs), zs))
-    }
-
-    def determinant(columns: tuple[int, int, int]) -> SX:
-        a, b, c = columns
-        return SX(
-            sums[0, a] * (sums[1, b] * sums[2, c] - sums[1, c] * sums[2, b])
-            - sums[0, b] * (sums[1, a] * sums[2, c] - sums[1, c] * sums[2, a])
-            + sums[0, c] * (sums[1, a] * sums[2, b] - sums[1, b] * sums[2, a])
-        )
-
-    height: SX = determinant((0, 1, 3)) / determinant((0, 1, 2))
-    return height

@@ -9,8 +9,9 @@ from core.arrays import Floats
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import SHORTEST_MOVE, PoseProblem
 from core.pose_gaits.start_motion import MM
-from solver_jobs.pose_gaits.pose_program import SLACKS, PoseProgram, Weights, asked_reach
+from solver_jobs.pose_gaits.pose_program import PoseProgram, asked_reach
 from solver_jobs.pose_gaits.program import MOST_ITERATIONS, Attempt
+from solver_jobs.pose_gaits.weights import SLACKS, Weights
 from solver_jobs.results.pose import PoseProgress
 
 FASTEST = Weights(time=1.0, pace=0.0)

@@ -13,9 +13,10 @@ from core.pose_gaits.start_motion import MM, PosesStart
 from solver_jobs.pose_gaits.arms_apart import fastest_apart, too_near_at_rest
 from solver_jobs.pose_gaits.explain import FARTHEST, NOT_PROVEN, arms_explained, explained
 from solver_jobs.pose_gaits.lengthening import lengthened
-from solver_jobs.pose_gaits.pose_program import PoseProgram, Weights, asked_reach
+from solver_jobs.pose_gaits.pose_program import PoseProgram, asked_reach
 from solver_jobs.pose_gaits.program import Attempt
 from solver_jobs.pose_gaits.runs import FASTEST, FREE, Cancelled, Forced, Report, Runs, pace_of
+from solver_jobs.pose_gaits.weights import Weights
 from solver_jobs.results.motion import SolveStatus
 from solver_jobs.results.pose import PoseProgress, PoseResult
 

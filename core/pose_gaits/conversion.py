@@ -222,8 +222,8 @@ def _require_drawable(gait: Gait, model: RobotModel) -> None:
         raise InputError("A drawn gait cannot sway. Set Sway to 0 first.", "poses.sway")
     if poses.overlap:
         raise InputError(
-            "Here a foot is lifted while the one before it is lowered. A timeline that is drawn from a foot "
-            "order has every foot down between two steps.",
+            "The swings overlap: a foot is lifted while the one before it is lowered. A timeline that is "
+            "drawn from a foot order has every foot down between two steps. Set Swings to “apart” first.",
             "poses.overlap",
         )
     if _is_curve(gait):

@@ -28,6 +28,19 @@ def lines(studio: StudioProcess, question: dict[str, Any]) -> Iterator[dict[str,
             yield json.loads(line)
 
 
+def test_prices_that_come_with_the_program_are_there_at_once(studio: StudioProcess) -> None:
+    first = next(lines(studio, ASKED))
+    options = first["options"]
+    bounds = {one["value"]: one["price"]["pace"] for one in options if one["group"] == "stop_bound"}
+    assert set(bounds) == {1.0, 1.2, 1.5, 2.0}
+    # A stop that is heard earlier costs speed.
+    assert bounds[1.0] < 0.75 * bounds[1.5]
+    assert bounds[1.5] > 0.0030
+    orders = [one for one in options if one["group"] == "order"]
+    assert len(orders) == 7
+    assert all(one["price"]["pace"] > 0.0018 for one in orders)
+
+
 def test_a_price_that_is_not_known_is_looked_for(studio: StudioProcess) -> None:
     asked = {**ASKED, "step": 0.0123}
     answer = lines(studio, asked)

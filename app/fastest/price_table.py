@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from app.fastest.prices import Price, price_key, price_of
-from app.fastest.question import FastestQuestion, options
+from app.fastest.request import FastestRequest, options
 from core.pose_gaits.front import MARGINS, STOP_BOUNDS
 from core.pose_gaits.pose_gait import PoseGait
 from core.pose_gaits.pose_problem import PoseProblem
@@ -20,14 +20,14 @@ FILE = Path(__file__).resolve().parents[2] / "core" / "data" / "prices.toml"
 HEAD = "# Written by app/fastest/price_table.py; SI. By the hash of what is asked.\n"
 
 
-def priced_questions() -> list[FastestQuestion]:
-    """The questions with a price: every foot order with each value of its options; ways of the first one.
+def priced_requests() -> list[FastestRequest]:
+    """The requests with a price: every foot order with each value of its options; ways of the first one.
 
     Margin and stop bound change together, since a person weighs one against the other.
     """
-    base = FastestQuestion()
+    base = FastestRequest()
     first = options(base)
-    orders = [option.question for option in first if option.group == "order"]
+    orders = [option.request for option in first if option.group == "order"]
     bounds = [
         replace(asked, margin=margin, stop_bound=bound)
         for asked in orders
@@ -35,37 +35,37 @@ def priced_questions() -> list[FastestQuestion]:
         for bound in STOP_BOUNDS
     ]
     others = [
-        option.question
+        option.request
         for asked in orders
         for option in options(asked)
         if option.group in ("step", "clearance", "sway")
     ]
-    chosen = [*bounds, *others, *(option.question for option in first if option.group == "way")]
-    by_key = {price_key(question.problem()): question for question in [*orders, *chosen]}
+    chosen = [*bounds, *others, *(option.request for option in first if option.group == "course")]
+    by_key = {price_key(request.problem()): request for request in [*orders, *chosen]}
     return list(by_key.values())
 
 
-def solved(search: FastestSearch, questions: Iterable[FastestQuestion]) -> dict[str, Price]:
+def solved(search: FastestSearch, requests: Iterable[FastestRequest]) -> dict[str, Price]:
     """Prices by their keys; each gait is looked for beside the first one of its foot order."""
     found: dict[str, Price] = {}
-    firsts: dict[tuple[object, ...], FastestQuestion] = {}
-    for question in questions:
-        firsts.setdefault(_kind(question), question)
-    first = search.solve([question.problem() for question in firsts.values()], _say)
+    firsts: dict[tuple[object, ...], FastestRequest] = {}
+    for request in requests:
+        firsts.setdefault(_kind(request), request)
+    first = search.solve([request.problem() for request in firsts.values()], _say)
     near: dict[tuple[object, ...], PoseGait | None] = {
         kind: tried.result.gait for kind, tried in zip(firsts, first, strict=True)
     }
-    others = [question for question in questions if question not in firsts.values()]
-    problems: list[PoseProblem] = [question.problem() for question in others]
-    beside = [near[_kind(question)] for question in others]
+    others = [request for request in requests if request not in firsts.values()]
+    problems: list[PoseProblem] = [request.problem() for request in others]
+    beside = [near[_kind(request)] for request in others]
     for tried in (*first, *search.solve(problems, _say, beside)):
         found |= _entry(tried)
     return found
 
 
-def _kind(question: FastestQuestion) -> tuple[object, ...]:
+def _kind(request: FastestRequest) -> tuple[object, ...]:
     """Questions of one kind have the same moves in the same direction."""
-    return (question.choice, question.way, question.turn, question.sway)
+    return (request.choice, request.course, request.turn, request.sway)
 
 
 def _entry(tried: TriedGait) -> dict[str, Price]:
@@ -81,7 +81,7 @@ def _say(step: SearchStep) -> None:
 def main() -> int:
     """Solves every problem and writes the file."""
     with closing(FastestSearch()) as search:
-        found = solved(search, priced_questions())
+        found = solved(search, priced_requests())
     FILE.write_text(HEAD + "".join(_table(key, price) for key, price in sorted(found.items())))
     return 0
 

@@ -36,7 +36,7 @@ class Price:
 
 
 def price_key(problem: PoseProblem) -> str:
-    """By what a problem's price is kept."""
+    """The key under which a problem's price is kept."""
     return asked_of(problem)[:KEY_LENGTH]
 
 

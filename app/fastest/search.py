@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from app.common.json import Json
+from core.gait.foot_orders import order_title
 from core.gait.gait import Gait, Orientation
 from core.gait.poses import Poses
-from core.library.library import order_name
 from core.pose_gaits.choices import Choice, Choices, choices
 from core.pose_gaits.front import MARGINS, STOP_BOUNDS, FrontPoint, front
 from core.pose_gaits.gait_poses import USUAL_STEP, with_pose_timeline
@@ -21,7 +21,7 @@ from solver_jobs import FastestSearch, SearchStep, TriedGait
 FOOT_ORDERS, BOUNDS = "Foot orders", "Margins and stop bounds"
 """The two parts of a search, in words."""
 Report = Callable[[str, SearchStep], object]
-"""Told of the part and of how far it is."""
+"""Called with the part and its progress after each answer."""
 
 FRONT_CHOICES = 3
 """So many of the fastest choices are tried at the front's other margins and stop bounds."""
@@ -35,13 +35,18 @@ class Searched:
         choices: orders, directions and overlaps.
         tried: each of them in mid-walk at the margin and the stop bound that were asked.
         front: gaits that nobody would leave aside, the fastest first; empty where none was asked for.
-        front_count: gaits that were tried for it.
+        others: gaits that were tried at the front's other margins and stop bounds.
     """
 
     choices: Choices
     tried: tuple[TriedGait, ...]
     front: tuple[TriedGait, ...] = ()
-    front_count: int = 0
+    others: tuple[TriedGait, ...] = ()
+
+    @property
+    def front_count(self) -> int:
+        """Gaits among which the front was looked for; 0 where none was asked for."""
+        return len(self.tried) + len(self.others) if self.others else 0
 
     @property
     def ranked(self) -> list[tuple[Choice, TriedGait]]:
@@ -69,7 +74,7 @@ def searched(
         problem: what is asked; its order and heading are chosen.
         order: the only foot order to try, or None.
         has_front: whether a front is asked for.
-        report: told after each answer, from this thread.
+        report: called after each answer, from this thread.
         ending: set by another thread to cancel it.
 
     Raises:
@@ -109,7 +114,7 @@ def with_front(known: Searched, others: Sequence[TriedGait]) -> Searched:
     found = [one for one in (*known.tried, *others) if one.result.gait is not None]
     points = [FrontPoint(one.problem.bounds.margin, one.problem.bounds.stop_bound, one.pace) for one in found]
     kept = tuple(found[place] for place in front(points))
-    return replace(known, front=kept, front_count=len(known.tried) + len(others))
+    return replace(known, front=kept, others=tuple(others))
 
 
 def chosen_gait(gait: Gait, choice: Choice, model: RobotModel) -> Gait:
@@ -119,10 +124,10 @@ def chosen_gait(gait: Gait, choice: Choice, model: RobotModel) -> Gait:
     if any(step[:2]):
         length = float(np.hypot(*step[:2])) or USUAL_STEP
         step = (length * float(np.cos(choice.heading)), length * float(np.sin(choice.heading)), step[2])
-    name = order_name(choice.order)
+    name = order_title(model, choice.order) or "-".join(map(str, choice.order))
     chosen = replace(
         gait,
-        name=f"{(name or '-'.join(map(str, choice.order))).capitalize()}, fastest",
+        name=f"{name}, fastest",
         notes="",
         order=choice.order,
         direction=1,
@@ -157,6 +162,7 @@ def tried_content(tried: TriedGait) -> Json:
         "status": result.status.value,
         "moves": None if gait is None else gait.problem.move_count,
         "step": None if gait is None else gait.step,
+        "on_the_spot": problem.on_the_spot,
         "turn": None if gait is None else gait.turn,
         "speed": None if gait is None else gait.speed,
         "turn_rate": None if gait is None else gait.turn_rate,

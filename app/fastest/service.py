@@ -7,24 +7,23 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from app.common.json import Json
-from app.fastest.prices import Prices, price_content, price_key
-from app.fastest.question import FastestQuestion, Option, options
-from app.fastest.search import BOUNDS, FOOT_ORDERS, search_content, searched, tried_content
+from app.fastest.idle_search import IdleSearch
+from app.fastest.price_search import PriceSearch
+from app.fastest.prices import Prices
+from app.fastest.request import FastestRequest
+from app.fastest.search import BOUNDS, FOOT_ORDERS, Searched, search_content, searched, tried_content
 from app.jobs.job_tracker import JobTracker
 from app.jobs.repository import JobRepository
-from core.errors import FootfallError, InputError, StateError
-from core.pose_gaits.pose_gait import PoseGait
+from core.errors import FootfallError, StateError
 from core.pose_gaits.pose_problem import PoseProblem
-from solver_jobs import FastestSearch, SearchStep
+from solver_jobs import SearchStep, SolveStatus
 
 _log = logging.getLogger(__name__)
 
 KIND = "fastest"
-"""What pages and scripts call these jobs."""
+"""The kind of these jobs, as pages and scripts name it."""
 Show = Callable[[Json | None], object]
-"""Told of what is known, and None at the end; from another thread."""
-NEAR = frozenset({"stop_bound", "margin", "step", "clearance"})
-"""Options whose gaits are looked for beside the asked one."""
+"""Called with each new state, and with None at the end; from another thread."""
 _SHARES = {FOOT_ORDERS: (0.0, 0.25), BOUNDS: (0.25, 0.75)}
 """Where in a search with a front its parts begin, and how much of it they are."""
 
@@ -63,31 +62,31 @@ class FastestService:
     ) -> None:
         self._job_repository = job_repository
         self._tracker = JobTracker(job_repository, later, shown, "Tries foot orders.")
-        self._search = FastestSearch()
+        self._idle = IdleSearch()
         self._prices = Prices()
         self._lock = threading.Lock()
         self._on: dict[Work, threading.Thread] = {}
         self._closed = False
 
-    def submit(self, question: FastestQuestion, has_front: bool) -> Json:
+    def submit(self, request: FastestRequest, has_front: bool) -> Json:
         """Starts a search over all foot orders.
 
         Args:
-            question: what is asked; its order is chosen.
+            request: what is asked; its order is chosen.
             has_front: whether other margins and stop bounds are tried too.
 
         Raises:
-            InputError: the question asks for what such a gait cannot have.
+            InputError: the request asks for what such a gait cannot have.
             StateError: a search is on.
         """
-        problem = question.problem()
+        problem = request.problem()
         if self._tracker.contents():
             raise StateError(
                 "A search for the fastest gait is on. Wait for it, or cancel it in Jobs.", "search"
             )
         job_id = uuid.uuid4().hex[:12]
-        seen = {"share": 0.0, "question": vars(question), "front": has_front, "tried": []}
-        job = self._job_repository.begin(job_id, KIND, "", question.model.title, "", **seen)
+        seen = {"share": 0.0, "request": vars(request), "front": has_front, "tried": []}
+        job = self._job_repository.begin(job_id, KIND, "", request.model.title, "", **seen)
         work = Work()
         self._tracker.begin(job_id, work)
         self._start(work, lambda: self._run(job_id, problem, has_front, work))
@@ -108,92 +107,48 @@ class FastestService:
             sentence = f"{part}: {step.done} of {step.count} tried."
             tell(begin + width * step.done / step.count, {"sentence": sentence, "tried": list(tried)})
 
-        end: Json
         try:
-            found = searched(self._search, problem, None, has_front, report, work.ending)
+            with self._idle.use() as search:
+                end = _end(searched(search, problem, None, has_front, report, work.ending), work)
         except FootfallError as error:
             end = {"state": "failed", "sentence": error.sentence}
         except Exception as error:
             _log.exception("A search for the fastest gait broke off")
-            end = {"state": "failed", "sentence": f"The search broke off ({error!r}); this is a bug."}
-        else:
-            content = search_content(found)
-            best = found.ranked[0][1] if found.ranked else None
-            sentence = f"{len(tried)} gaits were tried."
-            end = {"state": "done", "sentence": sentence, "share": 1.0, "result": content}
-            if best is None:
-                end = {"state": "infeasible", "sentence": f"None of {len(tried)} gaits keeps every limit."}
-            if work.ending.is_set():
-                end = {"state": "cancelled", "sentence": "Cancelled."}
+            end = _broke_off(error)
         if not self._closed:  # else it counts as interrupted
-            self._tracker.end(job_id, end)
+            self._tracker.end(job_id, {**end, "tried": tried})
 
-    def prices(self, question: FastestQuestion, show: Show) -> Callable[[], None]:
-        """Looks for the prices of every option of a question.
+    def prices(self, request: FastestRequest, show: Show) -> Callable[[], None]:
+        """Looks for the prices of every option of a request.
 
         Args:
-            question: what is asked.
-            show: told of the options with the prices that are known, then of each new price, then None.
+            request: the gait that is requested.
+            show: called with the options and the prices that are known, with each new price, then with None.
 
         Returns:
             A function that ends it.
 
         Raises:
-            InputError: the question asks for what such a gait cannot have.
+            InputError: the request asks for what such a gait cannot have.
         """
-        asked = question.problem()
-        listed = [_priced(option) for option in options(question)]
         work = Work()
-        self._start(work, lambda: self._price(listed, asked, show, work))
+        listed = PriceSearch(request, self._prices, work.ending)
+        self._start(work, lambda: self._price(listed, show))
         return work.cancel
 
-    def _price(self, listed: "list[_Priced]", asked: PoseProblem, show: Show, work: Work) -> None:
+    def _price(self, listed: PriceSearch, show: Show) -> None:
         try:
-            show({"options": [self._priced_content(one) for one in listed]})
-            self._look_for(listed, asked, show, work)
+            show({"options": listed.content()})
+            if not listed.is_complete:
+                with self._idle.use() as search:
+                    listed.run(search, show)
         except FootfallError as error:
             show({"sentence": error.sentence})
+        except Exception as error:
+            _log.exception("The search for prices broke off")
+            show({"sentence": _broke_off(error)["sentence"]})
         finally:
             show(None)
-
-    def _look_for(self, listed: "list[_Priced]", asked: PoseProblem, show: Show, work: Work) -> None:
-        """Solves what has no price yet: the asked gait first, then what may begin beside it."""
-
-        def report(step: SearchStep) -> None:
-            self._prices.keep(step.newest)
-            key = price_key(step.newest.problem)
-            answered = [number for number, one in enumerate(listed) if one.key == key]
-            show({"prices": [{"number": n, **self._priced_content(listed[n])} for n in answered]})
-
-        near: PoseGait | None = None
-        unknown = self._unknown(listed)
-        if self._prices.known(asked) is None or any(one.option.group in NEAR for one in unknown):
-            [tried] = self._search.solve([asked], report, ending=work.ending)
-            near = tried.result.gait
-        unknown = self._unknown(listed)
-        problems = [one.problem for one in unknown if one.problem is not None]
-        beside = [near if one.option.group in NEAR else None for one in unknown]
-        self._search.solve(problems, report, beside, work.ending)
-
-    def _unknown(self, listed: "list[_Priced]") -> "list[_Priced]":
-        """One option of each price that is not known."""
-        open_ = {one.key: one for one in reversed(listed) if one.problem is not None}
-        return [
-            one
-            for one in reversed(open_.values())
-            if one.problem is not None and self._prices.known(one.problem) is None
-        ]
-
-    def _priced_content(self, one: "_Priced") -> Json:
-        option, problem = one.option, one.problem
-        price = None if problem is None else self._prices.known(problem)
-        return {
-            "group": option.group,
-            "value": option.value,
-            "name": option.name,
-            "sentence": one.sentence,
-            "price": None if price is None or problem is None else price_content(price, problem),
-        }
 
     def _start(self, work: Work, act: Callable[[], None]) -> None:
         def run() -> None:
@@ -219,22 +174,24 @@ class FastestService:
             work.cancel()
         for thread in running.values():
             thread.join()
-        self._search.close()
+        self._idle.close()
 
 
-@dataclass(frozen=True, eq=False)
-class _Priced:
-    """An option, its problem with the key of its price, or why there is none."""
+def _end(found: Searched, work: Work) -> Json:
+    """The state in which a search ends."""
+    tried = (*found.tried, *found.others)
+    failed = sum(one.result.status not in (SolveStatus.SOLVED, SolveStatus.INFEASIBLE) for one in tried)
+    if work.ending.is_set():
+        return {"state": "cancelled", "sentence": "Cancelled."}
+    if found.ranked:
+        result = {key: value for key, value in search_content(found).items() if key != "tried"}
+        broken = f", {failed} broke off" if failed else ""
+        sentence = f"{len(tried)} gaits were tried{broken}."
+        return {"state": "done", "sentence": sentence, "share": 1.0, "result": result}
+    if failed:
+        return {"state": "failed", "sentence": f"{failed} of {len(tried)} searches broke off. Search again."}
+    return {"state": "infeasible", "sentence": f"None of {len(tried)} gaits keeps every limit."}
 
-    option: Option
-    problem: PoseProblem | None
-    key: str = ""
-    sentence: str = ""
 
-
-def _priced(option: Option) -> _Priced:
-    try:
-        problem = option.question.problem()
-    except InputError as error:
-        return _Priced(option, None, sentence=error.sentence)
-    return _Priced(option, problem, price_key(problem))
+def _broke_off(error: Exception) -> Json:
+    return {"state": "failed", "sentence": f"The search broke off ({error!r}); this is a bug."}

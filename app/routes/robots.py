@@ -45,6 +45,7 @@ def robot_content(model: RobotModel) -> Json:
         "wired": model.wired,
         "phase_knots": default_phase_knots(model),
         "step": DEFAULT_STEP,
+        "margin": model.margin,
         "orders": {
             orientation.value: [
                 {"name": order.name, "feet": list(order.feet)} for order in named_orders(model, orientation)

@@ -16,16 +16,16 @@ import { mountVersions } from "./shell/versions.js";
 
 /** The dialog for the fastest gait, loaded when it is first opened: from the menu New, and from a search in Jobs. */
 function mountFastest(store, gaitTools) {
-  const open = attempt(async () => {
+  const open = attempt(async (job = null) => {
     const { askFastest } = await import("./fastest/fastest.js");
-    const id = await askFastest(store);
+    const id = await askFastest(store, job);
     if (id) await selectGait(store, id);
   });
-  gaitTools.addNew({ text: "Fastest gait…", help: "For the robot's clock: each choice with its price in mm/s, and a search over foot orders", act: open });
+  gaitTools.addNew({ text: "Fastest gait…", help: "For the robot's clock: each choice with its speed in mm/s, and a search over foot orders", act: () => open() });
   store.watch(({ fastestWanted }) => [fastestWanted], ({ fastestWanted }) => {
     if (!fastestWanted) return;
     store.set({ fastestWanted: null });
-    open();
+    open(fastestWanted);
   });
 }
 

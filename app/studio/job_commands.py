@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 
 from app.common.json import Json
-from app.fastest.question import FastestQuestion
+from app.fastest.request import FastestRequest
 from app.fastest.service import KIND as FASTEST
 from app.fastest.service import FastestService
 from app.gaits.service import GaitService
@@ -93,9 +93,9 @@ class JobCommands:
         """Starts following the feet in a video."""
         return self.publisher.publish_job(self.tracks.submit(order))
 
-    def submit_fastest(self, question: FastestQuestion, has_front: bool) -> Json:
+    def submit_fastest(self, request: FastestRequest, has_front: bool) -> Json:
         """Starts a search for the fastest gait."""
-        return self.publisher.publish_job(self.fastest.submit(question, has_front))
+        return self.publisher.publish_job(self.fastest.submit(request, has_front))
 
     def cancel_job(self, job_id: str) -> Json:
         """Asks a job to end; one that ended already stays as it is."""

@@ -45,3 +45,13 @@ def named_orders(model: RobotModel, orientation: Orientation) -> tuple[FootOrder
         FootOrder(name, tuple(int(foot) + 1 for foot in feet))
         for name, feet in (("Wave", wave), ("Ripple", ripple))
     )
+
+
+def order_title(model: RobotModel, order: tuple[int, ...]) -> str | None:
+    """The name of a foot order wherever it begins, None where it has none."""
+    for orientation in Orientation:
+        for named in named_orders(model, orientation):
+            first = named.feet.index(order[0])
+            if named.feet[first:] + named.feet[:first] == order:
+                return named.name
+    return None

@@ -10,7 +10,7 @@ from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 
 from app.common.json import Json
-from app.fastest.question import FastestQuestion, Way
+from app.fastest.request import Course, FastestRequest
 from app.web.dependencies import RequestBody, TheStudio, changed, on_command_thread
 from app.web.state_lines import state_lines
 from core.gait.gait import MOST_NAME
@@ -24,7 +24,7 @@ Finite = Annotated[float, Field(allow_inf_nan=False)]
 
 
 class FastestBody(RequestBody):
-    """What is asked of the fastest gait, SI; limits are those of `footfall fastest`."""
+    """A request for the fastest gait, SI; limits are those of `footfall fastest`."""
 
     robot: str = Field(default="deltawalker", max_length=80)
     order: list[Annotated[int, Field(ge=1, le=MOST_FEET)]] = Field(
@@ -32,7 +32,7 @@ class FastestBody(RequestBody):
     )
     heading: Finite = Field(default=0.0, ge=-2.0 * math.pi, le=2.0 * math.pi, description="rad from x")
     overlap: bool = False
-    way: Way = Field(default=Way.WALK, description="a walk, or a turn on the spot to one side")
+    course: Course = Field(default=Course.WALK, description="a walk, or a turn on the spot to one side")
     turn: Finite = Field(default=0.0, description="of a walk, rad a cycle, to the left above 0")
     step: Finite | None = Field(
         default=None, description="of a walk, m a cycle; null for the fastest", gt=0.0
@@ -46,16 +46,16 @@ class FastestBody(RequestBody):
     sway: Finite = 0.0
     cycles: int = Field(default=3, ge=1, le=MOST_CYCLES)
 
-    def question(self) -> FastestQuestion:
-        """The question.
+    def request(self) -> FastestRequest:
+        """The request.
 
         Raises:
             InputError: it asks for what such a gait cannot have.
         """
         words = {name: getattr(self, name) for name in FastestBody.model_fields}
-        question = FastestQuestion(**{**words, "order": tuple(self.order)})
-        question.problem()
-        return question
+        request = FastestRequest(**{**words, "order": tuple(self.order)})
+        request.problem()
+        return request
 
 
 class SearchBody(FastestBody):
@@ -78,20 +78,20 @@ async def prices(asked: FastestBody, studio: TheStudio) -> StreamingResponse:
     known yet. Each other line has `prices`, which are options with their `number` in that list. A `price`
     whose `pace` (m/s, on the spot rad/s) is null says that there is no such gait. It ends with the request.
     """
-    question = await run_in_threadpool(asked.question)
-    return await state_lines(partial(studio.fastest.prices, question))
+    request = await run_in_threadpool(asked.request)
+    return await state_lines(partial(studio.fastest.prices, request))
 
 
 @router.post("/searches", status_code=202)
 async def search(asked: SearchBody, studio: TheStudio) -> Json:
     """Starts a search as a job; its result has `tried`, and with a front the gaits that none other beats."""
-    question = await run_in_threadpool(asked.question)
-    return await on_command_thread(studio, lambda: studio.job_commands.submit_fastest(question, asked.front))
+    request = await run_in_threadpool(asked.request)
+    return await on_command_thread(studio, lambda: studio.job_commands.submit_fastest(request, asked.front))
 
 
 @router.post("/gaits", status_code=201)
 async def create(asked: NewFastest, studio: TheStudio) -> Json:
     """Saves a new gait that asks this, and gives its view; its poses are looked for by themselves."""
-    question = await run_in_threadpool(asked.question)
-    document = question.document(asked.name)
+    request = await run_in_threadpool(asked.request)
+    document = request.document(asked.name)
     return await changed(studio, lambda: studio.gaits.create(document))

@@ -2,7 +2,7 @@
 
 import { h, svg } from "../lib/dom.js";
 import { fixed, mm } from "../lib/format.js";
-import { headingText, orderText, paceText, priceOf } from "./fastest_words.js";
+import { choiceText, priceOf, speedText } from "./fastest_words.js";
 
 const FRAME = { width: 620, height: 210, left: 44, right: 12, top: 12, bottom: 34 };
 const SIZE = 5;
@@ -20,8 +20,9 @@ const inUnits = ({ pace, on_the_spot: onTheSpot }) => (onTheSpot ? pace * DEGREE
 
 /** What a mark stands for. */
 export function pointText(one, nameOf) {
-  const { order, overlap, heading, margin, stop_bound: bound } = one;
-  return `${paceText(priceOf(one))}, margin ${mm(margin, 0)} mm, stop bound ${fixed(bound, 1)} s: ${orderText({ order, overlap }, nameOf(order))}, ${headingText(heading)}`;
+  const { order, margin, stop_bound: bound, on_the_spot: onTheSpot } = one;
+  const limits = `margin ${mm(margin, 0)} mm, stop bound ${fixed(bound, 1)} s`;
+  return `${speedText(priceOf(one))}, ${limits}: ${choiceText(one, nameOf(order), onTheSpot)}`;
 }
 
 /** An even step of an axis with at most five of them. */
@@ -65,8 +66,13 @@ export function frontPlot(front, tried, nameOf, choose) {
     const label = pointText(one, nameOf);
     return svg("g", { role: "option", tabindex: place ? "-1" : "0", "aria-selected": "false", "aria-label": label }, svg("title", { text: label }), svg("circle", { class: "reach", cx: x, cy: y, r: 12 }), mark);
   });
+  const reach = (place) => {
+    marks.forEach((mark, other) => mark.setAttribute("tabindex", other === place ? "0" : "-1"));
+    marks[place].focus();
+  };
   const select = (place) => {
-    marks.forEach((mark, other) => { mark.setAttribute("aria-selected", String(other === place)); mark.setAttribute("tabindex", other === place ? "0" : "-1"); });
+    marks.forEach((mark, other) => mark.setAttribute("aria-selected", String(other === place)));
+    reach(place);
     choose(front[place]);
   };
   marks.forEach((mark, place) => {
@@ -75,9 +81,8 @@ export function frontPlot(front, tried, nameOf, choose) {
       const way = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
       if (!way && !["Enter", " "].includes(event.key)) return;
       event.preventDefault();
-      const next = Math.min(Math.max(place + (way ?? 0), 0), marks.length - 1);
-      select(next);
-      marks[next].focus();
+      if (way) reach(Math.min(Math.max(place + way, 0), marks.length - 1));
+      else select(place);
     });
   });
   const unit = front.some((one) => priceOf(one).on_the_spot) ? "°/s" : "mm/s";

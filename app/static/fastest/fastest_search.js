@@ -4,57 +4,102 @@ import { api } from "../api/gaits.js";
 import { fastestApi } from "../api/fastest.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
 import { fixed, mm } from "../lib/format.js";
-import { announce, attempt } from "../lib/toasts.js";
+import { attempt } from "../lib/toasts.js";
+import { jobIsOn } from "../shell/job_list.js";
 import { frontPlot, pointText } from "./fastest_front.js";
-import { degrees, headingText, orderText, paceText, priceOf } from "./fastest_words.js";
+import { choiceText, degrees, priceOf, searchedText, speedText } from "./fastest_words.js";
 
-const OPEN = ["queued", "running", "cancelling"];
 const WITH_FRONT = "Also try other margins and stop bounds (some minutes)";
+const HEADS = ["Foot order", "Margin", "Stop bound", "In mid-walk", "A cycle", "Moves", ""];
+const SAME = 1e-9;
 
-const byPace = (one, other) => (priceOf(other).pace ?? -1) - (priceOf(one).pace ?? -1);
+const paceOf = (one) => priceOf(one).pace ?? -1;
+const keyOf = ({ order, heading, overlap, margin, stop_bound: bound }) => JSON.stringify([order, heading, overlap, margin, bound]);
 
 function tableRow(one, nameOf, use) {
-  const { order, overlap, heading, margin, stop_bound: bound, step, turn, moves } = one;
   const price = priceOf(one);
-  const words = [h("td", { title: `Feet ${order.join("-")}` }, `${orderText({ order, overlap }, nameOf(order))}, ${headingText(heading)}`),
-    h("td", { class: "number", text: `${mm(margin, 0)} mm` }), h("td", { class: "number", text: `${fixed(bound, 1)} s` }),
-    h("td", { class: "number" }, h("b", { text: paceText(price) }))];
-  if (price.pace === null) return h("tr", { title: one.explanation?.[0] }, ...words, h("td"), h("td"), h("td"));
-  return h("tr", {}, ...words, h("td", { class: "number", text: price.on_the_spot ? `${degrees(turn, 1)}°` : `${mm(step)} mm` }), h("td", { class: "number", text: String(moves) }),
-    h("td", {}, h("button", { type: "button", class: "link", text: "Choose", "aria-label": `Choose ${pointText(one, nameOf)}`, on: { click: () => use(one) } })));
+  const cells = [h("td", { title: `Feet ${one.order.join("-")}`, text: choiceText(one, nameOf(one.order), one.on_the_spot) }),
+    ...[`${mm(one.margin, 0)} mm`, `${fixed(one.stop_bound, 1)} s`].map((text) => h("td", { class: "number", text })),
+    h("td", { class: "number" }, h("b", { text: speedText(price) }))];
+  if (price.pace === null) return h("tr", { title: one.explanation?.join(" ") }, ...cells, h("td"), h("td"), h("td"));
+  const choose = h("button", {
+    type: "button", class: "link", text: "Choose", "aria-label": `Choose ${pointText(one, nameOf)}`, on: { click: () => use(one) },
+  });
+  const cycle = one.on_the_spot ? `${degrees(one.turn, 1)}°` : `${mm(one.step)} mm`;
+  return h("tr", {}, ...cells, h("td", { class: "number", text: cycle }), h("td", { class: "number", text: String(one.moves) }), h("td", {}, choose));
 }
 
-function table(tried, nameOf, use) {
-  const heads = ["Foot order", "Margin", "Stop bound", "In mid-walk", "A cycle", "Moves", ""];
-  return h("table", { class: "fast-table", "aria-label": "Gaits that were tried" },
-    h("thead", {}, h("tr", {}, ...heads.map((text, place) => h("th", { class: place && "number", text })))),
-    h("tbody", {}, ...[...tried].sort(byPace).map((one) => tableRow(one, nameOf, use))));
+/** The table; rows that stand in it stay where they are while others come between them. */
+function triedTable(nameOf, use) {
+  const body = h("tbody");
+  const element = h("table", { class: "fast-table", "aria-label": "Gaits that were tried", hidden: true },
+    h("thead", {}, h("tr", {}, ...HEADS.map((text, place) => h("th", { class: place && "number", text })))), body);
+  let rows = new Map();
+  return {
+    element,
+    show(tried) {
+      const sorted = [...tried].sort((one, other) => paceOf(other) - paceOf(one));
+      const shown = new Map(sorted.map((one) => [keyOf(one), rows.get(keyOf(one)) ?? tableRow(one, nameOf, use)]));
+      for (const [key, row] of rows) if (!shown.has(key)) row.remove();
+      rows = shown;
+      [...shown.values()].forEach((row, place) => {
+        if (body.children[place] !== row) body.insertBefore(row, body.children[place] ?? null);
+      });
+      element.hidden = !sorted.length;
+    },
+    clear() { this.show([]); },
+  };
 }
 
-/** The newest search of a robot. */
-const newest = ({ jobs }, robot) => jobs.find((job) => job.kind === "fastest" && job.question?.robot === robot) ?? null;
+/** The search that is on, else the picked one, else the newest of a robot. */
+function shownJob({ jobs }, robot, picked) {
+  const searches = jobs.filter(({ kind }) => kind === "fastest");
+  return searches.find(jobIsOn) ?? searches.find(({ id }) => id === picked) ?? searches.find((one) => one.request.robot === robot) ?? null;
+}
+
+/** What of a search stands in the table: with a front, those at the margin and the stop bound of the request. */
+function listed({ tried = [], request, front, state }) {
+  if (!front || state !== "done") return tried;
+  const isAsked = (one) => Math.abs(one.margin - request.margin) + Math.abs(one.stop_bound - request.stop_bound) < SAME;
+  return tried.filter(isAsked);
+}
+
+function sentenceOf(job) {
+  const { state, sentence, tried = [], result } = job;
+  const best = tried.reduce((fastest, one) => (paceOf(one) > paceOf(fastest) ? one : fastest), { speed: null });
+  const fastest = best.speed === null ? "" : ` The fastest${jobIsOn(job) ? " yet" : ""}: ${speedText(priceOf(best))}.`;
+  if (state === "cancelling") return sentence;
+  if (jobIsOn(job)) return `${sentence}${fastest}`;
+  if (state !== "done") return `The last search: ${sentence}${fastest}`;
+  const scope = result.complete ? "every foot order" : `some of ${result.orders} foot orders`;
+  return `Tried ${scope}: ${sentence}${fastest}`;
+}
 
 /**
  * Builds the search.
  * @param {object} store
- * @param {{question: () => object, nameOf: Function, use: (one: object, question: object) => void}} page `use` takes a tried gait into the question
+ * @param {{request: () => object, nameOf: Function, use: (request: object) => void}} page `use` takes a gait of the
+ *   table or of the front as the new request
  */
-export function searchPart(store, { question, nameOf, use }) {
+export function searchPart(store, { request, nameOf, use }) {
+  let [job, picked, drawn] = [null, null, null];
+  const take = ({ order, heading, overlap, margin, stop_bound: bound }) => use({ ...job.request, order, heading, overlap, margin, stop_bound: bound });
   const front = h("input", { type: "checkbox" });
   const start = h("button", { type: "button", text: "Search all foot orders" });
-  const [bar, words] = [h("i"), h("p", { class: "quiet", role: "status", "aria-label": "Search" })];
+  const [bar, words, searched] = [h("i"), h("p", { class: "quiet fast-state" }), h("p", { class: "quiet" })];
   const cancel = h("button", { type: "button", text: "Cancel search" });
   const progress = h("div", { class: "simulating", hidden: true }, h("div", { class: "progress" }, bar), cancel);
-  const found = h("div", { class: "fast-found" });
+  const table = triedTable(nameOf, take);
+  const plot = h("div");
   const error = h("p", { class: "field-error", role: "alert", hidden: true });
   const element = h("section", { class: "fast-search", "aria-label": "Search" },
-    h("div", { class: "fast-start" }, start, h("label", {}, front, WITH_FRONT)), error, progress, words, found);
-  let [shown, job] = [null, null];
+    h("div", { class: "fast-start" }, start, h("label", {}, front, WITH_FRONT)), error, progress, words, searched,
+    h("div", { class: "fast-found" }, plot, table.element));
 
   onPress(start, async () => {
     error.hidden = true;
     try {
-      await fastestApi.search(question(), front.checked);
+      await fastestApi.search(request(), front.checked);
     } catch ({ message }) {
       setText(error, message);
       error.hidden = false;
@@ -62,39 +107,28 @@ export function searchPart(store, { question, nameOf, use }) {
   });
   cancel.addEventListener("click", attempt(() => api.cancelJob(job.id)));
 
-  function showFound({ tried, result, question: asked }) {
-    const choose = (one) => use(one, asked);
-    const parts = [];
-    if (result?.front.length) parts.push(frontPlot(result.front, tried, nameOf, choose));
-    // With a front the table would be long: it holds the choices at the margin and the stop bound that were asked.
-    const listed = result?.tried ?? tried;
-    if (listed.length) parts.push(table(listed, nameOf, choose));
-    found.replaceChildren(...parts);
+  function showFront({ id, result, tried }) {
+    const about = result?.front.length ? id : null;
+    if (about === drawn) return;
+    drawn = about;
+    plot.replaceChildren(...(about ? [frontPlot(result.front, tried, nameOf, take)] : []));
   }
 
   function show(state) {
-    job = newest(state, question().robot);
-    const isOn = Boolean(job) && OPEN.includes(job.state);
-    progress.hidden = !isOn;
+    const before = job?.id;
+    job = shownJob(state, request().robot, picked);
+    const isOn = Boolean(job) && jobIsOn(job);
     setAllowed(start, isOn ? "A search is on. Wait for it, or cancel it." : null, "Tries every foot order and direction with the values above");
+    // What has the focus is not taken away with it.
+    if (!isOn && document.activeElement === cancel) start.focus();
+    progress.hidden = !isOn;
     bar.style.transform = `scaleX(${job?.share ?? 0})`;
-    setText(words, job ? sentenceOf(job, isOn) : "");
-    const about = job && `${job.id} ${job.state} ${job.tried?.length}`;
-    if (about === shown) return;
-    if (shown?.startsWith(job?.id) && !isOn) announce(words.textContent);
-    shown = about;
-    if (job) showFound(job);
-    else found.replaceChildren();
+    setText(words, job ? sentenceOf(job) : "");
+    setText(searched, job?.tried?.length ? `Searched with: ${searchedText(job.request)}.` : "");
+    if (job?.id !== before) table.clear();
+    if (job) table.show(listed(job));
+    showFront(job ?? {});
   }
 
-  return { element, show };
-}
-
-function sentenceOf({ state, sentence, tried = [], result }, isOn) {
-  const best = [...tried].sort(byPace)[0];
-  const fastest = best && best.speed !== null ? ` The fastest${isOn ? " yet" : ""}: ${paceText(priceOf(best))}.` : "";
-  if (isOn) return state === "cancelling" ? sentence : `${sentence}${fastest}`;
-  if (state !== "done") return `The last search: ${sentence}${fastest}`;
-  const scope = result.complete ? "every foot order" : `some of ${result.orders} foot orders`;
-  return `Tried ${scope}, ${tried.length} gaits.${fastest}`;
+  return { element, show, pick(id) { picked = id; } };
 }

@@ -1,44 +1,61 @@
 /** Words for foot orders, directions, paces and the values of options. */
 
-import { capital, fixed, mm } from "../lib/format.js";
+import { fixed, mm } from "../lib/format.js";
 
 const DEGREES = 180 / Math.PI;
 
 export const degrees = (radians, decimals = 0) => fixed(radians * DEGREES, decimals);
 
-/** How fast a gait goes, or turns on the spot. */
-export function paceText({ pace, on_the_spot: onTheSpot }) {
+/** How fast a gait goes, or turns on the spot; what a price or a tried gait says. */
+export function speedText({ pace, on_the_spot: onTheSpot }) {
   if (pace === null) return "no gait";
   return onTheSpot ? `${fixed(pace * DEGREES, 2)} °/s` : `${fixed(pace * 1000, 2)} mm/s`;
 }
 
-/** A tried gait's pace as a price. */
-export const priceOf = ({ speed, turn_rate: rate, step }) => {
-  if (speed === null) return { pace: null, on_the_spot: false };
-  return step === 0 ? { pace: Math.abs(rate), on_the_spot: true } : { pace: speed, on_the_spot: false };
-};
+/** The price of a gait that a search has tried. */
+export function priceOf({ speed, turn_rate: rate, on_the_spot: onTheSpot }) {
+  if (speed === null) return { pace: null, on_the_spot: onTheSpot };
+  return { pace: onTheSpot ? Math.abs(rate) : speed, on_the_spot: onTheSpot };
+}
 
 /** A foot order: its name where it has one, else its feet. */
-export function orderText({ order, overlap }, name = null) {
-  return `${name ? capital(name) : order.join("-")}${overlap ? ", overlapping" : ""}`;
-}
+export const orderText = ({ order, overlap }, name = null) => `${name ?? order.join("-")}${overlap ? ", overlapping" : ""}`;
 
 export const headingText = (heading) => (Math.abs(heading) < 1e-9 ? "along x" : `at ${degrees(heading)}°`);
 
+/** A gait by its foot order, with its direction where it walks. */
+export function choiceText(choice, name, onTheSpot) {
+  return onTheSpot ? orderText(choice, name) : `${orderText(choice, name)}, ${headingText(choice.heading)}`;
+}
+
 /** Where a gait goes. */
-export function wayText({ way, turn }) {
-  if (way !== "walk") return `Turn ${way} on the spot`;
+export function courseText({ course, turn }) {
+  if (course !== "walk") return `Turn ${course} on the spot`;
   if (turn === 0) return "Straight";
   return `Curve ${turn > 0 ? "left" : "right"} ${degrees(Math.abs(turn))}°`;
 }
 
-/** What each option is called, what it means, and its values in words. */
+const millimetres = (value) => `${mm(value, 0)} mm`;
+const STOP = "Within this time the robot hears a stop, whenever it comes";
+const MARGIN = "Least distance of the centre of mass from the edge of the support polygon, at every place of every move";
+const SWAY = "How far the heading may leave an even turn. Soles pivot on the ground then, and nobody has tried yet how "
+  + "flat shoes do that";
+
+/** The options: what each is called, what it means, and its values in words. */
 export const GROUPS = [
-  { group: "way", label: "Way", help: "Where it goes: degrees are the turn a cycle", text: wayText },
+  { group: "course", label: "Course", help: "Where the gait goes; degrees are the turn a cycle", text: courseText },
   { group: "order", label: "Foot order", help: "Which foot steps when, and in which direction the robot walks" },
-  { group: "stop_bound", label: "Stop bound", help: "Within this time the robot hears a stop, whenever it comes", text: (value) => `${fixed(value, 1)} s` },
-  { group: "margin", label: "Stability margin", help: "Least distance of the centre of mass from the edge of the support polygon, at every place of every move", text: (value) => `${mm(value, 0)} mm` },
-  { group: "step", label: "Step", help: "Travel a cycle", text: (value) => (value === null ? "fastest" : `${mm(value, 0)} mm`) },
-  { group: "clearance", label: "Clearance", help: "Height of a swinging foot above the standing ones", text: (value) => `${mm(value, 0)} mm` },
-  { group: "sway", label: "Sway", help: "How far the heading may leave an even turn. Soles pivot on the ground then, and nobody has tried yet how flat shoes do that", text: (value) => `${degrees(value)}°` },
+  { group: "stop_bound", label: "Stop bound", help: STOP, text: (value) => `${fixed(value, 1)} s` },
+  { group: "margin", label: "Stability margin", help: MARGIN, text: millimetres },
+  { group: "step", label: "Step", help: "Travel a cycle", text: (value) => (value === null ? "fastest" : millimetres(value)) },
+  { group: "clearance", label: "Clearance", help: "Height of a swinging foot above the standing ones", text: millimetres },
+  { group: "sway", label: "Sway", help: SWAY, text: (value) => `${degrees(value)}°` },
 ];
+
+/** What a search was asked for beside foot order, margin and stop bound. */
+export function searchedText(request) {
+  const words = [courseText(request)];
+  if (request.course === "walk") words.push(`step ${request.step === null ? "fastest" : `${mm(request.step)} mm`}`);
+  words.push(`clearance ${mm(request.clearance)} mm`, `sway ${degrees(request.sway)}°`);
+  return words.join(", ");
+}

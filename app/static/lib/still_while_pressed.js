@@ -3,6 +3,9 @@
 /** A press that lasts longer is a hold. */
 const LONGEST_MS = 2000;
 
+/** Presses that are on. */
+let count = 0;
+
 /**
  * Shows nothing new of the state between a press on a button and its release; then the newest.
  * @param {object} store
@@ -13,8 +16,10 @@ export function stillWhilePressed(store, element) {
     if (!target.closest("button, summary, a")) return;
     const ended = new AbortController();
     const letGo = () => {
+      if (ended.signal.aborted) return;
       ended.abort();
-      store.hold(false);
+      count -= 1;
+      if (!count) store.hold(false);
     };
     const timer = setTimeout(letGo, LONGEST_MS);
     const release = ({ pointerId }) => {
@@ -23,6 +28,7 @@ export function stillWhilePressed(store, element) {
       // The click comes after the release.
       setTimeout(letGo);
     };
+    count += 1;
     store.hold(true);
     for (const name of ["pointerup", "pointercancel"]) window.addEventListener(name, release, { signal: ended.signal });
   });

@@ -60,11 +60,13 @@ export const createStore = (initial = {}) => watchable({ ...INITIAL, ...initial 
 export function watchable(initial) {
   let state = Object.freeze({ ...initial });
   let scheduled = false;
-  let isHeld = false;
+  let held = null;
   let watchers = [];
 
   function flush() {
-    if (isHeld) return;
+    // What the robot says is never held back.
+    if (held && held.robot === state.robot) return;
+    if (held) held = state;
     scheduled = false;
     for (const watcher of watchers) {
       const values = watcher.select(state);
@@ -78,13 +80,13 @@ export function watchable(initial) {
     get state() { return state; },
     set(patch) {
       state = Object.freeze({ ...state, ...patch });
-      if (scheduled) return;
+      if (scheduled && !held) return;
       scheduled = true;
       queueMicrotask(flush);
     },
-    /** Shows nothing new until it is let go; then the newest. */
+    /** Shows nothing new until it is let go, unless the robot's state changes; then the newest. */
     hold(isOn) {
-      isHeld = isOn;
+      held = isOn ? state : null;
       if (!isOn && scheduled) queueMicrotask(flush);
     },
     /** `select` returns the list of values that `render` depends on; renders at once and after each change. Gives what ends it. */

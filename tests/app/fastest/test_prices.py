@@ -8,12 +8,12 @@ from itertools import pairwise
 
 import pytest
 
-from app.fastest.price_table import priced_questions, solved
+from app.fastest.price_table import priced_requests, solved
 from app.fastest.prices import Price, Prices, price_key, stored_prices
-from app.fastest.question import FastestQuestion
+from app.fastest.request import FastestRequest
 from solver_jobs import FastestSearch, PoseResult, SolveStatus, TriedGait
 
-ASKED = FastestQuestion()
+ASKED = FastestRequest()
 
 
 def outcome(status: SolveStatus) -> TriedGait:
@@ -22,7 +22,7 @@ def outcome(status: SolveStatus) -> TriedGait:
 
 
 def test_every_usual_question_has_its_price() -> None:
-    keys = {price_key(question.problem()) for question in priced_questions()}
+    keys = {price_key(request.problem()) for request in priced_requests()}
     assert keys == set(stored_prices())
 
 
@@ -30,8 +30,8 @@ def test_more_margin_and_an_earlier_stop_never_make_the_fastest_gait_faster() ->
     """Of a search that finds local optima: within a few percent."""
     prices = Prices()
 
-    def pace(question: FastestQuestion) -> float:
-        price = prices.known(question.problem())
+    def pace(request: FastestRequest) -> float:
+        price = prices.known(request.problem())
         assert price is not None
         return price.pace or 0.0
 
@@ -54,16 +54,16 @@ def test_what_a_search_finds_is_a_price_and_a_cancelled_one_is_none() -> None:
 
 @pytest.mark.heavy
 def test_stored_prices_are_found_again() -> None:
-    questions = [
+    requests = [
         ASKED,
         replace(ASKED, stop_bound=1.0),
         replace(ASKED, margin=0.008),
         replace(ASKED, step=0.03),
     ]
     with closing(FastestSearch()) as search:
-        found = solved(search, questions)
-    for question in questions:
-        key = price_key(question.problem())
+        found = solved(search, requests)
+    for request in requests:
+        key = price_key(request.problem())
         stored, again = stored_prices()[key].pace, found[key].pace
         assert stored is not None
         assert again == pytest.approx(stored, rel=0.02)

@@ -20,8 +20,8 @@ def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess]:
         yield running
 
 
-def lines(studio: StudioProcess, question: dict[str, Any]) -> Iterator[dict[str, Any]]:
-    address, body = f"{studio.url}api/fastest/prices", json.dumps(question).encode()
+def lines(studio: StudioProcess, wanted: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    address, body = f"{studio.url}api/fastest/prices", json.dumps(wanted).encode()
     request = urllib.request.Request(address, body, {"Content-Type": "application/json"})
     with urllib.request.urlopen(request, timeout=120.0) as answer:
         for line in answer:
@@ -45,10 +45,10 @@ def test_a_price_that_is_not_known_is_looked_for(studio: StudioProcess) -> None:
     asked = {**ASKED, "step": 0.0123}
     answer = lines(studio, asked)
     options = next(answer)["options"]
-    way = next(one for one in options if one["group"] == "way")
+    way = next(one for one in options if one["group"] == "course")
     assert way["price"] is None
     found = next(answer)["prices"]
-    assert {one["group"] for one in found} >= {"way", "order"}
+    assert {one["group"] for one in found} >= {"course", "order"}
     assert all(one["price"]["step"] == pytest.approx(0.0123) for one in found)
     assert [options[one["number"]]["value"] for one in found] == [one["value"] for one in found]
 
@@ -89,9 +89,10 @@ def test_one_search_at_a_time_tells_how_far_it_is_and_is_cancelled(studio: Studi
 def test_a_search_ranks_every_order_and_finds_its_front(studio: StudioProcess) -> None:
     job = studio.ask("POST", "/api/fastest/searches", {**ASKED, "front": True}).content["id"]
     wait_for(lambda: search_of(studio, job)["state"] == "done", "the search has ended", 900.0)
-    result = search_of(studio, job)["result"]
-    assert (result["orders"], result["complete"], len(result["tried"])) == (6, True, 7)
-    best = max(one["speed"] for one in result["tried"])
+    ended = search_of(studio, job)
+    result, tried = ended["result"], ended["tried"]
+    assert (result["orders"], result["complete"], len(tried)) == (6, True, result["front_tried"])
+    best = max(one["speed"] or 0.0 for one in tried if one["margin"] == 0.006)
     assert best > 0.0031
     front = result["front"]
     assert [one["speed"] for one in front] == sorted((one["speed"] for one in front), reverse=True)

@@ -1,4 +1,4 @@
-"""A question for the fastest gait: its document, and the options that have a price."""
+"""A request for the fastest gait: its document, and the options that have a price."""
 
 from __future__ import annotations
 
@@ -7,24 +7,24 @@ from dataclasses import replace
 
 import pytest
 
-from app.fastest.question import FastestQuestion, Way, options
+from app.fastest.request import Course, FastestRequest, options
 from core.errors import InputError
 from core.gait.gait import Orientation
 from core.pose_gaits.gait_poses import pose_problem
 from core.robot.model import load_robot
 
-ASKED = FastestQuestion()
+ASKED = FastestRequest()
 
 
 def test_a_walk_is_asked_in_its_direction_with_its_limits() -> None:
-    question = replace(ASKED, order=(1, 4, 2, 3), heading=math.pi / 4, stop_bound=1.0, margin=0.008, cycles=2)
-    problem = pose_problem(question.document(), load_robot("deltawalker"))
+    request = replace(ASKED, order=(1, 4, 2, 3), heading=math.pi / 4, stop_bound=1.0, margin=0.008, cycles=2)
+    problem = pose_problem(request.document(), load_robot("deltawalker"))
     assert (problem.order, problem.cycles, problem.step) == ((1, 4, 2, 3), 2, None)
     assert problem.heading == pytest.approx(math.pi / 4)
     assert (problem.bounds.stop_bound, problem.bounds.margin) == (1.0, 0.008)
-    assert question.problem().cycles is None
-    assert question.document().name == "Amble, fastest"
-    assert question.document("Mine").name == "Mine"
+    assert request.problem().cycles is None
+    assert request.document().name == "Amble, fastest"
+    assert request.document("Mine").name == "Mine"
 
 
 def test_a_step_of_its_own_is_kept_and_a_curve_turns() -> None:
@@ -34,9 +34,9 @@ def test_a_step_of_its_own_is_kept_and_a_curve_turns() -> None:
     assert problem.heading == pytest.approx(-math.radians(5.0))  # half of the turn is done in the middle
 
 
-@pytest.mark.parametrize(("way", "side"), [(Way.LEFT, 1.0), (Way.RIGHT, -1.0)])
-def test_a_turn_on_the_spot_is_free_to_its_side(way: Way, side: float) -> None:
-    problem = replace(ASKED, way=way).problem()
+@pytest.mark.parametrize(("course", "side"), [(Course.LEFT, 1.0), (Course.RIGHT, -1.0)])
+def test_a_turn_on_the_spot_is_free_to_its_side(course: Course, side: float) -> None:
+    problem = replace(ASKED, course=course).problem()
     assert (problem.on_the_spot, problem.free_turn) == (True, True)
     assert math.copysign(1.0, problem.turn) == side
 
@@ -52,22 +52,22 @@ def test_every_option_changes_only_its_own() -> None:
     by_group = {group: [one for one in listed if one.group == group] for group in {o.group for o in listed}}
     counts = {group: len(ones) for group, ones in by_group.items()}
     assert counts == {
-        "stop_bound": 4, "margin": 4, "step": 4, "clearance": 3, "sway": 2, "order": 7, "way": 7,
+        "stop_bound": 4, "margin": 4, "step": 4, "clearance": 3, "sway": 2, "order": 7, "course": 7,
     }  # fmt: skip
     for one in (*by_group["stop_bound"], *by_group["margin"], *by_group["step"]):
-        assert one.question == replace(ASKED, **{one.group: one.value})  # type: ignore[arg-type]
-    assert {one.name for one in by_group["order"]} == {"c-gait", "s-gait", "walk", "amble"}
+        assert one.request == replace(ASKED, **{one.group: one.value})  # type: ignore[arg-type]
+    assert {one.name for one in by_group["order"]} == {"C-Gait", "S-Gait", "Walk", "Amble"}
 
 
 def test_foot_orders_stand_in_the_same_sequence_whichever_is_chosen() -> None:
-    def orders(question: FastestQuestion) -> list[object]:
-        return [one.value for one in options(question) if one.group == "order"]
+    def orders(request: FastestRequest) -> list[object]:
+        return [one.value for one in options(request) if one.group == "order"]
 
     usual = orders(ASKED)
     assert orders(replace(ASKED, order=(1, 4, 2, 3), heading=math.pi / 4)) == usual
     own = replace(ASKED, order=(1, 4, 3, 2), heading=math.pi)
     assert orders(own) == [{"order": [1, 4, 3, 2], "heading": math.pi, "overlap": False}, *usual]
-    on_the_spot = replace(ASKED, way=Way.LEFT, heading=math.pi / 4)
+    on_the_spot = replace(ASKED, course=Course.LEFT, heading=math.pi / 4)
     assert len(orders(on_the_spot)) == 3
 
 

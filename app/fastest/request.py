@@ -1,4 +1,4 @@
-"""A question for the fastest gait, and the options of which each has its price."""
+"""A request for the fastest gait, and the options of which each has its price."""
 
 import math
 from collections.abc import Iterator
@@ -8,9 +8,10 @@ from enum import StrEnum
 import numpy as np
 
 from app.fastest.search import chosen_gait
+from core.gait.foot_orders import order_title
 from core.gait.gait import Gait
 from core.gait.poses import Poses
-from core.library.library import library, order_name
+from core.library.library import library
 from core.library.new_gait import with_robot
 from core.pose_gaits.choices import Choice, choices
 from core.pose_gaits.front import MARGINS, STOP_BOUNDS
@@ -32,7 +33,7 @@ SAME_ANGLE = 1e-9
 """Directions that differ by less are the same, rad."""
 
 
-class Way(StrEnum):
+class Course(StrEnum):
     """Where a gait goes: straight on or in a curve, or round on the spot to one side."""
 
     WALK = "walk"
@@ -41,15 +42,15 @@ class Way(StrEnum):
 
 
 @dataclass(frozen=True)
-class FastestQuestion:
-    """What is asked of the fastest gait, SI.
+class FastestRequest:
+    """A gait for the robot's clock that is to be as fast as it can be, SI.
 
     Args:
         robot: its name.
         order: every foot once, counted from 1; it begins with foot 1.
         heading: direction of travel, rad from x.
         overlap: whether a foot is lifted in the move that lowers the one before it.
-        way: whether it walks, or turns on the spot as fast as it can.
+        course: whether it walks, or turns on the spot as fast as it can.
         turn: of a walk, rad a cycle; to the left where it is above 0.
         step: of a walk, m a cycle; None for that of the fastest.
         margin: static stability margin, m.
@@ -66,7 +67,7 @@ class FastestQuestion:
     order: tuple[int, ...] = (1, 2, 3, 4)
     heading: float = 0.0
     overlap: bool = False
-    way: Way = Way.WALK
+    course: Course = Course.WALK
     turn: float = 0.0
     step: float | None = None
     margin: float = 0.006
@@ -86,7 +87,8 @@ class FastestQuestion:
     @property
     def choice(self) -> Choice:
         """Foot order, direction and overlap."""
-        heading = 0.0 if abs(self.heading) < SAME_ANGLE else self.heading
+        has_heading = self.course is Course.WALK and abs(self.heading) > SAME_ANGLE
+        heading = self.heading if has_heading else 0.0
         return Choice(self.order, heading, self.overlap)
 
     def document(self, name: str | None = None) -> Gait:
@@ -100,15 +102,15 @@ class FastestQuestion:
         """
         model = self.model
         gait = with_robot(library()["walk"].gait, model, self.order)
-        if self.way is Way.WALK:
+        if self.course is Course.WALK:
             step = (USUAL_STEP if self.step is None else self.step, 0.0, self.turn)
         else:
-            step = (0.0, 0.0, TURN_GUESS if self.way is Way.LEFT else -TURN_GUESS)
+            step = (0.0, 0.0, TURN_GUESS if self.course is Course.LEFT else -TURN_GUESS)
         asked = replace(
             gait, order=self.order, direction=1, step=step, iterations=self.cycles, held=gait.held
         ).with_options(margin=self.margin, clearance=self.clearance, stop_bound=self.stop_bound)
         poses = Poses(
-            free_step=self.step is None or self.way is not Way.WALK,
+            free_step=self.step is None or self.course is not Course.WALK,
             slip=self.slip,
             shoe_distance=self.shoe_distance,
             arm_distance=self.arm_distance,
@@ -133,31 +135,31 @@ class Option:
     Args:
         group: which option.
         value: as JSON.
-        question: the question with it.
-        name: of a foot order that has one.
+        request: the request with it.
+        name: title of a foot order that has one.
     """
 
     group: str
     value: object
-    question: FastestQuestion
+    request: FastestRequest
     name: str | None = None
 
 
-def options(question: FastestQuestion) -> list[Option]:
-    """The values of every option of a question that have a price, those first that are most often looked at.
+def options(request: FastestRequest) -> list[Option]:
+    """The values of every option of a request that have a price, those first that are most often looked at.
 
     Raises:
-        InputError: the question asks for what such a gait cannot have.
+        InputError: the request asks for what such a gait cannot have.
     """
-    return [*_bounds(question), *_orders(question), *_ways(question)]
+    return [*_bounds(request), *_orders(request), *_courses(request)]
 
 
-def _bounds(asked: FastestQuestion) -> Iterator[Option]:
+def _bounds(asked: FastestRequest) -> Iterator[Option]:
     for bound in STOP_BOUNDS:
         yield Option("stop_bound", bound, replace(asked, stop_bound=bound))
     for margin in MARGINS:
         yield Option("margin", margin, replace(asked, margin=margin))
-    if asked.way is Way.WALK:
+    if asked.course is Course.WALK:
         for step in STEPS:
             yield Option("step", step, replace(asked, step=step))
     for clearance in CLEARANCES:
@@ -166,12 +168,12 @@ def _bounds(asked: FastestQuestion) -> Iterator[Option]:
         yield Option("sway", sway, replace(asked, sway=sway))
 
 
-def _orders(asked: FastestQuestion) -> Iterator[Option]:
+def _orders(asked: FastestRequest) -> Iterator[Option]:
     """Foot orders in the same sequence whichever is asked; the asked one first where it is not among them."""
     first = tuple(range(1, asked.model.leg_count + 1))
     found = list(choices(replace(asked.problem(), order=first)).tried)
     own = asked.choice
-    if not any(_is_same(own, one, asked.way) for one in found):
+    if not any(_is_same(own, one, asked.course) for one in found):
         found.insert(0, own)
     for one in found:
         value = {"order": list(one.order), "heading": one.heading, "overlap": one.overlap}
@@ -179,17 +181,19 @@ def _orders(asked: FastestQuestion) -> Iterator[Option]:
             "order",
             value,
             replace(asked, order=one.order, heading=one.heading, overlap=one.overlap),
-            order_name(one.order),
+            order_title(asked.model, one.order),
         )
 
 
-def _is_same(own: Choice, other: Choice, way: Way) -> bool:
-    is_turned = way is Way.WALK and abs(np.sin((own.heading - other.heading) / 2.0)) > SAME_ANGLE
+def _is_same(own: Choice, other: Choice, course: Course) -> bool:
+    is_turned = course is Course.WALK and abs(np.sin((own.heading - other.heading) / 2.0)) > SAME_ANGLE
     return (own.order, own.overlap) == (other.order, other.overlap) and not is_turned
 
 
-def _ways(asked: FastestQuestion) -> Iterator[Option]:
+def _courses(asked: FastestRequest) -> Iterator[Option]:
     for turn in TURNS:
-        yield Option("way", {"way": "walk", "turn": turn}, replace(asked, way=Way.WALK, turn=turn))
-    for way in (Way.LEFT, Way.RIGHT):
-        yield Option("way", {"way": way.value, "turn": 0.0}, replace(asked, way=way, turn=0.0))
+        yield Option(
+            "course", {"course": "walk", "turn": turn}, replace(asked, course=Course.WALK, turn=turn)
+        )
+    for course in (Course.LEFT, Course.RIGHT):
+        yield Option("course", {"course": course.value, "turn": 0.0}, replace(asked, course=course, turn=0.0))

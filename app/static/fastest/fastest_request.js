@@ -1,0 +1,92 @@
+/** The request of the dialog: its values, their prices as they become known, and what the chosen gait would be. */
+
+import { fastestApi } from "../api/fastest.js";
+import { h, setText } from "../lib/dom.js";
+import { fixed, mm } from "../lib/format.js";
+import { optionRows } from "./fastest_options.js";
+import { choiceText, degrees, speedText } from "./fastest_words.js";
+
+const FIRST = {
+  robot: "deltawalker", order: [1, 2, 3, 4], heading: 0, overlap: false, course: "walk", turn: 0, step: null,
+  margin: 0.006, clearance: 0.003, stop_bound: 1.5, sway: 0, cycles: 3,
+};
+
+/** What the chosen gait would be, in a sentence. */
+function outcomeText(option, title, isLooking) {
+  if (!option?.price) return `${title}: ${option?.sentence || (isLooking ? "looking for its speed." : "its speed is not known.")}`;
+  const { price } = option;
+  if (price.pace === null) return `${title}: no gait keeps every limit with these values.`;
+  const cycle = price.on_the_spot ? `${degrees(Math.abs(price.turn), 1)}°` : `${mm(price.step)} mm`;
+  return `${title}: ${speedText(price)} in mid-walk, ${cycle} in ${price.moves} moves and ${fixed(price.seconds, 1)} s a cycle.`;
+}
+
+/**
+ * Builds the rows of options with the sentence under them.
+ * @param {(request: object, title: string) => void} changed called with each new request
+ */
+export function fastestRequest(changed) {
+  let request = { ...FIRST };
+  let names = new Map();
+  let looking = null;
+  const rows = optionRows((change) => ask(change));
+  const [outcome, state] = [h("p", { class: "fast-outcome" }), h("p", { class: "quiet" })];
+  const error = h("p", { class: "field-error", role: "alert", hidden: true });
+  const nameOf = (order) => names.get(order.join("-")) ?? null;
+  const title = () => choiceText(request, nameOf(request.order), request.course !== "walk");
+
+  function showOutcome() {
+    const [known, count] = rows.counts();
+    setText(outcome, outcomeText(rows.chosen(request), title(), Boolean(looking)));
+    setText(state, looking && known < count ? `${known} of ${count} speeds are known; the others are being looked for.` : "");
+  }
+
+  function refuse(sentence) {
+    setText(error, sentence ?? "");
+    error.hidden = !sentence;
+  }
+
+  function hear({ options, prices, sentence }) {
+    if (options) {
+      names = new Map(options.filter(({ group }) => group === "order").map(({ value, name }) => [value.order.join("-"), name]));
+      rows.show(options, request);
+      changed(request, nameOf(request.order) ?? request.order.join("-"));
+    }
+    if (prices) rows.take(prices);
+    if (sentence) refuse(sentence);
+    showOutcome();
+  }
+
+  /** Changes the request and looks for its prices; an older search ends. */
+  async function ask(change) {
+    request = { ...request, ...change };
+    looking?.abort();
+    const own = new AbortController();
+    looking = own;
+    refuse(null);
+    rows.forget();
+    showOutcome();
+    try {
+      await fastestApi.prices(request, own.signal, (line) => { if (looking === own) hear(line); });
+    } catch ({ message }) {
+      if (looking === own) refuse(message);
+    }
+    if (looking !== own) return;
+    looking = null;
+    rows.end();
+    showOutcome();
+  }
+
+  return {
+    elements: [rows.element, outcome, state, error],
+    value: () => request,
+    nameOf,
+    ask,
+    refuse,
+    /** Changes what has no price. */
+    set(change) { request = { ...request, ...change }; },
+    end() {
+      looking?.abort();
+      looking = null;
+    },
+  };
+}

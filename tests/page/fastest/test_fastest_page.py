@@ -62,7 +62,7 @@ def test_a_gait_is_made_of_what_is_chosen_and_shown(page: Page) -> None:
     dialog.get_by_role("button", name="Create").click()
     expect(page.get_by_label("Gait name")).to_have_value("Amble, fastest")
     expect(page.get_by_label("Foot order")).to_have_value("1 4 2 3")
-    expect(page.get_by_label("Iterations")).to_have_value("2")
+    expect(page.get_by_role("spinbutton", name="Iterations")).to_have_value("2")
 
 
 def test_a_search_shows_its_table_is_cancelled_and_found_again_in_jobs(page: Page) -> None:

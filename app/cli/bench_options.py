@@ -4,6 +4,8 @@ import argparse
 from argparse import Namespace
 from pathlib import Path
 
+from app.bench.physics.tables import require_page
+from app.bench.robot.moves import require_picture
 from app.bench.solvers.edits import COUNT as EDITS
 from app.bench.solvers.edits import SEED
 from app.bench.solvers.fastest_grid import MARGINS, STEPS, STOP_BOUNDS, Grid
@@ -14,6 +16,8 @@ from core.pose_gaits.pose_problem import POSE_BOUNDS
 
 GRID = "fastest"
 """The benchmark that has a grid."""
+PHYSICS, MOVES = "physics", "moves"
+"""The benchmarks that write a report."""
 _LIMITS = ("orders", "steps", "margins", "stop_bounds")
 """Options that limit the grid, as the parser's result names them."""
 
@@ -26,7 +30,10 @@ def add_bench_options(parser: argparse.ArgumentParser) -> None:
     add("--seed", type=whole(0, 2**31), default=SEED, help="of the edits (edits)")
     text = "folder of published data (physics, learning)"
     add("--reference", type=Path, default=None, help=text)
-    text = "file to write: HTML page with plots (physics), picture with its data beside it (moves)"
+    text = (
+        "file to write: HTML page with plots (physics), or picture with its data beside it (moves, which has "
+        "to be named)"
+    )
     add("--report", type=Path, default=None, help=text)
     add("--markdown", action="store_true", help="print tables as Markdown")
     text = (
@@ -83,3 +90,24 @@ def grid_of(options: Namespace) -> Grid | None:
             f"--grid belongs to the benchmark {GRID}; name it: footfall bench {GRID} --grid.", "--grid"
         )
     return Grid(**limits)
+
+
+def reports_of(options: Namespace) -> dict[str, Path]:
+    """The report that is asked, by the benchmark that writes it; `moves` writes one only where it is named.
+
+    Raises:
+        InputError: two benchmarks would write the same file, or the report cannot be written.
+    """
+    report: Path | None = options.report
+    if report is None:
+        return {}
+    names = [name for name in (PHYSICS, MOVES) if name in (options.names or [PHYSICS])]
+    if len(names) > 1:
+        raise InputError(
+            f"{PHYSICS} and {MOVES} would both write {report}; name one of them with --report, and measure "
+            "the other by itself.",
+            "--report",
+        )
+    for name in names:
+        (require_page if name == PHYSICS else require_picture)(report)
+    return dict.fromkeys(names, report)

@@ -10,7 +10,7 @@ from app.bench.physics.tables import bench_physics
 from app.bench.robot.moves import bench_moves
 from app.bench.solvers.edits import bench_edits
 from app.bench.solvers.fastest_grid import bench_fastest_grid
-from app.cli.bench_options import grid_of
+from app.cli.bench_options import GRID, MOVES, PHYSICS, grid_of, reports_of
 from app.cli.fastest_search import show_progress
 from app.cli.output import end_on_signals, note, show
 from core.errors import InputError
@@ -22,17 +22,18 @@ def run_bench(options: Namespace) -> int:
     unknown = [name for name in options.names if name not in BENCHMARKS]
     if unknown:
         raise InputError(f"There is no benchmark “{unknown[0]}”; choose of {', '.join(BENCHMARKS)}.", "NAME")
+    reports = reports_of(options)
     benchmarks: dict[str, Benchmark] = {
         **BENCHMARKS,
         "edits": partial(bench_edits, options.count, options.seed),
-        "physics": partial(bench_physics, options.reference, options.report),
-        "moves": partial(bench_moves, options.report),
+        PHYSICS: partial(bench_physics, options.reference, reports.get(PHYSICS)),
+        MOVES: partial(bench_moves, reports.get(MOVES)),
         "learning": partial(bench_learning, options.reference),
     }
     grid = grid_of(options)
     if grid is not None:
         grid.problems()  # refuses a grid that is too large before anything is measured
-        benchmarks["fastest"] = partial(bench_fastest_grid, grid, partial(show_progress, "Grid"))
+        benchmarks[GRID] = partial(bench_fastest_grid, grid, partial(show_progress, "Grid"))
     where = conditions()
     results: dict[str, list[Row]] = {}
     for name in options.names or [name for name in BENCHMARKS if name not in BY_NAME_ONLY]:

@@ -46,8 +46,8 @@ def bench_physics(reference: Path | None = None, page: Path | None = None) -> li
         InputError: the data is not in the folder, or the page has nowhere to go.
     """
     data = None if reference is None else Reference(reference)
-    if page is not None and not page.parent.is_dir():
-        raise InputError(f"{page.parent} is no folder; name a file in one that exists.", "--report")
+    if page is not None:
+        require_page(page)
     optimised = list(optimised_cases(data))
     manual = list(manual_cases(data))
     if page is not None:
@@ -59,6 +59,16 @@ def bench_physics(reference: Path | None = None, page: Path | None = None) -> li
         *(row for label, run in paper_cases() for row in paper_rows(label, run)),
         *_bars(optimised),
     ]
+
+
+def require_page(page: Path) -> None:
+    """Makes sure that the page has somewhere to go.
+
+    Raises:
+        InputError: its folder is not there.
+    """
+    if not page.parent.is_dir():
+        raise InputError(f"{page.parent} is no folder; name a file in one that exists.", "--report")
 
 
 def published_rows(cases: Sequence[OptimisedCase]) -> list[Row]:

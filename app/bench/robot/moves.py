@@ -35,17 +35,29 @@ def bench_moves(report: Path | None = None) -> list[Row]:
         report: SVG picture to write, with what it shows as JSON beside it; None for neither.
 
     Raises:
-        InputError: there is a picture to write and no published walk at hand, or its name does not fit.
+        InputError: there is a picture to write, and it cannot be (see `require_picture`).
     """
-    if report is not None and report.suffix != ".svg":
-        raise InputError(f"{report} is no picture; end its name in .svg.", "--report")
-    if report is not None and not PUBLISHED.exists():
-        raise InputError(f"The published walk is not at {PUBLISHED}; leave out --report.", "--report")
+    if report is not None:
+        require_picture(report)
     walks = (published_walk(), fastest_walk()) if PUBLISHED.exists() else (fastest_walk(),)
     if report is not None:
         write_atomically(report, moves_svg(walks))
         write_atomically(report.with_suffix(".json"), json.dumps(walks_content(walks)) + "\n")
     return [_row(walk) for walk in walks]
+
+
+def require_picture(report: Path) -> None:
+    """Makes sure that the picture can be drawn and written.
+
+    Raises:
+        InputError: its name does not fit, its folder is not there, or no published walk is at hand.
+    """
+    if report.suffix != ".svg":
+        raise InputError(f"{report} is no picture; end its name in .svg.", "--report")
+    if not report.parent.is_dir():
+        raise InputError(f"{report.parent} is no folder; name a file in one that exists.", "--report")
+    if not PUBLISHED.exists():
+        raise InputError(f"The published walk is not at {PUBLISHED}; leave out --report.", "--report")
 
 
 def moves_svg(walks: tuple[WalkedMoves, ...]) -> str:

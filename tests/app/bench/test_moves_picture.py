@@ -7,10 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from app.bench.robot.moves import moves_svg
+from app.bench import BENCHMARKS, Row
+from app.bench.robot.moves import moves_svg, require_picture
 from app.bench.robot.moves_picture import moves_picture
 from app.bench.robot.walked_moves import Move, WalkedMoves, walks_content, walks_of
 from app.export.drawing import Box, Words
+from core.errors import InputError
 from core.robot.model import load_robot
 from tests.support.command import run
 from tests.support.studio_process import PROJECT
@@ -53,3 +55,71 @@ def test_a_picture_needs_the_name_of_one(capsys: pytest.CaptureFixture[str], tmp
     status, _, error = run(capsys, "bench", "moves", "--report", str(tmp_path / "moves.html"))
     assert status == 2
     assert "end its name in .svg" in error
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ("kinematics moves --report moves.html", "end its name in .svg"),
+        ("kinematics moves --report no/moves.svg", "no is no folder"),
+        ("kinematics physics --report no/page.html", "no is no folder"),
+        ("physics moves --report moves.svg", "physics and moves would both write moves.svg"),
+        ("moves physics --report page.html", "physics and moves would both write page.html"),
+    ],
+)
+def test_a_report_that_cannot_be_written_is_refused_before_anything_is_measured(
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    words: str,
+    sentence: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    status, _, error = run(capsys, "bench", *words.split())
+    assert status == 2
+    assert sentence in error
+    assert "Measuring" not in error
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_picture_needs_the_published_walk(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr("app.bench.robot.moves.PUBLISHED", tmp_path / "walk_a.csv")
+    with pytest.raises(InputError, match="leave out --report"):
+        require_picture(tmp_path / "moves.svg")
+
+
+@pytest.mark.parametrize(
+    ("names", "pages", "pictures"),
+    [
+        ("", ["report.svg"], [None]),
+        ("physics", ["report.svg"], []),
+        ("moves", [], ["report.svg"]),
+        ("kinematics", [], []),
+    ],
+)
+def test_a_report_is_written_by_moves_only_where_they_are_named(
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    names: str,
+    pages: list[str],
+    pictures: list[str | None],
+) -> None:
+    written: dict[str, list[str | None]] = {"pages": [], "pictures": []}
+
+    def measured(kind: str, report: Path | None) -> list[Row]:
+        written[kind].append(None if report is None else str(report))
+        return [{"figure": 1}]
+
+    for name in BENCHMARKS:
+        monkeypatch.setitem(BENCHMARKS, name, lambda: [{"figure": 1}])
+    for name in ("edits", "learning"):
+        monkeypatch.setattr(f"app.cli.commands_bench.bench_{name}", lambda *given: [{"figure": 1}])
+    command = "app.cli.commands_bench"
+    monkeypatch.setattr(f"{command}.bench_physics", lambda reference, page: measured("pages", page))
+    monkeypatch.setattr(f"{command}.bench_moves", lambda picture: measured("pictures", picture))
+    (tmp_path / "walk_a.csv").touch()
+    monkeypatch.setattr("app.bench.robot.moves.PUBLISHED", tmp_path / "walk_a.csv")
+    monkeypatch.chdir(tmp_path)
+    assert run(capsys, "bench", *names.split(), "--report", "report.svg")[0] == 0
+    assert written == {"pages": pages, "pictures": pictures}

@@ -5,19 +5,24 @@ from functools import partial
 from typing import Any
 
 from app.bench import BENCHMARKS, BY_NAME_ONLY, Benchmark, Row, conditions
+from app.bench.common.measure import EndedEarly
 from app.bench.physics.learning import bench_learning
 from app.bench.physics.tables import bench_physics
 from app.bench.robot.moves import bench_moves
 from app.bench.solvers.edits import bench_edits
 from app.bench.solvers.fastest_grid import bench_fastest_grid
 from app.cli.bench_options import GRID, MOVES, PHYSICS, grid_of, reports_of
-from app.cli.fastest_search import show_progress
-from app.cli.output import end_on_signals, note, show
+from app.cli.fastest_search import end_progress, show_progress
+from app.cli.output import INTERRUPTED, end_on_signals, note, show
+from app.common.json import Json
 from core.errors import InputError
 
 
 def run_bench(options: Namespace) -> int:
-    """Runs benchmarks and prints their conditions."""
+    """Runs benchmarks and prints their conditions.
+
+    Where a signal ends one that has rows by then, they are printed and no further one is run.
+    """
     end_on_signals()
     unknown = [name for name in options.names if name not in BENCHMARKS]
     if unknown:
@@ -36,17 +41,28 @@ def run_bench(options: Namespace) -> int:
         benchmarks[GRID] = partial(bench_fastest_grid, grid, partial(show_progress, "Grid"))
     where = conditions()
     results: dict[str, list[Row]] = {}
+    was_interrupted = False
     for name in options.names or [name for name in BENCHMARKS if name not in BY_NAME_ONLY]:
         note(f"Measuring {name} …")
-        results[name] = benchmarks[name]()
+        try:
+            results[name] = benchmarks[name]()
+        except EndedEarly as ended:
+            results[name] = ended.rows
+            was_interrupted = True
+            break
     lines = [", ".join(f"{key}: {value}" for key, value in where.items())]
     for name, rows in results.items():
         for part in _tables(rows):
             lines += (
                 ["", f"## {name}", "", *_markdown(part)] if options.markdown else ["", name, *_text(part)]
             )
-    show(options, {"conditions": where, "results": results}, lines)
-    return 0
+    content: Json = {"conditions": where, "results": results}
+    if was_interrupted:
+        end_progress()
+        note("Interrupted. What was measured by then:")
+        content |= {"error": "Interrupted.", "where": "command"}
+    show(options, content, lines)
+    return INTERRUPTED if was_interrupted else 0
 
 
 def _tables(rows: list[Row]) -> list[list[Row]]:

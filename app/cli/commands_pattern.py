@@ -7,11 +7,11 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 
 from app.cli.commands_gait import without_option
-from app.cli.output import INFEASIBLE, Interrupted, end_on_signals, show
+from app.cli.output import INFEASIBLE, end_on_signals, show
 from app.cli.pattern_options import asked_pattern
 from app.cli.pattern_text import CHANGE, STANCE, SWING, drawn_pattern
 from app.common.json import Json
-from app.common.signals import ignore_endings
+from app.common.signals import Interrupted, ignore_endings
 from core.patterns.check import broken_rules, check_pattern, weighted_sum
 from core.patterns.numerals import counted
 from core.patterns.problem import (

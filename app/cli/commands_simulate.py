@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from app.cli.commands_plan import ROBOT, sending_of, trajectory_of
-from app.cli.output import NOT_FIT, Interrupted, end_on_signals, note, show, tally
+from app.cli.output import NOT_FIT, end_on_signals, note, show, tally
+from app.common.signals import Interrupted
 from app.documents.gait_json import parse_gait
 from app.export.trajectory_files import read_text, read_trajectory
 from app.export.way_files import is_way_file, read_way_file

@@ -20,6 +20,13 @@ def show_progress(part: str, step: SearchStep) -> None:
     sys.stderr.flush()
 
 
+def end_progress() -> None:
+    """Takes the line of a search that did not end away from a person's terminal."""
+    if sys.stderr.isatty():
+        sys.stderr.write("\r\033[K")
+        sys.stderr.flush()
+
+
 def pace_words(tried: TriedGait) -> str:
     """How fast a gait is, in words."""
     gait = tried.result.gait

@@ -11,7 +11,7 @@ from types import FrameType
 from typing import Any, TextIO
 
 from app.common.json import finite
-from app.common.signals import ending_signals
+from app.common.signals import Interrupted, ending_signals
 from core.errors import InputError
 from core.findings import SendCost, Severity, Verdict
 
@@ -21,10 +21,6 @@ INTERRUPTED = 130
 """Exit status of a command that Ctrl-C, SIGTERM or SIGHUP ended."""
 _NO_READER = (errno.EPIPE, errno.EIO)
 """The pipe's other end is closed; the terminal is closed."""
-
-
-class Interrupted(Exception):  # noqa: N818 - it is no error
-    """SIGTERM or SIGHUP arrived; commands end as by Ctrl-C."""
 
 
 def end_on_signals() -> None:

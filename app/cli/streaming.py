@@ -15,8 +15,8 @@ from app.bridge.bridge import RobotBridge
 from app.bridge.delivery import HELD_STOP
 from app.bridge.states import IN_RUN, LinkState, RobotSnapshot, RobotState, RunPhase, RunPlan, RunProgress
 from app.bridge.stop_confirmation import STOP_LIMIT
-from app.cli.output import Interrupted, note, write
-from app.common.signals import ignore_endings
+from app.cli.output import note, write
+from app.common.signals import Interrupted, ignore_endings
 from app.emulator.emulated_robot import start_emulator
 from app.robot.recorded_bridge import RecordedBridge, RecordedRun
 from app.robot.views import EMULATOR, RunOrigin

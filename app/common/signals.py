@@ -3,6 +3,10 @@
 import signal
 
 
+class Interrupted(Exception):  # noqa: N818 - it is no error
+    """SIGTERM or SIGHUP arrived; commands end as by Ctrl-C."""
+
+
 def ending_signals() -> tuple[signal.Signals, ...]:
     """SIGTERM, and SIGHUP, which a closed terminal sends; without SIGHUP where `nohup` has it ignored."""
     hang_up = getattr(signal, "SIGHUP", None)

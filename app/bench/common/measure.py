@@ -18,6 +18,18 @@ Row = dict[str, Any]
 REPEATS = 7
 
 
+class EndedEarly(Exception):  # noqa: N818 - it is no error
+    """Ctrl-C or another signal ended a benchmark that has rows by then.
+
+    Args:
+        rows: of what it has measured.
+    """
+
+    def __init__(self, rows: list[Row]) -> None:
+        super().__init__("The benchmark was interrupted.")
+        self.rows = rows
+
+
 def conditions() -> dict[str, str]:
     """What the figures were measured on."""
     load = os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")

@@ -1,14 +1,15 @@
 """The fastest walk in mid-walk over a grid: foot orders and directions, steps, margins and stop bounds."""
 
 from collections.abc import Callable
-from contextlib import closing, suppress
+from contextlib import closing
 from dataclasses import dataclass, replace
 from itertools import product
 from time import perf_counter
 
 import numpy as np
 
-from app.bench.common.measure import Row
+from app.bench.common.measure import EndedEarly, Row
+from app.common.signals import Interrupted
 from core.errors import InputError
 from core.library.library import library, order_name
 from core.pose_gaits.choices import Choice, choices
@@ -74,6 +75,14 @@ class Grid:
         return problems
 
 
+@dataclass(frozen=True, eq=False)
+class _Answer:
+    """A problem that is answered, and its row of the table."""
+
+    tried: TriedGait
+    row: Row
+
+
 def _choices(model: RobotModel, orders: tuple[tuple[int, ...], ...]) -> list[Choice]:
     """Orders and directions that lead to different gaits."""
     if not orders:
@@ -85,49 +94,51 @@ def _choices(model: RobotModel, orders: tuple[tuple[int, ...], ...]) -> list[Cho
 def bench_fastest_grid(grid: Grid, report: Callable[[SearchStep], object] = lambda step: None) -> list[Row]:
     """Solves every problem of a grid, as many at a time as there are cores.
 
-    Ctrl-C ends it with the rows of the problems that are answered by then.
-
     Args:
         grid: the problems.
         report: told after each answer.
 
     Returns:
         A row of each problem; of each order and direction the fastest gait of all its problems; the whole.
+
+    Raises:
+        EndedEarly: Ctrl-C or another signal ended it; its rows are those of what was answered by then.
     """
     problems = grid.problems()
-    answered: dict[PoseProblem, TriedGait] = {}
+    answered: dict[PoseProblem, _Answer] = {}
 
     def keep(step: SearchStep) -> None:
-        answered[step.newest.problem] = step.newest
+        answered[step.newest.problem] = _Answer(step.newest, _row(step.newest))
         report(step)
 
     began = perf_counter()
-    with closing(FastestSearch(niceness=0)) as search, suppress(KeyboardInterrupt):
-        search.solve(problems, keep)
+    cause: BaseException | None = None
+    try:
+        with closing(FastestSearch(niceness=0)) as search:
+            search.solve(problems, keep)
+    except (KeyboardInterrupt, Interrupted) as signal:
+        cause = signal
     seconds = perf_counter() - began
-    tried = [answered[problem] for problem in problems if problem in answered]
-    rows = [_row(one) for one in tried]
-    return [*rows, *_fastest_rows(tried), _whole(rows, problems, seconds)]
+    answers = [answered[problem] for problem in problems if problem in answered]
+    rows = [answer.row for answer in answers]
+    table = [*rows, *_fastest_rows(answers), _whole(rows, problems, seconds)]
+    if cause is not None:
+        raise EndedEarly(table) from cause
+    return table
 
 
 def _row(tried: TriedGait) -> Row:
     problem, result = tried.problem, tried.result
     return {
-        **_choice_cells(problem),
+        "order": "-".join(map(str, problem.order)),
+        "gait": order_name(problem.order),
+        "heading_deg": round(float(np.degrees(problem.heading))),
         "asked_step_mm": "free" if problem.step is None else _mm(problem.step),
         "asked_margin_mm": _mm(problem.bounds.margin),
         "stop_bound_s": problem.bounds.stop_bound,
         "status": result.status.value,
         **_gait_cells(result.gait),
         "solve_s": round(result.seconds, 1),
-    }
-
-
-def _choice_cells(problem: PoseProblem) -> Row:
-    return {
-        "order": "-".join(map(str, problem.order)),
-        "gait": order_name(problem.order),
-        "heading_deg": round(float(np.degrees(problem.heading))),
     }
 
 
@@ -149,27 +160,26 @@ def _gait_cells(gait: PoseGait | None) -> Row:
     }
 
 
-def _fastest_rows(tried: list[TriedGait]) -> list[Row]:
+def _fastest_rows(answers: list[_Answer]) -> list[Row]:
     """The fastest gait of each order and direction, the fastest first."""
-    groups: dict[tuple[tuple[int, ...], float], list[TriedGait]] = {}
-    for one in tried:
-        groups.setdefault((one.problem.order, one.problem.heading), []).append(one)
-    best = sorted(
-        (max(group, key=lambda one: one.pace) for group in groups.values()), key=lambda one: -one.pace
-    )
+    groups: dict[tuple[tuple[int, ...], float], list[_Answer]] = {}
+    for one in answers:
+        problem = one.tried.problem
+        groups.setdefault((problem.order, problem.heading), []).append(one)
+    best = [(max(group, key=_pace), group) for group in groups.values()]
+    best.sort(key=lambda pair: -_pace(pair[0]))
     return [
         {
-            "fastest_of": f"{cells['order']} ({cells['gait']}), {cells['heading_deg']}°",
-            "solved": f"{_solved_count(groups[one.problem.order, one.problem.heading])} of "
-            f"{len(groups[one.problem.order, one.problem.heading])}",
-            **{key: row[key] for key in ("moves", "step_mm", "mm_s", "asked_margin_mm", "stop_bound_s")},
+            "fastest_of": f"{one.row['order']} ({one.row['gait']}), {one.row['heading_deg']}°",
+            "solved": f"{sum(each.tried.result.gait is not None for each in group)} of {len(group)}",
+            **{key: one.row[key] for key in ("moves", "step_mm", "mm_s", "asked_margin_mm", "stop_bound_s")},
         }
-        for one, cells, row in ((one, _choice_cells(one.problem), _row(one)) for one in best)
+        for one, group in best
     ]
 
 
-def _solved_count(tried: list[TriedGait]) -> int:
-    return sum(one.result.gait is not None for one in tried)
+def _pace(answer: _Answer) -> float:
+    return answer.tried.pace
 
 
 def _whole(rows: list[Row], problems: list[PoseProblem], seconds: float) -> Row:

@@ -2,15 +2,34 @@
 
 from __future__ import annotations
 
+import json
+import os
+import select
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+
 import numpy as np
 import pytest
 
+from app.bench import BENCHMARKS
+from app.bench.common.measure import EndedEarly
 from app.bench.solvers.fastest_grid import Grid, bench_fastest_grid
 from app.cli.bench_options import grid_of
+from app.cli.output import INTERRUPTED
 from app.cli.parser import make_parser
+from app.common.signals import Interrupted
 from core.errors import InputError
-from solver_jobs import SearchStep
-from tests.support.command import run
+from core.library.library import library
+from core.pose_gaits.gait_poses import found_gait
+from core.pose_gaits.pose_check import PoseCheck, check_poses
+from core.pose_gaits.pose_gait import PoseGait
+from core.pose_gaits.pose_problem import PoseProblem
+from core.robot.model import load_robot
+from solver_jobs import PoseResult, SearchStep, SolveStatus, TriedGait
+from tests.support.command import run, run_json
+from tests.support.studio_process import PROJECT, wait_for
 
 
 def test_the_grid_without_options_has_every_order_and_direction_that_differ() -> None:
@@ -85,15 +104,115 @@ def test_an_order_of_other_feet_is_refused() -> None:
         Grid(orders=((1, 2, 3),)).problems()
 
 
-@pytest.mark.heavy
-def test_ctrl_c_ends_it_with_what_is_answered() -> None:
-    def interrupted(step: SearchStep) -> None:
-        raise KeyboardInterrupt
+class Search:
+    """Answers the first problem of a grid with a known gait; then the signal arrives."""
 
-    row, first, whole = bench_fastest_grid(Grid(((1, 2, 3, 4),), (0.02, 0.01), (0.006,), (1.5,)), interrupted)
-    assert (row["status"], row["check"]) == ("solved", "confirmed")
-    assert first["solved"] == "1 of 1"
-    assert (whole["problems"], whole["answered"]) == (4, 1)
+    ending = signal.SIGINT
+
+    def __init__(self, niceness: int) -> None:
+        pass
+
+    def solve(self, problems: list[PoseProblem], report: Callable[[SearchStep], object]) -> None:
+        found = found_gait(library()["fast-c-gait"].gait, load_robot("deltawalker"))
+        result = PoseResult(SolveStatus.SOLVED, found, None, True, (), 0.1, 0.1)
+        newest = TriedGait(problems[0], result)
+        report(SearchStep(1, len(problems), 0, newest, newest))
+        signal.raise_signal(self.ending)
+
+    def close(self) -> None:
+        pass
+
+
+@pytest.fixture
+def kept_signals() -> Iterator[None]:
+    """A command sets its own handlers; afterwards they are what they were."""
+    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    before = [signal.getsignal(number) for number in numbers]
+    yield
+    for number, handler in zip(numbers, before, strict=True):
+        signal.signal(number, handler)
+
+
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_ends_it_with_what_is_answered_and_begins_no_other_benchmark(
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+    kept_signals: None,
+    ending: signal.Signals,
+) -> None:
+    measured: list[str] = []
+    monkeypatch.setitem(BENCHMARKS, "kinematics", lambda: measured.append("kinematics"))
+    monkeypatch.setattr("app.bench.solvers.fastest_grid.FastestSearch", Search)
+    monkeypatch.setattr(Search, "ending", ending)
+    words = ("bench", "fastest", "kinematics", "--grid", "--orders", "c-gait")
+    status, answer = run_json(capsys, *words)
+    assert (status, answer["error"], answer["where"]) == (INTERRUPTED, "Interrupted.", "command")
+    assert list(answer["results"]) == ["fastest"]
+    row, first, whole = answer["results"]["fastest"]
+    assert (row["status"], row["moves"]) == ("solved", 26)
+    assert (first["solved"], first["mm_s"]) == ("1 of 1", row["mm_s"])
+    assert (whole["problems"], whole["answered"]) == (16, 1)
+    assert measured == []
+
+
+@pytest.mark.parametrize("has_rows", [True, False])
+def test_each_gait_is_checked_once(monkeypatch: pytest.MonkeyPatch, has_rows: bool) -> None:
+    checked: list[PoseGait] = []
+
+    def check(gait: PoseGait, samples: int) -> PoseCheck:
+        checked.append(gait)
+        return check_poses(gait, samples)
+
+    def solve(search: Search, problems: list[PoseProblem], report: Callable[[SearchStep], object]) -> None:
+        if has_rows:
+            whole(search, problems, report)
+        raise Interrupted
+
+    whole = Search.solve
+    monkeypatch.setattr(Search, "solve", solve)
+    monkeypatch.setattr("app.bench.solvers.fastest_grid.FastestSearch", Search)
+    monkeypatch.setattr("app.bench.solvers.fastest_grid.check_poses", check)
+    monkeypatch.setattr(signal, "raise_signal", lambda number: None)
+    with pytest.raises(EndedEarly) as ended:
+        bench_fastest_grid(Grid(((1, 2, 3, 4),)))
+    assert len(checked) == int(has_rows)
+    assert ended.value.rows[-1]["answered"] == int(has_rows)
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_the_command_itself(ending: signal.Signals) -> None:
+    words = "bench fastest kinematics --grid --orders c-gait --steps 0.02,free --stop-bounds 1.5 --json"
+    terminal, its_end = os.openpty()
+    command = [sys.executable, "-m", "app", *words.split()]
+    with subprocess.Popen(
+        command, cwd=PROJECT, stdout=subprocess.PIPE, stderr=its_end, start_new_session=True
+    ) as process:
+        os.close(its_end)
+        said = b""
+
+        def hear() -> bytes:
+            nonlocal said
+            if select.select([terminal], [], [], 1.0)[0]:
+                said += os.read(terminal, 1000)
+            return said
+
+        wait_for(lambda: b"Grid: 1 of 4" in hear(), "a problem is answered")
+        if ending is signal.SIGINT:
+            os.killpg(process.pid, ending)  # as a terminal does
+        else:
+            process.send_signal(ending)
+        wait_for(lambda: b"Interrupted." in hear(), "it ends")
+        out, _ = process.communicate(timeout=60)
+    os.close(terminal)
+    answer = json.loads(out)
+    assert process.returncode == INTERRUPTED
+    assert list(answer["results"]) == ["fastest"]
+    *rows, _, whole = answer["results"]["fastest"]
+    assert (whole["problems"], whole["answered"]) == (4, len(rows))
+    assert {row["check"] for row in rows} == {"confirmed"}
+    assert b"kinematics" not in said
+    assert b"Traceback" not in said
 
 
 @pytest.mark.heavy

@@ -15,7 +15,6 @@ STANDS, WAYPOINT, BODY = "#f1f3f6", "#98a2b3", "#475467"
 TICK_SECONDS = 5
 LEAST_BODY_MM = 0.05
 """A shorter way of the body is none, mm."""
-TITLE = "Ten moves instead of forty messages"
 
 
 def moves_picture(walks: Sequence[WalkedMoves], colours: Sequence[str]) -> Drawing:
@@ -28,8 +27,9 @@ def moves_picture(walks: Sequence[WalkedMoves], colours: Sequence[str]) -> Drawi
     seconds = TICK_SECONDS * -(-max(walk.seconds for walk in walks) // TICK_SECONDS)
     height = HEAD + (len(colours) + 1) * (ROW + GAP) + BETWEEN
     bottom = TOP + height * len(walks)
+    title = _title(walks)
     shapes: list[Shape] = [
-        Words(20, 30, TITLE, 18, INK, bold=True),
+        Words(20, 30, title, 18, INK, bold=True),
         *_axis(seconds, bottom),
         *_legend(bottom + 46, colours),
     ]
@@ -38,11 +38,17 @@ def moves_picture(walks: Sequence[WalkedMoves], colours: Sequence[str]) -> Drawi
     return Drawing(
         width=WIDTH,
         height=bottom + FOOT,
-        title=TITLE,
+        title=title,
         description=" ".join(f"{walk.name}: {_facts(walk)}." for walk in walks),
         background=SHEET,
         shapes=tuple(shapes),
     )
+
+
+def _title(walks: Sequence[WalkedMoves]) -> str:
+    """How many messages the last walk needs where the first one needs others."""
+    first, last = len(walks[0].moves), len(walks[-1].moves)
+    return f"{last} messages a cycle" + (f" instead of {first}" if first != last else "")
 
 
 def _x(time: float, seconds: float) -> float:

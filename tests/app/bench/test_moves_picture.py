@@ -14,6 +14,7 @@ from app.bench.robot.walked_moves import Move, WalkedMoves, walks_content, walks
 from app.export.drawing import Box, Words
 from core.errors import InputError
 from core.robot.model import load_robot
+from core.wire.robot_time import PUBLISHED
 from tests.support.command import run
 from tests.support.studio_process import PROJECT
 
@@ -25,6 +26,42 @@ def test_the_picture_in_docs_is_drawn_from_the_data_beside_it() -> None:
     walks = walks_of(json.loads(DATA.read_text()))
     assert moves_svg(walks) == PICTURE.read_text()
     assert json.loads(json.dumps(walks_content(walks))) == json.loads(DATA.read_text())
+
+
+def test_the_figures_of_the_page_are_those_of_the_data() -> None:
+    page = (PROJECT / "docs/fastest.md").read_text()
+    published, fastest = walks = walks_of(json.loads(DATA.read_text()))
+    for walk in walks:
+        count = len(walk.moves)
+        cells = (
+            f"{walk.way:.1f} mm",
+            count,
+            walk.with_ramps(0),
+            walk.with_ramps(2),
+            f"{walk.seconds:.1f}",
+            f"{walk.ramp_seconds:.1f} s",
+            f"{walk.way / count:.2g} mm",
+            f"{walk.way / walk.seconds:.2f} mm/s",
+        )
+        assert f" | {' | '.join(map(str, cells))} |" in page
+    idle = [move.seconds for move in published.moves if not move.ramps]
+    moved, still = f"{PUBLISHED.message:.2f} s", f"{PUBLISHED.arrived:.2f} s"
+    assert (
+        f"A message with a ramp takes {moved} besides the ramp; one that moves nothing takes {still}." in page
+    )
+    beside = [move.seconds - move.ramp_seconds for move in fastest.moves]
+    assert sum(beside) / len(beside) == pytest.approx(PUBLISHED.message - 0.1, abs=0.01)
+    assert sum(idle) / len(idle) == pytest.approx(PUBLISHED.arrived, abs=0.005)
+    assert f"At {len(idle)} of its messages every motor" in page
+    assert f"stays, {still} each" in page
+
+
+def test_the_title_counts_the_messages() -> None:
+    moves = tuple(Move(0.3, (), (2,), 0.0) for _ in range(4))
+    colours = load_robot("deltawalker").colours
+    walk, longer = WalkedMoves("Walk", 5.0, moves[:3]), WalkedMoves("Longer", 5.0, moves)
+    assert moves_picture((longer, walk), colours).title == "3 messages a cycle instead of 4"
+    assert moves_picture((walk,), colours).title == "3 messages a cycle"
 
 
 def test_each_ramp_is_a_bar_of_the_body_and_of_the_feet_in_the_air() -> None:

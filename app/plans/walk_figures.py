@@ -9,6 +9,7 @@ from core.gait.gait import Gait, is_drawn
 from core.pose_gaits.pose_check import PoseCheck
 from core.pose_gaits.pose_gait import PoseGait
 from core.wire.robot_time import estimate_seconds, move_estimates, stop_time
+from core.wire.waypoint_merging import WaypointPlan
 
 FEWEST_FOR_MIDDLE = 3
 """Iterations from which a plan has some that are neither the first nor the last."""
@@ -65,7 +66,7 @@ def plan_figures(gait: Gait, plan: Plan) -> WalkFigures | None:
     seconds = estimate_seconds(way.waypoints)
     distance = float(np.linalg.norm(trajectory.body_world[-1, :2] - trajectory.body_world[0, :2]))
     turn = float(trajectory.heading[-1] - trajectory.heading[0])
-    cycle_seconds, cycle_moves = _cycle(gait, plan)
+    cycle_seconds, cycle_moves = _cycle(gait, way)
     return WalkFigures(
         cycle_seconds=cycle_seconds,
         cycle_speed=distance / gait.iterations / cycle_seconds,
@@ -82,15 +83,13 @@ def plan_figures(gait: Gait, plan: Plan) -> WalkFigures | None:
     )
 
 
-def _cycle(gait: Gait, plan: Plan) -> tuple[float, float]:
+def _cycle(gait: Gait, way: WaypointPlan) -> tuple[float, float]:
     """Seconds and messages of a cycle."""
-    if plan.way is None:
-        return 0.0, 0.0
-    seconds = move_estimates(plan.way.waypoints)[1:]
+    seconds = move_estimates(way.waypoints)[1:]
     count, length = gait.iterations, 2 * gait.options.phase_knots * gait.timeline.leg_count
     if count < FEWEST_FOR_MIDDLE or not is_drawn(gait):
         return float(seconds.sum()) / count, len(seconds) / count
-    period, ends = length * gait.timeline.sample_time, plan.way.times[1:]
+    period, ends = length * gait.timeline.sample_time, way.times[1:]
     within = (ends > period + SAME_TIME) & (ends <= (count - 1) * period + SAME_TIME)
     return float(seconds[within].sum()) / (count - 2), int(within.sum()) / (count - 2)
 

@@ -1,5 +1,6 @@
 """Compares a drawn gait with the gait for the robot's clock of the same foot order and step."""
 
+import logging
 import threading
 from collections import OrderedDict
 from collections.abc import Callable
@@ -17,8 +18,11 @@ from core.pose_gaits.conversion import as_pose_gait, conversion_notice
 from core.pose_gaits.gait_poses import pose_problem, with_poses
 from solver_jobs import PoseGaitSolver, PoseProgress, PoseResult, PoseSearch, SolveStatus
 
+logger = logging.getLogger(__name__)
+
 MOST_ANSWERS = 8
 """Searches whose results are remembered."""
+OWN_ERROR = "The studio met an error of its own, which its log describes. Try again, and please report it."
 ANSWERS = (SolveStatus.SOLVED, SolveStatus.INFEASIBLE)
 Show = Callable[[Json | None], object]
 """Told of each state as JSON content, and of None at the end; from a thread of the solver's, or at once."""
@@ -153,7 +157,11 @@ class FasterGaits:
                 show(self._taken(motion, comparison, Found(walk.result(), cycle.result())))
             except FootfallError as error:
                 show(comparison.failed(error.sentence))
-            show(None)
+            except Exception:  # a callback's error goes nowhere, and the page would wait for good
+                logger.exception("The comparison with a faster gait broke off.")
+                show(comparison.failed(OWN_ERROR))
+            finally:
+                show(None)
 
         def end() -> None:
             walk.cancel()

@@ -155,7 +155,11 @@ def test_a_cancelled_search_is_begun_anew(studio: Studio) -> None:
     assert all(search.is_cancelled for search in studio.solver.searches)
     for search in studio.solver.searches:
         search.end(without(SolveStatus.CANCELLED, "The search was cancelled."))
-    assert studio.states[-2:] == [studio.states[-2], None]
+    *_, last, nothing = studio.states
+    assert nothing is None
+    assert last is not None
+    assert (last["state"], last["document"]) == ("failed", None)
+    assert last["sentence"] == "The search was cancelled."
     assert studio.kept == []
     studio.search()
     assert len(studio.solver.searches) == 4
@@ -171,6 +175,29 @@ def test_a_search_that_breaks_off_says_so(studio: Studio) -> None:
     assert last is not None
     assert (last["state"], last["sentence"]) == ("failed", "The pose gait solver's process ended twice.")
     assert studio.states[-1] is None
+
+
+@pytest.mark.parametrize("broken", ["search", "keeping"])
+def test_an_error_of_the_studios_own_ends_the_states_too(
+    studio: Studio, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture, broken: str
+) -> None:
+    def fail(*given: object) -> None:
+        raise ZeroDivisionError
+
+    studio.search()
+    walk, cycle = studio.solver.searches
+    if broken == "keeping":
+        monkeypatch.setattr(studio.faster, "_keep", fail)
+    else:
+        monkeypatch.setattr(cycle, "result", fail)
+    walk.end(solved())
+    cycle.end(without(SolveStatus.INFEASIBLE, "No."))
+    *_, last, nothing = studio.states
+    assert nothing is None
+    assert last is not None
+    assert (last["state"], last["document"]) == ("failed", None)
+    assert "an error of its own" in last["sentence"]
+    assert [record.exc_info is not None for record in caplog.records] == [True]
 
 
 def test_a_gait_that_cannot_be_one_is_refused(studio: Studio) -> None:

@@ -10,6 +10,9 @@ function turned([x, y], quarters) {
 /** Body travel an iteration, m. */
 export const stepLength = ({ step }) => Math.hypot(step[0], step[1]);
 
+/** Whether the body stays where it is, and at most turns. */
+export const isOnTheSpot = (document) => stepLength(document) === 0;
+
 /** Body travel an iteration in the world's axes, [x, y] in m. */
 export const worldStep = ({ step, direction }) => turned([step[0], step[1]], direction - 1);
 

@@ -4,7 +4,7 @@
  */
 
 import { ApiError, api } from "../api/gaits.js";
-import { stepTurn } from "../document/step.js";
+import { isOnTheSpot, stepTurn } from "../document/step.js";
 import { freeName } from "../document/gait_names.js";
 import { dialogFrame, openDialog } from "../lib/dialogs.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
@@ -15,6 +15,7 @@ const HELP = "The same foot order and step, made for the robot's clock; shows bo
 const FREELY = "Makes a drawn gait with this foot order and step, whose timeline can be painted";
 const BROKEN_OFF = "The search broke off. Try again once the studio answers.";
 const MORE = "More iterations, a longer step or a later stop bound make it gain more.";
+const FEW = "With fewer than three iterations, Now in mid-walk is their mean.";
 const USE = "Makes this gait one for the robot's clock; one Undo brings the drawn one back";
 const NEW = "Keeps this gait as it is, and makes another one";
 const ABOUT = "with the same foot order and step, made for the robot's clock: few poses, and every motor "
@@ -44,6 +45,16 @@ function conversionButton(store, { text, help, isOf, act }) {
   return button;
 }
 
+/** The act, which a second press does not begin again before it has ended. */
+function oneAtATime(act) {
+  let isOn = false;
+  return async () => {
+    if (isOn) return;
+    isOn = true;
+    try { await act(); } finally { isOn = false; }
+  };
+}
+
 /** The button on a gait for the robot's clock. */
 export const drawFreelyButton = (store, edits) => conversionButton(store, {
   text: "Draw it freely", help: FREELY, isOf: ({ poses }) => Boolean(poses),
@@ -58,31 +69,36 @@ export const drawFreelyButton = (store, edits) => conversionButton(store, {
  */
 export const fasterButton = (store, edits, show) => conversionButton(store, {
   text: "Faster on the robot", help: HELP, isOf: ({ poses }) => !poses,
-  act: () => compare(store, edits, show),
+  act: oneAtATime(() => compare(store, edits, show)),
 });
 
-/** Seconds, speeds and lengths of both gaits as rows: a name, its unit, and how a figure is read. */
-function rowsOf({ step, iterations }) {
-  const isOnTheSpot = Math.hypot(step[0], step[1]) === 0;
-  const turn = Math.abs(stepTurn({ step })) > 0;
+/** The figure that says how fast a gait is, as both sides name it. */
+const rateOf = (document) => (isOnTheSpot(document) ? "turn_rate" : "speed");
+
+/** The figures of both gaits as rows under two heads; a row has a name, a unit, and how a figure is read. */
+function groupsOf(document) {
+  const onTheSpot = isOnTheSpot(document);
+  const rate = rateOf(document);
+  const turns = Math.abs(stepTurn(document)) > 0;
   const degrees = (rate) => fixed(Math.abs(rate) * DEGREES, 2);
-  const pace = isOnTheSpot ? ["°/s", degrees] : ["mm/s", (speed) => mm(speed, 2)];
-  const whole = `From rest to rest, ${counted(iterations, "iteration")}`;
+  const pace = onTheSpot ? ["°/s", degrees] : ["mm/s", (speed) => mm(speed, 2)];
+  const whole = `From rest to rest, ${counted(document.iterations, "iteration")}`;
   const of = (name, unit, read, text) => ({ name, unit, read, text });
-  return [
-    { head: "One iteration in mid-walk" },
-    of("Speed", pace[0], (side) => side[isOnTheSpot ? "cycle_turn_rate" : "cycle_speed"], pace[1]),
+  const middle = [
+    of("Speed", pace[0], (side) => side[`cycle_${rate}`], pace[1]),
     of("Time", "s", (side) => side.cycle_seconds, (value) => fixed(value)),
     of("Moves", "", (side) => side.cycle_moves, (value) => fixed(value, Number.isInteger(value) ? 0 : 1)),
-    { head: whole },
-    of("Speed", pace[0], (side) => side[isOnTheSpot ? "turn_rate" : "speed"], pace[1]),
+  ];
+  const all = [
+    of("Speed", pace[0], (side) => side[rate], pace[1]),
     of("Time", "s", (side) => side.seconds, (value) => fixed(value)),
     of("Moves", "", (side) => side.moves, (value) => fixed(value, 0)),
-    ...(isOnTheSpot ? [] : [of("Travel", "mm", (side) => side.distance, (value) => mm(value))]),
-    ...(turn ? [of("Turn", "°", (side) => side.turn, (value) => fixed(value * DEGREES))] : []),
+    ...(onTheSpot ? [] : [of("Travel", "mm", (side) => side.distance, (value) => mm(value))]),
+    ...(turns ? [of("Turn", "°", (side) => side.turn, (value) => fixed(value * DEGREES))] : []),
     of("Least margin", "mm", (side) => side.margin, (value) => mm(value)),
     of("Stop within", "s", (side) => side.stop_seconds, (value) => fixed(value, 2)),
   ];
+  return [{ head: "One iteration in mid-walk", rows: middle }, { head: whole, rows: all }];
 }
 
 function table(document) {
@@ -92,16 +108,17 @@ function table(document) {
     cells.push({ element, row, side });
     return element;
   };
-  const rows = rowsOf(document).map((row) => {
-    if (row.head) return h("tr", {}, h("th", { scope: "rowgroup", colspan: "3", text: row.head }));
+  const line = (row) => {
     const unit = h("span", { class: "quiet", text: ` ${row.unit}` });
     const name = h("th", { scope: "row" }, row.name, unit);
     return h("tr", {}, name, cell(row, "now"), cell(row, "faster"));
-  });
+  };
+  const groups = groupsOf(document).map(({ head, rows }) => h("tbody", {},
+    h("tr", {}, h("th", { scope: "rowgroup", colspan: "3", text: head })), ...rows.map(line)));
   const columns = ["Now", "For the robot's clock"].map((text) => h("th", { scope: "col", text }));
   const element = h("table", { class: "sides" },
     h("thead", {}, h("tr", {}, h("td"), ...columns)),
-    h("tbody", {}, ...rows));
+    ...groups);
   const show = (state) => cells.forEach(({ element: place, row, side }) => {
     const waits = side === "faster" && state.state === "running";
     const value = state[side] ? row.read(state[side]) : null;
@@ -111,8 +128,8 @@ function table(document) {
 }
 
 /** How much faster it is, in mid-walk and over all; a gait that is slower says so. */
-function verdict({ now, faster }, { step, iterations }) {
-  const rate = step[0] || step[1] ? "speed" : "turn_rate";
+function verdict({ now, faster }, document) {
+  const rate = rateOf(document);
   const pace = (side, name) => Math.abs(side[`${name}${rate}`]);
   if (!now) return "Now has no motion that can be sent.";
   const times = (name) => pace(faster, name) / pace(now, name);
@@ -121,7 +138,7 @@ function verdict({ now, faster }, { step, iterations }) {
   parts.push(`from rest to rest ${words(times(""))}`);
   const sentences = [`${capital(parts.join(", "))}.`];
   if (times("") < WORTH) sentences.push(MORE);
-  if (iterations < MIDDLE) sentences.push("With fewer than three iterations, Now in mid-walk is their mean.");
+  if (document.iterations < MIDDLE) sentences.push(FEW);
   return sentences.join(" ");
 }
 
@@ -131,8 +148,8 @@ function lineOf(state, document) {
   return state.state === "solved" ? verdict(state, document) : state.sentence;
 }
 
-function isWorse({ state, now, faster }, { step }) {
-  const rate = step[0] || step[1] ? "speed" : "turn_rate";
+function isWorse({ state, now, faster }, document) {
+  const rate = rateOf(document);
   if (state === "infeasible" || state === "failed") return true;
   return Boolean(now && faster && Math.abs(faster[rate]) < Math.abs(now[rate]));
 }

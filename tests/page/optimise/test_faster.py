@@ -84,21 +84,34 @@ def test_it_becomes_a_new_gait_that_is_drawn_freely_again(page: Page) -> None:
     expect(page.get_by_label("Step length")).to_have_value("false")
 
 
-def test_cancel_ends_the_search_and_changes_nothing(page: Page) -> None:
+def test_two_quick_presses_open_one_dialog_and_cancel_ends_its_search(page: Page) -> None:
+    begun: list[str] = []
+    page.on("request", lambda request: begun.append(request.url) if request.url.endswith("/faster") else None)
     step = page.get_by_label("Step", exact=True)
     step.fill("9")
     step.press("Enter")
     expect(page.get_by_role("button", name="Undo")).not_to_have_attribute("aria-disabled", "true")
-    button(page, "Faster on the robot").click()
+    faster = button(page, "Faster on the robot")
+    expect(faster).not_to_have_attribute("aria-disabled", "true")
+    faster.evaluate("(button) => { button.click(); button.click(); }")
     dialog = page.get_by_role("dialog", name="Faster on the robot")
     expect(dialog.get_by_role("status", name="Comparison")).to_contain_text("Looking for the fastest motion")
     expect(dialog.get_by_role("row", name="Least margin").get_by_role("cell").first).to_have_text(NUMBER)
     expect(dialog.get_by_role("button", name="Use this")).to_be_disabled()
+    heads = dialog.locator("tbody > tr:first-child > th[scope=rowgroup]")
+    expect(heads).to_have_text(["One iteration in mid-walk", re.compile("^From rest to rest")])
+    expect(dialog.locator("tbody")).to_have_count(2)
+    assert len(begun) == 1
     with page.expect_event("requestfailed", lambda request: request.url.endswith("/faster")):
         dialog.get_by_role("button", name="Cancel").click()
     expect(dialog).to_be_hidden()
     expect(page.get_by_label("Phase knots", exact=True)).to_be_visible()
     expect(page.locator("#toasts")).to_be_empty()
+    faster.click()
+    expect(dialog).to_be_visible()
+    page.keyboard.press("Escape")
+    expect(dialog).to_be_hidden()
+    assert len(begun) == 2
     page.get_by_role("button", name="Undo").click()
 
 

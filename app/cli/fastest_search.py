@@ -6,6 +6,7 @@ import numpy as np
 
 from app.fastest.search import Searched, travel_heading
 from core.library.library import order_name
+from core.pose_gaits.pace import pace_words
 from core.pose_gaits.pose_problem import PoseProblem
 from solver_jobs import SearchStep, TriedGait
 
@@ -14,7 +15,7 @@ def show_progress(part: str, step: SearchStep) -> None:
     """Shows a person at a terminal how far a search is."""
     if not sys.stderr.isatty():
         return
-    fastest = "" if step.fastest is None else f", the fastest yet {pace_words(step.fastest)}"
+    fastest = "" if step.fastest is None else f", the fastest yet {_tried_pace(step.fastest)}"
     sys.stderr.write(f"\r\033[K{part}: {step.done} of {step.count}{fastest}")
     sys.stderr.write("\n" if step.done == step.count else "")
     sys.stderr.flush()
@@ -27,14 +28,10 @@ def end_progress() -> None:
         sys.stderr.flush()
 
 
-def pace_words(tried: TriedGait) -> str:
-    """How fast a gait is, in words."""
+def _tried_pace(tried: TriedGait) -> str:
+    """How fast a gait that was tried is, in words."""
     gait = tried.result.gait
-    if gait is None:
-        return "none"
-    if gait.problem.on_the_spot:
-        return f"{abs(np.degrees(gait.turn_rate)):.2f}°/s"
-    return f"{gait.speed * 1000:.2f} mm/s"
+    return "none" if gait is None else pace_words(gait.pace, gait.problem.on_the_spot)
 
 
 def search_lines(found: Searched) -> list[str]:
@@ -51,7 +48,7 @@ def search_lines(found: Searched) -> list[str]:
     for one in found.front:
         bounds = one.problem.bounds
         asked = f"margin {bounds.margin * 1000:g} mm, stop bound {bounds.stop_bound:g} s"
-        lines.append(f"  {asked:<38} {pace_words(one):<12} {_choice_words(one.problem)}")
+        lines.append(f"  {asked:<38} {_tried_pace(one):<12} {_choice_words(one.problem)}")
     return lines
 
 
@@ -68,4 +65,4 @@ def _outcome_words(tried: TriedGait) -> str:
     if gait is None:
         return tried.result.explanation[0] if tried.result.explanation else tried.result.status.value
     step = f"{np.degrees(gait.turn):.1f}°" if gait.problem.on_the_spot else f"{gait.step * 1000:.1f} mm"
-    return f"{pace_words(tried):<12} {step} in {gait.problem.move_count} moves"
+    return f"{_tried_pace(tried):<12} {step} in {gait.problem.move_count} moves"

@@ -10,6 +10,7 @@ from app.common.json import Json, finite
 from app.documents.gait_json import gait_content
 from app.gaits.open_gait import OpenGait
 from app.gaits.recovery import WayOut
+from app.gaits.thumbnails import footfall_columns
 from app.plans.plan import Plan, PlanSource
 from app.plans.provenance import provenance_view
 from app.plans.reach_outline_view import reach_rings
@@ -61,6 +62,7 @@ def line_view(
         "orientation": gait.orientation.value,
         "order": list(gait.order),
         "step": list(gait.step),
+        "footfalls": footfall_columns(gait.timeline),
         "edited": edited,
         "walks": library()[gait_id].walks if builtin and not edited else None,
         "outside": outside,
@@ -89,6 +91,7 @@ def problem_view(gait_id: str, sentence: str, builtin: bool = False, way_out: Wa
         "orientation": None,
         "order": [],
         "step": None,
+        "footfalls": [],
         "edited": False,
         "walks": None,
         "outside": None,

@@ -3,14 +3,16 @@
 import { api } from "../api/gaits.js";
 import { dialogFrame, openDialog } from "../lib/dialogs.js";
 import { byId, h, setAttribute, setText } from "../lib/dom.js";
-import { SPEED_UNIT, pace, timesText } from "../lib/format.js";
+import { SPEED_UNIT, pace } from "../lib/format.js";
+import { remember, remembered } from "../lib/remembered.js";
 import { attempt, clearOfGait, report, toast } from "../lib/toasts.js";
 import { acceptView } from "../state/store.js";
 import { closeOverStage } from "./drawers.js";
+import { gaitLine, mountWholeNames, showLine } from "./gait_line.js";
 
 const KEY = "footfall.gait";
 
-function remember(id) {
+function rememberGait(id) {
   try {
     localStorage.setItem(KEY, id);
   } catch {
@@ -26,16 +28,22 @@ function lastUsed() {
   }
 }
 
+/** What belongs to the gait that was shown before. */
+const NOTHING_SHOWN = {
+  gesture: null, live: null, remedies: null, iterate: null, refused: null, formError: null, shownJob: null, runSummary: null,
+};
+
 /** Shows a gait: fetches its view and remembers it for the next visit. */
 export async function selectGait(store, id) {
   if (store.state.selected !== id) {
     clearOfGait();
     const { pending, left } = store.state;
-    store.set({ selected: id, view: null, pending: [], left: [...left, ...pending.filter((edit) => !edit.refused)], gesture: null, live: null, remedies: null, iterate: null, refused: null, formError: null, shownJob: null, runSummary: null });
+    const unsent = [...left, ...pending.filter((edit) => !edit.refused)];
+    store.set({ selected: id, view: null, pending: [], left: unsent, ...NOTHING_SHOWN });
   }
   try {
     acceptView(store, await api.view(id));
-    if (store.state.selected === id) remember(id);
+    if (store.state.selected === id) rememberGait(id);
   } catch (error) {
     if (store.state.selected === id) report(error);
   }
@@ -60,17 +68,6 @@ export function selectAfterHello(store) {
   const first = gaits.find(({ problem }) => !problem)?.id;
   const choice = [selected, running, lastUsed(), first].find((id) => id && known(id));
   if (choice) selectGait(store, choice);
-}
-
-const ROW = h("li", {}, h("button", { class: "gait" }, h("span", { class: "name" }), h("span", { class: "tag" }, h("span", { class: "dot", title: "Unsaved changes" }), h("span"))));
-
-/** A row, as a copy: hundreds are made before anything else is seen. */
-function item(gait) {
-  const element = ROW.cloneNode(true);
-  const button = element.firstChild;
-  const [name, { firstChild: dot, lastChild: tag }] = button.children;
-  button.dataset.gait = gait.id;
-  return { element, button, name, tag, dot };
 }
 
 const WAYS_OUT = { last: "Go back to the last state that can be shown", original: "Back to how it came" };
@@ -102,77 +99,74 @@ function showWaysOut(store, { id, name, problem, way_out: wayOut }) {
   });
 }
 
-function showProblem(part, { name, problem }) {
-  setText(part.name, name);
-  setText(part.tag, "unreadable");
-  setAttribute(part.button, "data-stuck", true);
-  part.dot.hidden = true;
-  setAttribute(part.button, "aria-current", null);
-  setAttribute(part.button, "title", problem);
-}
-
-/** The last word of a row: what is wrong with the gait, else its pace on the robot, else what it is. */
-function tagOf(gait) {
-  const { outside, walks, source, orientation } = gait;
-  if (outside) return "changed";
-  if (walks === false) return "infeasible";
-  const known = pace(gait);
-  // The group's heading has the unit of speeds.
-  if (known) return known.unit === SPEED_UNIT ? known.value : known.value + known.unit;
-  return source === "sequence" ? "seq." : orientation;
-}
-
-function show(part, listed, selected, view) {
-  // The view of the shown gait is newer than the list.
-  const { plan_seconds, robot_seconds, speed, turn_rate } = view ?? {};
-  const gait = view?.id === listed.id ? { ...listed, plan_seconds, robot_seconds, speed, turn_rate } : listed;
-  if (gait.problem) {
-    showProblem(part, gait);
-    return;
-  }
-  setText(part.name, gait.name);
-  const walks = gait.walks !== false;
-  setText(part.tag, tagOf(gait));
-  setAttribute(part.button, "data-stuck", !walks || Boolean(gait.outside));
-  part.dot.hidden = !gait.edited;
-  setAttribute(part.button, "aria-current", gait.id === selected ? "true" : null);
-  const facts = [gait.robot, gait.orientation, gait.source, gait.kind, gait.source === "sequence" ? "" : `foot order ${gait.order.join(" ")}`, gait.edited ? "unsaved changes" : ""];
-  const sentences = [`${gait.name}: ${facts.filter(Boolean).join(", ")}`, timesText(gait), gait.outside, walks ? "" : "No motion of it keeps every limit", "Double click: its name"];
-  setAttribute(part.button, "title", sentences.filter(Boolean).join(". "));
-}
-
-const FIRST = "Saved";
+const [SAVED, FOR_ROBOT, EXAMPLES] = ["Saved", "For this robot", "Examples"];
+/** Groups in their order; all others are examples, and stand in one fold. */
+const AT_TOP = [SAVED, FOR_ROBOT];
 const SETTLING_FRAMES = 10;
-const FOLDED_AT_FIRST = ["By hand", "Orders of Appendix A", "Textbook"];
+const FOLDED_AT_FIRST = [EXAMPLES, "By hand", "Orders of Appendix A", "Textbook"];
+const FOLDS = "gait-groups";
 
-/** A group's heading, which folds it; the group that is shown stays open. */
-function heading(group, folded, redraw) {
+/**
+ * Which groups are open: as the person left them in this browser. The group of a gait that is chosen opens for as long as
+ * the page is open.
+ */
+function createFolds() {
+  const chosen = remembered(FOLDS);
+  const revealed = new Set();
+  const isOpen = (group) => revealed.has(group) || (chosen[group] ?? !FOLDED_AT_FIRST.includes(group));
+  return {
+    isOpen,
+    reveal(group) {
+      revealed.add(group);
+      if (!AT_TOP.includes(group)) revealed.add(EXAMPLES);
+    },
+    toggle(group) {
+      chosen[group] = !isOpen(group);
+      revealed.delete(group);
+      remember(FOLDS, chosen);
+    },
+  };
+}
+
+/** A group's heading, which folds it. */
+function heading(group, toggle) {
   const text = h("span", {});
   const unit = h("span", { class: "unit", title: "Speed on the robot", text: SPEED_UNIT });
-  const button = h("button", { class: "group", on: { click: () => {
-    if (!folded.delete(group)) folded.add(group);
-    redraw();
-  } } }, text, unit);
-  return { element: h("li", { class: "group-row" }, button), button, text, unit };
+  const button = h("button", { class: "group", on: { click: () => toggle(group) } }, text, unit);
+  const level = group === EXAMPLES || AT_TOP.includes(group) ? null : { level: "inner" };
+  const element = h("li", { class: "group-row", data: level ?? {} }, button);
+  return {
+    element,
+    show(isOpen, members) {
+      setText(text, isOpen ? group : `${group} (${members.length})`);
+      unit.hidden = group === EXAMPLES || !isOpen || !members.some((gait) => pace(gait)?.unit === SPEED_UNIT);
+      setAttribute(button, "aria-expanded", String(isOpen));
+    },
+  };
 }
 
+/** Groups with their gaits: one's own first, then those for the robot, then the examples. */
 function grouped(gaits) {
-  const groups = new Map();
+  const groups = new Map(AT_TOP.map((group) => [group, []]));
   for (const gait of gaits) {
     if (!groups.has(gait.group)) groups.set(gait.group, []);
     groups.get(gait.group).push(gait);
   }
-  return [...groups].sort(([a], [b]) => (b === FIRST) - (a === FIRST));
+  const all = [...groups].filter(([, members]) => members.length);
+  const isAtTop = ([group]) => AT_TOP.includes(group);
+  return { top: all.filter(isAtTop), examples: all.filter((one) => !isAtTop(one)) };
 }
 
 /** Builds the list and keeps it current; moves on where the shown gait has gone. */
 export function mountGaits(store) {
   const list = byId("gaits");
   let listed = null;
-  const [parts, headings, folded] = [new Map(), new Map(), new Set(FOLDED_AT_FIRST)];
+  let revealed = null;
+  const [parts, headings, folds] = [new Map(), new Map(), createFolds()];
 
   const search = gaitSearch(() => draw(store.state));
   list.before(search.element);
+  mountWholeNames(list);
   list.addEventListener("click", ({ target }) => {
     const id = target.closest("[data-gait]")?.dataset.gait;
     const unreadable = store.state.gaits.find((gait) => gait.id === id && gait.problem);
@@ -187,33 +181,55 @@ export function mountGaits(store) {
     if (id && !store.state.gaits.some((gait) => gait.id === id && gait.problem)) rename(store, id);
   });
 
-  function draw({ gaits, selected, view }) {
+  function toggle(group) {
+    if (search.search()) return;
+    folds.toggle(group);
+    draw(store.state);
+  }
+
+  /** The heading of a group; whether the group is open. */
+  function addHeading(wanted, group, members) {
+    const isOpen = Boolean(search.search()) || folds.isOpen(group);
+    if (!headings.has(group)) headings.set(group, heading(group, toggle));
+    headings.get(group).show(isOpen, members);
+    wanted.add(headings.get(group).element);
+    return isOpen;
+  }
+
+  function addGroup(wanted, [group, members], { selected, view }) {
+    if (!addHeading(wanted, group, members)) return;
+    for (const gait of members) {
+      if (!parts.has(gait.id)) parts.set(gait.id, gaitLine(gait));
+      showLine(parts.get(gait.id), gait, selected, view);
+      wanted.add(parts.get(gait.id).element);
+    }
+  }
+
+  function draw(state) {
+    const { gaits } = state;
     const wanted = new Set();
     const searched = search.search();
     const matching = searched ? gaits.filter((gait) => found(gait, searched)) : gaits;
-    let listed = 0;
-    for (const [group, members] of grouped(matching)) {
-      const open = Boolean(searched) || !folded.has(group) || members.some(({ id }) => id === selected);
-      if (!headings.has(group)) headings.set(group, heading(group, folded, () => draw(store.state)));
-      const head = headings.get(group);
-      if (open) listed += members.length;
-      setText(head.text, open ? group : `${group} (${members.length})`);
-      head.unit.hidden = !open || !members.some((gait) => pace(gait)?.unit === SPEED_UNIT);
-      setAttribute(head.button, "aria-expanded", String(open));
-      wanted.add(head.element);
-      for (const gait of members) {
-        if (!parts.has(gait.id)) parts.set(gait.id, item(gait));
-        show(parts.get(gait.id), gait, selected, view);
-        if (open) wanted.add(parts.get(gait.id).element);
-      }
+    const { top, examples } = grouped(matching);
+    for (const group of top) addGroup(wanted, group, state);
+    if (examples.length && addHeading(wanted, EXAMPLES, examples.flatMap(([, members]) => members))) {
+      for (const group of examples) addGroup(wanted, group, state);
     }
-    search.show(listed, gaits.length);
+    search.show(matching.length, gaits.length);
     for (const child of [...list.children]) if (!wanted.has(child)) child.remove();
     let next = list.firstElementChild;
     for (const element of wanted) {
       if (element === next) next = next.nextElementSibling;
       else list.insertBefore(element, next);
     }
+  }
+
+  /** Opens the group of a gait when it is chosen; the person may fold it again. */
+  function reveal({ gaits, selected }) {
+    const chosen = selected === revealed ? null : gaits.find(({ id }) => id === selected);
+    if (!chosen) return;
+    revealed = selected;
+    folds.reveal(chosen.group);
   }
 
   const timesOf = (view) => [view?.id, view?.robot_seconds, view?.speed, view?.turn_rate];
@@ -223,6 +239,7 @@ export function mountGaits(store) {
     for (const id of parts.keys()) if (!kept.has(id)) parts.delete(id);
     const row = parts.get(selected)?.element;
     const place = row?.offsetTop;
+    reveal(state);
     draw(state);
     // A gait that was just made may be shown before the list tells of it: only one that was listed can be gone.
     if (kept.has(selected)) {

@@ -98,7 +98,7 @@ export function start(store) {
   // Not the step Run: what the robot says is shown at once, also while Send is held.
   for (const id of ["design", "simulate", "check"]) stillWhilePressed(store, byId(id));
   const panels = panelsAfterPaint({ store, edits, playback, goTo, gaitTools });
-  const patterns = mountPatternEntry(store, { edits, playback, show: (id) => selectGait(store, id) });
+  const patterns = mountPatternEntry(store, { edits, playback, show: (id) => selectGait(store, id), gaitTools });
   mountKeys({ store, edits, playback, timeline, actions, zoom, escapes: [patterns.cancel, () => panels.segments?.(), timeline.cancelGesture, () => panels.sequence?.(), tools.close, optimise.cancel, () => panels.countdown?.(), menuIsOpen, () => panels.runs?.(), timeline.clearSelection] });
 
   // During a run the preview stands where the robot is, to the end, unless somebody plays the plan.

@@ -1,7 +1,5 @@
-/** The ways to the pattern search, which is loaded when it is first opened: its tab, and the menu of the open gait. */
+/** The ways to the pattern search, which is loaded when it is first opened: its tab, and the menu Gait. */
 
-import { actionMenu } from "../lib/action_menu.js";
-import { byId } from "../lib/dom.js";
 import { runIsOn } from "../state/store.js";
 import { onStep } from "../steps/steps.js";
 import { onView, openedView, openView } from "../timeline/views.js";
@@ -28,7 +26,7 @@ function remembersOpen(open) {
 /**
  * Builds the entries.
  * @param {object} store
- * @param {{edits: object, playback: Playback, show: (id: string) => Promise<void>}} page
+ * @param {{edits: object, playback: Playback, show: (id: string) => Promise<void>, gaitTools: object}} page
  * @returns {{cancel: () => boolean}} `cancel` ends a drag in the pattern
  */
 export function mountPatternEntry(store, page) {
@@ -57,8 +55,7 @@ export function mountPatternEntry(store, page) {
   onStep(() => { if (openedView() === "patterns") openView("cells"); });
 
   const go = (mode) => { wanted = mode; openView("patterns"); };
-  const menu = actionMenu({ name: "Pattern", help: "Footfall patterns found by a solver, beginning with this gait", entries: ENTRIES.map(({ mode, ...entry }) => ({ ...entry, act: () => go(mode) })) });
-  byId("gait-tools").append(menu.element);
+  for (const { mode, ...entry } of ENTRIES) page.gaitTools.addAct({ ...entry, group: "Pattern search", act: () => go(mode) });
 
   let first = true;
   store.watch(({ view }) => [Boolean(view)], ({ view, robot }) => {

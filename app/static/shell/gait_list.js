@@ -157,11 +157,17 @@ function grouped(gaits) {
   return { top: all.filter(isAtTop), examples: all.filter((one) => !isAtTop(one)) };
 }
 
+let lineOf = () => null;
+
+/** The line of a gait, with its group open and no search on; null where there is none. */
+export const lineInList = (id) => lineOf(id);
+
 /** Builds the list and keeps it current; moves on where the shown gait has gone. */
 export function mountGaits(store) {
   const list = byId("gaits");
   let listed = null;
   let revealed = null;
+  const troubled = new Set();
   const [parts, headings, folds] = [new Map(), new Map(), createFolds()];
 
   const search = gaitSearch(() => draw(store.state));
@@ -224,13 +230,27 @@ export function mountGaits(store) {
     }
   }
 
-  /** Opens the group of a gait when it is chosen; the person may fold it again. */
+  /** Opens the group of a gait when it is chosen or turns out to be unreadable; the person may fold it again. */
   function reveal({ gaits, selected }) {
+    for (const { id, group, problem } of gaits) {
+      if (!problem || troubled.has(id)) continue;
+      troubled.add(id);
+      folds.reveal(group);
+    }
     const chosen = selected === revealed ? null : gaits.find(({ id }) => id === selected);
     if (!chosen) return;
     revealed = selected;
     folds.reveal(chosen.group);
   }
+
+  lineOf = (id) => {
+    const gait = store.state.gaits.find((one) => one.id === id);
+    if (!gait) return null;
+    search.clear();
+    folds.reveal(gait.group);
+    draw(store.state);
+    return parts.get(id).button;
+  };
 
   const timesOf = (view) => [view?.id, view?.robot_seconds, view?.speed, view?.turn_rate];
   store.watch(({ gaits, selected, view }) => [gaits, selected, ...timesOf(view)], (state) => {
@@ -271,22 +291,26 @@ function found(gait, search) {
 /**
  * Builds the field. `show` gets the number of matches and the number of gaits.
  * @param {(search: string) => void} changed called with what is searched for
- * @returns {{element: HTMLElement, show: (listed: number, count: number) => void, search: () => string}}
+ * @returns {{element: HTMLElement, show: (listed: number, count: number) => void, search: () => string, clear: () => void}}
  */
 function gaitSearch(changed) {
   const field = h("input", { type: "search", "aria-label": "Find a gait", placeholder: "Find a gait", autocomplete: "off", spellcheck: "false", title: "Words of its name, robot, orientation or making; or its foot order" });
   const nothing = h("p", { class: "teach", role: "status", hidden: true });
   const element = h("div", { class: "gait-search" }, field, nothing);
+  const clear = () => {
+    field.value = "";
+    changed("");
+  };
   field.addEventListener("input", () => changed(field.value));
   field.addEventListener("keydown", (event) => {
     if (event.key !== "Escape" || !field.value) return;
     event.preventDefault();
     event.stopPropagation();
-    field.value = "";
-    changed("");
+    clear();
   });
   return {
     element,
+    clear,
     search: () => field.value,
     show(listed, count) {
       nothing.hidden = listed > 0 || !field.value;

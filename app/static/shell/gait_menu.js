@@ -1,4 +1,4 @@
-/** The menus of the gait list and of the shown gait: new, import; copy, export, delete with undo. */
+/** The menus over the list of gaits: acts on the shown gait (copy, export, delete with undo), and new gaits. */
 
 import { api } from "../api/gaits.js";
 import { freeName } from "../document/gait_names.js";
@@ -10,10 +10,11 @@ import { attempt, toast } from "../lib/toasts.js";
 import { askNewGait } from "./new_gait.js";
 
 const FORMS = [
-  ["json", "Gait (JSON)"], ["csv", "Trajectory (CSV)"], ["companion", "Its companion (JSON)"], ["waypoints", "Waypoints (CSV)"],
-  ["npz", "Arrays (NPZ)"], ["phases", "Phase list (JSON)"], ["svg", "Gait diagram (SVG)"], ["png", "Gait diagram (PNG)"],
-  ["html", "3D playback (HTML)"],
+  ["json", "Gait (JSON)"], ["csv", "Trajectory (CSV)"], ["companion", "Trajectory metadata (JSON)"],
+  ["waypoints", "Waypoints (CSV)"], ["npz", "Arrays (NPZ)"], ["phases", "Phase list (JSON)"], ["svg", "Gait diagram (SVG)"],
+  ["png", "Gait diagram (PNG)"], ["html", "3D playback (HTML)"],
 ];
+const KEPT = "This gait comes with the program: it cannot be deleted.";
 
 async function exportFile(store, edits, form) {
   const { selected } = store.state;
@@ -75,28 +76,47 @@ export async function makeGait(store, show, preset = {}) {
   if (id) await show(id);
 }
 
+/** The acts on the shown gait. */
+function gaitActs(store, edits, show, deletedHere) {
+  const exports = FORMS.map(([form, text]) => ({
+    text, group: "Export as", help: `Write this gait as ${text}`, act: attempt(() => exportFile(store, edits, form)),
+  }));
+  return [
+    {
+      text: "Duplicate", help: "A copy of this gait under another name",
+      act: attempt(() => duplicate(store, show, edits)),
+    },
+    ...exports,
+    {
+      text: "Delete", help: "Delete this saved gait; it can be brought back",
+      act: attempt(() => remove(store, show, deletedHere)),
+      refusal: () => (lineOf(store.state)?.kind === "saved" ? null : KEPT),
+    },
+  ];
+}
+
 /**
- * Builds the buttons.
+ * Builds the menus.
  * @param {object} store
  * @param {object} edits what was done before is part of a copy and of a file
  * @param {(id: string) => Promise<void>} show shows a gait
- * @returns {{addNew: (entry: {text: string, help: string, act: () => void}) => void}} another entry of the menu New
+ * @returns {{addNew: (entry: object) => void, addAct: (entry: object) => void}} another entry of the menu New, and of the
+ *   menu Gait, before Delete
  */
 export function mountGaitTools(store, edits, show) {
-  const link = (text, title, act) => h("button", { class: "link", text, title, on: { click: attempt(() => act(store, show, edits)) } });
   const deletedHere = new Set();
-  const deletion = link("Delete", "Delete this saved gait; it can be brought back", () => remove(store, show, deletedHere));
   watchDeleted(store, show, deletedHere);
   const news = actionMenu({ name: "New", help: "A new gait, or one from a file", entries: [
     { text: "New gait…", help: "Robot, foot order, step and phase lengths", act: attempt(() => makeGait(store, show)) },
     { text: "Import…", help: "Read gaits, trajectories with their companions, waypoints or phase lists", act: () => importFiles(show) },
     { text: "Deleted gaits…", help: "Bring back a gait that was deleted", act: attempt(() => bringBack(show)), refusal: noneDeleted },
   ] });
-  const exports = actionMenu({ name: "Export", help: "Write this gait as a file", entries: FORMS.map(([form, text]) => ({ text, help: `Write this gait as ${text}`, act: attempt(() => exportFile(store, edits, form)) })) });
-  byId("gait-new").append(news.element);
-  byId("gait-tools").append(link("Duplicate", "A copy of this gait under another name", duplicate), exports.element, deletion);
-  store.watch((state) => [lineOf(state)?.kind], (state) => { deletion.hidden = lineOf(state)?.kind !== "saved"; });
-  return { addNew: (entry) => news.add(entry, 1) };
+  const acts = actionMenu({
+    name: "Gait", help: "Copy, export, search patterns for or delete the shown gait",
+    entries: gaitActs(store, edits, show, deletedHere),
+  });
+  byId("gait-menus").append(acts.element, news.element);
+  return { addNew: (entry) => news.add(entry, 1), addAct: (entry) => acts.add(entry, -1) };
 }
 
 const NONE = "No gait is deleted: there is nothing to bring back.";

@@ -83,23 +83,31 @@ function nameField(store, edits) {
 function mountName(store, edits) {
   const { input, show } = nameField(store, edits);
   store.watch((state) => [state.view, state.pending, state.refused, state.segmentDrafts, state.connected], (now) => {
-    const { view, pending, refused, connected } = now;
+    const { view } = now;
     const unfit = segmentDraftOf(now).steps.length > 0;
     show();
     input.size = Math.max(4, input.value.length);
-    setAttribute(input, "title", view ? `Name of the gait. Its file stays gaits/${view.id}.json under another name too` : null);
-    const state = !view ? "" : refused ? "Drawing not accepted" : unfit ? "Table does not fit" : pending.length ? (connected ? "Saving" : "Not sent") : "Saved";
-    setText(byId("saved-state"), state);
+    setAttribute(input, "title", view ? `${view.name}. Its file stays gaits/${view.id}.json under another name too` : null);
+    setText(byId("saved-state"), savedWord(now, unfit));
     setAttribute(byId("saved-state"), "title", view ? `${unfit ? `${UNFIT} ` : ""}${savedHelp(view)}` : null);
   });
 }
 
 const UNFIT = "The last change of the segment table does not fit together yet: this tab keeps it, the gait has its last good table.";
 
+/** How the shown gait is kept, in a few words. */
+function savedWord({ view, pending, refused, connected }, unfit) {
+  if (!view) return "";
+  if (refused) return "Drawing not accepted";
+  if (unfit) return "Table does not fit";
+  if (pending.length) return connected ? "Sending" : "Not sent";
+  return view.edited ? "Not saved to a file" : "Saved";
+}
+
 /** Every edit is in the studio's database before it is shown as done; Save writes the file that others can read. */
 function savedHelp(view) {
-  const file = view.saved_at ? `The file in the data folder is of ${clockTime(view.saved_at)}.` : "There is no file of it in the data folder yet.";
-  return view.edited ? `Every edit is kept and survives a restart. ${file} Save writes it anew.` : file;
+  const file = view.saved_at ? `Its file in the data folder is of ${clockTime(view.saved_at)}.` : "It has no file in the data folder yet.";
+  return view.edited ? `Every edit is kept and survives a restart. ${file} Save writes the file.` : file;
 }
 
 function mountHistory(store, edits) {
@@ -117,7 +125,7 @@ function mountHistory(store, edits) {
     setAllowed(redo, own.redo ? null : "Nothing to redo.", `Redo: ${own.redo} (Ctrl+Shift+Z)`);
     if (label) setAttribute(undo, "aria-description", label);
     if (own.redo) setAttribute(redo, "aria-description", own.redo);
-    setAllowed(save, !view ? "No gait is selected." : view.edited ? null : draft ? UNFIT : "Everything is saved.", "Save to the data folder (Ctrl+S)");
+    setAllowed(save, !view ? "No gait is selected." : view.edited ? null : draft ? UNFIT : "Everything is saved.", "Write this gait to its file in the data folder (Ctrl+S)");
   });
 }
 

@@ -10,6 +10,7 @@ import pytest
 from playwright.sync_api import Browser, Locator, Page, Request, expect
 
 from tests.page.shell.test_accessibility import serious_findings
+from tests.support.page.drawers import gait_act
 from tests.support.page.late_answers import LateList
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess, wait_for
@@ -109,7 +110,7 @@ def test_a_transition_follows_its_cursors_and_becomes_a_gait(search: Page, studi
     expect(search.get_by_label("Gait name")).to_have_value("Walk 10 mm to Amble 10 mm")
     made = studio.ask("GET", "/api/gaits/walk-10-mm-to-amble-10-mm").content
     wait_for(lambda: [row[6:26] for row in made["timeline"]["feet"]] == rows(search), "it is the shown one")
-    search.get_by_role("button", name="Delete", exact=True).click()
+    gait_act(search, "Delete")
     expect(search.locator("#toasts")).to_contain_text("is deleted")
 
 
@@ -135,7 +136,7 @@ def test_cursors_stay_while_a_new_gait_is_not_yet_in_the_list(
         expect(other.get_by_role("list", name="Gaits")).to_contain_text("Walk 10 mm to Amble 10 mm")
         expect(cursor(other, "A")).to_have_attribute("aria-valuenow", "7")
         assert rows(other) == shown
-        other.get_by_role("button", name="Delete", exact=True).click()
+        gait_act(other, "Delete")
         expect(other.locator("#toasts")).to_contain_text("is deleted")
 
 
@@ -217,14 +218,13 @@ def test_what_walks_has_a_playhead_and_the_chosen_pattern_outlasts_its_gait(sear
     search_again(search)
     expect(best.get_by_role("option").nth(2)).to_have_attribute("aria-selected", "true")
     assert rows(search) == chosen
-    search.get_by_role("button", name="Delete", exact=True).click()
+    gait_act(search, "Delete")
     expect(search.locator("#toasts")).to_contain_text("is deleted")
 
 
 def test_a_gait_for_some_limbs_walks_and_is_made(search: Page, studio: StudioProcess) -> None:
     choose_gait(search, "Hexapod tripod")
-    search.get_by_role("button", name="Pattern", exact=True).click()
-    search.get_by_role("menuitem", name="Gait for some limbs").click()
+    gait_act(search, "Gait for some limbs…")
     search.get_by_label("Limb 3", exact=True).select_option("held")
     search.get_by_label("Limb 6", exact=True).select_option("broken")
     search.get_by_role("switch", name="Balance margin: on").check()

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
+from tests.support.page.drawers import gait_act
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess
 
@@ -31,7 +32,7 @@ def test_a_copy_at_the_end_of_a_long_list_is_scrolled_into_view(page: Page, stud
     expect(page.get_by_label("Gait name")).to_have_value("Saved 00")
     page.get_by_label("Gait name").fill("Zebra")
     page.get_by_label("Gait name").press("Enter")
-    page.get_by_role("button", name="Duplicate").click()
+    gait_act(page, "Duplicate")
     expect(page.get_by_label("Gait name")).to_have_value("Zebra copy")
     copy = page.get_by_role("list", name="Gaits").get_by_role("button", name="Zebra copy")
     expect(copy).to_have_attribute("aria-current", "true")

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
+from tests.support.page.drawers import gait_act
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess
 
@@ -157,25 +158,44 @@ def test_a_robot_with_other_legs_gets_a_gait_of_its_own(page: Page, studio: Stud
 
 
 @pytest.mark.heavy
-def test_the_tools_fit_into_one_row_and_their_menus_into_the_column(page: Page) -> None:
+def test_one_menu_acts_on_the_shown_gait_and_fits_into_the_window(page: Page) -> None:
     dialog = open_dialog(page)
     dialog.get_by_label("Name of the new gait").fill("To be deleted")
     dialog.get_by_role("button", name="Create").click()
     expect(page.get_by_label("Gait name")).to_have_value("To be deleted")
-    tools = [page.get_by_role("button", name=name, exact=True) for name in ("Duplicate", "Export", "Delete")]
-    boxes = [tool.bounding_box() for tool in tools]
-    assert all(box is not None and abs(box["y"] - (boxes[0] or box)["y"]) < 4 for box in boxes)
-    tools[1].click()
-    item = page.get_by_role("menuitem", name="3D playback (HTML)")
-    expect(item).to_be_in_viewport(ratio=1)
-    assert item.evaluate("item => item.scrollWidth <= item.clientWidth")
+    page.get_by_role("button", name="Gait", exact=True).click()
+    entries = page.get_by_role("menu", name="Gait").get_by_role("menuitem")
+    expect(entries.first).to_have_text("Duplicate")
+    expect(entries.last).to_have_text("Delete")
+    for entry in entries.all():
+        expect(entry).to_be_in_viewport(ratio=1)
+        assert entry.evaluate("item => item.scrollWidth <= item.clientWidth")
+        assert entry.evaluate(
+            """item => {
+              const { x, y, width, height } = item.getBoundingClientRect();
+              return document.elementFromPoint(x + width / 2, y + height / 2) === item;
+            }"""
+        ), "nothing lies over it"
     with page.expect_download() as download:
-        page.get_by_role("menuitem", name="Gait (JSON)").click()
+        page.get_by_role("group", name="Export as").get_by_role("menuitem", name="Gait (JSON)").click()
     assert download.value.suggested_filename.endswith(".json")
-    tools[2].click()
+    gait_act(page, "Delete")
     expect(page.locator("#toasts")).to_contain_text("To be deleted is deleted.")
     page.get_by_role("button", name="Bring it back").click()
     expect(page.get_by_label("Gait name")).to_have_value("To be deleted")
+
+
+def test_a_gait_of_the_program_says_why_it_cannot_be_deleted(page: Page) -> None:
+    button = page.get_by_role("button", name="Gait", exact=True)
+    button.press("ArrowDown")
+    expect(page.get_by_role("menuitem", name="Duplicate")).to_be_focused()
+    page.keyboard.press("End")
+    delete = page.get_by_role("menuitem", name="Delete", exact=True)
+    expect(delete).to_be_focused()
+    expect(delete).to_have_attribute("aria-disabled", "true")
+    expect(delete).to_have_attribute("title", re.compile("comes with the program"))
+    page.keyboard.press("Escape")
+    expect(button).to_be_focused()
 
 
 def test_a_deleted_gait_is_brought_back_after_a_reload(page: Page, studio: StudioProcess) -> None:

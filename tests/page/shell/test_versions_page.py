@@ -34,7 +34,7 @@ def options(page: Page) -> Locator:
 
 def test_states_are_named_compared_and_restored_by_keyboard_alone(page: Page, studio: StudioProcess) -> None:
     change(studio, 0.002)
-    expect(page.locator("#saved-state")).to_have_text("Saved")
+    expect(page.locator("#saved-state")).to_have_text("Not saved to a file")
     button = page.get_by_role("button", name="Versions")
     button.press("Enter")
     expect(options(page)).to_have_count(1)

@@ -10,6 +10,7 @@ from urllib.parse import quote
 import pytest
 from playwright.sync_api import Browser, Dialog, Locator, Page, expect
 
+from tests.support.page.drawers import gait_act
 from tests.support.page.late_answers import LateAnswers, LateList, LateRequests
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess, wait_for
@@ -77,7 +78,7 @@ def test_edits_reach_the_gait_that_they_are_of_though_another_is_shown_by_then(
     assert studio.document(left)["options"]["stop_bound"] == (1.5 if changed == "elsewhere too" else 1.0)
     assert studio.document(shown) == before
     expect(page.get_by_label("Gait name")).to_have_value(f"Shown {changed}")
-    expect(page.locator("#saved-state")).to_have_text("Saved")
+    expect(page.locator("#saved-state")).to_have_text("Not saved to a file")
 
 
 def test_undo_and_save_are_of_the_gait_that_was_shown_when_they_were_pressed(
@@ -117,7 +118,7 @@ def test_the_page_asks_before_it_is_left_with_edits_that_the_studio_lacks(
     page.evaluate("() => { setTimeout(() => location.reload()); }")
     wait_for(lambda: late.count == 1 and kept == ["beforeunload"], "the page has asked")
     late.let_go()
-    expect(page.locator("#saved-state")).to_have_text("Saved")
+    expect(page.locator("#saved-state")).to_have_text("Not saved to a file")
     assert studio.document(gait)["options"]["margin"] == 0.001
     page.reload()
     expect(page.get_by_label("Gait name")).to_have_value("Hasty")
@@ -170,12 +171,12 @@ def test_a_gait_that_is_not_listed_yet_is_copied_and_deleted(browser: Browser, s
         page.goto(studio.url)
         choose(page, "Fresh")
         name = page.get_by_label("Gait name")
-        page.get_by_role("button", name="Duplicate").click()
+        gait_act(page, "Duplicate")
         expect(name).to_have_value("Fresh copy")
-        page.get_by_role("button", name="Duplicate").click()
+        gait_act(page, "Duplicate")
         expect(name).to_have_value("Fresh copy copy")
         assert late.count > 0, "the list was held back"
-        page.get_by_role("button", name="Delete", exact=True).click()
+        gait_act(page, "Delete")
         expect(page.locator("#toasts")).to_contain_text("Fresh copy copy is deleted")
         expect(name).not_to_have_value("Fresh copy copy")
         late.let_go()
@@ -218,10 +219,10 @@ def test_edits_wait_while_the_studio_does_not_answer_and_undo_takes_back_the_las
     fill(page, "Clearance", "5")
     page.get_by_role("button", name="Undo", exact=True).first.click()
     expect(page.get_by_role("spinbutton", name="Clearance", exact=True)).to_have_value("4")
-    expect(page.locator("#saved-state")).to_have_text("Saving")
+    expect(page.locator("#saved-state")).to_have_text("Sending")
     assert studio.document(gait)["options"]["margin"] == 0.004
     page.unroute(to_studio)
-    expect(page.locator("#saved-state")).to_have_text("Saved")
+    expect(page.locator("#saved-state")).to_have_text("Not saved to a file")
     options = studio.document(gait)["options"]
     assert (options["margin"], options["clearance"]) == (0.001, 0.004)
 
@@ -232,7 +233,7 @@ def test_a_copy_has_what_was_done_before(page: Page, studio: StudioProcess) -> N
     late = LateRequests(page, "PUT", f"/api/gaits/{gait}")
     page.get_by_label("Gait name").fill("Renamed")
     page.get_by_label("Gait name").press("Enter")
-    page.get_by_role("button", name="Duplicate").click()
+    gait_act(page, "Duplicate")
     wait_for(lambda: late.count == 1, "the name is on its way")
     late.let_go()
     expect(page.get_by_label("Gait name")).to_have_value("Renamed copy")

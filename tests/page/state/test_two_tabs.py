@@ -9,6 +9,7 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, Locator, Page, expect
 
 from tests.support.chromium import LONG_MS
+from tests.support.page.drawers import gait_act
 from tests.support.page.opened import flat_browser, leave_scene_out
 from tests.support.studio_process import StudioProcess, wait_for
 
@@ -167,7 +168,7 @@ def test_a_gait_that_was_deleted_in_another_tab_is_missed_and_can_be_brought_bac
     here, there = tab(context, studio, gait), tab(context, studio, gait)
     paint(here, 1, 12)
     is_(there, 1, 12, "swing")
-    there.get_by_role("button", name="Delete", exact=True).click()
+    gait_act(there, "Delete")
     expect(there.locator("#toasts")).to_contain_text("Shared is deleted.")
     said = here.locator("#toasts")
     expect(said).to_contain_text("Shared was deleted in another tab.")

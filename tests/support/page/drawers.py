@@ -12,3 +12,9 @@ def open_drawer(page: Page, name: str) -> Locator:
         button.click()
     button.click()
     return page.get_by_role("region", name=name, exact=True)
+
+
+def gait_act(page: Page, name: str) -> None:
+    """Chooses an entry of the menu over the list of gaits that acts on the shown gait."""
+    page.get_by_role("button", name="Gait", exact=True).click()
+    page.get_by_role("menuitem", name=name, exact=True).click()

@@ -1,6 +1,7 @@
 /** Builds the panels that are needed later, and the 3D preview, which is slow to load. */
 
 import { mountCheck } from "./check/check.js";
+import { mountFirstSteps } from "./first_steps/first_steps.js";
 import { mountRobot } from "./robot/robot.js";
 import { mountRuns } from "./runs/runs.js";
 import { mountSegments } from "./segments/segments.js";
@@ -50,6 +51,7 @@ export function mountPanels({ store, edits, playback, goTo, gaitTools }) {
   const trials = mountTrialEntry(store);
   const runs = mountRuns(store);
   mountNextActs(store);
+  mountFirstSteps(store, playback);
   mountStage(store, edits, playback);
   return { segments: segments.escape, sequence: sequence.cancel, countdown, runs: () => runs() || trials() };
 }

@@ -118,6 +118,7 @@ ORDER: dict[str, tuple[str, ...]] = {
         "app/static/learning",
         "app/static/fastest",
         "app/static/lab",
+        "app/static/first_steps",
         "app/static",
     ),
 }

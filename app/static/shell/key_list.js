@@ -71,13 +71,31 @@ function groupOf([title, keys]) {
     h("dl", {}, ...keys.flatMap(([key, does]) => [h("dt", {}, h("kbd", { text: key })), h("dd", { text: does })])));
 }
 
+const helps = [];
+
+function helpButton({ text, help, act }, close) {
+  const press = () => {
+    close(null);
+    act();
+  };
+  return h("button", { type: "button", text, title: help, on: { click: press } });
+}
+
+/**
+ * Adds a button to the list of keys, which closes the list and acts.
+ * @param {{text: string, help: string, act: () => void}} entry
+ */
+export function addHelp(entry) {
+  helps.push(entry);
+}
+
 /** Shows the keys. */
 export function showKeys() {
   if (byId("dialogs").firstElementChild) return;
   openDialog((close) => {
     const dialog = dialogFrame("Keyboard", close, () => close(null),
       h("div", { class: "key-groups" }, ...Object.entries(GROUPS).map(groupOf)),
-      h("div", { class: "buttons" }, h("button", { type: "submit", text: "Close" })));
+      h("div", { class: "buttons" }, ...helps.map((entry) => helpButton(entry, close)), h("button", { type: "submit", text: "Close" })));
     dialog.classList.add("keys");
     return dialog;
   });

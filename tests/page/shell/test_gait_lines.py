@@ -63,9 +63,11 @@ def test_the_search_finds_in_folded_groups_and_the_group_of_the_chosen_gait_open
 def test_each_line_is_low_and_shows_its_footfalls_and_its_pace(page: Page) -> None:
     walk = line(page, "Fast C-Gait")
     expect(walk.locator(".footfalls .swing")).to_have_count(12)  # four feet, three cycles
-    assert (walk.bounding_box() or {})["height"] == 28
-    box = walk.locator(".picture").bounding_box() or {}
-    assert (box["width"], box["height"]) == (44, 16)
+    row, picture = walk.bounding_box(), walk.locator(".picture").bounding_box()
+    assert row is not None
+    assert picture is not None
+    assert row["height"] == 28
+    assert (picture["width"], picture["height"]) == (44, 16)
     expect(walk.locator(".tag")).to_have_text("2.27")
 
 

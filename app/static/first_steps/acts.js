@@ -1,0 +1,103 @@
+/** The four acts of the first steps: title, sentence, the control to use, and the sign that an act was done. */
+
+import { byId } from "../lib/dom.js";
+import { hasNoMotion, ownPlan, planIsOn } from "../state/store.js";
+import { lineInList } from "../shell/gait_list.js";
+import { openDrawer } from "../shell/drawers.js";
+import { openedStep, openStep } from "../steps/steps.js";
+import { openView } from "../timeline/views.js";
+
+/** A drawn gait of the program, for which remedies are looked for. */
+const DRAWN = "walk";
+const REAL = "This studio drives a real robot. Start one with --robot emulator to try this without it.";
+const STEP_LABEL = /^(Step|Goal) to /;
+
+/** Whether a gait is drawn: not for the robot's clock, nor made of segments or parts. Only such gaits get remedies. */
+const isDrawn = ({ poses, segment_table: table, sequence }) => !poses && !table && !sequence?.length;
+
+/** The step Design with its fields in sight. */
+function stepField() {
+  openStep("design");
+  return byId("optimise").querySelector('input[aria-label="Step"]');
+}
+
+function remedyPlace({ view, ...state }) {
+  if (!view || !isDrawn(view.document)) {
+    openDrawer("gaits");
+    return lineInList(DRAWN);
+  }
+  if (!hasNoMotion(ownPlan({ view, ...state }))) return stepField();
+  openStep("design");
+  return byId("optimise").querySelector(".remedy button") ?? stepField();
+}
+
+/** The button at the foot of the inspector, which is the next act. */
+function nextButton() {
+  openStep(openedStep());
+  const buttons = [...document.querySelectorAll(".inspector-foot button.primary")];
+  return buttons.find((button) => button.checkVisibility()) ?? byId("tab-run");
+}
+
+/**
+ * @typedef {object} Act
+ * @property {string} key
+ * @property {string} title
+ * @property {(state: object) => string} sentence
+ * @property {(state: object) => HTMLElement|null} place the control; brings it into sight
+ */
+
+/** @type {Act[]} */
+export const ACTS = [
+  {
+    key: "play", title: "Play the walk", place: () => byId("play"),
+    sentence: () => "Press Play under the 3D preview, or the space bar.",
+  },
+  {
+    key: "step", title: "Drag the step", place: stepField,
+    sentence: () => "Drag the word Step to the left or to the right. Plan and robot follow while you drag.",
+  },
+  {
+    key: "remedy", title: "Ask for too much, then use a remedy", place: remedyPlace,
+    sentence: ({ view }) => (view && isDrawn(view.document)
+      ? "Set Step to 30 mm. There is no motion for it: choose Use this at one of the remedies."
+      : "Only drawn gaits get remedies: first choose Walk 10 mm under Examples. Then set its Step to 30 mm."),
+  },
+  {
+    key: "send", title: "Send it to the emulated robot", place: nextButton,
+    sentence: ({ robot }) => (robot?.emulated === false ? REAL
+      : "The button at the foot of this panel is the next act: Simulate, Check, Approve, Connect, Arm, Send."),
+  },
+];
+
+/**
+ * Calls `done` with the key of each act that the person has done in this page.
+ * @param {object} store
+ * @param {EventTarget} playback
+ * @param {(key: string) => void} done
+ */
+export function watchActs(store, playback, done) {
+  playback.addEventListener("state", ({ detail }) => { if (detail.playing) done("play"); });
+  let offered = [];
+  store.watch(({ remedies }) => [remedies], ({ remedies }) => {
+    if (remedies) offered = remedies.list.map(({ label }) => label);
+  });
+  store.watch(({ pending }) => [pending], ({ pending }) => {
+    for (const { label } of pending) {
+      if (STEP_LABEL.test(label)) done("step");
+      if (offered.includes(label)) done("remedy");
+    }
+  });
+  store.watch(({ robot }) => [planIsOn(robot)], ({ robot }) => { if (planIsOn(robot)) done("send"); });
+}
+
+/** Shows the place of an act: under the keyboard, and outlined until something else has the focus. */
+export function showPlace(act, state) {
+  openView("cells");
+  const place = act.place(state);
+  if (!place) return;
+  const outlined = place.closest(".field") ?? place;
+  outlined.dataset.shownPlace = "";
+  place.addEventListener("blur", () => { delete outlined.dataset.shownPlace; }, { once: true });
+  place.scrollIntoView({ block: "nearest" });
+  place.focus();
+}

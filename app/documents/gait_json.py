@@ -73,7 +73,10 @@ def gait_from_content(content: Any, where: str = "gait") -> Gait:
         field = ".".join(str(part) for part in first["loc"]).encode(errors="backslashreplace").decode()
         raise InputError(f"{where}, field {field}: {first['msg']}.", f"{where}.{field}") from error
     _require_whole(content, where)
-    parts = [SequencePart(_to_gait(part.gait), part.times, part.source) for part in document.sequence]
+    parts = [
+        SequencePart(_to_gait(part.gait), part.times, part.source, part.restarts)
+        for part in document.sequence
+    ]
     return _to_gait(document, tuple(parts))
 
 
@@ -214,10 +217,15 @@ def gait_content(gait: Gait) -> Json:
         content["poses"] = _poses_content(gait.poses)
     if gait.sequence:
         content["sequence"] = [
-            {"gait": gait_content(part.gait), "times": part.times, "source": part.source}
+            {"gait": gait_content(part.gait), "times": part.times, "source": part.source, **_restarts(part)}
             for part in gait.sequence
         ]
     return content
+
+
+def _restarts(part: SequencePart) -> Json:
+    """Left out where it is not asked, so that documents without it keep their text and their hash."""
+    return {"restarts": True} if part.restarts else {}
 
 
 def _poses_content(poses: Poses) -> Json:
@@ -297,7 +305,10 @@ def motion_hash(gait: Gait) -> str:
     if gait.poses is not None:
         content = _asked_poses(content, gait.poses)
     if gait.sequence:
-        parts = [{"motion": motion_hash(part.gait), "times": part.times} for part in gait.sequence]
+        parts = [
+            {"motion": motion_hash(part.gait), "times": part.times, **_restarts(part)}
+            for part in gait.sequence
+        ]
         content["sequence"] = parts
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 

@@ -243,6 +243,11 @@ class SequencePartModel(_Model):
     gait: SingleGaitModel = _field("the gait, whole")
     times: int = _field("how often it runs, 1 to 20", default=1)
     source: str | None = _field("id of the gait that it was copied from; null: not known", default=None)
+    restarts: bool = _field(
+        "true: each repetition is the whole gait with its own motion, from rest to rest. Left out: its "
+        "iterations follow each other without a pause where they can",
+        default=False,
+    )
 
 
 class GaitDocument(SingleGaitModel):

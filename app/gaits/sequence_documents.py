@@ -7,6 +7,7 @@ from enum import StrEnum
 from app.documents.gait_json import motion_hash, require_size
 from core.errors import FootfallError, InputError
 from core.gait.gait import Gait, SequencePart
+from core.library.resampling import resampled_gait, resampled_parts
 from core.library.sequence import DERIVED, derived, sequence_gait
 
 GaitOf = Callable[[str], Gait]
@@ -31,7 +32,17 @@ class PartReference:
     times: int
 
 
-def made_sequence(name: str, asked: Iterable[PartReference], gait_of: GaitOf, notes: str = "") -> Gait:
+@dataclass(frozen=True)
+class ResampledSequence:
+    """A sequence whose parts were brought to one sample time, and a sentence on each that changed."""
+
+    gait: Gait
+    changes: tuple[str, ...]
+
+
+def made_sequence(
+    name: str, asked: Iterable[PartReference], gait_of: GaitOf, notes: str = "", *, resample: bool = False
+) -> Gait:
     """A sequence of saved or open gaits; a sequence among them contributes its parts.
 
     Args:
@@ -39,6 +50,7 @@ def made_sequence(name: str, asked: Iterable[PartReference], gait_of: GaitOf, no
         asked: its parts.
         gait_of: gives the gait of an id.
         notes: a person's words.
+        resample: whether parts with other sample times are brought to one; else they are refused.
 
     Raises:
         FootfallError: there is no such gait, the parts do not fit together, or are too large together.
@@ -48,7 +60,7 @@ def made_sequence(name: str, asked: Iterable[PartReference], gait_of: GaitOf, no
         gait = gait_of(one.gait)
         own = gait.sequence or (SequencePart(gait, one.times, one.gait),)
         parts += own * one.times if gait.sequence else own
-    made = sequence_gait(name, parts, notes)
+    made = sequence_gait(name, resampled_parts(parts).parts if resample else parts, notes)
     require_size(made, name)
     return made
 
@@ -73,6 +85,24 @@ def normalise_sequence(before: Gait, after: Gait) -> Gait:
     return normalised
 
 
+def resampled(gait: Gait, sample_time: float | None = None) -> ResampledSequence:
+    """A sequence whose parts have one sample time.
+
+    Args:
+        gait: the sequence; its parts may have different ones.
+        sample_time: s; None for that of the most parts.
+
+    Raises:
+        FootfallError: it is no sequence, or its parts do not fit together with that sample time.
+    """
+    if not gait.sequence:
+        raise InputError(f"“{gait.name}” is no sequence; only parts of a sequence are resampled.", "sequence")
+    brought = resampled_parts(gait.sequence, sample_time)
+    made = derived(replace(gait, sequence=brought.parts))
+    require_size(made, gait.name)
+    return ResampledSequence(made, brought.changes)
+
+
 def source_states(gait: Gait, gait_of: GaitOf) -> tuple[SourceState, ...]:
     """How each part of a sequence stands to the gait that it was copied from."""
     return tuple(_state(part, gait_of) for part in gait.sequence)
@@ -85,16 +115,29 @@ def _state(part: SequencePart, gait_of: GaitOf) -> SourceState:
         now = gait_of(part.source)
     except FootfallError:
         return SourceState.GONE
-    return SourceState.SAME if motion_hash(now) == motion_hash(part.gait) else SourceState.CHANGED
+    return SourceState.SAME if _moves_alike(now, part.gait) else SourceState.CHANGED
 
 
-def refreshed(gait: Gait, gait_of: GaitOf, only: int | None = None) -> Gait:
+def _moves_alike(now: Gait, copy: Gait) -> bool:
+    """Whether a copy is its source, or its source resampled."""
+    if motion_hash(now) == motion_hash(copy):
+        return True
+    if now.poses is not None or now.timeline.sample_time == copy.timeline.sample_time:
+        return False
+    try:
+        return motion_hash(resampled_gait(now, copy.timeline.sample_time)) == motion_hash(copy)
+    except FootfallError:
+        return False
+
+
+def refreshed(gait: Gait, gait_of: GaitOf, only: int | None = None, *, resample: bool = False) -> Gait:
     """A sequence whose parts are the gaits as they are now, where they changed.
 
     Args:
         gait: the sequence.
         gait_of: gives the gait of an id.
         only: index of one part; None for all.
+        resample: whether parts with other sample times are brought to one; else they are refused.
 
     Raises:
         InputError: it is no sequence or has no such part, a gait has become a sequence, parts do not fit, or
@@ -110,6 +153,6 @@ def refreshed(gait: Gait, gait_of: GaitOf, only: int | None = None) -> Gait:
         else part
         for index, part in enumerate(gait.sequence)
     )
-    taken_over = derived(replace(gait, sequence=parts))
+    taken_over = derived(replace(gait, sequence=resampled_parts(parts).parts if resample else parts))
     require_size(taken_over, gait.name)
     return taken_over

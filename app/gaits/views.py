@@ -24,6 +24,7 @@ from core.gait.mirroring import mirror_of
 from core.gait.motion_source import motion_source
 from core.library.library import library
 from core.library.robot_times import RobotTimes
+from core.library.sequence import part_refusal
 from core.motion.speeds import foot_speeds, motor_speeds
 from core.motion.trajectory import Trajectory
 from core.pose_gaits.conversion import conversion_refusal
@@ -66,6 +67,7 @@ def line_view(
         "edited": edited,
         "walks": library()[gait_id].walks if builtin and not edited else None,
         "outside": outside,
+        "part_refusal": part_refusal(gait),
         **times_view(times),
         "problem": None,
         "way_out": None,
@@ -95,6 +97,7 @@ def problem_view(gait_id: str, sentence: str, builtin: bool = False, way_out: Wa
         "edited": False,
         "walks": None,
         "outside": None,
+        "part_refusal": None,
         **times_view(None),
         "problem": sentence,
         "way_out": way_out,

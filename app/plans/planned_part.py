@@ -20,6 +20,7 @@ class PlannedPart:
         duration: s.
         broke_off: whether a solver gave no answer to it.
         feet: those that step in a transition, 0-based; none where only the body moves.
+        has_own_motion: whether the gait, run once, has a motion, although its repetitions have none.
     """
 
     part: int
@@ -34,3 +35,4 @@ class PlannedPart:
     duration: float | None = None
     broke_off: bool = False
     feet: tuple[int, ...] = ()
+    has_own_motion: bool = False

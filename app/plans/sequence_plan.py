@@ -83,14 +83,16 @@ def sequence_plan(gait: Gait, plan_single: Callable[[Gait], Plan], solve: Solve)
     """
     model = load_robot(gait.robot)
     plans: list[Plan] = []
+    alone: frozenset[int] = frozenset()
     try:
         plans += [plan_single(run_of(part).gait) for part in gait.sequence]
-        _require_motions(gait, plans)
+        alone = _with_motion_alone(gait, plans, plan_single)
+        _require_motions(gait, plans, alone)
         motions = [plan.trajectory for plan in plans if plan.trajectory is not None]
         whole = chain_runs(gait, model, motions, partial(steps_between, solve))
         require_own(gait, whole)
     except FootfallError as refusal:
-        return _drawn_plan(gait, plans, refusal)
+        return _drawn_plan(gait, plans, refusal, alone)
     t = whole.trajectory
     slip = stance_slip(t.feet_world, t.contact) if any(p.slip is not None for p in plans) else None
     seconds = [plan.seconds for plan in plans if plan.seconds is not None]
@@ -110,7 +112,7 @@ def sequence_plan(gait: Gait, plan_single: Callable[[Gait], Plan], solve: Solve)
     )
 
 
-def _drawn_plan(gait: Gait, plans: Sequence[Plan], refusal: FootfallError) -> Plan:
+def _drawn_plan(gait: Gait, plans: Sequence[Plan], refusal: FootfallError, alone: frozenset[int]) -> Plan:
     """A substitute for a plan without a motion: the parts in a row, with drawings for missing motions."""
     model, whole = load_robot(gait.robot), None
     if len(plans) == len(gait.sequence):
@@ -121,6 +123,10 @@ def _drawn_plan(gait: Gait, plans: Sequence[Plan], refusal: FootfallError) -> Pl
             whole = chain_runs(gait, model, motions, lambda before, piece, problem: straight(problem))
     t = None if whole is None else whole.trajectory
     parts = unplaced_parts(gait, plans) if whole is None else placed_parts(gait, plans, whole)
+    parts = tuple(
+        replace(part, has_own_motion=True) if part.part in alone and not part.is_transition else part
+        for part in parts
+    )
     # A solver that broke off between two parts is asked again like one that broke off in a part.
     if isinstance(refusal, CheckError) and parts:
         parts = (*parts[:-1], replace(parts[-1], broke_off=True))
@@ -160,16 +166,42 @@ def steps_between(solve: Solve, before: Piece, piece: Piece, problem: MotionProb
     raise kind(sentence, "sequence")
 
 
-def _require_motions(gait: Gait, plans: Sequence[Plan]) -> None:
+def _with_motion_alone(
+    gait: Gait, plans: Sequence[Plan], plan_single: Callable[[Gait], Plan]
+) -> frozenset[int]:
+    """The repeated parts without a motion whose gait, run once, has one that they can repeat from rest."""
+    return frozenset(
+        index
+        for index, (part, plan) in enumerate(zip(gait.sequence, plans, strict=True))
+        if not _has_motion(plan) and run_of(part).gait != part.gait and _has_motion(plan_single(part.gait))
+    )
+
+
+def _has_motion(plan: Plan) -> bool:
+    return plan.trajectory is not None and plan.waypoints is not None and not plan.is_draft
+
+
+def _require_motions(gait: Gait, plans: Sequence[Plan], alone: frozenset[int]) -> None:
     """Every part has a motion that may be sent.
+
+    Args:
+        gait: the sequence.
+        plans: of its runs.
+        alone: parts whose gait has a motion where it is run once.
 
     Raises:
         InfeasibleError: naming the first one that has none.
     """
     for index, (part, plan) in enumerate(zip(gait.sequence, plans, strict=True)):
-        if plan.trajectory is None or plan.waypoints is None or plan.is_draft:
-            sentence = f"{part_name(index, part)}, has no motion: {_reason(plan)}"
-            raise InfeasibleError(f"{sentence} The gait itself says all that it lacks.", "sequence")
+        if _has_motion(plan):
+            continue
+        sentence = f"{part_name(index, part)}, has no motion: {_reason(plan)}"
+        way = (
+            "Run once, the gait has a motion: let each repetition start from rest."
+            if index in alone
+            else "The gait itself says all that it lacks."
+        )
+        raise InfeasibleError(f"{sentence} {way}", "sequence")
 
 
 def _reason(plan: Plan) -> str:

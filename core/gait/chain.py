@@ -17,6 +17,8 @@ from core.problem.motion_problem import MotionProblem, raised_feet
 from core.problem.start_footholds import placed_on
 from core.robot.model import RobotModel
 
+SAMPLE_TIMES = "sample_time"
+"""What the refusal of motions with different sample times is about."""
 SAME_POSE = 1e-6
 """Bodies that differ by less are at the same place, m and rad; the solvers' own tolerance."""
 
@@ -120,8 +122,8 @@ def _sample_time(pieces: Sequence[Piece]) -> float:
         if abs(seconds - own[0]) > 2 * SAME_INTERVAL * own[0]:
             raise InputError(
                 f"{piece.name} has a sample every {seconds:g} s, {pieces[0].name} every {own[0]:g} s; a "
-                f"sequence has one sample time. Set that gait's sample time to {own[0]:g} s.",
-                "sequence",
+                "sequence has one sample time. Resample the parts, or change that gait's sample time.",
+                SAMPLE_TIMES,
             )
     return own[0]
 

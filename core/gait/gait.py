@@ -172,11 +172,14 @@ class SequencePart:
         gait: a copy of it, so that the sequence is complete by itself.
         times: how often it runs.
         source: id of the gait that it was copied from; None where that is not known.
+        restarts: whether each repetition is the whole gait with its own motion, from rest to rest; else its
+            iterations follow each other without a pause where they can.
     """
 
     gait: Gait
     times: int = 1
     source: str | None = None
+    restarts: bool = False
 
     def __post_init__(self) -> None:
         if not 1 <= self.times <= MOST_TIMES:

@@ -172,9 +172,13 @@ def _apart(before: float, after: float) -> tuple[str, str]:
 def _parts(before: tuple[SequencePart, ...], after: tuple[SequencePart, ...]) -> tuple[str, ...]:
     if before == after:
         return ()
-    old, new = ([f"{part.times} × {part.gait.name}" for part in parts] for parts in (before, after))
+    old, new = ([_part(part) for part in parts] for parts in (before, after))
     texts = [", ".join(parts) or "none" for parts in (old, new)]
     return tuple(_change("Parts:", *texts)) or ("A part's gait was brought up to date",)
+
+
+def _part(part: SequencePart) -> str:
+    return f"{part.times} × {part.gait.name}{' from rest' if part.restarts else ''}"
 
 
 def _options(before: GaitOptions, after: GaitOptions) -> tuple[str, ...]:

@@ -9,6 +9,7 @@ from core.errors import FootfallError, InputError
 from core.gait.chain import Chain, Piece, TransitionMotion, chain
 from core.gait.gait import MOST_TIMES, Gait, SequencePart, motion_problem, with_iterations
 from core.gait.held_feet import HeldFeet
+from core.gait.held_rules import require_rest
 from core.gait.manual_motion import manual_motion
 from core.gait.options import GaitOptions
 from core.gait.transition import straight
@@ -48,18 +49,18 @@ def run_of(part: SequencePart) -> RepeatedGait:
     """How a part is repeated: as iterations that follow each other without a pause, where its gait can.
 
     A gait that turns the body starts each time from its new heading, so it is repeated as a whole; so is a
-    recorded motion, and a gait whose timeline does not divide into iterations.
+    recorded motion, a gait whose timeline does not divide into iterations, and a part that is to restart.
 
     Raises:
         InputError: it would run through more iterations than a gait may have.
     """
     gait, iterations = part.gait, part.gait.iterations * part.times
-    if part.times == 1 or gait.step[2] != 0.0 or gait.recorded is not None:
+    if part.times == 1 or part.restarts or gait.step[2] != 0.0 or gait.recorded is not None:
         return RepeatedGait(gait, part.times)
     if iterations > MOST_TIMES:
         raise InputError(
             f"“{gait.name}” would run through {iterations} iterations; at most {MOST_TIMES} follow each "
-            "other. Repeat it less often, or add it twice.",
+            "other. Repeat it less often, add it twice, or let each repetition start from rest.",
             "times",
         )
     if gait.segment_table is not None:
@@ -113,6 +114,23 @@ def require_own(gait: Gait, whole: Chain) -> None:
             "often it runs, and back: then both are made anew.",
             "timeline",
         )
+
+
+def part_refusal(gait: Gait) -> str | None:
+    """Why a gait cannot be a part of a sequence, in a few words; None where it can, or is a sequence.
+
+    Whether it fits the other parts, as by its sample time, is not looked at.
+    """
+    if gait.poses is not None:
+        return "made for the robot's clock"
+    if gait.recorded is None and gait.segment_table is None and not gait.sequence:
+        if gait.options.boundary is Boundary.PERIODIC:
+            return "a cycle, which never rests"
+        try:
+            require_rest(gait.timeline, gait.held, cycle=False)
+        except InputError:
+            return "does not begin and end at rest"
+    return None
 
 
 def ends_and_contact(gait: Gait, model: RobotModel) -> Trajectory:

@@ -92,7 +92,9 @@ export const api = {
   robots: () => request("GET", "/api/robots"),
   draw: (words) => request("POST", "/api/gaits/drawn", words),
   sequence: (body) => request("POST", "/api/sequences", body),
-  refreshSequence: (id, part) => request("POST", `${gait(id)}/sequence/refresh${part === null ? "" : `?part=${part}`}`),
+  refreshSequence: (id, part, resample) =>
+    request("POST", `${gait(id)}/sequence/refresh?resample=${resample}${part === null ? "" : `&part=${part}`}`),
+  resampleSequence: (id, body) => request("POST", `${gait(id)}/sequence/resample`, body),
   deleted: async () => (await request("GET", "/api/gaits/deleted")).gaits,
   remove: (id) => request("DELETE", gait(id)),
   versions: (id) => request("GET", `${gait(id)}/versions`),

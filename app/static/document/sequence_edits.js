@@ -38,3 +38,11 @@ export function repeated(document, index, times) {
   const apply = withParts((parts) => parts.map((part, at) => (at === index ? { ...part, times } : part)));
   return { apply, label: `Run ${document.sequence[index].gait.name} ${times}×` };
 }
+
+/** Lets the repetitions of parts each start from rest with the gait's own motion, or follow each other without a pause. */
+export function restarted(document, indices, restarts) {
+  const one = ({ restarts: _, ...part }) => (restarts ? { ...part, restarts } : part);
+  const apply = withParts((parts) => parts.map((part, at) => (indices.includes(at) ? one(part) : part)));
+  const names = indices.map((index) => document.sequence[index].gait.name).join(", ");
+  return { apply, label: restarts ? `Start ${names} from rest each time` : `Run ${names} without a pause` };
+}

@@ -2,7 +2,7 @@
 
 import { api } from "../api/gaits.js";
 import { freeName } from "../document/gait_names.js";
-import { added, isSequence } from "../document/sequence_edits.js";
+import { isSequence } from "../document/sequence_edits.js";
 import { byId, h, onPress, setAllowed } from "../lib/dom.js";
 import { counted, fixed, mm } from "../lib/format.js";
 import { openStep } from "../steps/steps.js";
@@ -11,7 +11,9 @@ import { selectGait } from "../shell/gait_list.js";
 import { jobIsOn } from "../shell/job_list.js";
 import { numberField } from "../state/fields.js";
 import { acceptView, runIsOn, shownDocument, shownPlan } from "../state/store.js";
+import { partAdder } from "./part_adder.js";
 import { partRows } from "./sequence_rows.js";
+import { SAMPLE_TIMES, sequenceTrouble } from "./sequence_trouble.js";
 
 const TEACH = "Each part begins where the one before has ended: feet stay, body and heading go on. One check and one approval are for all of it.";
 const OPTIMISE = "A sequence is made of its parts' motions, which follow every edit live. Optimise parts also improves the footholds of each part, with all its repetitions.";
@@ -32,26 +34,6 @@ function wholeOf({ body, heading, duration }) {
   const way = [0, 1].map((axis) => body.at(-1)[axis] - body[0][axis]);
   return [["Travel", `${mm(Math.hypot(...way))} mm`], ["along x, y", `${mm(way[0])}, ${mm(way[1])} mm`],
     ["Turn", `${fixed(((heading.at(-1) - heading[0]) * 180) / Math.PI, 0)}°`], ["Duration", `${fixed(duration)} s`]];
-}
-
-/** A list of all gaits by group, and the button that adds the chosen one; over the parts, so that it stays in place. */
-function adder(store, edits) {
-  const select = h("select", { "aria-label": "Gait to add", title: "A gait of the list; a sequence adds its parts" });
-  const act = attempt(async () => {
-    const [source, { selected: gait }] = [select.value, store.state];
-    const { apply, label } = added(await api.document(source), source);
-    await edits.edit(apply, label, { gait });
-  });
-  const button = h("button", { text: "Add", title: "Add the chosen gait at the end", on: { click: act } });
-  store.watch(({ gaits, selected, view }) => [gaits, selected, isSequence(view?.document)], ({ gaits, selected, view }) => {
-    if (!isSequence(view?.document)) return;
-    const chosen = select.value;
-    const groups = Map.groupBy ? Map.groupBy(gaits, ({ group }) => group) : new Map([["Gaits", gaits]]);
-    select.replaceChildren(...[...groups].map(([label, members]) => h("optgroup", { label },
-      ...members.filter(({ id, problem }) => id !== selected && !problem).map(({ id, name }) => h("option", { value: id, text: name })))));
-    if (gaits.some(({ id }) => id === chosen && id !== selected)) select.value = chosen;
-  });
-  return h("div", { class: "part-add" }, select, button);
 }
 
 /** The box that says which gaits changed since they became parts. */
@@ -98,14 +80,23 @@ function exactParts(store) {
  */
 export function mountSequence(store, edits, playback, gaitTools) {
   gaitTools.addNew({ text: "New sequence", help: "Begins with the shown gait; others are added in its panel", act: attempt(() => createSequence(store)) });
-  const takeOver = attempt(async (part = null) => acceptView(store, await api.refreshSequence(store.state.selected, part)));
+  const take = async (part, resample) => acceptView(store, await api.refreshSequence(store.state.selected, part, resample));
+  const takeOver = attempt(async (part = null) => {
+    try {
+      await take(part, false);
+    } catch (error) {
+      if (error.where !== SAMPLE_TIMES) throw error;
+      const resample = attempt(() => take(part, true));
+      store.set({ formError: error.message, formRefusal: { sentence: error.message, where: error.where, resample } });
+    }
+  });
   const [rows, whole, stale] = [partRows(store, edits, playback, takeOver), totals(), staleness(takeOver)];
   const between = betweenParts(store, edits);
   const count = h("span");
-  const trouble = h("p", { class: "box-note", role: "alert", data: { tone: "bad" }, hidden: true });
-  byId("sequence").append(h("h3", {}, "Sequence", count), adder(store, edits), rows.grid, trouble, stale.element, whole.element, between.element, h("p", { class: "teach", text: TEACH }));
+  const trouble = sequenceTrouble(edits);
+  byId("sequence").append(h("h3", {}, "Sequence", count), partAdder(store, edits), rows.grid, trouble.element, stale.element, whole.element, between.element, h("p", { class: "teach", text: TEACH }));
   byId("optimise").append(exactParts(store));
-  store.watch((state) => [state.view, state.pending, state.gesture, state.formError, shownPlan(state)], (state) => {
+  store.watch((state) => [state.view, state.pending, state.gesture, state.formError, state.formRefusal, shownPlan(state)], (state) => {
     const document_ = shownDocument(state);
     const on = isSequence(document_);
     document.body.toggleAttribute("data-sequence", on);
@@ -117,9 +108,7 @@ export function mountSequence(store, edits, playback, gaitTools) {
     whole.show(plan);
     stale.show(state.view.sources ?? []);
     count.textContent = counted(document_.sequence.length, "part");
-    const sentence = state.formError ?? plan?.refusal?.sentence ?? null;
-    trouble.hidden = !sentence;
-    trouble.textContent = sentence ?? "";
+    trouble.show(state, document_, plan);
   });
   // A sequence is edited by its parts, so that they come first where a person turns to one.
   store.watch(({ view }) => [view?.id], ({ view, robot }) => { if (isSequence(view?.document) && !runIsOn(robot)) openStep("design"); });

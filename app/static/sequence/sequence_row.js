@@ -32,7 +32,7 @@ function button(name, symbol, act) {
 
 /**
  * Builds a row.
- * @param {{times: Function, move: Function, remove: Function, takeOver: Function}} acts on this row's part
+ * @param {{times: Function, move: Function, remove: Function, takeOver: Function, runThrough: Function}} acts on this row's part
  */
 export function partRow(actions) {
   const lead = h("p", { class: "part-lead", role: "gridcell" });
@@ -44,6 +44,7 @@ export function partRow(actions) {
   const figures = h("span", { class: "number" });
   const [dot, word] = [h("span", { class: "dot" }), h("span", {})];
   const over = h("button", { class: "link", text: "take over", title: "Take the gait over as it is now", on: { click: actions.takeOver } });
+  const through = h("button", { class: "link", text: "without a pause", title: "Let the repetitions follow each other without a pause again", on: { click: actions.runThrough } });
   const refusal = refusalOf(input);
   const giveUp = () => {
     refusal.setError(null);
@@ -61,8 +62,8 @@ export function partRow(actions) {
   const element = h("div", { class: "part", role: "row" }, lead, name,
     h("div", { class: "part-times", role: "gridcell" }, input, h("span", { class: "quiet", "aria-hidden": "true", text: "×" })),
     h("div", { class: "part-buttons", role: "gridcell" }, up, down, out), h("div", { class: "part-refusal", role: "gridcell" }, refusal.element),
-    h("div", { class: "part-state", role: "gridcell" }, figures, h("span", { class: "part-word" }, dot, word, over)));
-  return { element, lead, name, number, text, input, refusal, giveUp, up, down, out, figures, dot, word, over };
+    h("div", { class: "part-state", role: "gridcell" }, figures, h("span", { class: "part-word" }, dot, word, over, through)));
+  return { element, lead, name, number, text, input, refusal, giveUp, up, down, out, figures, dot, word, over, through };
 }
 
 /**
@@ -89,7 +90,9 @@ export function showRow(row, { index, count, part, planned, move, source, plan }
   setText(row.figures, planned ? figuresOf(planned) : "");
   const [word, tone] = source === "changed" ? ["source changed", "caution"] : planned ? (STATES[planned.source] ?? [planned.source, "quiet"]) : ["…", "quiet"];
   row.dot.dataset.tone = tone;
-  setText(row.word, word);
+  const isFromRest = Boolean(part.restarts) && part.times > 1;
+  setText(row.word, isFromRest ? `${word}, each from rest` : word);
   setAttribute(row.word, "title", source === "changed" ? "The gait that it was copied from moves differently by now" : planned?.note);
   row.over.hidden = source !== "changed";
+  row.through.hidden = !isFromRest || source === "changed";
 }

@@ -1,6 +1,6 @@
 /** The rows of the Sequence section: an ARIA grid whose parts are moved, repeated and taken out, each by one edit. */
 
-import { moved, removed, repeated } from "../document/sequence_edits.js";
+import { moved, removed, repeated, restarted } from "../document/sequence_edits.js";
 import { h } from "../lib/dom.js";
 import { shownDocument, shownPlan } from "../state/store.js";
 import { partRow, showRow } from "./sequence_row.js";
@@ -36,6 +36,7 @@ function partActions(store, edits, playback, focus) {
   return {
     count,
     times: (index, times) => change(repeated(document(), index, times)),
+    runThrough: (index) => change(restarted(document(), [index], false)),
     move(from, to) {
       if (to < 0 || to >= count() || to === from) return;
       change(moved(document(), from, to));
@@ -82,6 +83,7 @@ export function partRows(store, edits, playback, takeOver) {
     const row = partRow({
       times: (times) => actions.times(index, times), move: (way) => actions.move(index, index + way),
       remove: () => actions.remove(index), takeOver: () => takeOver(index),
+      runThrough: () => actions.runThrough(index),
     });
     row.name.addEventListener("keydown", (event) => press(event, index, actions, focus));
     row.name.addEventListener("focus", () => mark(index));

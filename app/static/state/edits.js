@@ -80,7 +80,8 @@ export function createEdits(store) {
       const isStanding = batch.every((edit) => store.state.pending.includes(edit));
       if (isStanding && drawing && STAYS.includes(error.status)) keep(batch, error.message);
       else {
-        settle(batch, { formError: drawing ? null : error.message });
+        const refusal = { sentence: error.message, where: error.where, batch };
+        settle(batch, { formError: drawing ? null : error.message, formRefusal: drawing ? null : refusal });
         if (drawing || !isShown(gait)) report(error);
       }
     }
@@ -181,6 +182,20 @@ export function createEdits(store) {
     if (isShown(gait) && view.notice) toast(view.notice);
   }
 
+  /** Brings the parts of a sequence to one sample time, in the step of the edits that were refused for it. */
+  async function passResample(gait, batch) {
+    const view = store.state.view?.id === gait ? store.state.view : await api.view(gait);
+    const { sequence } = batch.reduce((result, { apply }) => apply(result), view.document);
+    try {
+      const resampled = await api.resampleSequence(gait, { sequence, label: batch.at(-1).label, revision: view.revision });
+      acceptView(store, resampled);
+      if (isShown(gait)) store.set({ formError: null, formRefusal: null });
+      toast(resampled.resampled.join(" "));
+    } catch (error) {
+      report(error);
+    }
+  }
+
   async function passRestore(gait, number) {
     if (isShown(gait)) dropRefused();
     acceptView(store, await api.restoreVersion(gait, number));
@@ -211,6 +226,7 @@ export function createEdits(store) {
     paint: (cells, swing) => edit((document) => paintCells(document, cells, swing), paintLabel(cells, swing), { drawing: true }),
     redraw: (body) => pass(passRedraw, body),
     convert: (to, revision = null) => pass(passConvert, to, revision),
+    resample: (batch) => pass(passResample, batch),
     restoreVersion: (number) => pass(passRestore, number),
     undo: () => pass(passHistory, "undo"),
     redo: () => pass(passHistory, "redo"),

@@ -3,7 +3,7 @@
  *
  * Everything that several tabs must agree on comes from the server; the rest (`selected`, `shownJob`, `pending`,
  * `left` (edits of gaits that were left before they were sent), `gesture`, `tool`, `selection`, `preview`, `zoom`, `live`, `tryout`, `worked`, `remedies`,
- * `iterate`, `segmentDrafts`, `runRange`, `jog`, `simulation`, `tracks`, `trialWanted`, `fastestWanted`, `physicsSets`) belongs to this tab alone.
+ * `iterate`, `formRefusal` (the edit behind `formError`), `segmentDrafts`, `runRange`, `jog`, `simulation`, `tracks`, `trialWanted`, `fastestWanted`, `physicsSets`) belongs to this tab alone.
  */
 
 const INITIAL = Object.freeze({
@@ -33,6 +33,7 @@ const INITIAL = Object.freeze({
   refused: null,
   segmentDrafts: Object.freeze({}),
   formError: null,
+  formRefusal: null,
   shownJob: null,
   checked: Object.freeze({}),
   runSummary: null,

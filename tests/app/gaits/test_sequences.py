@@ -18,7 +18,14 @@ from app.documents.trajectory_json import trajectory_content
 from app.export.gait_diagram import facts, sample_edges
 from app.gaits.approvals import ApprovalRequest
 from app.gaits.live_plans import LivePlans, changed_gait
-from app.gaits.sequence_documents import PartReference, SourceState, made_sequence, refreshed, source_states
+from app.gaits.sequence_documents import (
+    PartReference,
+    SourceState,
+    made_sequence,
+    refreshed,
+    resampled,
+    source_states,
+)
 from app.gaits.service import GaitService
 from app.plans.plan import PlanSource
 from app.plans.sequence_plan import runs_without_result
@@ -27,6 +34,7 @@ from app.store.gait_files import GaitFiles
 from app.undo.history import Author
 from core.errors import CheckError, InputError
 from core.gait.gait import Gait, SequencePart, motion_problem
+from core.gait.gait_difference import gait_difference
 from core.library.library import library
 from core.library.new_gait import with_robot
 from core.library.sequence import derived, run_of, sequence_gait
@@ -234,6 +242,66 @@ def test_a_part_without_a_motion_is_named(tmp_path: Path, database: Database) ->
     assert np.array_equal(plan.trajectory.contact.T, service.document(tour).timeline.stance)
     with pytest.raises(CheckError, match="Part 2"):
         service.check(tour)
+
+
+def test_a_gait_that_walks_once_repeats_with_its_own_motion(tmp_path: Path, database: Database) -> None:
+    tier = LivePlans(FixedTier(SolveStatus.INFEASIBLE))
+    service = GaitService(GaitFiles(tmp_path), database, tier.solve_for)
+    walk = gait("walk")
+    solved = solve_live(motion_problem(walk, load_robot(walk.robot)))
+    content = {
+        "iterations": 9, "solve_seconds": 0.5, "max_violation": 1e-9,
+        "trajectory": trajectory_content(solved.trajectory),
+    }  # fmt: skip
+    database.put_result(motion_hash(walk), content)
+    once = service.create(made_sequence("Once", [PartReference("walk", 1)], service.document)).id
+    assert [part.source for part in service.plan(once).parts] == ["optimised"]
+    tour = service.create(made_sequence("Twice", [PartReference("walk", 2)], service.document)).id
+    plan = service.plan(tour)
+    assert plan.note.endswith("Run once, the gait has a motion: let each repetition start from rest.")
+    assert [part.has_own_motion for part in plan.parts] == [True]
+    before = service.document(tour)
+    from_rest = replace(before, sequence=(replace(before.sequence[0], restarts=True),))
+    changed = service.edit(tour, from_rest, "Start from rest", None)
+    assert changed.gait.timeline.sample_count == 2 * walk.timeline.sample_count - 1
+    plan = service.plan(tour)
+    assert [(part.source, part.has_own_motion) for part in plan.parts] == [("optimised", False)]
+    assert plan.trajectory is not None
+    assert plan.trajectory.body_world[-1, :2] - plan.trajectory.body_world[0, :2] == pytest.approx(
+        2 * walk.step_world, abs=1e-6
+    )
+    assert parse_gait(json.dumps(gait_content(changed.gait))) == changed.gait
+    assert motion_hash(changed.gait) != motion_hash(before)
+    (parts,) = [group for group in gait_difference(before, changed.gait) if group.title == "Parts"]
+    assert "from rest" in parts.sentences[0]
+
+
+def slow_s_gait(service: GaitService) -> str:
+    """Id of a gait with another sample time than the others."""
+    slow = gait("s-gait")
+    return service.create(replace(slow, name="Slow", timeline=replace(slow.timeline, sample_time=0.5))).id
+
+
+def test_a_resampled_part_stands_to_its_source_as_a_copy(service: GaitService) -> None:
+    slow = slow_s_gait(service)
+    asked = [PartReference("walk", 1), PartReference("rotate", 1), PartReference(slow, 1)]
+    with pytest.raises(InputError, match="one sample time"):
+        made_sequence("x", asked, service.document)
+    made = made_sequence("x", asked, service.document, resample=True)
+    assert made.timeline.sample_time == 0.4
+    assert set(source_states(made, service.document)) == {SourceState.SAME}
+    service.edit(slow, replace(service.document(slow), step=(0.004, 0.0, 0.0)), "Step", None)
+    assert source_states(made, service.document)[-1] is SourceState.CHANGED
+    with pytest.raises(InputError, match="one sample time"):
+        refreshed(made, service.document)
+    taken = refreshed(made, service.document, resample=True)
+    assert taken.sequence[2].gait.timeline.sample_time == 0.4
+    assert set(source_states(taken, service.document)) == {SourceState.SAME}
+
+
+def test_only_a_sequence_is_resampled() -> None:
+    with pytest.raises(InputError, match="is no sequence"):
+        resampled(gait("walk"))
 
 
 def odd_amble() -> Gait:

@@ -50,6 +50,40 @@ def test_the_way_over_http(studio: StudioProcess) -> None:
     assert studio.ask("POST", "/api/jobs", {"kind": "optimise", "gait": made.content["id"]}).status == 422
 
 
+def test_parts_with_other_sample_times_are_resampled_in_one_step(studio: StudioProcess) -> None:
+    parts = [{"gait": "walk"}, {"gait": "rotate"}]
+    made = studio.ask("POST", "/api/sequences", {"name": "Resampled", "parts": parts}).content
+    path = f"/api/gaits/{made['id']}"
+    document = studio.ask("GET", path).content
+    slow = studio.ask("GET", "/api/gaits/s-gait").content
+    slow["timeline"]["sample_time"] = 0.5
+    document["sequence"].append({"gait": slow, "times": 2, "source": None})
+    refused = studio.ask("PUT", path, document)
+    assert (refused.status, refused.content["where"]) == (422, "sample_time")
+    asked = {"sequence": document["sequence"], "label": "Add S-Gait", "revision": made["revision"]}
+    answer = studio.ask("POST", f"{path}/sequence/resample", asked)
+    assert answer.status == 200
+    assert answer.content["undo"] == "Add S-Gait"
+    (sentence,) = answer.content["resampled"]
+    assert "Part 3, “S-Gait 10 mm”: a sample every 0.4 s instead of 0.5 s" in sentence
+    assert answer.content["document"]["sequence"][2]["gait"]["timeline"]["sample_time"] == 0.4
+    assert studio.ask("POST", f"{path}/sequence/resample", asked).status == 409
+    finer = studio.ask("POST", f"{path}/sequence/resample", {"sample_time": 0.2}).content
+    assert finer["document"]["timeline"]["sample_time"] == 0.2
+    assert len(finer["resampled"]) == 3
+    studio.ask("POST", f"{path}/undo")
+    undone = studio.ask("POST", f"{path}/undo").content
+    assert [part["gait"]["name"] for part in undone["document"]["sequence"]] == ["Walk 10 mm", "Rotate 15°"]
+    assert studio.ask("POST", "/api/gaits/walk/sequence/resample", {}).status == 422
+    assert studio.ask("POST", f"{path}/sequence/resample", {"sample_time": 0}).status == 422
+
+
+def test_the_list_says_which_gaits_cannot_be_parts(studio: StudioProcess) -> None:
+    lines = {line["id"]: line["part_refusal"] for line in studio.ask("GET", "/api/gaits").content["gaits"]}
+    assert lines["walk"] is None
+    assert "made for the robot's clock" in lines.values()
+
+
 def test_each_part_is_optimised_for_itself(studio: StudioProcess) -> None:
     parts = [{"gait": "s-gait"}, {"gait": "walk-manual-0"}, {"gait": "s-gait"}]
     made = studio.ask("POST", "/api/sequences", {"name": "Exact", "parts": parts}).content

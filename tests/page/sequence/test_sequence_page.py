@@ -224,6 +224,51 @@ def test_a_part_without_a_motion_is_named_on_the_page(page: Page, studio: Studio
     expect(check).to_have_attribute("title", re.compile("Part 2"))
 
 
+def trouble(page: Page) -> Locator:
+    return page.locator("#sequence").get_by_role("alert").filter(has_text=re.compile("Part|sequence"))
+
+
+def test_a_part_with_another_sample_time_is_resampled_in_one_click(
+    page: Page, studio: StudioProcess, tour: str
+) -> None:
+    walk = studio.ask("GET", "/api/gaits/walk").content
+    walk["timeline"]["sample_time"] = 0.5
+    slow = studio.ask("POST", "/api/gaits", {**walk, "name": "Slow walk"}).content["id"]
+    page.get_by_label("Gait to add").select_option(slow)
+    page.get_by_role("button", name="Add", exact=True).click()
+    expect(trouble(page)).to_contain_text("a sequence has one sample time")
+    assert sources(studio, tour) == ["walk", "rotate", "s-gait"]
+    page.get_by_role("button", name="Resample", exact=True).click()
+    becomes(studio, tour, ["walk", "rotate", "s-gait", slow])
+    expect(rows(page)).to_have_count(4)
+    expect(page.get_by_text("a sample every 0.4 s instead of 0.5 s").first).to_be_visible()
+    expect(trouble(page)).to_be_hidden()
+    expect(rows(page).nth(3)).to_contain_text("live")
+    undo(page).click()
+    becomes(studio, tour, ["walk", "rotate", "s-gait"])
+
+
+def test_gaits_that_cannot_be_parts_are_greyed_with_the_reason(page: Page, tour: str) -> None:
+    greyed = page.get_by_label("Gait to add").locator("option:disabled")
+    expect(greyed.filter(has_text="(made for the robot's clock)").first).to_be_attached()
+    expect(greyed.filter(has_text="(for the robot ").first).to_be_attached()
+    expect(page.get_by_label("Gait to add").locator("option:checked")).to_be_enabled()
+
+
+def test_repetitions_start_from_rest_and_follow_each_other_again(
+    page: Page, studio: StudioProcess, tour: str
+) -> None:
+    document = studio.ask("GET", f"/api/gaits/{tour}").content
+    document["sequence"][0]["restarts"] = True
+    studio.ask("PUT", f"/api/gaits/{tour}?label=From+rest", document)
+    expect(rows(page).first).to_contain_text("each from rest")
+    rows(page).first.get_by_role("button", name="without a pause").click()
+    expect(undo(page)).to_contain_text("run Walk 10 mm without a pause")
+    expect(rows(page).first).not_to_contain_text("each from rest")
+    assert "restarts" not in studio.ask("GET", f"/api/gaits/{tour}").content["sequence"][0]
+    assert serious_findings(page) == []
+
+
 def test_other_gaits_have_their_segment_table_again(page: Page, tour: str) -> None:
     expect(page.get_by_role("tab", name="Sequence")).to_be_visible()
     page.get_by_role("list", name="Gaits").get_by_role("button", name=re.compile("^Amble 10 mm(?!,)")).click()

@@ -1,0 +1,59 @@
+/** Why a sequence has no motion, or why an edit of it was refused, and the one click that helps. */
+
+import { restarted } from "../document/sequence_edits.js";
+import { h, setText } from "../lib/dom.js";
+
+/** What a refusal names that different sample times are the reason of. */
+export const SAMPLE_TIMES = "sample_time";
+
+const RESAMPLE = "Brings all parts to the sample time that the most of them have. Phases are rounded up to whole samples, "
+  + "so that nothing gets faster; optimised motions of the parts that change are computed anew. One undo step.";
+const RESTART = "Each repetition is the gait with its own motion, from rest to rest, as it is when it runs once. One undo step.";
+
+/** The parts that have no motion without a pause but one of their own, counted from 0. */
+const restartable = (plan) => (plan?.parts ?? []).filter((part) => part.has_own_motion).map(({ part }) => part);
+
+/**
+ * @param {{edit: Function, resample: Function}} edits
+ * @returns {{element: HTMLElement, show: (state: object, document: object, plan: object|null) => void}}
+ */
+export function sequenceTrouble(edits) {
+  let act = null;
+  const sentence = h("span");
+  const button = h("button", { on: { click: () => act?.() } });
+  const price = h("p", { class: "why" });
+  const help = h("div", {}, h("div", { class: "buttons" }, button), price);
+  const element = h("div", { class: "box-note", role: "alert", data: { tone: "bad" }, hidden: true }, sentence, help);
+
+  function offer(text, words, doIt) {
+    act = doIt;
+    help.hidden = !doIt;
+    setText(button, text);
+    setText(price, words);
+  }
+
+  /** What helps against what is shown; nothing where no single click does. */
+  function chosen({ formError, formRefusal }, document, plan) {
+    if (formError) {
+      const isTimes = formRefusal?.sentence === formError && formRefusal.where === SAMPLE_TIMES;
+      return isTimes ? ["Resample", RESAMPLE, formRefusal.resample ?? (() => edits.resample(formRefusal.batch))] : null;
+    }
+    const parts = restartable(plan).filter((part) => document.sequence[part]);
+    if (!parts.length) return null;
+    const start = () => {
+      const { apply, label } = restarted(document, parts, true);
+      edits.edit(apply, label);
+    };
+    return ["Start each repetition from rest", RESTART, start];
+  }
+
+  return {
+    element,
+    show(state, document, plan) {
+      const text = state.formError ?? plan?.refusal?.sentence ?? null;
+      element.hidden = !text;
+      setText(sentence, text ?? "");
+      offer(...((text && chosen(state, document, plan)) || ["", "", null]));
+    },
+  };
+}

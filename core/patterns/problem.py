@@ -146,6 +146,8 @@ class PatternProblem:
         balance_model: for the rule `balance`; needed where that is on.
         sample_time: between samples, s.
         noun: what sentences call a limb: "limb", or "foot" in a document.
+        once_an_order: whether patterns whose limbs change in the same order, only at other samples, count as
+            one; the best of them is given.
     """
 
     kind: PatternKind
@@ -158,6 +160,7 @@ class PatternProblem:
     balance_model: BalanceModel | None = None
     sample_time: float = 0.4
     noun: str = "limb"
+    once_an_order: bool = False
 
     def __post_init__(self) -> None:
         fixed = np.array(self.fixed, dtype=np.int8)

@@ -168,6 +168,8 @@ def _add_switches(built: EventModel) -> None:
 def forbid(built: EventModel, stance: Bools) -> None:
     """Excludes a pattern, and where nothing pins a periodic one, all its rotations.
 
+    Where the problem wants each order once, the same changes at other samples are excluded too.
+
     Args:
         built: a model of as many events as the pattern has.
         stance: (legs, samples).
@@ -180,7 +182,7 @@ def forbid(built: EventModel, stance: Bools) -> None:
         if not built.is_ring or not begins:
             begins = [0, *begins]
         differs: list[LiteralT] = []
-        for begin, start in zip(begins, built.starts, strict=True):
+        for begin, start in () if built.problem.once_an_order else zip(begins, built.starts, strict=True):
             literal = built.model.new_bool_var("")
             built.model.add(start != begin).only_enforce_if(literal)
             differs.append(literal)

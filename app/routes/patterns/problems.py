@@ -103,7 +103,7 @@ class Posed:
         if asked.freed:
             free = Relaxation(Rule.FIXED, None, tuple(asked.freed), "")
             problem = relaxed(problem, free)
-        return replace(problem, noun=_NOUN)
+        return replace(problem, noun=_NOUN, once_an_order=asked.once_an_order)
 
     def _kind_problem(self, samples: int | None) -> PatternProblem:
         asked = self.question

@@ -51,6 +51,8 @@ class _ProblemBody(FiniteBody):
     """Rows of 1 and 0 that are kept where that can be."""
     count: int = Field(default=1, ge=1, le=MOST_COUNT)
     seconds: float = Field(default=30.0, gt=0, le=MOST_SECONDS)
+    once_an_order: bool = False
+    """Whether patterns whose feet change in the same order, only at other samples, count as one."""
 
 
 class TransitionBody(_ProblemBody):

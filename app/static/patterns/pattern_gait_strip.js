@@ -77,7 +77,7 @@ export function patternGaitStrip({ side, name, help, choose, move }) {
     element.toggleAttribute("data-empty", !document);
     if (!document) return;
     const { feet, sample_time: step } = document.timeline;
-    [count, at, sampleTime] = [feet[0].length, clamp(sample, 0, feet[0].length - 1), step];
+    [count, at, sampleTime] = [feet[0].length, clamp(sample ?? 0, 0, feet[0].length - 1), step];
     const key = JSON.stringify([feet, document.timeline.locked, document.held]);
     if (drawn !== key) {
       drawn = key;

@@ -28,8 +28,8 @@ export const ROLES = { walks: "walks", held: "held up", broken: "broken", stands
 
 const INITIAL = Object.freeze({
   mode: "transition",
-  from: { gait: null, sample: 0 },
-  to: { gait: null, sample: 0 },
+  from: { gait: null, sample: null },
+  to: { gait: null, sample: null },
   samples: 20,
   shortest: false,
   walkable: true,
@@ -103,7 +103,7 @@ export function bodyOf(state, { gait, limbs, document, drawing, isFree }) {
   const cells = tuples(drawnCells(state)).filter(([limb, sample]) => isFree(limb, sample));
   const common = {
     kind: mode, count, cells, rules: rulesOf(state), weights: Object.fromEntries(WEIGHTS.map(({ weight, usual }) => [weight, state.weights[weight] ?? usual])),
-    freed: tuples(state.freed).map(([limb, sample]) => [limb, sample]), drawing: state.keep ? drawing : null,
+    freed: tuples(state.freed).map(([limb, sample]) => [limb, sample]), drawing: state.keep ? drawing : null, once_an_order: true,
   };
   if (mode === "transition") return { ...common, gait: from.gait, sample: from.sample, to: to.gait, to_sample: to.sample, samples, locked, walkable: state.walkable };
   if (mode === "limbs") return { ...common, gait, samples, limbs };

@@ -106,7 +106,7 @@ export function mountSearch(store, problem, isOpen) {
     const { view } = store.state;
     const { mode, from, to } = problem.state;
     if (!isOpen() || !view || runIsOn(store.state.robot)) return;
-    if (mode === "transition" && !(from.gait && to.gait)) return;
+    if (mode === "transition" && [from, to].some(({ gait, sample }) => !gait || sample === null)) return;
     latest += 1;
     clearTimeout(timer);
     problem.set({ waiting: true });

@@ -37,7 +37,7 @@ const hatch = () => svg("svg", { class: "sprite", "aria-hidden": "true" }, svg("
 
 function gaitParts(store, problem) {
   const part = (side, name) => patternGaitStrip({ side, name, help: `The gait that the transition leads ${side}`,
-    choose: (gait) => problem.set({ [side]: { gait, sample: 0 } }), move: (sample) => problem.set({ [side]: { ...problem.state[side], sample } }) });
+    choose: (gait) => problem.set({ [side]: { gait, sample: null } }), move: (sample) => problem.set({ [side]: { ...problem.state[side], sample } }) });
   const parts = { from: part("from", "Gait A"), to: part("to", "Gait B") };
   return {
     ...parts,
@@ -165,7 +165,7 @@ export async function mountPatterns(store, page) {
   return {
     open(mode) {
       setOpen(true);
-      if (mode) problem.set({ mode, ...(mode === "transition" && store.state.selected ? { from: { gait: store.state.selected, sample: problem.state.from.gait === store.state.selected ? problem.state.from.sample : 0 } } : {}) });
+      if (mode) problem.set({ mode, ...(mode === "transition" && store.state.selected ? { from: { gait: store.state.selected, sample: problem.state.from.gait === store.state.selected ? problem.state.from.sample : null } } : {}) });
       gaits.choose();
       search.submit();
       render();

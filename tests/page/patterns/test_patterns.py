@@ -31,7 +31,21 @@ def page(browser: Browser, studio: StudioProcess) -> Iterator[Page]:
 
 
 @pytest.fixture
-def search(page: Page) -> Page:
+def search(fresh: Page) -> Page:
+    """The search with Walk and both cursors at the first sample."""
+    to_the_start(fresh)
+    return fresh
+
+
+def to_the_start(page: Page) -> None:
+    for gait in "AB":
+        expect(cursor(page, gait)).not_to_have_attribute("aria-valuenow", "1")
+        cursor(page, gait).press("Home")
+        expect(cursor(page, gait)).to_have_attribute("aria-valuenow", "1")
+
+
+@pytest.fixture
+def fresh(page: Page) -> Page:
     """The search as a browser shows it for the first time, beginning with Walk."""
     page.evaluate(
         "localStorage.removeItem('footfall.patterns'), sessionStorage.removeItem('footfall.patterns.open')"
@@ -91,6 +105,25 @@ def press(page: Page, *keys: str) -> None:
         page.keyboard.press(key)
 
 
+def test_cursors_first_stand_in_mid_gait_and_each_order_is_shown_once(fresh: Page) -> None:
+    solved(fresh)
+    for gait, foot in (("A", 2), ("B", 4)):
+        words = re.compile(f"sample 18 of 45.*foot {foot} swings")
+        expect(cursor(fresh, gait)).to_have_attribute("aria-valuetext", words)
+    assert {row[0] for row in rows(fresh)} == {"0", "1"}
+    best = fresh.get_by_role("listbox", name="Best patterns").get_by_role("option")
+    expect(best).to_have_count(5)
+    orders = set()
+    for index in range(5):
+        best.nth(index).click()
+        expect(best.nth(index)).to_have_attribute("aria-selected", "true")
+        columns = list(zip(*rows(fresh), strict=True))
+        orders.add(tuple(c for c, before in zip(columns, [None, *columns], strict=False) if c != before))
+    assert len(orders) == 5
+    fresh.get_by_label("Gait B", exact=True).select_option("textbook-trot")
+    expect(cursor(fresh, "B")).to_have_attribute("aria-valuenow", "1")
+
+
 def test_a_transition_follows_its_cursors_and_becomes_a_gait(search: Page, studio: StudioProcess) -> None:
     solved(search)
     expect(search.get_by_label("Gait A", exact=True)).to_have_value("walk")
@@ -122,6 +155,7 @@ def test_cursors_stay_while_a_new_gait_is_not_yet_in_the_list(
         other.goto(studio.url)
         choose_gait(other, "Walk 10 mm")
         other.get_by_role("tab", name="Pattern search").click()
+        to_the_start(other)
         solved(other)
         cursor(other, "A").focus()
         press(other, *["ArrowRight"] * 6)

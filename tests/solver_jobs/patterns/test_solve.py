@@ -185,3 +185,35 @@ def test_stopped_at_once_there_is_no_pattern() -> None:
 def test_numbers_out_of_range_are_refused(count: int, seconds: float) -> None:
     with pytest.raises(InputError):
         best_patterns(TINY, count=count, seconds=seconds)
+
+
+def order_of(stance: Bools) -> bytes:
+    """The states that a pattern goes through, whenever it does."""
+    changed = (stance[:, 1:] != stance[:, :-1]).any(axis=0)
+    return stance[:, np.concatenate([[True], changed])].tobytes()
+
+
+def test_patterns_that_change_at_other_samples_are_one_where_each_order_is_wanted_once() -> None:
+    everyone = best_patterns(TINY, count=50)
+    once = best_patterns(replace(TINY, once_an_order=True), count=50)
+    orders = [order_of(pattern.stance) for pattern in once.patterns]
+    assert len(set(orders)) == len(orders)
+    assert {order_of(pattern.stance) for pattern in everyone.patterns} <= set(orders)
+    assert weighted_sum(TINY, once.patterns[0]) == weighted_sum(TINY, everyone.patterns[0])
+
+
+def test_of_one_order_the_pattern_most_like_the_drawing_is_given() -> None:
+    drawing = np.array([[1, 1, 1, 1, 1, 1], [1, 1, 1, 1, 0, 0], [1, 1, 1, 1, 1, 1]], dtype=np.bool_)
+    problem = replace(TINY, drawing=drawing, once_an_order=True)
+    best = best_patterns(problem, count=3).patterns
+    assert (best[0].stance == drawing).all()
+    assert len({order_of(pattern.stance) for pattern in best}) == 3
+
+
+def test_rotated_orders_of_a_gait_are_one() -> None:
+    result = best_patterns(replace(periodic(4, 12), once_an_order=True), count=4)
+    rings = []
+    for pattern in result.patterns:
+        changed = (pattern.stance != np.roll(pattern.stance, 1, axis=1)).any(axis=0)
+        rings.append(canonical(pattern.stance[:, changed]))
+    assert len(set(rings)) == 4

@@ -2,21 +2,17 @@
 
 import time
 from datetime import UTC, datetime
-from typing import Any
 
 import numpy as np
 
 from app.common.json import Json, finite
+from app.runs.comparison import comparison_content
+from app.runs.figures import FIGURES_VERSION, mm_content, rounded_content, run_figures
 from app.runs.record import RunRecord, known_row, read_record
 from app.runs.recovery import end_abandoned
 from app.store.database import Database
 from app.store.run_store import RunFilter, RunRow, RunStore
-from core.arrays import Floats
 from core.errors import FootfallError
-from core.runs.analysis import run_errors
-
-FIGURES_VERSION = 2
-"""Figures that another version computed are computed again."""
 
 
 class RunService:
@@ -65,16 +61,20 @@ class RunService:
             "waypoints_hash": record.content["waypoints_hash"],
             "count": len(record.series.times),
             "times": np.round(record.series.times[kept], 4).tolist(),
-            "plan_times": _rounded(record.plan_times[kept], 4),
+            "plan_times": rounded_content(record.plan_times[kept], 4),
             "laps": [_lap(record, index) for index in kept],
             "measured_mm": np.round(record.series.measured_mm[kept], 4).tolist(),
-            "foot_heights_mm": _mm(record.foot_heights[kept]),
-            "commanded_mm": _rounded(record.commanded_mm[kept], 4),
+            "foot_heights_mm": mm_content(record.foot_heights[kept]),
+            "commanded_mm": rounded_content(record.commanded_mm[kept], 4),
             "arrivals": [
                 {"waypoint": c.index, "lap": c.lap, "sent": c.sent, "arrived": finite(c.arrived)}
                 for c in record.series.streamed
             ],
         }
+
+    def comparison(self, run: str, other: str) -> Json:
+        """Two runs at the waypoints that both reached (see `comparison_content`)."""
+        return comparison_content(self.record(run), self.record(other))
 
     def record(self, run: str) -> RunRecord:
         """A run as it was kept, for its files."""
@@ -121,44 +121,13 @@ class RunService:
         if kept is not None and kept["version"] == FIGURES_VERSION:
             return kept
         try:
-            figures = _figures(self.record(run))
+            record = self.record(run)
+            figures = run_figures(record.plan, record.series)
         except FootfallError:
             return None
         if not is_on:
             self._store.put_figures(run, figures)
         return figures
-
-
-def _figures(record: RunRecord) -> Json:
-    errors = run_errors(record.plan, record.series)
-    largest = errors.motor_largest
-    worst = int(largest.argmax()) if errors.arrived else None
-    return {
-        "version": FIGURES_VERSION,
-        "arrived": errors.arrived,
-        "largest_mm": None if worst is None else _mm(largest)[worst],
-        "largest_motor": worst,
-        "motor_mean_mm": _mm(errors.motor_mean),
-        "motor_largest_mm": _mm(largest),
-        "motor_waypoint": errors.motor_waypoint.tolist(),
-        "foot_mean_mm": _mm(errors.foot_mean),
-        "foot_largest_mm": _mm(errors.foot_largest),
-        "foot_path_mm": _mm(errors.foot_path),
-        "body_largest_mm": finite(errors.body_largest * 1000.0),
-        "seconds": finite(errors.seconds),
-        "estimate": finite(errors.estimate),
-        "start_seconds": finite(errors.start_seconds),
-    }
-
-
-def _mm(values: Floats) -> list[Any]:
-    return _rounded(values * 1000.0, 4)
-
-
-def _rounded(values: Floats, digits: int) -> list[Any]:
-    """As JSON content, null where a value is not known."""
-    content: list[Any] = finite(np.round(values, digits).tolist())
-    return content
 
 
 def _iso(seconds: float) -> str:

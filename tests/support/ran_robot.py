@@ -16,7 +16,7 @@ from core.gait.manual_motion import manual_motion
 from core.library.library import library
 from core.motion.trajectory import Trajectory
 from core.robot.model import load_robot
-from core.runs.reading import RunBytes
+from core.runs.reading import RunBytes, read_run
 from core.wire.waypoint_merging import WaypointPlan, plan_waypoints
 from tests.support.virtual_robot import VirtualRobot, make_plan
 
@@ -69,10 +69,13 @@ def ran() -> Ran:
     return Ran(robot, motion, way, approval, began, tuple(robot.machine.transitions)[known:])
 
 
-def keep_run(database: Database, by: str = "Ada", gait: str = "walk", day: int = 0) -> str:
-    """Puts the run into a database; its id."""
+def keep_run(
+    database: Database, by: str = "Ada", gait: str = "walk", day: int = 0, share: float = 1.0
+) -> str:
+    """Puts the run into a database, or as if it had been stopped after a share of its time; its id."""
     done, run, log = ran(), secrets.token_hex(6), RunStore(database)
-    seconds = done.robot.now - done.began
+    seconds = (done.robot.now - done.began) * share
+    pieces = [piece for piece in done.robot.pieces if piece.time <= done.began + seconds]
     started = STARTED + day * 86400.0
     content = {
         "id": run,
@@ -83,15 +86,15 @@ def keep_run(database: Database, by: str = "Ada", gait: str = "walk", day: int =
         "started": started,
         "started_monotonic": done.began,
         "ended": started + seconds,
-        "state": "done",
-        "sentence": "The last waypoint was reached.",
-        "reached": done.way.waypoints.count,
+        "state": "done" if share == 1.0 else "stopped",
+        "sentence": "The last waypoint was reached." if share == 1.0 else "Stopped.",
+        "reached": sum(c.is_reached for c in read_run(pieces, done.way.waypoints).commands),
         "count": done.way.waypoints.count,
         "seconds": seconds,
     }
     plan = Plan(PlanSource.MANUAL, "", ROBOT, done.trajectory, done.way, None)
     log.begin(content, run_plan_content(plan, done.way, done.approval))
     words = {True: Direction.TO_ROBOT.value, False: Direction.FROM_ROBOT.value}
-    database.add_bytes([(run, piece.time, words[piece.to_robot], piece.data) for piece in done.robot.pieces])
+    database.add_bytes([(run, piece.time, words[piece.to_robot], piece.data) for piece in pieces])
     log.add_states([(run, one.time, one.link.value, one.robot.value, one.cause) for one in done.changes])
     return run

@@ -67,6 +67,12 @@ async def read_strokes(
     return await run_in_threadpool(studio.runs.strokes, run, most)
 
 
+@router.get("/{run}/comparison")
+async def compare_runs(run: str, other: Word, studio: TheStudio) -> Json:
+    """Two runs, aligned by waypoint: times and strokes of both at the waypoints that both reached."""
+    return await run_in_threadpool(studio.runs.comparison, run, other)
+
+
 @router.put("/{run}/note")
 async def write_note(run: str, note: Note, studio: TheStudio) -> Json:
     """Keeps a note with a run."""

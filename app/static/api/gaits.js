@@ -143,6 +143,8 @@ export const api = {
   ports: () => request("GET", "/api/robot/ports"),
   transitions: () => request("GET", "/api/robot/transitions"),
   runs: (wanted) => request("GET", `/api/runs?${new URLSearchParams(Object.entries(wanted).filter(([, value]) => value !== ""))}`),
+  compareRuns: (id, other) =>
+    request("GET", `/api/runs/${encodeURIComponent(id)}/comparison?other=${encodeURIComponent(other)}`),
   keptRun: (id) => request("GET", `/api/runs/${encodeURIComponent(id)}`),
   runStrokes: (id) => request("GET", `/api/runs/${encodeURIComponent(id)}/strokes`),
   runGhost: async (id) => (await answer("GET", `/api/runs/${encodeURIComponent(id)}/ghost`)).arrayBuffer(),

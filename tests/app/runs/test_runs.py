@@ -244,3 +244,21 @@ def test_an_old_database_gets_its_runs_listed(tmp_path: Path) -> None:
     database = Database(path)
     assert found(RunService(database)) == [run]
     database.close()
+
+
+def test_two_runs_are_aligned_by_waypoint(service: RunService, database: Database) -> None:
+    whole, part = keep_run(database), keep_run(database, "Bob", share=0.4)
+    both = service.comparison(whole, part)
+    one, other = both["runs"]
+    assert (one["id"], other["id"], other["state"]) == (whole, part, "stopped")
+    count = len(both["waypoints"])
+    assert 3 < count < ran().way.waypoints.count
+    assert both["apart_mm"] == 0.0
+    assert one["seconds"] == other["seconds"]
+    assert {len(run[key]) for run in (one, other) for key in ("move_seconds", "error_mm", "measured_mm")} == {
+        count
+    }
+    assert one["figures"]["seconds"] == pytest.approx(one["seconds"][-1], abs=1e-3)
+    assert one["figures"]["start_seconds"] == service.summary(whole)["errors"]["start_seconds"]
+    with pytest.raises(NotFoundError):
+        service.comparison(whole, "nowhere")

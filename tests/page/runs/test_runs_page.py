@@ -24,11 +24,12 @@ GAIT = "walk-manual-0"
 
 @pytest.fixture(scope="module")
 def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[StudioProcess]:
-    """A studio whose robot ran three times."""
+    """A studio whose robot ran three times, and before that once until it was stopped."""
     folder: Path = tmp_path_factory.mktemp("data")
     database = Database(folder / "studio.sqlite3")
     for day, by in enumerate(("Ada", "Bob", "Ada")):
         keep_run(database, by, GAIT, day)
+    keep_run(database, "Eve", GAIT, day=-1, share=0.4)
     database.close()
     with running_studio(folder) as running:
         yield running
@@ -51,7 +52,7 @@ def panel(page: Page) -> Locator:
 
 def test_a_run_is_found_by_who_sent_it(page: Page) -> None:
     open_drawer(page, "Runs")
-    expect(listed(page)).to_have_count(3)
+    expect(listed(page)).to_have_count(4)
     expect(listed(page).first).to_contain_text(re.compile(r"error 0\.\d\d mm"))
     page.get_by_label("Operator of the runs").select_option("Bob")
     expect(listed(page)).to_have_count(1)
@@ -85,10 +86,35 @@ def test_a_run_lies_over_the_plan_with_its_errors_and_its_note(page: Page, studi
     panel(page).get_by_label("Compare with").select_option(index=1)
     times = panel(page).get_by_role("table", name="Times, s")
     expect(times.get_by_role("row", name=re.compile("duration"))).to_contain_text("0.0")  # the same run twice
+    compare_with_a_stopped_run(page)
     found = Axe().run(page, context={"include": [["#drawer-runs"]]}).response["violations"]
     assert [one["id"] for one in found if one["impact"] in ("serious", "critical")] == []
     panel(page).get_by_role("button", name="Close runs").click()
     expect(page.get_by_role("note", name="Lines of the plots")).to_be_hidden()
+
+
+def compare_with_a_stopped_run(page: Page) -> None:
+    """Both are in one plot, up to the waypoint at which the shorter one ended."""
+    choice = panel(page).get_by_label("Compare with")
+    label = choice.locator("option").filter(has_text="stopped").inner_text()
+    choice.select_option(label=label)
+    words = panel(page).get_by_role("status", name="Comparison")
+    expect(words).to_have_text(
+        re.compile(r"Aligned by waypoint: \d+ waypoints .* where the shorter run ended\.$")
+    )
+    times = panel(page).get_by_role("table", name="Times, s")
+    expect(times.get_by_role("row", name=re.compile("^duration"))).to_have_text(
+        re.compile(r"(\d+\.\d)\s*\1\s*0\.0")
+    )
+    plot = panel(page).get_by_role("img", name=re.compile("^Time, s, over waypoints: this run ends at"))
+    expect(plot.locator("polyline")).to_have_count(2)
+    expect(panel(page).get_by_role("note", name="Lines of the comparison")).to_have_text(
+        "this runthe other run"
+    )
+    panel(page).get_by_label("Plot of both runs").select_option(label="Stroke of foot 2, motor 1, mm")
+    plot = panel(page).get_by_role("img", name=re.compile("^Stroke of foot 2, motor 1, mm, over waypoints"))
+    plot.hover()
+    expect(panel(page)).to_contain_text(re.compile(r"waypoint \d+: this \d+\.\d\d, other \d+\.\d\d mm"))
 
 
 def test_the_run_that_was_opened_last_stays_and_a_closed_panel_lays_nothing_over_the_plan(page: Page) -> None:
@@ -118,11 +144,11 @@ def test_a_deleted_run_comes_back(page: Page) -> None:
     open_drawer(page, "Runs")
     listed(page).first.get_by_role("button").click()
     panel(page).get_by_role("button", name="Delete").click()
-    expect(listed(page)).to_have_count(2)
+    expect(listed(page)).to_have_count(3)
     page.locator(".toast").get_by_role("button", name="Undo").click()
     expect(panel(page).get_by_role("button", name="Delete")).to_be_visible()
     panel(page).get_by_role("button", name="All runs").click()
-    expect(listed(page)).to_have_count(3)
+    expect(listed(page)).to_have_count(4)
 
 
 TRACE = """async () => {

@@ -1,0 +1,97 @@
+/** Two runs side by side, aligned by waypoint: one plot with both, and tables up to the last waypoint that both reached. */
+
+import { h, setText } from "../lib/dom.js";
+import { counted, fixed, MOTORS } from "../lib/format.js";
+import { figureTable, footName } from "../lib/tables.js";
+import { motorName } from "./run_tables.js";
+import { waypointPlot } from "./waypoint_plot.js";
+
+/** Commanded strokes of two runs that differ by more are of other waypoints, mm. */
+const SAME_MM = 0.01;
+
+/**
+ * @typedef {{id: string, state: string, reached: number|null, count: number|null, seconds: number[], move_seconds: number[],
+ *   error_mm: number[], measured_mm: number[][], commanded_mm: number[][], figures: object}} AlignedRun
+ * @typedef {{waypoints: number[], laps: number[], apart_mm: number, runs: [AlignedRun, AlignedRun]}} RunComparison
+ */
+
+/** What of both runs can be plotted over the waypoints: a name, a unit, and the values of a run. */
+const LINES = [
+  { name: "Time", unit: "s", of: ({ seconds }) => seconds },
+  { name: "Time of each move", unit: "s", of: (run) => run.move_seconds },
+  { name: "Largest motor error", unit: "mm", of: (run) => run.error_mm },
+];
+
+const strokeLine = (motor) => ({
+  name: `Stroke of foot ${Math.floor(motor / MOTORS) + 1}, motor ${(motor % MOTORS) + 1}`, unit: "mm",
+  of: ({ measured_mm: rows }) => rows.map((row) => row[motor]),
+});
+
+/** "Waypoint 12", and which lap where the waypoints were gone through several times. */
+const placeText = ({ waypoints, laps }, index) =>
+  `waypoint ${waypoints[index] + 1}${laps.at(-1) > 0 ? ` of lap ${laps[index] + 1}` : ""}`;
+
+/** What is compared: "up to waypoint 9, the last that both reached". */
+function extentText(both) {
+  const { waypoints, runs, apart_mm: apart } = both;
+  const stopped = runs.some(({ reached, count }) => reached !== count);
+  const end = `Aligned by waypoint: ${counted(waypoints.length, "waypoint")} that both reached, up to ${placeText(both, waypoints.length - 1)}`;
+  const other = apart > SAME_MM ? ` The two were sent other waypoints: their commanded strokes are up to ${fixed(apart, 2)} mm apart.` : "";
+  return `${end}${stopped ? ", where the shorter run ended" : ""}.${other}`;
+}
+
+function plotPart(both) {
+  const lines = [...LINES, ...both.runs[0].measured_mm[0].map((_, motor) => strokeLine(motor))];
+  const select = h("select", { "aria-label": "Plot of both runs" }, ...lines.map(({ name, unit }, index) => h("option", { value: index, text: `${name}, ${unit}` })));
+  const place = h("div");
+  const show = () => {
+    const line = lines[Number(select.value)];
+    place.replaceChildren(waypointPlot({
+      title: `${line.name}, ${line.unit}, over waypoints`, unit: line.unit,
+      places: both.waypoints.map((_, index) => placeText(both, index)),
+      series: ["this", "other"].map((kind, index) => ({ kind, values: line.of(both.runs[index]) })),
+    }));
+  };
+  select.addEventListener("change", show);
+  show();
+  return h("div", { class: "run-plot-part" }, select, place);
+}
+
+const change = (a, b, decimals) =>
+  (Number.isFinite(a) && Number.isFinite(b) ? `${b > a ? "+" : ""}${fixed(b - a, decimals)}` : "–");
+
+const rowsOf = (names, a, b, decimals = 2) =>
+  names.map((name, index) => [name, fixed(a[index], decimals), fixed(b[index], decimals), change(a[index], b[index], decimals)]);
+
+function tables({ runs: [one, other] }) {
+  const [a, b] = [one.figures, other.figures];
+  const head = ["", "this", "other", "change"];
+  const words = (names) => names.map((text) => ({ text }));
+  const times = ({ figures, move_seconds: moves }) => [figures.seconds, figures.estimate, Math.max(...moves), figures.start_seconds];
+  const largest = (figures) => [figures.largest_mm, Math.max(...figures.foot_largest_mm), figures.body_largest_mm];
+  return [
+    figureTable("Times, s", "Of the waypoints that both reached: from the first one's message to the last arrival, what the ramp law lets expect, and the slowest move",
+      head, rowsOf(words(["duration", "expected", "slowest move", "to the start pose"]), times(one), times(other), 1)),
+    figureTable("These waypoints, mm", "Largest errors of any motor, of any foot, and of the body at the waypoints that both reached",
+      head, rowsOf(words(["motors, largest", "feet, largest", "body, largest"]), largest(a), largest(b))),
+    figureTable("Feet, largest, mm", "Distance of each foot at arrivals from where the waypoint puts it",
+      head, rowsOf(a.foot_largest_mm.map((_, foot) => footName(foot)), a.foot_largest_mm, b.foot_largest_mm)),
+    figureTable("Motors, largest, mm", "Measured minus commanded stroke at arrivals",
+      head, rowsOf(a.motor_largest_mm.map(motorName), a.motor_largest_mm, b.motor_largest_mm)),
+  ];
+}
+
+/**
+ * The comparison of two runs.
+ * @param {RunComparison} both
+ * @returns {HTMLElement[]}
+ */
+export function runComparison(both) {
+  const text = h("p", { class: "why", role: "status", "aria-label": "Comparison" });
+  if (!both.waypoints.length) {
+    setText(text, "There is no waypoint that both runs reached, so there is nothing to compare. Choose another run.");
+    return [text];
+  }
+  setText(text, extentText(both));
+  return [text, plotPart(both), ...tables(both)];
+}

@@ -8,11 +8,42 @@ from pathlib import Path
 
 import pytest
 
+from app.bench import BENCHMARKS
 from app.cli import main
 from tests.support.patience import patient_robot
 from tests.support.studio_process import PROJECT
 
-BLOCKS = re.findall(r"^```sh\n(.*?)^```", (PROJECT / "README.md").read_text(), re.S | re.M)
+README = (PROJECT / "README.md").read_text()
+BLOCKS = re.findall(r"^```sh\n(.*?)^```", README, re.S | re.M)
+FIGURES = (PROJECT / "docs" / "figures.md").read_text()
+LONGEST = 130
+
+
+def table_rows(text: str) -> list[list[str]]:
+    """The cells of each row of the tables in a text, without heads and rules."""
+    tables = re.findall(r"^\|[^\n]*\|\n\|[-|]+\|\n((?:\|[^\n]*\|\n)+)", text, re.M)
+    return [[cell.strip() for cell in row[1:-1].split("|")] for table in tables for row in table.splitlines()]
+
+
+def test_readme_is_read_in_one_breath() -> None:
+    assert len(README.splitlines()) <= LONGEST
+
+
+def test_readme_has_eight_figures_and_the_others_name_their_command() -> None:
+    figures = README[README.index("## Figures") : README.index("## Where to read on")]
+    assert len(table_rows(figures)) == 8
+    commands = [row[-1] for row in table_rows(FIGURES)]
+    named = [re.fullmatch(r"`bench (\w+)`", command) for command in commands]
+    assert {match.group(1) for match in named if match} <= set(BENCHMARKS)
+    others = [command for command, match in zip(commands, named, strict=True) if not match]
+    assert len(commands) > 20
+    assert all("`footfall " in command or "`python -m pytest " in command for command in others), others
+
+
+def test_every_page_of_the_documentation_is_reached_from_readme() -> None:
+    pages = {path.name for path in (PROJECT / "docs").glob("*.md")}
+    linked = set(re.findall(r"\(docs/(\w+\.md)\)", README))
+    assert pages - linked == {"fastest_figures.md"}
 
 
 def test_the_first_two_blocks_are_run_and_test_in_plain_lines() -> None:

@@ -34,6 +34,7 @@ from app.cli.argument_types import (
     zero_or,
 )
 from app.cli.bench_options import add_bench_options
+from app.cli.command_groups import grouped_commands
 from app.cli.gait_options import Method
 from app.common.version import VERSION
 from app.emulator.faults import Fault
@@ -72,14 +73,19 @@ def make_parser() -> argparse.ArgumentParser:
     """The parser of `footfall`; each command sets `run`."""
     parser = _Parser(
         prog="footfall",
+        usage="footfall [-h] [--version] COMMAND ...",
         description="Footfall Studio: gaits for delta-legged walking robots.",
+        epilog=grouped_commands(),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
     parser.add_argument("--version", action="version", version=f"footfall {VERSION}")
-    commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
+    commands = parser.add_subparsers(
+        required=True, prog="footfall", metavar="COMMAND", help=argparse.SUPPRESS, parser_class=_Parser
+    )
 
     def command(name: str, run: Callable[[argparse.Namespace], int], text: str) -> argparse.ArgumentParser:
-        added = commands.add_parser(name, help=text, description=text, allow_abbrev=False)
+        added = commands.add_parser(name, description=text, allow_abbrev=False)
         added.set_defaults(run=run)
         added.add_argument("--json", action="store_true", help="print one JSON object")
         return added

@@ -178,7 +178,7 @@ class Delivery:
         elif isinstance(line, NewData) and not self._executing:
             self.failure = f"The robot took the message but does not move: {HELD_STOP}."
         elif self._executing and self._idle >= IDLE_PASSES:
-            self.failure = "The robot works at the move no longer, but did not say that it arrived."
+            self.failure = "The robot stopped working on the move but did not report that it arrived."
 
     def _await_measurement(self, line: Line) -> None:
         if not isinstance(line, Telemetry):

@@ -96,7 +96,8 @@ def _require_in_place(start_mm: Floats, measured_mm: tuple[float, ...]) -> None:
     away = float(np.abs(start_mm - np.array(measured_mm)).max())
     if away > MOVED_MM:
         raise StateError(
-            f"A motor stands {away:.2f} mm from where the jog was worked out (limit {MOVED_MM:.2f} mm). "
+            f"A motor stands {away:.2f} mm from where it stood when this jog was planned (limit "
+            f"{MOVED_MM:.2f} mm). "
             "Look at the target again, then move.",
             "steps",
         )

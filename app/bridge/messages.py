@@ -16,7 +16,7 @@ SENTENCES: dict[RobotState, str] = {
     RobotState.PAUSING: "The robot goes on to the next pose with all feet down and pauses there.",
     RobotState.PAUSED: "The robot stands with all feet down. Resume goes on.",
     RobotState.STOPPING: "Stop was sent. It takes effect when the running ramp is over.",
-    RobotState.STOPPED: "The robot stands still and stays so. Clear it, then arm it again.",
+    RobotState.STOPPED: "Stopped. Nothing moves until you clear and arm.",
     RobotState.DONE: "The plan is done. Arm the robot for another run.",
     RobotState.FAULT: "The robot stands still after a fault. Clear it, then arm the robot again.",
 }

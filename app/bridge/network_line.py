@@ -57,8 +57,8 @@ def network_address(device: str) -> tuple[str, int]:
     rest = parts.path.strip("/") or parts.query or parts.fragment or parts.username or parts.password
     if not host or not port or rest:
         raise InputError(
-            f"{device} is no robot's line. Write socket://HOST:PORT with a port from 1 to 65535, and nothing "
-            "behind it: options are not known.",
+            f"{device} is not a line to a robot. Write socket://HOST:PORT with a port from 1 to "
+            "65535, and nothing after it.",
             "device",
         )
     return host, port

@@ -306,14 +306,15 @@ class RobotStateMachine(RobotLink):
 
     def _measured(self) -> tuple[float, ...]:
         if self.monitor.strokes_mm is None:
-            raise StateError("The robot has not told its strokes yet. Wait for its telemetry.")
+            raise StateError("The robot has not reported its strokes yet. Wait for its telemetry.")
         return self.monitor.strokes_mm
 
     def _measured_now(self, now: float) -> tuple[float, ...]:
         age = now - self.monitor.last_reading
         if age > STALE_TIME:
             raise StateError(
-                f"The robot has not told its strokes for {age:.1f} s (limit {STALE_TIME} s). Wait for its "
+                f"The robot has not reported its strokes for {age:.1f} s (limit {STALE_TIME} s). Wait "
+                "for its "
                 "telemetry; if none comes, stop the robot and look at its cable."
             )
         return self._measured()

@@ -146,7 +146,7 @@ def _require_device(device: str) -> None:
     """Refuses pyserial's own addresses: some are no line, and one writes a file of the caller's choice."""
     if "://" in device:
         raise InputError(
-            f"{device} is no robot's line. Name a serial device such as /dev/ttyACM0, or socket://HOST:PORT.",
+            f"{device} is not a line to a robot. Name a serial device such as /dev/ttyACM0, or socket://HOST:PORT.",
             "device",
         )
 

@@ -88,7 +88,8 @@ class CameraService:
         if settings["records"] and settings["use"] == UNDER:
             if not settings["setup"]:
                 raise InputError(
-                    f"“{view['name']}” is to find the feet, and has no setup. Choose one, or use it from the "
+                    f"“{view['name']}” is set to find the feet but has no setup. Choose one, or use "
+                    "it from the "
                     "side.",
                     "setup",
                 )

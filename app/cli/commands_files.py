@@ -113,7 +113,7 @@ def _plan(gait: Gait, method: Method) -> Plan:
         if verified.status is SolveStatus.SOLVED:
             result = {**verified.content, "trajectory": trajectory_content(verified.trajectory)}
         else:
-            note(" ".join(verified.explanation) or "The exact tier found no motion.")
+            note(" ".join(verified.explanation) or "The optimiser found no motion.")
     return make_plan(gait, result, solve_live)
 
 

@@ -88,21 +88,22 @@ def _lines(content: Json) -> list[str]:
     if not content["max_yaw" if turns else "max_step"]:
         return [f"{content['gait']}: no {name} is possible.", *content["explanation"]]
     said = (
-        f"confirmed by the exact tier; {live} by the live tier"
+        f"confirmed by the exact optimiser; {live} by the live one"
         if content["confirmed"]
-        else "by the live tier"
+        else "by the live optimiser"
     )
     return [
         f"{content['gait']}: the largest {name} is {reach} an iteration ({said}).",
         f"Actuator plane at {_mm(content['plane_height'])} at start and goal, phases of "
-        f"{content['phase_knots']} knots, workspace {content['workspace']}, margin {_mm(content['margin'])}.",
+        f"{content['phase_knots']} samples, workspace {content['workspace']}, "
+        f"margin {_mm(content['margin'])}.",
         *_limits(content),
     ]
 
 
 def _limits(content: Json) -> list[str]:
     if not content["limited_by"]:
-        return ["The live tier does not say what limits it."]
+        return ["The live optimiser does not name what limits it."]
     families = ", ".join(content["limited_by"]).replace("_", " ")
     return [f"A little further it is limited by {families}:", *(f"  {s}" for s in content["explanation"])]
 

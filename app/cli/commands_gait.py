@@ -137,7 +137,7 @@ def run_manual(options: Namespace) -> int:
     }
     slips = ", ".join(f"{s * 1000:.1f}" for s in motion.slip)
     lines = [
-        f"{gait.name}: {knots} knots, {motion.trajectory.times[-1]:.1f} s.",
+        f"{gait.name}: {knots} samples, {motion.trajectory.times[-1]:.1f} s.",
         f"Standing feet slide up to {slips} mm (feet 1 to {model.leg_count}).",
         *_written(options.output),
     ]
@@ -242,7 +242,7 @@ def _optimise_lines(content: Json) -> list[str]:
     lines = [
         f"{content['gait']}: {content['status']}{_iterations(content)}, "
         f"{content['solve_seconds'] * 1000:.0f} ms (build {content['build_seconds'] * 1000:.0f} ms), "
-        f"{content['knots']} knots.",
+        f"{content['knots']} samples.",
         f"Largest violation found by the checker: {content['max_violation'] or 0.0:.1e}.",
         f"Smallest stability margin {shown[0]}, of the centre of pressure {shown[1]}.",
     ]

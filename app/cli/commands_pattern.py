@@ -186,8 +186,8 @@ def _gap(content: Json) -> str:
 
 def _scores(pattern: Pattern) -> str:
     return (
-        f"Objective {pattern.sample_changes}: limbs change at {counted(pattern.sample_changes, 'sample')}, "
-        f"{counted(pattern.limb_changes, 'change')} of single limbs."
+        f"{counted(pattern.sample_changes, 'moment')} of change, "
+        f"{counted(pattern.limb_changes, 'foot change')}."
     )
 
 

@@ -89,7 +89,8 @@ def _way_verdict(path: Path, robot: str | None) -> Verdict:
     if way.motion is None:
         note(
             f"{path.name} has no companion with its motion: only what waypoints alone can show is checked "
-            "(range, durations, deafness, balance, distance of shoes). Footholds, swings and slip are not."
+            "(range, durations, time before Stop is heard, balance, distance of shoes). Footholds, "
+            "swings and slip are not."
         )
         return check_waypoints(way.model, way.waypoints)
     sent = plan_of_knots(way.model, way.motion, way.waypoints)

@@ -48,7 +48,7 @@ def run_trial(options: Namespace) -> int:
             note(f"{trial.path}: the feet's steps overlap between iterations, so their ends are unsure.")
     if options.setup is None and options.frame_rate is None and options.iterations is not None:
         note(
-            f"The files tell no times; they are taken to hold {FRAME_RATE:g} frames a second (--frame-rate)."
+            f"The files have no times; they are taken to hold {FRAME_RATE:g} frames a second (--frame-rate)."
         )
     overall = [trial.mean for trial in trials]
     content = {
@@ -75,7 +75,9 @@ def _tracks(options: Namespace) -> Iterator[tuple[Path, FootTrack]]:
     for word in ("frame_rate", "pixels_per_cm", "origin"):
         if getattr(options, word) is not None:
             name = "--" + word.replace("_", "-")
-            raise InputError(f"{name} is for track files; a video tells its rate, a setup its scale.", name)
+            raise InputError(
+                f"{name} is for track files; a video has its own rate, a setup its own scale.", name
+            )
     setup = read_setup(options.setup)
     for path in options.files:
         yield path, tracked(path, setup)

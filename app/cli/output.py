@@ -93,7 +93,7 @@ def _cost_line(cost: SendCost) -> str:
     chosen = " (chosen)" if cost.is_chosen else ""
     return (
         f"  stop bound {bound}{chosen}: {cost.merged_seconds:.1f} s merged within "
-        f"{cost.merge * 1000:g} mm, {cost.every_seconds:.1f} s with one waypoint a knot"
+        f"{cost.merge * 1000:g} mm, {cost.every_seconds:.1f} s with one waypoint a sample"
     )
 
 

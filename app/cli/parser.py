@@ -126,7 +126,9 @@ def _serve_options(parser: argparse.ArgumentParser) -> None:
     add("--port", type=whole(0, 65535), default=8400, help="port (default 8400; 0 any free)")
     add("--robot", default="emulator", help="emulator, a serial device, or socket://HOST:PORT")
     add("--data", type=Path, default=None, help="data folder")
-    text = "demanded of every request; made where no word follows, and always where host is public"
+    text = (
+        "require this token on every request; without a value one is made, and a public host always needs one"
+    )
     add("--token", nargs="?", const="", default=None, help=text)
     text = "play a video file as a camera of that name; may be given several times"
     add("--camera", action="append", default=[], metavar="NAME=VIDEO", help=text)
@@ -177,9 +179,9 @@ def _gait_options(parser: argparse.ArgumentParser) -> None:
     add("--order", type=foot_order, default=None, help="feet such as 3,2,4,1")
     add("--iterations", type=whole(1, 20), default=None)
     phase, closing = whole(LEAST_PHASE_KNOTS, MOST_PHASE_KNOTS), whole(0, MOST_CLOSING_KNOTS)
-    add("--phase-knots", type=phase, default=None, help="knots of each stance phase and of each swing")
-    add("--closing-knots", type=closing, default=None, help="knots of stance after the last swing")
-    add("--knot-time", type=number(0.01, 10.0, "s"), default=None, help="s between knots (default 0.4)")
+    add("--phase-knots", type=phase, default=None, help="samples of each stance phase and of each swing")
+    add("--closing-knots", type=closing, default=None, help="samples of stance after the last swing")
+    add("--knot-time", type=number(0.01, 10.0, "s"), default=None, help="s between samples (default 0.4)")
     _limit_options(parser)
     add("--boundary", type=one_of(Boundary), metavar=words_of(Boundary), default=None)
     text = "what is minimised (default goal, of a gait file its own)"
@@ -307,7 +309,7 @@ def _way_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     merge = "leave out waypoints this near the motors' straight way; 0.001 is the firmware's own tolerance"
     add("--merge", type=number(0.0, 0.02, "m"), default=None, metavar="M", help=merge)
-    bound = "cut moves so that the robot is never deaf for longer, at least 0.77 s"
+    bound = "cut moves so that Stop is heard within this time, at least 0.77 s"
     add("--stop-bound", type=number(0.1, 60.0, "s"), default=None, metavar="S", help=bound)
 
 

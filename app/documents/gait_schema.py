@@ -113,11 +113,11 @@ class OptionsModel(_Model):
     turning: HeadingProfile = _option("turning", "when a gait with yaw turns the body")
     merge: float = _option(
         "merge",
-        "waypoints are left out within this distance of the motors' path, m; 0: one waypoint a knot is sent",
+        "waypoints are left out within this distance of the motors' path, m; 0: every sample is sent",
     )
     stop_bound: float | None = _option(
         "stop_bound",
-        "how long the robot may be deaf for Stop, s; moves are cut for it; null: as long as a move takes",
+        "longest time before the robot hears Stop, s; moves are cut for it; null: as long as a move takes",
     )
 
 

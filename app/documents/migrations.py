@@ -44,7 +44,7 @@ def migrated(content: Json, where: str, steps: Mapping[int, Step] = STEPS, versi
 def filled(content: Json) -> Json:
     """What version 1 gained with time, where it is not as the schema's defaults say.
 
-    A recorded motion of before merging is sent as it stands, one waypoint a knot.
+    A recorded motion of before merging is sent as it stands, one waypoint a sample.
     """
     if content.get("recorded") is None or not isinstance(content.get("options", {}), dict):
         return content

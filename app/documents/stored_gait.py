@@ -7,7 +7,7 @@ from typing import Any
 from app.common.json import Json
 from app.documents.gait_json import gait_from_content, parse_gait
 from core.gait.gait import Gait
-from core.gait.options import OPTION_BOUNDS
+from core.gait.options import OPTION_BOUNDS, sayable
 
 _KNOTS = ("phase_knots", "closing_knots")
 """Options without bounds in earlier versions; nothing but a timeline that is drawn anew depends on them."""
@@ -103,5 +103,5 @@ def _bounded(name: str, value: Any, changes: list[str]) -> Any:
     bounds = OPTION_BOUNDS[name]
     limited = int(min(max(value, bounds.least), bounds.most))
     if limited != value:
-        changes.append(f"{value} {name.replace('_', ' ')} (now {limited})")
+        changes.append(f"a {sayable(name)} of {value}{bounds.unit} (now {limited})")
     return limited

@@ -70,7 +70,7 @@ def approved(
         )
     seen, now = open_gait.verdict.content_hash, verdict_of(plan, open_gait.gait)
     if request.verdict_hash not in (None, seen):
-        raise StateError("Another verdict stands by now; look at it and approve again.", "verdict_hash")
+        raise StateError("The verdict has changed; look at it and approve again.", "verdict_hash")
     if now.content_hash != seen:
         raise StateError(
             "The verdict is out of date: something that it rests on changed, such as the simulation. Check "
@@ -161,7 +161,7 @@ def approval_difference(
         groups.append(DifferenceGroup("Gait", (unkept,)))
     sides = {
         "What is sent": _sent(before, after),
-        "Room left to each limit": _margins(before["figures"], after["figures"]),
+        "Margin to limits": _margins(before["figures"], after["figures"]),
     }
     return (*groups, *(DifferenceGroup(title, said) for title, said in sides.items() if said))
 

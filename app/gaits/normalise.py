@@ -232,7 +232,8 @@ def normalise_table(before: Gait, after: Gait) -> tuple[Gait, str | None]:
     if found.table is not None:
         return replace(after, segment_table=found.table), found.sentence
     notice = (
-        f"The segment table cannot say what you drew: {found.sentence} It was set aside and the gait is now "
+        f"The segment table cannot express what you drew: {found.sentence} It was set aside and the "
+        "gait is now "
         "a drawn one. Undo brings the table back."
     )
     return replace(after, segment_table=None), notice

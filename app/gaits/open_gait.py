@@ -114,7 +114,7 @@ def _what_changed(approval: Approval, verdict: Verdict) -> str:
         return "The robot's parameters changed"
     if approval.waypoints_hash != verdict.waypoints_hash:
         return "The plan is another one than before"
-    return "The rules of the check, or the simulation, say something else than before"
+    return "The rules of the check, or the simulation, give another result than before"
 
 
 def fresh_gait(

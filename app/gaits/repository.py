@@ -168,7 +168,7 @@ class GaitRepository:
             StateError: there is none.
         """
         if self._files.stamp(gait_id) is None:
-            raise StateError(f"{gait_id}.json is not there any more; save the gait to write it.", gait_id)
+            raise StateError(f"{gait_id}.json is gone; save the gait to write it again.", gait_id)
         return self._files.read(gait_id)
 
     def taken_over(self, open_gait: OpenGait) -> OpenGait:

@@ -10,7 +10,7 @@ from app.store.gait_files import GaitFiles
 from core.errors import FootfallError, InputError
 from core.gait.gait import Gait
 
-WAYS_OUT = "Take it over, or keep yours; neither is lost."
+WAYS_OUT = "Use the file, or keep yours; neither is lost."
 """What a person can do about a file that was changed outside the studio."""
 
 
@@ -71,7 +71,7 @@ class SavedFiles:
             if mine is None:
                 raise
             sentence = f"{error.sentence} It was changed outside the studio, which goes on with its own copy."
-            return SavedFile(mine, None, f"{sentence} Mend it and take it over, or keep yours.")
+            return SavedFile(mine, None, f"{sentence} Correct it and use it, or keep yours.")
         theirs = found.gait
         if mine is None or theirs == mine or _was_broken_off(saved, theirs, written):
             return SavedFile(theirs, theirs, None, found.notice)

@@ -472,7 +472,7 @@ class GaitService:
         plan, open_gait = self.plan(gait_id), self.open_gait(gait_id)
         if is_confirmed(open_gait, plan, self._verdict_of):
             return open_gait
-        return self._put(open_gait.unapproved("The check says something else than before"))
+        return self._put(open_gait.unapproved("The check gives another result than before"))
 
     def _verdict_of(self, plan: Plan, gait: Gait) -> Verdict:
         return verdict_of(plan, gait, self._simulated_for(plan))

@@ -104,7 +104,7 @@ def _number(row: Mapping[str, str | None], column: str, label: str) -> float:
 def problem_within_range(
     model: RobotModel, motion: Trajectory, physics: PhysicsSet
 ) -> tuple[SimulationProblem, float]:
-    """What physics is asked of a published trajectory, one waypoint a knot.
+    """What physics is asked of a published trajectory, one waypoint a sample.
 
     Its feet rise beyond the motors' range; the published program kept each stroke within the range, and so is
     it done here (docs/physics.md).

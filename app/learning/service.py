@@ -131,7 +131,7 @@ class LearningService:
             return now
         content = self._store.get(learning)
         if content is None:
-            raise NotFoundError(f"There is no course of learning {learning}.", "learning")
+            raise NotFoundError(f"There is no learning job {learning}.", "learning")
         return content
 
     def cancel(self, learning: str) -> Json:
@@ -153,10 +153,10 @@ class LearningService:
         content = self.content(learning)
         result = content["result"]
         if result is None:
-            raise StateError("This course has no result, so there is nothing to keep.", "learning")
+            raise StateError("This learning job has no result, so there is nothing to keep.", "learning")
         if not any(one["is_identifiable"] for one in result["parameters"]):
             raise StateError(
-                "These trials tell none of the parameters, so there is nothing to keep. Add trials.",
+                "These trials do not identify any parameter, so there is nothing to keep. Add trials.",
                 "learning",
             )
         physics = physics_from_content(result["physics"])

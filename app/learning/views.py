@@ -107,7 +107,9 @@ def learned_sentence(content: Mapping[str, Any]) -> str:
     """The result in a sentence, of its content."""
     errors = {way["name"]: way["error_cm"] for way in content["foretold"]}
     told = [one["title"].lower() for one in content["parameters"] if one["is_identifiable"]]
-    what = f"These trials tell {', '.join(told)}." if told else "These trials tell none of the parameters."
+    what = (
+        f"These trials identify {', '.join(told)}." if told else "These trials do not identify any parameter."
+    )
     return (
         f"{what} A gait that was left out is predicted to {errors['left out']:.2f} cm; as planned it is "
         f"{errors['as planned']:.2f} cm, by a line through the others {errors['ratio, left out']:.2f} cm."

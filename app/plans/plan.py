@@ -53,7 +53,7 @@ _OPTION_NAME = re.compile(r" \(--[a-z-]+\)")
 PIN_SEEN = 1e-6
 """A pinned pose that is drawn this far from its place is drawn nearer, m."""
 AS_PLANNED = GaitOptions(merge=0.0, stop_bound=None)
-"""One waypoint a knot."""
+"""One waypoint a sample."""
 
 Solve = Callable[[MotionProblem], MotionResult]
 """Asks the live tier."""

@@ -13,7 +13,7 @@ from core.gait.chain import Chain, Span
 from core.gait.gait import Gait
 
 _MOVE = "The body moves over its standing feet to where the next part begins."
-_STEPS = "Feet step to where the next part begins, and the body with them; solved by the live tier."
+_STEPS = "Feet step to where the next part begins, and the body with them; solved by the live optimiser."
 
 
 def unplaced_parts(gait: Gait, plans: Sequence[Plan]) -> tuple[PlannedPart, ...]:

@@ -157,7 +157,7 @@ def steps_between(solve: Solve, before: Piece, piece: Piece, problem: MotionProb
         return verified.trajectory
     ways = np.linalg.norm(problem.goal.feet_world - problem.start.feet_world, axis=1)
     feet = ", ".join(f"foot {f + 1} by {way * 1000:.1f} mm" for f, way in enumerate(ways) if way > SAME_PLACE)
-    why = verified.explanation[0] if verified.explanation else "the live tier gave no answer."
+    why = verified.explanation[0] if verified.explanation else "the live optimiser gave no answer."
     sentence = (
         f"Between {before.name} and {piece.name} feet have to step: {feet}. There is no motion for that: "
         f"{why} Let the one end where the other begins, or put a gait between them."

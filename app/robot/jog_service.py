@@ -187,13 +187,16 @@ def _beginning(wish: JogRequest, snapshot: RobotSnapshot) -> tuple[JogFrom, Floa
 def _why_not_now(wish: JogRequest, begin: JogFrom, snapshot: RobotSnapshot) -> str | None:
     """Why no step at all can be made now; None where one can."""
     if not wish.model.wired:
-        return f"{wish.model.title}: no cable leads to such a robot; its steps are shown in the preview only."
+        return (
+            f"{wish.model.title}: this program cannot drive this robot; its steps are shown in the "
+            "preview only."
+        )
     if (reason := allowed(snapshot)["jog"]) is not None:
         return reason
     if begin is JogFrom.GIVEN:
         return "The robot is moved from where it stands; leave from_mm out."
     if begin is JogFrom.STANDING:
-        return "The robot has not told its strokes yet. Wait for its telemetry."
+        return "The robot has not reported its strokes yet. Wait for its telemetry."
     return None
 
 

@@ -130,7 +130,7 @@ class OperatorLease:
 
         def let_go(who: Person) -> None:
             if self._lease.now.asker is None and self._bridge.snapshot.robot in IN_RUN:
-                raise StateError("A run is on. Stop it, or let it end, before you let the robot go.", "lease")
+                raise StateError("A run is on. Stop it, or let it end, before you release control.", "lease")
             self._lease.release(who)
 
         self._hand_over(author, let_go)

@@ -72,8 +72,9 @@ def unwired(plan: Plan) -> str | None:
     if plan.model.wired:
         return None
     return (
-        f"{plan.model.title}: no cable leads to such a robot, so the gait cannot be sent. Choose "
-        "“DeltaWalker, 12 motors” in the gait, and check it anew."
+        f"{plan.model.title}: this program can design for this robot but not drive it, so the gait "
+        "cannot be sent. Choose "
+        "“DeltaWalker, 12 motors” in the gait, and check it again."
     )
 
 

@@ -112,7 +112,7 @@ class SimulationService:
         self._tier = tier
         self._job_repository = job_repository
         self._kept = kept
-        self._running = JobTracker(job_repository, later, shown, "The physics is at it.")
+        self._running = JobTracker(job_repository, later, shown, "The physics is running.")
         self._waiting: list[threading.Thread] = []
 
     def submit(self, open_gait: OpenGait, plan: Plan, physics: PhysicsSet, variations: int = 0) -> Json:

@@ -65,7 +65,7 @@ function panelsAfterPaint(page) {
   const escapes = {};
   const paintedOrHidden = Promise.race([painted(), new Promise((resume) => { setTimeout(resume, LONGEST_PAINT_MS); })]);
   Promise.all([import("./panels.js"), paintedOrHidden]).then(([{ mountPanels }]) => Object.assign(escapes, mountPanels(page)))
-    .catch((error) => report(new Error(`Panels of this page could not be built: ${error.message}. Reload it.`)));
+    .catch((error) => report(new Error(`Part of the page could not be built: ${error.message}. Reload it.`)));
   return escapes;
 }
 

@@ -59,7 +59,9 @@ def planned_of_gait(gait: Gait, plan: Plan, iterations: int) -> PlannedFeet:
         StateError: the gait has no motion.
     """
     if plan.trajectory is None:
-        raise StateError("This gait has no motion yet, so there is nothing to lay the trial over.", "gait")
+        raise StateError(
+            "This gait has no motion yet, so there is nothing to compare the trial with.", "gait"
+        )
     laps, rest = divmod(iterations, gait.iterations)
     sent = None
     if plan.way is not None:

@@ -60,7 +60,7 @@ def run_trial(record: RunRecord, found: VideoTrack) -> RunTrial:
     planned, remarks = _planned(record)
     expected = float(np.hypot(*(planned.feet[-1] - planned.feet[0]).T).mean())
     if expected < LEAST_WAY:
-        raise StateError("The feet are to stay where they are, so there is no way to measure.", "run")
+        raise StateError("The feet are meant to stay in place, so there is no distance to measure.", "run")
     ends = _ends(record, seen.track.times)
     if ends is not None:
         done = iteration_arrivals(record.plan, record.series)

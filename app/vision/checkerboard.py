@@ -106,7 +106,8 @@ def straightened(picture: Picture, lens: Lens) -> Picture:
 
 def _no_lens() -> InputError:
     return InputError(
-        "These boards tell no lens. Take pictures with the board in other places and slopes, also near the "
+        "The lens cannot be computed from these pictures. Take pictures with the board in other "
+        "places and slopes, also near the "
         "edges of the picture.",
         "pictures",
     )

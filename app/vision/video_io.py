@@ -71,7 +71,7 @@ class VideoFile:
     def _facts(self) -> Facts:
         rate = self._capture.get(cv2.CAP_PROP_FPS)
         if not (math.isfinite(rate) and rate > 0):
-            raise InputError(f"{self._name} tells no frame rate; save it again with one.", self._name)
+            raise InputError(f"{self._name} has no frame rate; save it again with one.", self._name)
         wide, high = (
             int(self._capture.get(p)) for p in (cv2.CAP_PROP_FRAME_WIDTH, cv2.CAP_PROP_FRAME_HEIGHT)
         )

@@ -63,7 +63,7 @@ class CheckedPlan:
 
     @property
     def knots(self) -> Waypoints:
-        """One waypoint a knot."""
+        """One waypoint a sample."""
         return self.waypoints if self.way is None else self.way.knots
 
 

@@ -40,10 +40,14 @@ class OptionBounds:
         shown = value * self.factor
         if self.least <= shown <= self.most:  # which no number that is not finite is
             return None
-        words = f"{'number of ' if name.endswith('_knots') else ''}{name.replace('_', ' ')}"
         number = f"{shown:d}" if isinstance(shown, int) else f"{shown:g}"
         allowed = f"it must lie between {self.least:g} and {self.most:g}{self.unit}"
-        return f"The {words} is {number}{self.unit}; {allowed}."
+        return f"The {sayable(name)} is {number}{self.unit}; {allowed}."
+
+
+def sayable(name: str) -> str:
+    """What sentences call an option of that name."""
+    return {"phase_knots": "phase length", "closing_knots": "final stance"}.get(name, name.replace("_", " "))
 
 
 LEAST_PHASE_KNOTS, MOST_PHASE_KNOTS = 2, 50
@@ -64,8 +68,8 @@ OPTION_BOUNDS: Mapping[str, OptionBounds] = MappingProxyType(
         "motor_acceleration": OptionBounds(0.5, 10000.0, 1000, " mm/s²"),
         "merge": OptionBounds(0.0, 5.0, 1000, " mm"),
         "stop_bound": OptionBounds(0.8, 10.0, 1, " s"),
-        "phase_knots": OptionBounds(LEAST_PHASE_KNOTS, MOST_PHASE_KNOTS),
-        "closing_knots": OptionBounds(0, MOST_CLOSING_KNOTS),
+        "phase_knots": OptionBounds(LEAST_PHASE_KNOTS, MOST_PHASE_KNOTS, 1, " samples"),
+        "closing_knots": OptionBounds(0, MOST_CLOSING_KNOTS, 1, " samples"),
     }
 )
 """Bounds of every option that is a number, by its name."""
@@ -84,14 +88,14 @@ class GaitOptions:
         end_plane_height: actuator plane at the goal; None as at the start.
         workspace: which form of reach holds.
         cost: what is minimised.
-        phase_knots: knots of each stance phase and of each swing of a drawn timeline.
+        phase_knots: samples of each stance phase and of each swing of a drawn timeline.
         closing_knots: knots after the last swing of a drawn timeline.
         friction: coefficient of each foot's friction cone; None for none.
         motor_speed: limit of each motor's speed; None for none.
         motor_acceleration: limit of each motor's acceleration; None for none.
         boundary: from rest to rest, or a cycle.
         turning: when a gait with yaw turns the body.
-        merge: distance in motor space within which waypoints are left out; 0 for one waypoint a knot.
+        merge: distance in motor space within which waypoints are left out; 0 for one waypoint a sample.
         stop_bound: how long the robot may be deaf for Stop, s; None for as long as a move takes.
     """
 

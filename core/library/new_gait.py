@@ -47,7 +47,7 @@ def drawn_gait(
         orientation: which way it goes.
         order: feet in the order of their steps, counted from 1.
         step: the body's travel an iteration along its heading, m.
-        phase_knots: knots of each stance phase and of each swing.
+        phase_knots: samples of each stance phase and of each swing.
         closing_knots: knots after the last swing.
         iterations: how often every foot steps.
 

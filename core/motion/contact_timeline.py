@@ -174,13 +174,13 @@ def timeline_from_order(
         )
     if phase_knots < 2 or closing_knots < 0 or iterations < 1:
         raise InputError(
-            "Phases need at least 2 knots, the closing stance at least 0, and there is at least 1 iteration.",
+            "Phases need at least 2 samples, the final stance at least 0, and there is at least 1 iteration.",
             "phase_knots",
         )
     samples = drawn_samples(legs, phase_knots, closing_knots, iterations)
     if samples > MAX_SAMPLES:
         raise InputError(
-            f"{iterations} iterations of {legs} feet with phases of {phase_knots} knots have {samples} "
+            f"{iterations} iterations of {legs} feet with phases of {phase_knots} samples have {samples} "
             f"samples; at most {MAX_SAMPLES} are drawn. Take fewer iterations or shorter phases.",
             "phase_knots",
         )

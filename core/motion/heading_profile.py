@@ -97,7 +97,7 @@ def _resting_spans(timeline: ContactTimeline, iterations: int) -> list[tuple[int
         if last - first < 2:
             raise InputError(
                 "The body turns while every foot stands, but the stance after the last swing has "
-                f"{max(last - first + 1, 0)} knots; it needs at least 3. Lengthen the closing stance.",
+                f"{max(last - first + 1, 0)} samples; it needs at least 3. Lengthen the final stance.",
                 "closing_knots",
             )
         spans.append((first, last))

@@ -47,7 +47,7 @@ def motor_speeds(model: RobotModel, trajectory: Trajectory) -> Floats:
 
 
 def motor_accelerations(model: RobotModel, trajectory: Trajectory) -> Floats:
-    """How fast each motor's speed changes from knot to knot: |Δḣ| / Δt.
+    """How fast each motor's speed changes from sample to sample: |Δḣ| / Δt.
 
     Where velocities are unknown speeds are the mean ones of the moves that end at each knot, 0 at the first.
 

@@ -41,7 +41,7 @@ class Trajectory:
         times = frozen_floats(self.times, (None,), "times")
         n = times.shape[0]
         if n < 2 or (np.diff(times) <= 0).any():
-            raise InputError("A trajectory needs at least two knots with increasing times.", "times")
+            raise InputError("A trajectory needs at least two samples with increasing times.", "times")
         feet = frozen_floats(self.feet_world, (n, None, 3), "feet")
         legs = feet.shape[1]
         shapes = {

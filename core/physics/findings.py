@@ -71,7 +71,7 @@ def _end(report: SimulationReport, problem: SimulationProblem) -> Outcome:
         f"{(report.ended_early or 'no reason is known').rstrip('.')}."
     )
     place = _place(report, problem, float(report.arrival_times[-1]))
-    remedy = "Mend what stands before, then simulate again."
+    remedy = "Correct the findings above, then simulate again."
     return Outcome(margin, (found(margin.rule, Severity.ERROR, words, remedy, float(missing), 0.0, **place),))
 
 
@@ -160,7 +160,7 @@ def _travel(report: SimulationReport, problem: SimulationProblem) -> Outcome:
         f"than {limit * 1000:.1f} mm; it goes {report.distance * 1000:.1f} of "
         f"{report.planned_distance * 1000:.1f} mm."
     )
-    remedy = "See where feet slide or the body leans, and mend that first."
+    remedy = "See where feet slide or the body leans, and correct that first."
     return Outcome(margin, (found(margin.rule, Severity.WARNING, words, remedy, report.goal_gap, limit),))
 
 
@@ -173,7 +173,7 @@ def _heading(report: SimulationReport, problem: SimulationProblem) -> Outcome:
         f"In the simulation the body turns by {np.degrees(report.heading):.1f}°; the plan says "
         f"{np.degrees(report.planned_heading):.1f}°, which is more than {np.degrees(HEADING_LIMIT):.0f}° off."
     )
-    remedy = "See where feet slide, and mend that first."
+    remedy = "See where feet slide, and correct that first."
     return Outcome(margin, (found(margin.rule, Severity.WARNING, words, remedy, gap, HEADING_LIMIT),))
 
 

@@ -215,7 +215,7 @@ def _require_drawable(gait: Gait, model: RobotModel) -> None:
         raise InputError(f"“{gait.name}” is no gait for the robot's clock.", "poses")
     if poses.pinned:
         raise InputError(
-            f"Pose {poses.pinned[0].pose} is pinned, and a drawing has no poses. Let it go first.",
+            f"Pose {poses.pinned[0].pose} is pinned, and a drawing has no poses. Unpin it first.",
             "poses.pinned",
         )
     if poses.sway:

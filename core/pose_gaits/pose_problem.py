@@ -179,7 +179,7 @@ class PoseProblem:
         if self.may_divide or self.parts not in (None, 1):
             raise InputError(
                 f"A stop bound of {self.bounds.stop_bound:g} s may divide moves, so no pose can be pinned "
-                "(poses.pinned). Let the pinned poses go, or choose a stop bound of at least "
+                "(poses.pinned). Unpin the poses, or choose a stop bound of at least "
                 f"{math.ceil(deaf_seconds(WHOLE_MOVE) * 10) / 10:g} s.",
                 "poses.pinned",
             )

@@ -148,7 +148,7 @@ def _motion(problem: MotionProblem, trajectory: Trajectory) -> _Motion:
     if velocities[0] is None or velocities[1] is None or trajectory.contact_forces is None:
         raise InputError("The checker needs velocities and contact forces.", "trajectory")
     if trajectory.feet_world.shape[:2] != (problem.knot_count, problem.model.leg_count):
-        raise InputError("The trajectory's knots or feet do not match its problem.", "trajectory")
+        raise InputError("The trajectory's samples or feet do not match its problem.", "trajectory")
     # The last knot is the goal, where motions stand though a timeline may end in the air; held feet do not.
     same = np.array_equal(trajectory.contact[:-1], problem.timeline.contact[:-1])
     if not same or trajectory.contact[-1, problem.held_end].any():

@@ -76,7 +76,7 @@ class MotionLimits:
         workspace: which form of reach holds.
         friction: coefficient of the friction cone of each foot; None for none.
         motor_speed: how fast a motor may extend or retract, m/s; None for none.
-        motor_acceleration: how fast that speed may change from knot to knot, m/s²; None for none.
+        motor_acceleration: how fast that speed may change from sample to sample, m/s²; None for none.
     """
 
     plane_height: tuple[float, float] = (0.053, 0.0605)
@@ -167,7 +167,7 @@ class MotionProblem:
             if (given := getattr(self, name)) is not None:
                 object.__setattr__(self, name, frozen_floats(given, (length,), name))
         if (self.intervals <= 0).any():
-            raise InputError("Every duration between two knots must be above 0 s.", "durations")
+            raise InputError("Every duration between two samples must be above 0 s.", "durations")
         counts = {self.timeline.leg_count, len(self.start.feet_world), len(self.goal.feet_world)}
         if counts != {legs}:
             raise InputError(f"Timeline, start and goal must each have {legs} feet.", "timeline")

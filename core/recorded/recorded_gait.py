@@ -50,9 +50,9 @@ def gait_of_motion(trajectory: Trajectory, name: str, robot: str | None = None) 
     if uneven.size:
         knot = int(uneven[0])
         raise InputError(
-            f"The time from knot {knot + 1} to {knot + 2} is {intervals[knot]:g} s, the first one "
+            f"The time from sample {knot + 1} to {knot + 2} is {intervals[knot]:g} s, the first one "
             f"{intervals[0]:g} s; a timeline needs even intervals. Sample the motion evenly.",
-            f"knot {knot + 1}",
+            f"sample {knot + 1}",
         )
     stance = np.array(trajectory.contact.T)
     held = _held(trajectory)
@@ -85,7 +85,7 @@ def gait_of_timeline(timeline: ContactTimeline, name: str) -> DescribedGait:
     Raises:
         InputError: no robot here has so many feet.
     """
-    remark = "A timeline says no travel: the step is 0 until you set it."
+    remark = "A timeline does not contain the travel: the step is 0 until you set it."
     return _describe(timeline, (name, robot_with(timeline.leg_count)), (np.zeros(2), 0.0), (remark,))
 
 

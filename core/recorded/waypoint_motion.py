@@ -180,5 +180,5 @@ def _interval(durations: Floats) -> tuple[float, tuple[str, ...]]:
     interval = float(np.median(given)) if given.size else USUAL_INTERVAL
     return interval, (
         f"The durations are {shortest:g} to {longest:g} s, and a timeline is even: each waypoint takes "
-        f"{interval:g} s here. The robot goes by its own clock anyway.",
+        f"{interval:g} s here. The robot ignores durations anyway.",
     )

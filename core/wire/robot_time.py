@@ -193,7 +193,7 @@ def move_estimates(waypoints: Waypoints, law: TimeLaw = PUBLISHED) -> Floats:
 def estimate_seconds(waypoints: Waypoints, law: TimeLaw = PUBLISHED) -> float:
     """Expected seconds of all waypoints, from where the robot stands at the first.
 
-    Library gaits as they are sent: within 7 % of the emulated board. Gaits of one waypoint a knot: up to 15 %
+    Library gaits as they are sent: within 7 % of the emulated board. Gaits with every sample sent: up to 15 %
     less than the board takes, since short moves one way leave the motors behind.
     """
     return float(move_estimates(waypoints, law).sum())

@@ -153,7 +153,7 @@ def parse_trajectory_csv(text: str, name: str, companion_text: str | None = None
         found = f"{rows} rows of numbers from line {first_line} on"
         raise InputError(f"{name}: {found}; {_wanted(possible)}.", name)
     if table.shape[1] < 2:
-        raise InputError(f"{name}: one knot; a trajectory needs at least two columns.", name)
+        raise InputError(f"{name}: one sample; a trajectory needs at least two columns.", name)
     try:
         layout = CsvLayout(header, has_velocities=rows == 2 * size)
         return _assemble(table, legs, companion, assumptions, layout)
@@ -216,7 +216,7 @@ def _standing(feet: Floats) -> Bools:
 
 def _companion(text: str | None, csv_text: str, name: str) -> tuple[dict[str, Any] | None, list[str]]:
     assumed = (
-        f"{DEFAULT_INTERVAL} s between knots, heading 0, and a foot stands where it rests within "
+        f"{DEFAULT_INTERVAL} s between samples, heading 0, and a foot stands where it rests within "
         f"{STANDING_HEIGHT * 1000:.2f} mm of z = 0."
     )
     if text is None:

@@ -34,7 +34,7 @@ class WaypointPlan:
     """Exactly what is sent of a plan, and where in the plan each waypoint is.
 
     Args:
-        knots: one waypoint a knot.
+        knots: one waypoint a sample.
         waypoints: what is sent.
         kept: (count,) knot with which each waypoint's move ends, 0-based; of a cut move all its parts.
         times: (count,) the plan's time of each waypoint, s.
@@ -104,7 +104,7 @@ def plan_of_knots(
     Args:
         model: the robot.
         trajectory: says when each foot stands.
-        knots: one waypoint a knot.
+        knots: one waypoint a sample.
         merge: tolerance, m.
         stop_bound: s, or None.
 
@@ -196,7 +196,7 @@ def kept_knots(knots: Waypoints, contact: Bools, needed: Sequence[int], toleranc
     the same pose to the firmware, which would not move to it, and is left out.
 
     Args:
-        knots: one waypoint a knot.
+        knots: one waypoint a sample.
         contact: (n, legs) feet on the ground.
         needed: knots that stay.
         tolerance: largest distance of a left-out knot from the path, of any motor, m.

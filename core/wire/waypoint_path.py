@@ -18,7 +18,7 @@ from core.wire.waypoints import Waypoints
 
 
 def waypoints_from_trajectory(model: RobotModel, trajectory: Trajectory) -> Waypoints:
-    """One waypoint a knot by inverse kinematics; of coupled motors the strokes that they make.
+    """One waypoint a sample by inverse kinematics; of coupled motors the strokes that they make.
 
     Raises:
         UnreachableError: a foot lies outside the workspace.

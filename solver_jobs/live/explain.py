@@ -127,7 +127,7 @@ def _sentence(problem: MotionProblem, contact: Bools, lack: Lack) -> str:
         Family.FRICTION: f"Grip lacks {size} mm of centre of pressure {where}: the body is thrown sideways.",
         Family.MOTOR_SPEED: f"A motor of {whose} would have to be {size} mm/s faster than allowed {where}.",
         Family.MOTOR_ACCELERATION: f"A motor of {whose} would have to change its speed by {size} mm/s more "
-        f"from knot to knot than allowed {where}.",
+        f"from sample to sample than allowed {where}.",
         Family.SHOE_DISTANCE: f"Room for shoes lacks {size} mm {where}: feet {' and '.join(map(str, ends))} "
         f"come nearer to each other than {(least_distance(problem.model) or 0.0) * MM:g} mm.",
     }

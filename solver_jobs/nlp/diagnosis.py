@@ -156,7 +156,7 @@ def broken_pose(missed: Shortfall) -> str:
 
 
 def knot_ranges(knots: tuple[int, ...]) -> str:
-    """Knots counted from 1, such as “knots 16–20, 36”."""
+    """Samples counted from 1, such as “samples 16–20, 36”."""
     runs: list[list[int]] = []
     for knot in knots:
         if runs and knot == runs[-1][1] + 1:
@@ -164,4 +164,4 @@ def knot_ranges(knots: tuple[int, ...]) -> str:
         else:
             runs.append([knot, knot])
     text = ", ".join(f"{a + 1}" if a == b else f"{a + 1}–{b + 1}" for a, b in runs)
-    return f"knot {text}" if len(knots) == 1 else f"knots {text}"
+    return f"sample {text}" if len(knots) == 1 else f"samples {text}"

@@ -40,7 +40,7 @@ REMEDIES = {
     Family.BODY_TORQUE: "Shorten the step, change the foot order, or keep three feet down.",
     Family.WORKSPACE: "Shorten the step, change the body's height, or use the other workspace.",
     Family.CLEARANCE: "Lower the clearance or lengthen the swing.",
-    Family.MARGIN: "Lower the margin, shorten the step, or keep a closing stance.",
+    Family.MARGIN: "Lower the margin, shorten the step, or keep a final stance.",
     Family.FRICTION: "Lengthen the phases or use feet with more grip.",
     Family.MOTOR_SPEED: _SHORTER,
     Family.MOTOR_ACCELERATION: "Lengthen the phases, shorten the step, or lower the clearance.",

@@ -77,7 +77,7 @@ def solve_motion(
 def _require_start(problem: MotionProblem, start: Trajectory) -> None:
     known = (start.body_velocity, start.feet_velocity, start.contact_forces)
     if start.feet_world.shape[:2] != (problem.knot_count, problem.model.leg_count):
-        raise InputError("The motion to start from has other knots or feet than the problem.", "start")
+        raise InputError("The motion to start from has other samples or feet than the problem.", "start")
     if any(values is None for values in known):
         raise InputError("The motion to start from lacks velocities or contact forces.", "start")
 

@@ -69,7 +69,7 @@ def _contradictions(situation: Situation, box: Box) -> list[str]:
     sentences = []
     for conflict in box.conflicts:
         ends = {0: "the start", situation.problem.knot_count - 1: "the goal"}
-        place = ends.get(conflict.knot, f"knot {conflict.knot + 1}")
+        place = ends.get(conflict.knot, f"sample {conflict.knot + 1}")
         if conflict.family is Family.BODY_HEIGHT:
             lowest, highest = (height * MM for height in situation.problem.limits.plane_height)
             sentences.append(
@@ -147,8 +147,9 @@ def _far_body(situation: Situation) -> list[str]:
     if way <= reach + SLACK:
         return []
     return [
-        f"The body has to travel {way * MM:.1f} mm but {problem.knot_count} knots allow {reach * MM:.1f} mm "
-        f"at {problem.limits.body_speed * MM:.0f} mm/s. Lengthen the gait or shorten the step."
+        f"The body has to travel {way * MM:.1f} mm but {problem.knot_count} samples allow "
+        f"{reach * MM:.1f} mm at {problem.limits.body_speed * MM:.0f} mm/s. "
+        "Lengthen the gait or shorten the step."
     ]
 
 

@@ -41,7 +41,7 @@ class MotorSpeed(RowConstraint):
 
 
 class MotorAcceleration(RowConstraint):
-    """No motor's speed changes faster than its limit from knot to knot: |ḣ_{k+1} − ḣ_k| / dt ≤ a."""
+    """No motor's speed changes faster than its limit from sample to sample: |ḣ_{k+1} − ḣ_k| / dt ≤ a."""
 
     family = Family.MOTOR_ACCELERATION
     unit = "mm/s²"

@@ -100,7 +100,7 @@ class StretchSearch:
         if first.status is SolveStatus.INFEASIBLE:
             slow = replace(drawn, durations=drawn.intervals * SLOWER)
             second = self._motion(slow)
-            slower = f"Nor is there a motion that takes {SLOWER:g} times as long as drawn."
+            slower = f"Slowing down does not help: no motion even at {SLOWER:g}× the time."
             drawn, first = slow, replace(second, explanation=(slower, *second.explanation))
         if first.status is not SolveStatus.SOLVED:
             return self._unsolved(first.status, first.explanation, as_drawn)

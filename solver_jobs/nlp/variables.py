@@ -155,7 +155,7 @@ def change_between_knots(values: SX) -> SX:
 
 
 def per_interval(changes: SX, symbols: Symbols) -> SX:
-    """(rows, n − 1) changes from knot to knot, divided by the time between them."""
+    """(rows, n − 1) changes from sample to sample, divided by the time between them."""
     return changes / repmat(symbols.intervals, changes.shape[0], 1)
 
 

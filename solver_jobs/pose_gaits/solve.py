@@ -88,7 +88,7 @@ def _pinned_answer(problem: PoseProblem, asked: PoseResult, without: PoseResult)
     but_without = ", but one was found without" if without.gait is not None else ""
     sentence = (
         f"No gait was found with the body where it is pinned (at pose {poses}){but_without}. Pin it nearer "
-        "to where it was, or let it go."
+        "to where it was, or unpin it."
     )
     return replace(asked, explanation=(sentence, NOT_PROVEN))
 

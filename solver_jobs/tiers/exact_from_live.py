@@ -14,8 +14,8 @@ _WITHOUT = (SolveStatus.INFEASIBLE, SolveStatus.FAILED)
 """How a search without a motion ends."""
 
 NOT_OPTIMAL = (
-    "The exact tier found no motion. This is the live tier's, which keeps every limit; its footholds and "
-    "body height are given, so it is not optimal."
+    "Optimise found no better motion. This is the live plan, which keeps every limit; its footholds and "
+    "body height are not optimised."
 )
 
 OUTSIDE = "With other footholds it is diagnosed from a local search, not proven."
@@ -111,5 +111,5 @@ def _told_by_both(exact: MotionResult, live: MotionResult) -> MotionResult:
     *own, _ = exact.explanation
     added = [sentence for sentence in others if sentence not in own]
     if added:
-        added.insert(0, "The live tier, in its own model, lacks the following.")
+        added.insert(0, "In the model of the live plan the following is missing.")
     return replace(exact, explanation=(*own, *added, evidence), lacks=exact.lacks or live.lacks)

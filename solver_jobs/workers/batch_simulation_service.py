@@ -23,7 +23,7 @@ class BatchSimulation(Task[BatchTask, float, tuple[Displacement | None, ...]]):
         """
         if self.is_ending:
             raise SimulationCancelledError("Learning was cancelled.")
-        raise StateError("The simulator of gaits hangs and was ended. Try again.")
+        raise StateError("The simulator of gaits did not respond and was ended. Try again.")
 
 
 class BatchSimulator(TaskService[BatchSimulation]):

@@ -24,7 +24,7 @@ class Simulation(Task[Simulate, float, Simulated]):
         """
         if self.is_ending:
             raise SimulationCancelledError("The simulation was cancelled.")
-        raise StateError("The simulator hangs and was ended. Try again.")
+        raise StateError("The simulator did not respond and was ended. Try again.")
 
 
 class Simulator(TaskService[Simulation]):

@@ -54,7 +54,7 @@ class Ran:
 
 @cache
 def ran() -> Ran:
-    """The run of a walk by hand, one waypoint a knot, from somewhere else than where it begins."""
+    """The run of a walk by hand, one waypoint a sample, from somewhere else than where it begins."""
     motion = manual_motion(library()["walk-manual-0"].gait, ROBOT).trajectory
     way = plan_waypoints(ROBOT, motion)
     approval = Approval("verdict", way.waypoints.content_hash, "Ada", "2026-01-01T00:00:00+00:00")

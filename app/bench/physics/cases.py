@@ -66,7 +66,7 @@ def solved_case(case: Case) -> tuple[float, Trajectory] | None:
 
 
 def own_problem(motion: Trajectory, physics: PhysicsSet) -> SimulationProblem:
-    """A motion with one waypoint a knot, as the published ones were run."""
+    """A motion with one waypoint a sample, as the published ones were run."""
     model = walker()
     return way_problem(model, motion, plan_waypoints(model, motion), physics)
 

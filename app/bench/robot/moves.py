@@ -66,7 +66,7 @@ def moves_svg(walks: tuple[WalkedMoves, ...]) -> str:
 
 
 def published_walk() -> WalkedMoves:
-    """The published 10 mm walk, one waypoint a knot; the first message finds the robot in its place."""
+    """The published 10 mm walk, one waypoint a sample; the first message finds the robot in its place."""
     model = load_robot(ROBOT)
     read = read_trajectory(PUBLISHED).trajectory
     strokes = as_published(model, read).strokes

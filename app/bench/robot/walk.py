@@ -58,7 +58,7 @@ def bench_walk(ways: Sequence[tuple[float, float | None]] = WAYS) -> list[Row]:
     """The published walk and ours of 10 mm in the emulator's published profile, in virtual time.
 
     Args:
-        ways: merging tolerance in m and stop bound in s of each row; the first sends one waypoint a knot.
+        ways: merging tolerance in m and stop bound in s of each row; the first sends one waypoint a sample.
     """
     model = load_robot("deltawalker")
     ordinary = library()["walk"].gait

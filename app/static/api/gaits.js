@@ -24,9 +24,9 @@ async function refusal(response) {
     if (body.error) return new ApiError(body.error, response.status, body.where ?? null);
     if (body.detail) return new ApiError(typeof body.detail === "string" ? body.detail : JSON.stringify(body.detail), response.status);
   } catch {
-    return new ApiError(`The studio answered with status ${response.status} and no sentence.`, response.status);
+    return new ApiError(`The studio gave no readable answer (status ${response.status}). Try again.`, response.status);
   }
-  return new ApiError(`The studio refused this with status ${response.status}.`, response.status);
+  return new ApiError(`The studio refused this and gave no reason (status ${response.status}).`, response.status);
 }
 
 async function answer(method, path, body, signal) {

@@ -49,8 +49,8 @@ function findings() {
 /** The fields of a foot's colour, and of the spots that may be any foot. */
 function colourFields(change, changeLimits) {
   const hue = hueRange((range, last) => change({ hue: range }, last));
-  const saturation = shareField("Least saturation", "How colourful a pixel must be; light and grey pixels have little", (share, last) => change({ saturation: share }, last));
-  const value = shareField("Least brightness", "How bright a pixel must be; shade has little", (share, last) => change({ value: share }, last));
+  const saturation = shareField("Least saturation", "How colourful a pixel must be; pale and grey pixels have a low saturation", (share, last) => change({ saturation: share }, last));
+  const value = shareField("Least brightness", "How bright a pixel must be; shadows are dark", (share, last) => change({ value: share }, last));
   const limits = limitFields(changeLimits);
   return {
     elements: [hue.element, saturation.element, value.element, h("details", {}, h("summary", { text: "Which spots may be a foot" }), limits.element)],
@@ -82,7 +82,7 @@ export function feetPart(draft, stage) {
   const changeColour = (patch, last) => change({ colours: draft.state.setup.colours.map((one, index) => (index === foot ? { ...one, ...patch } : one)) }, last);
   const buttons = footButtons((next) => { foot = next; show(); stage.refresh(); });
   const fields = colourFields(changeColour, (patch) => change({ limits: { ...draft.state.setup.limits, ...patch } }));
-  const mask = h("button", { type: "button", text: "Mask", title: "What has this colour stays lit, the rest is dim", on: { click: () => { hasMask = !hasMask; showMask(); } } });
+  const mask = h("button", { type: "button", text: "Mask", title: "Shows this colour bright and dims the rest", on: { click: () => { hasMask = !hasMask; showMask(); } } });
   const picking = colourPicking(stage.picture, { changed: () => showMask(), take: (range) => { changeColour(range); announce(`Colour of foot ${foot + 1} taken.`); } });
   const shows = () => (hasMask && !picking.isOn() ? "mask" : "plain");
 

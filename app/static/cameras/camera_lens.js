@@ -16,9 +16,9 @@ function cornersField(name, value, changed) {
 }
 
 function lensText({ lens }) {
-  if (!lens) return "No lens: straight lines must be straight in the picture.";
-  if (lens.rms_px === null) return "The lens was given without its figures.";
-  return `The pictures agree within ${fixed(lens.rms_px, 2)} px${lens.boards ? `, ${lens.boards} of them` : ""}.${lens.rms_px > SHARP_PX ? " That is much: take sharper pictures, the board flat." : ""}`;
+  if (!lens) return "No lens correction: use it only where straight lines are straight in the picture.";
+  if (lens.rms_px === null) return "This lens came without a measured error.";
+  return `The pictures agree within ${fixed(lens.rms_px, 2)} px${lens.boards ? `, ${lens.boards} of them` : ""}.${lens.rms_px > SHARP_PX ? " That is a large error: take sharper pictures of a flat board." : ""}`;
 }
 
 /** A picture's address as one that can be sent back: the server straightens it. */
@@ -106,7 +106,7 @@ export function lensPart(draft, stage) {
   draft.watch(({ setup }) => [setup.lens], (state) => { if (isOn) { showCheckerboards(); show(state); } });
   return {
     element: h("div", { class: "camera-part" },
-      h("p", { class: "quiet", text: "Wide lenses bend straight lines. Pictures of a checkerboard in different places and slopes tell by how much; without them, go on with Place." }),
+      h("p", { class: "quiet", text: "Wide lenses bend straight lines. Pictures of a checkerboard in different places and at different angles measure by how much. To go on without them, choose Place." }),
       columns.label, rows.label, checkerboardSources(stage, book, status), status, list, words, h("div", { class: "camera-row" }, straight.button, without)),
     enter() {
       isOn = true;

@@ -60,7 +60,7 @@ function axisNames(picture) {
 }
 
 function fitText({ view }, count) {
-  if (!view) return count < 4 ? "" : "These points tell no plane.";
+  if (!view) return count < 4 ? "" : "These points do not fix a plane. Move one of them.";
   if (count === 4) return `Four points always fit: a fifth shows how well. A pixel is ${fixed(view.mm_per_pixel, 2)} mm.`;
   return `Points lie within ${fixed(view.worst_mm, 2)} mm; a pixel is ${fixed(view.mm_per_pixel, 2)} mm.`;
 }
@@ -113,7 +113,7 @@ const rounded = (pixel) => pixel.map((value) => Number(value.toFixed(2)));
 export function placePart(draft, stage) {
   const preset = h("select", { "aria-label": "Points are" }, ...Object.entries(PRESETS).map(([value, { text, help }]) => h("option", { value, text, title: help })));
   const [ask, fit] = [h("p", { class: "camera-ask", role: "status" }), h("p", { class: "quiet", role: "status" })];
-  const clear = h("button", { type: "button", class: "link", text: "Take all points out", on: { click: () => draft.change({ points: [] }) } });
+  const clear = h("button", { type: "button", class: "link", text: "Remove all points", on: { click: () => draft.change({ points: [] }) } });
   const showAxes = axisNames(stage.picture);
   let isOn = false;
 

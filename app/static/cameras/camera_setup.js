@@ -95,7 +95,7 @@ export function openSetup(page, { answer, source, frame = 0, back }) {
   const tabs = partTabs(parts, firstPart(answer));
   const state = h("p", { class: "camera-state", role: "status", "aria-label": "Setup state" });
   draft.watch(({ answer: now, kept, revision, trouble }) => [now, kept, revision, trouble], ({ answer: now, kept, revision, trouble }) => {
-    const keeping = kept ? `Kept, version ${revision}.` : trouble ? `The last change is not kept: ${trouble}` : "Being kept…";
+    const keeping = kept ? `Saved, version ${revision}.` : trouble ? `The last change was not saved: ${trouble}` : "Saving…";
     state.replaceChildren(h("span", { class: "dot", data: { tone: trouble ? "bad" : now.ready ? "good" : "caution" } }), h("span", { text: `${setupText(now)} ${keeping}` }));
   });
   const leave = attempt(async () => {

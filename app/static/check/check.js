@@ -45,11 +45,14 @@ function summary(view, before) {
   return h("p", { class: "box-note", data: { tone: verdict.passed ? "caution" : "bad" } }, h("b", { text }));
 }
 
+const WAYPOINTS_HELP = "Fingerprint (hash) of exactly the waypoints that may be sent; a waypoint is one message to the motors";
+const VERDICT_HELP = "Fingerprint (hash) of the check that was approved";
+
 function approvalBox({ approval }) {
   if (!approval) return "";
   return h("dl", { class: "box-note summary", data: { tone: "good" } },
-    h("dt", { text: "Waypoints" }), h("dd", { class: "mono", text: shortHash(approval.waypoints_hash), title: approval.waypoints_hash }),
-    h("dt", { text: "Verdict" }), h("dd", { class: "mono", text: shortHash(approval.verdict_hash), title: approval.verdict_hash }),
+    h("dt", { text: "Waypoints", title: WAYPOINTS_HELP }), h("dd", { class: "mono", text: shortHash(approval.waypoints_hash), title: approval.waypoints_hash }),
+    h("dt", { text: "Verdict", title: VERDICT_HELP }), h("dd", { class: "mono", text: shortHash(approval.verdict_hash), title: approval.verdict_hash }),
     ...(approval.warnings.length ? [h("dt", { text: "Warnings seen" }), h("dd", { text: approval.warnings.length, title: approval.warnings.join("\n") })] : []));
 }
 

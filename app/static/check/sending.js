@@ -12,16 +12,16 @@ const option = (name, factor = 1) => ({
 
 const FIELDS = [
   { label: "Merge within", name: "Merge waypoints within", unit: "mm", min: 0, max: 5, step: 0.1, decimals: 2, ...option("merge", 1000),
-    help: "Leaves out waypoints that lie so near the motors' straight way. The robot stops at each waypoint, so fewer are quicker; it takes 1 mm for arrived anyway. 0 sends one waypoint a knot" },
+    help: "A waypoint is one message with a stroke for every motor. Waypoints this close to the motors' straight path are left out. The robot stops at each one, so fewer are quicker; it counts up to 1 mm off as arrived anyway. 0 sends every sample" },
   { label: "Stop within", name: "Stop bound", unit: "s", min: 0.8, max: 10, step: 0.1, decimals: 2, empty: "none", fallback: 1, ...option("stop_bound"),
-    help: "The robot hears Stop only between moves. Long moves are cut so that it is deaf for no longer than this; each cut costs time. Empty: moves stay whole" },
+    help: "Longest time before Stop is heard. The robot hears Stop only between moves, so long moves are cut; each cut costs time. Empty: moves stay whole" },
 ];
 
 const bound = (value) => (value === null ? "none" : `${fixed(value)} s`);
 
 function costRow(cost) {
   const { stop_bound: limit, merged_seconds: merged, every_seconds: every, is_chosen: chosen } = cost;
-  const title = `${cost.merged_waypoints} waypoints merged, ${cost.every_waypoints} with one a knot`;
+  const title = `${cost.merged_waypoints} waypoints merged, ${cost.every_waypoints} with every sample sent`;
   return h("tr", { data: chosen ? { chosen: "" } : {}, "aria-current": chosen ? "true" : null, title },
     h("th", { scope: "row", text: `${bound(limit)}${chosen ? " ✓" : ""}` }), h("td", { text: `${fixed(merged)} s` }), h("td", { text: `${fixed(every)} s` }), h("td", { text: `${seconds(cost.stop_seconds)} s` }));
 }
@@ -42,7 +42,7 @@ function inShort(view) {
   if (view.document.poses) return `${timesText(view)}. ${count} waypoints, one a pose. Stop acts within ${seconds(stop)} s.`;
   const instead = Math.abs(every - takes) >= 0.5 ? ` (with every sample: ${fixed(every, 0)} s)` : "";
   const lasts = timesText(view) || `About ${fixed(takes, 0)} s on the robot`;
-  return `${lasts}. ${count} waypoints of ${times.length} knots${instead}. Stop acts within ${seconds(stop)} s.`;
+  return `${lasts}. ${count} waypoints of ${times.length} samples${instead}. Stop acts within ${seconds(stop)} s.`;
 }
 
 /** Builds the two fields and the line of what they cost. */

@@ -74,9 +74,9 @@ function standing(state) {
   const { view, simulation } = state;
   const failed = failure(state);
   if (failed) return [failed, "bad"];
-  if (!view?.simulation) return ["Not simulated yet. Simulate says whether the robot walks, tips, slips or lacks force, before anything moves.", "plain"];
-  if (!view.simulation.fresh) return ["The gait changed since: these figures are of an older version. Simulate again.", "caution"];
-  if (!simulation) return ["The simulation is being fetched.", "plain"];
+  if (!view?.simulation) return ["Not simulated yet. Simulate shows whether the robot walks, tips, slips or lacks force, before anything moves.", "plain"];
+  if (!view.simulation.fresh) return ["The gait has changed: these figures belong to an older version. Simulate again.", "caution"];
+  if (!simulation) return ["Loading the simulation.", "plain"];
   return view.plan?.source === "draft" ? ["Not sendable: this shows what would happen if the robot tried it.", "caution"] : null;
 }
 
@@ -116,7 +116,7 @@ export function mountSimulate(store, goToTime) {
     const why = whyNot(state);
     setAllowed(run, why, HELP);
     run.classList.toggle("primary", simulateState(state).mark !== "done");
-    setAllowed(vary, why, `The same with ${VARIATIONS} seeded variations: friction, masses, motor speed, one weak motor, 1° of slope, softer legs`);
+    setAllowed(vary, why, `The same ${VARIATIONS} times with random changes (the same ones each time): friction, masses, motor speed, one weak motor, 1° of slope, softer legs`);
     progress.show(simulationJob(state));
     goOn(state);
   });
@@ -182,7 +182,7 @@ export function robustness() {
       known = variations;
       const walking = variations.runs.filter(({ walks }) => walks).length;
       setText(share, `${walking} of ${variations.count} walk (${fixed((100 * walking) / variations.count, 0)} %)`);
-      setText(description, "Friction, masses, motor speed, one weak motor, 1° of slope and softer legs, by chance. Point at a cell.");
+      setText(description, "Friction, masses, motor speed, one weak motor, 1° of slope and softer legs, changed at random. Point at a cell for one of them.");
       list.replaceChildren(...variations.runs.map(cell));
     },
   };

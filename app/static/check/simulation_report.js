@@ -10,7 +10,7 @@ const degrees = (radians, decimals = 1) => fixed((radians * 180) / Math.PI, deci
 /** A button to a moment of the simulated robot; `after` follows its time. */
 function goTo(simulation, moment, goToTime, what, after = "") {
   const time = planTimeOf(simulation, moment);
-  return h("button", { class: "link", text: `${fixed(time)} s${after}`, "aria-label": `Go to ${what}, ${fixed(time)} s`, title: `On the plan's axis; ${fixed(moment)} s by the robot's own clock`, on: { click: () => goToTime(time) } });
+  return h("button", { class: "link", text: `${fixed(time)} s${after}`, "aria-label": `Go to ${what}, ${fixed(time)} s`, title: `On the plan's time axis; ${fixed(moment)} s in robot time`, on: { click: () => goToTime(time) } });
 }
 
 /** Foot, motor and value of the greatest of a value a motor. */
@@ -28,12 +28,12 @@ function rows(simulation, goToTime) {
   const [behind, force] = [greatestMotor(report.motor_error), greatestMotor(report.saturation)];
   const feetMean = report.feet_error.reduce((sum, error) => sum + error, 0) / report.feet_error.length;
   return [
-    ["Body, mean error", mm(report.body_error), "mm", null, "Mean over all waypoints of the body's distance from the plan, each where its move has ended"],
-    ["Feet, mean error", mm(feetMean), "mm", null, "The same of the feet"],
+    ["Body, mean error", mm(report.body_error), "mm", null, "Mean distance of the body from the plan at the end of each move"],
+    ["Feet, mean error", mm(feetMean), "mm", null, "Mean distance of the feet from the plan at the end of each move"],
     ["Distance", `${mm(report.distance)} of ${mm(report.planned_distance)}`, "mm", null, "How far the body goes from the first waypoint to the last, and by the plan"],
     ["Heading", `${degrees(report.heading)} of ${degrees(report.planned_heading)}`, "°", null, "How far it turns, and by the plan"],
     ["Largest tilt", degrees(report.max_tilt), "°", at(report.max_tilt_time, "largest tilt"), "Angle between the body's axis and the vertical"],
-    ["Smallest margin", mm(report.min_margin), "mm", at(report.min_margin_time, "smallest margin"), "Of the robot's centre of mass from the edge of the feet that carry load; below 0 the soles' width alone holds it"],
+    ["Smallest margin", mm(report.min_margin), "mm", at(report.min_margin_time, "smallest margin"), "How far the centre of mass stays inside the area between the feet that carry load; below 0 only the width of the soles holds it"],
     ["Motor behind", mm(behind.value, 2), "mm", at(report.motor_error_times[behind.foot][behind.motor], "motor behind"), `Largest distance of a motor from the firmware's ramp: ${motorText(behind)}`],
     ["Motor at limit", fixed(force.value * 100, 0), "%", force.value > 0 ? at(report.peak_force_times[force.foot][force.motor], "motor at its limit") : null, `Part of the time at which a motor's force is at its limit: ${motorText(force)}`],
   ];

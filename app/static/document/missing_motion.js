@@ -66,6 +66,9 @@ export function wordsOf(missing, contact) {
   return isLine ? `${numbers(inAir)} in the air` : `margin ${size(missing)} short`;
 }
 
+/** What such words begin with, where there is no room for all: "foot 1" of "foot 1: rise 3.1 mm short". */
+export const shortWords = (words) => words.split(/: | in the air| too | off | \d+(?:\.\d+)? mm/)[0];
+
 /** Joins two phases; the worse one says why. */
 function joined(one, other) {
   const { rank, words } = one.rank < other.rank ? one : other;

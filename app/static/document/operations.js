@@ -21,7 +21,7 @@ const swingCount = (row) => row.split("1").filter(Boolean).length;
 const seconds = (document, samples) => `${(Math.max(0, samples - 1) * document.timeline.sample_time).toFixed(1)} s`;
 
 /** What of a region does not fit behind a sample, in words; null where all of it does. */
-const clippedText = (over) => (over > 0 ? `The last ${counted(over, "sample")} would lie behind the end and are left out.` : null);
+const clippedText = (over) => (over > 0 ? `The last ${counted(over, "sample")} would lie after the end and are left out.` : null);
 
 const lengthNote = (before, after) =>
   `The timeline goes from ${sampleCount(before)} to ${counted(sampleCount(after), "sample")} (${seconds(after, sampleCount(after))}).`;
@@ -101,7 +101,7 @@ function rotate({ document }) {
 function duplicate({ document, region, words }) {
   const [, last] = region.samples;
   const rest = sampleCount(document) - 1 - last;
-  if (rest <= 0) return { reason: "There is no room behind it: the selection ends with the timeline. Repeat makes the timeline longer." };
+  if (rest <= 0) return { reason: "There is no room after it: the selection ends with the timeline. Repeat makes the timeline longer." };
   const apply = (now) => withBlock(now, [region.feet[0], last + 1], blockOf(now, region));
   const clipped = clippedText(lengthOf(region) - rest);
   return {
@@ -143,7 +143,7 @@ export const OPERATIONS = {
     outcome: ({ region, words, amount }) => ({ apply: (now) => shifted(now, region, amount), label: `Shift ${words} by ${amount > 0 ? "+" : "−"}${Math.abs(amount)}` }),
   },
   repeat: {
-    name: "Repeat", help: "The whole: more iterations. A selection: its samples of all feet again, and what is behind moves along", outcome: repeat,
+    name: "Repeat", help: "The whole: more iterations. A selection: its samples of all feet again, and what follows moves along", outcome: repeat,
     amount: { name: "Times", unit: "", least: 2, most: MOST_ITERATIONS, start: () => 2 },
   },
   rotate: { name: "Rotate by 90°", help: "Turn the direction of the whole gait by 90°", outcome: rotate },
@@ -152,10 +152,10 @@ export const OPERATIONS = {
   lock: { name: "Lock", help: "Locked cells keep their value", outcome: locking(true) },
   unlock: { name: "Unlock", help: "The cells can be changed again", outcome: locking(false) },
   insert: {
-    name: "Insert samples", help: "Samples of all feet before the selection, or before the focused cell; what is behind moves along", outcome: insert, columns: true,
+    name: "Insert samples", help: "Samples of all feet before the selection, or before the focused cell; what follows moves along", outcome: insert, columns: true,
     amount: { name: "How many", unit: "samples", least: 1, most: 500, start: () => 1 },
   },
-  remove: { name: "Remove samples", help: "Take the selection's samples, or the focused one, away from all feet; what is behind moves up", outcome: remove, columns: true },
+  remove: { name: "Remove samples", help: "Take the selection's samples, or the focused one, away from all feet; what follows moves up", outcome: remove, columns: true },
 };
 
 const refusalOf = (before, after) =>

@@ -72,11 +72,12 @@ export function mountConvergence(store, section) {
   const state = h("span");
   const frame = h("div", { role: "img" });
   const last = { objective: h("span"), primal: h("span") };
-  const key = h("div", { class: "curve-key" }, h("span", {}, h("i"), "objective ", last.objective),
-    h("span", { class: "primal" }, h("i"), "violation ", last.primal));
+  const key = h("div", { class: "curve-key" },
+    h("span", { title: "What the optimiser makes small; see Cost under More" }, h("i"), "objective ", last.objective),
+    h("span", { class: "primal", title: "By how much limits are still broken; 0 at the end" }, h("i"), "violation ", last.primal));
   const line = h("p", { class: "why" });
   const plot = h("div", { class: "curve" }, frame, key);
-  section.append(h("h3", {}, "Convergence", state), plot, line);
+  section.append(h("h3", { title: "How the last optimisation went, iteration by iteration" }, "Convergence", state), plot, line);
   let drawn = null;
 
   store.watch(({ jobs, shownJob, selected, iterate }) => [jobs, shownJob, selected, iterate], (now) => {

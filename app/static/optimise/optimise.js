@@ -121,7 +121,7 @@ function details({ solver, method, program, motion, trajectory }) {
 function ofResult(provenance, source, isEdited) {
   const { made, seconds, matches, at_hand: isHere } = provenance;
   const [when, title] = [clockTime(made), details(provenance)];
-  if (!matches || isEdited) return { text: `Optimised ${when} for another version: stale.`, title, tone: "caution" };
+  if (!matches || isEdited) return { text: `Optimised ${when} for another version: out of date.`, title, tone: "caution" };
   if (isHere) return { text: `Optimised ${when} in ${fixed(seconds * 1000, 0)} ms.`, title, tone: null };
   if (source === "optimised") return { text: `Optimised elsewhere ${when}; shown is a result from here.`, title, tone: null };
   return { text: `Optimised elsewhere ${when}; the result is not here. Optimise again.`, title, tone: "caution" };

@@ -26,10 +26,10 @@ const axis = (index) => ({
 });
 
 const STEP = [
-  { label: "Step", name: "Step", unit: "mm", min: 0, max: 60, step: 0.5, decimals: 2, help: "Travel of the body an iteration",
+  { label: "Step", name: "Step", unit: "mm", min: 0, max: 60, step: 0.5, decimals: 2, help: "How far the body goes in one iteration, in which each foot steps once",
     limit: "step", fromSI: (metres) => metres * 1000,
     read: (document) => stepLength(document) * 1000, write: (document, value) => withStepLength(document, value / 1000) },
-  { label: "Turn", name: "Turn", unit: "°", min: -90, max: 90, step: 1, decimals: 2, help: "Turn of the body an iteration, counter-clockwise",
+  { label: "Turn", name: "Turn", unit: "°", min: -90, max: 90, step: 1, decimals: 2, help: "How far the body turns in one iteration, counter-clockwise",
     limit: "turn", fromSI: (radians) => (radians * 180) / Math.PI, read: stepTurn, write: withTurn },
 ];
 
@@ -48,14 +48,14 @@ const SAMPLE_TIME = {
 
 const LIMITS = [
   { label: "Body height", name: "Body height", unit: "mm", min: 53, max: 60.5, step: 0.5, decimals: 2,
-    help: "Height of the motors' plane over the standing feet at the start", ...option("plane_height", 1000) },
+    help: "Height of the plane of the motors above the standing feet at the start", ...option("plane_height", 1000) },
   { label: "End height", name: "End height", unit: "mm", min: 53, max: 60.5, step: 0.5, decimals: 2, empty: "same", fallback: 53.5,
-    help: "The same at the goal; empty as at the start", ...option("end_plane_height", 1000) },
+    help: "The same at the goal; empty: as at the start", ...option("end_plane_height", 1000) },
   { label: "Clearance", name: "Clearance", unit: "mm", min: 0, max: 15, step: 0.5, decimals: 2,
-    limit: "clearance", fromSI: (metres) => metres * 1000, help: "How high the highest point of each swing is at least", ...option("clearance", 1000) },
+    limit: "clearance", fromSI: (metres) => metres * 1000, help: "Each foot rises at least this high in its swing", ...option("clearance", 1000) },
   { label: "Stability margin", name: "Stability margin", unit: "mm", min: 0, max: 30, step: 0.5, decimals: 2,
     limit: "margin", fromSI: (metres) => metres * 1000,
-    help: "Least distance of the centre of pressure from the support polygon's edge", ...option("margin", 1000) },
+    help: "How far the balance point (centre of pressure) stays inside the area between the standing feet", ...option("margin", 1000) },
 ];
 
 const CHOICES = [
@@ -74,7 +74,7 @@ const MORE_NUMBERS = [
   { label: "Motor acceleration", name: "Motor acceleration", unit: "mm/s²", min: 1, max: 1000, step: 5, decimals: 1, empty: "free", fallback: 100,
     help: "Largest acceleration of a motor; empty for no limit", ...option("motor_acceleration", 1000) },
   { label: "Friction", name: "Friction", unit: "", min: 0.05, max: 2, step: 0.05, decimals: 2, empty: "free", fallback: 0.5,
-    help: "Coefficient of each foot's friction cone; empty for no limit", ...option("friction") },
+    help: "Friction of the feet on the ground (coefficient); empty for no limit", ...option("friction") },
 ];
 
 const limit = (name) => ({
@@ -85,7 +85,7 @@ const limit = (name) => ({
 /** What only a gait for the robot's clock has. */
 const POSE_CHOICES = [
   { label: "Step length", name: "Step length", options: [["true", "fastest"], ["false", "as set"]],
-    help: "fastest: the step with which the walk is fastest, and on the spot the fastest turn; as set: step and turn above",
+    help: "fastest: the search chooses the step of the fastest walk, and on the spot the fastest turn; as set: step and turn above",
     read: ({ poses }) => String(poses?.free_step ?? false), write: (document, value) => ({ ...document, poses: { ...document.poses, free_step: value === "true" } }) },
 ];
 const DEGREES = 180 / Math.PI;
@@ -151,12 +151,12 @@ function phaseFields(store, edits) {
     const { order, options } = edits.shown();
     edits.redraw({ order, phase_knots: options.phase_knots, closing_knots: options.closing_knots, ...change });
   };
-  const knots = { unit: "knots", step: 1, decimals: 0, whole: true, fallback: 5, unsaid: "as drawn" };
+  const knots = { unit: "samples", step: 1, decimals: 0, whole: true, fallback: 5, unsaid: "as drawn" };
   const asDrawn = (name) => ({ read: (document) => (isDrawn(document) ? document.options[name] : null) });
   return [
-    { label: "Phase length", name: "Phase knots", min: 2, max: 50, help: "Length of each stance phase and of each swing. Another length draws the timeline anew",
+    { label: "Phase length", name: "Phase length", min: 2, max: 50, help: "Samples of each stance phase and of each swing. Another length draws the timeline anew",
       ...knots, ...asDrawn("phase_knots"), act: (value) => redraw({ phase_knots: value }) },
-    { label: "Final stance", name: "Closing knots", min: 0, max: 100, help: "Stance after the last swing. Another length draws the timeline anew",
+    { label: "Final stance", name: "Final stance", min: 0, max: 100, help: "Samples with all feet down after the last swing. Another length draws the timeline anew",
       ...knots, ...asDrawn("closing_knots"), act: (value) => redraw({ closing_knots: value }) },
   ].map((field) => numberField(store, edits, field));
 }
@@ -198,7 +198,7 @@ function heldField(store, edits, end, words) {
       const feet = text.split(/[^0-9]+/).filter(Boolean).map(Number);
       const sentence = refusal(feet, text, shown.timeline.feet.length);
       if (!sentence && feet.join() !== heldOf(shown)[end].join()) {
-        edits.edit((document) => withHeld(document, { ...heldOf(document), [end]: feet }), feet.length ? `Hold up ${feet.join(", ")} at the ${end}` : `Hold none up at the ${end}`);
+        edits.edit((document) => withHeld(document, { ...heldOf(document), [end]: feet }), feet.length ? `Hold up ${feet.join(", ")} at the ${end}` : `Hold no foot up at the ${end}`);
       }
       return sentence;
     },

@@ -13,13 +13,13 @@ export function pinnedPoses(store, edits, goTo) {
   const how = h("p", { class: "why" });
   const element = h("div", { hidden: true }, how, list);
   const letGo = (pose) => () => {
-    edits.edit((document) => withoutPinned(document, pose), `Let pose ${pose} go`);
+    edits.edit((document) => withoutPinned(document, pose), `Unpin pose ${pose}`);
     (list.querySelector("button") ?? document.getElementById("play")).focus({ preventScroll: true });
   };
   const line = (pin) => h("li", {},
     h("button", { class: "link", text: `Pose ${pin.pose}`, title: "Show it", on: { click: () => goTo({ sample: pin.pose - 1, foot: null }) } }),
     h("span", { text: pinWords(pin) }),
-    h("button", { class: "link", text: "Let go", "aria-label": `Let go of pose ${pin.pose}`, on: { click: letGo(pin.pose) } }));
+    h("button", { class: "link", text: "Unpin", "aria-label": `Unpin pose ${pin.pose}`, on: { click: letGo(pin.pose) } }));
   store.watch(({ view, pending, gesture }) => [view, pending, gesture], (state) => {
     const gait = shownDocument(state);
     element.hidden = !gait?.poses;

@@ -72,6 +72,20 @@ function onRobot({ seconds, robot_seconds: after }, { plan_seconds: planned, rob
   return after < before ? [change, true] : [`${change} The robot stops at each waypoint, so this timing does not help it.`, false];
 }
 
+const NO_WHOLE = "In whole samples no timing this short was found that keeps every limit.";
+/** What to do where the timing itself does not help. */
+const INSTEAD = {
+  faster: "Try Faster on the robot: it makes the same gait in robot time.",
+  fewer: "Fewer waypoints help: merge within 1 mm, or allow a longer stop bound, in Check & approve.",
+};
+const insteadOf = (view) => (view.conversion_refusal ? INSTEAD.fewer : INSTEAD.faster);
+
+/** What the box says of a search without a result. */
+function withoutResult(job) {
+  if (jobIsOn(job)) return "Searching; this takes some seconds.";
+  return job.state === "infeasible" ? `${job.sentence} Change the drawing first: see What would help.` : job.sentence;
+}
+
 function found({ result }, view, store, edits) {
   const { document } = view;
   const drawn = result.phases.map(({ first, last }) => (last - first + 1) * document.timeline.sample_time);
@@ -81,10 +95,10 @@ function found({ result }, view, store, edits) {
     ...bar("As drawn", drawn.map((seconds) => seconds * scale), result.phases, longest, document),
     ...bar("Fastest", result.phases.map(({ seconds }) => seconds), result.phases, longest, document));
   const { usable } = result;
-  if (!usable) return [bars, h("p", { class: "why", text: "In whole samples no timing this short was found that keeps every limit." })];
+  if (!usable) return [bars, h("p", { class: "why", text: `${NO_WHOLE} ${insteadOf(view)}` })];
   const [change, helps] = onRobot(usable, view);
   const note = h("p", { text: change });
-  if (!helps) return [bars, note];
+  if (!helps) return [bars, note, h("p", { class: "why", text: insteadOf(view) })];
   const label = `Use ${fixed(usable.seconds)} s`;
   const button = h("button", { text: label, title: "Takes over the phases in whole samples and the motors' limits, and runs Optimise",
     on: { click: attempt(() => use(usable, store, edits)) } });
@@ -102,7 +116,7 @@ export function timingAnswer(store, edits) {
       if (element.hidden) return;
       const done = job.state === "done" && job.result;
       element.dataset.tone = done ? "good" : jobIsOn(job) ? "plain" : "caution";
-      element.replaceChildren(h("h4", { text: "Fastest timing" }), ...(done ? found(job, state.view, store, edits) : [h("p", { text: jobIsOn(job) ? "Searching; this takes some seconds." : job.sentence })]));
+      element.replaceChildren(h("h4", { text: "Fastest timing" }), ...(done ? found(job, state.view, store, edits) : [h("p", { text: withoutResult(job) })]));
     },
   };
 }

@@ -20,11 +20,11 @@ const keyOf = (view, of) => `${view.id} ${of} ${view.revision} ${view.saved_at}`
 function versionOf(kind, state) {
   const { view, live, run } = state;
   if (!view) return { reason: "No gait is selected." };
-  if (kind === "simulated") return simulationOver(state) ? { of: `${view.simulation.key} ${view.simulation.made}` } : { reason: "This plan was not simulated." };
+  if (kind === "simulated") return simulationOver(state) ? { of: `${view.simulation.key} ${view.simulation.made}` } : { reason: "This plan has not been simulated." };
   if (kind === "measured") return run?.gait === view.id ? { of: run.id } : { reason: "No run of this gait is open. Open one under Runs." };
   if (kind === "saved") return view.edited || live ? { of: "saved" } : { reason: "The gait is as it was saved." };
   if (live) return { of: "present" };
-  return view.changed ? { of: "before" } : { reason: "This gait was not changed yet." };
+  return view.changed ? { of: "before" } : { reason: "This gait has not been changed yet." };
 }
 
 /** Keeps one ghost current: fetched once a version, shown while it is wanted. */
@@ -55,7 +55,7 @@ export function mountGhosts(store, preview) {
   const choice = recalled("ghosts", Object.fromEntries(Object.entries(KINDS).map(([kind, { shown = false }]) => [kind, shown])));
   const followers = {};
   const menu = checkMenu({
-    id: "ghosts-menu", name: "Ghosts", help: "Other versions of this gait as quiet second robots",
+    id: "ghosts-menu", name: "Ghosts", help: "Overlay earlier, simulated or measured robots",
     entries: Object.entries(KINDS).map(([key, { text, help }]) => ({ key, text, help, checked: choice[key], swatch: true })),
     onChange(kind, checked) {
       choice[kind] = checked;

@@ -54,7 +54,7 @@ function showChoice({ parts, foot }, { part, foot: chosen }, feet) {
 function targetText({ wired, moves, seconds: takes, stop_seconds: stop, margin_mm: margin, from, residual_mm: residual }, steps) {
   if (!steps.length) return BEGINS[from] ?? "";
   const off = Math.max(0, ...(residual ?? []).map(Math.abs));
-  if (!wired) return `Shown in the preview only; least squares leave strokes up to ${fixed(off)} mm off.`;
+  if (!wired) return `Shown in the preview only; motors that are coupled cannot make this exactly: strokes are up to ${fixed(off)} mm off.`;
   if (!moves) return "";
   const balance = margin === null ? "" : ` Balance ${fixed(margin)} mm.`;
   return `${counted(moves, "move")}, about ${seconds(takes)} s; Stop acts within ${seconds(stop)} s.${balance}`;

@@ -169,7 +169,7 @@ function whyNotSend(state) {
   if (!view?.approval) return "Check and approve the gait first.";
   if (whyNotHeld(robot)) return whyNotHeld(robot);
   if (robot.allowed?.send) return robot.allowed.send;
-  if (!runSummary || runSummary.waypoints_hash !== view.approval.waypoints_hash || !isOfRunRange(runSummary, state)) return "The summary of this plan is not there yet.";
+  if (!runSummary || runSummary.waypoints_hash !== view.approval.waypoints_hash || !isOfRunRange(runSummary, state)) return "The summary of this plan is not ready yet.";
   return runSummary.reason ?? null;
 }
 

@@ -39,7 +39,7 @@ function showBeginnings(select, places) {
 
 /** Builds the two fields above the run's summary. */
 export function runRangePart(store, playback) {
-  const from = h("select", { "aria-label": "Run from", title: "Waypoints with all feet down; the robot goes there slowly first" });
+  const from = h("select", { "aria-label": "Run from", title: "Where the run begins: a waypoint with all feet down. The robot goes there slowly first" });
   const times = h("input", { type: "number", min: "1", max: String(MOST_ITERATIONS), step: "1", value: "1", "aria-label": "Times to run" });
   const element = h("div", { class: "run-range" }, h("label", {}, h("span", { text: "Start at" }), from), h("label", {}, h("span", { text: "Repeat" }), times));
   from.addEventListener("change", () => {

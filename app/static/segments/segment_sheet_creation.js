@@ -50,7 +50,7 @@ export function mountSegmentSheetCreation(store, edits) {
     if (!offer) return;
     const { phase_knots: phase, closing_knots: closing } = offer.options;
     setText(roomy, `Make one with phases of ${phase}`);
-    roomy.title = `Redraws the foot order with phases of ${phase} and a closing stance of ${closing} samples; Undo takes both back`;
+    roomy.title = `Redraws the foot order with phases of ${phase} and a final stance of ${closing} samples; Undo takes both back`;
   });
 
   onPress(make, () => {
@@ -64,7 +64,7 @@ export function mountSegmentSheetCreation(store, edits) {
   store.watch(({ view }) => [view?.id, view?.revision], (state) => {
     const { view } = state;
     if (!view || view.document.segment_table || view.document.sequence?.length) return;
-    setAllowed(make, "Being looked at.");
+    setAllowed(make, "Looking for a table that fits.");
     roomy.hidden = true;
     request({ id: view.id, revision: view.revision, document: shownDocument(state) });
   });

@@ -19,7 +19,7 @@ export function mountFileNotice(store, edits) {
   const sentence = h("p", {});
   const notice = byId("file-notice");
   notice.append(sentence, h("div", { class: "buttons" },
-    h("button", { text: "Take it over", title: "What the file says becomes the gait; yours is kept as a version, and Undo brings it back", on: { click: settle("file") } }),
+    h("button", { text: "Use the file", title: "What the file says becomes the gait; yours is kept as a version, and Undo brings it back", on: { click: settle("file") } }),
     h("button", { text: "Keep mine", title: "Writes what was saved here last; the other file is kept in the folder set-aside", on: { click: settle("mine") } })));
   store.watch(({ view, selected }) => [view?.outside, view?.id === selected], ({ view, selected }) => {
     const outside = view?.id === selected ? view.outside : null;

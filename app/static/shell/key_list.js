@@ -10,7 +10,7 @@ const GROUPS = {
     ["← →", "One sample; with Shift ten"],
     ["Home, End", "First and last sample"],
     ["L", "Loop the selected samples, or all"],
-    ["+ − F", "Closer, further, the whole timeline"],
+    ["+ − F", "Zoom in, zoom out, show the whole timeline"],
     ["Ctrl+Z", "Undo"],
     ["Ctrl+Y", "Redo; Ctrl+Shift+Z as well"],
     ["Ctrl+S", "Save"],
@@ -34,7 +34,7 @@ const GROUPS = {
     ["Shift + drag", "Lock; from a locked cell on unlock"],
     ["Ctrl + drag", "Select; Shift + click extends, a row's name takes the row"],
     ["Double click", "With Select: the whole swing; its drag moves it, with Alt a copy"],
-    ["Ctrl + wheel", "Closer and further; two fingers as well. The wheel alone scrolls"],
+    ["Ctrl + wheel", "Zoom; two fingers as well. The wheel alone scrolls"],
   ],
   "List of gaits": [
     ["Double click", "The gait's name, to write another one"],
@@ -58,8 +58,8 @@ const GROUPS = {
     ["↑ ↓", "In the best patterns: another one"],
   ],
   "Pictures of videos and cameras": [
-    ["Wheel, + − F", "Closer, further, the whole picture; a drag or the arrows move it"],
-    ["Arrows", "On a point: 1 px; with Shift 10, with Alt 0.1. Delete takes it out"],
+    ["Wheel, + − F", "Zoom in, zoom out, show the whole picture; a drag or the arrows move it"],
+    ["Arrows", "On a point: 1 px; with Shift 10, with Alt 0.1. Delete removes it"],
   ],
   "Goal and numbers": [
     ["Arrows", "Goal in 3D: 0.5 mm, on its knob 1°; with Shift ten times as far. In a number: one step"],

@@ -11,9 +11,9 @@ const OWN = "own";
 const KNOT_SECONDS = 0.4;
 const ORIENTATIONS = [["FB", "Along the diagonal (FB)"], ["FBS", "Along x (FBS)"]];
 const NUMBERS = [
-  { key: "step", label: "Step", unit: "mm", min: 0, max: 60, step: "any", help: "Travel of the body an iteration, in the direction of the gait" },
-  { key: "phase_knots", label: "Phases", unit: "knots", min: 2, max: 50, step: 1, help: "Length of each stance phase and of each swing" },
-  { key: "closing_knots", label: "Closing stance", unit: "knots", min: 0, max: 100, step: 1, help: "All feet down after the last swing" },
+  { key: "step", label: "Step", unit: "mm", min: 0, max: 60, step: "any", help: "How far the body goes in one iteration (each foot steps once), in the direction of the gait" },
+  { key: "phase_knots", label: "Phase length", unit: "samples", min: 2, max: 50, step: 1, help: "Samples of each stance phase and of each swing" },
+  { key: "closing_knots", label: "Final stance", unit: "samples", min: 0, max: 100, step: 1, help: "All feet down after the last swing" },
 ];
 
 /** A label, its control and the place for what is wrong with it. */

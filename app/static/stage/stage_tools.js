@@ -12,7 +12,7 @@ import { drawnPlan } from "../state/worked_plan.js";
 const ENTRIES = [
   {
     key: "robot", text: "Robot", shown: true, parts: ["robot"],
-    help: "Without it everything on the floor is seen; it is back when the page is loaded again",
+    help: "Hide it to see everything on the floor; reloading the page brings it back",
   },
   {
     key: "polygon", text: "Support polygon", shown: true, parts: ["polygon", "trouble"],
@@ -21,15 +21,15 @@ const ENTRIES = [
   },
   {
     key: "com", text: "Centre of mass", shown: true, parts: ["com"],
-    help: "A disc on the floor, and its way",
+    help: "A disc on the floor, and its path",
   },
   {
     key: "cop", text: "Centre of pressure", shown: true, parts: ["cop"],
-    help: "A diamond on the floor, and its way: where the ground pushes",
+    help: "A diamond on the floor, and its path: where the ground pushes",
   },
   {
     key: "traces", text: "Swings and footholds", shown: true, parts: ["traces", "footholds"],
-    help: "Ways of the feet, and a ring where each comes to stand",
+    help: "Paths of the feet, and a ring where each comes down",
   },
   {
     key: "reach", text: "Reach of the feet", shown: false, parts: ["reach"],
@@ -45,15 +45,15 @@ const ENTRIES = [
   },
   {
     key: "guides", text: "Arrow and scale", shown: true, parts: [], layer: "guides",
-    help: "The way of a step, and 10 mm on the floor",
+    help: "The direction and length of a step, and 10 mm on the floor",
   },
   {
     key: "goal", text: "Goal", shown: true, parts: [], layer: "goal",
-    help: "The goal to be dragged: it changes the step and the turn. It hides where the floor is seen from its edge",
+    help: "Drag the goal to change the step and the turn. It is hidden where you look along the floor",
   },
   {
     key: "pose", text: "Pose", shown: true, parts: [], layer: "pose",
-    help: "The body of the pose under the playhead, to be dragged, in a gait for the robot's clock",
+    help: "Drag the body of the pose under the playhead, in a gait for the robot's clock",
   },
 ];
 

@@ -9,7 +9,10 @@ import { hasNoMotion, shownPlan } from "../state/store.js";
 import { approvalState, checkState, gaitParts, simulateState, stepStates } from "./step_states.js";
 import { openStep } from "./steps.js";
 
-const MARGIN_HELP = "Margin: least distance of the balance point from the edge of the support polygon. Of the centre of pressure where the motion is solved, else of the centre of mass.";
+const MARGIN_HELP = "Margin: how far the balance point stays inside the area between the standing feet; "
+  + "below 0 it tips. "
+  + "The balance point is the centre of pressure where the motion is solved, else the centre of mass.";
+const LIVE_HELP = "A live plan is made anew after every edit; footholds and body height are given.";
 
 const SETTLED_MS = 1000;
 const NONE = "–";
@@ -27,7 +30,9 @@ function planPart(state) {
   const figure = [word === USUAL && margin ? null : lowered(word), margin].filter(Boolean).join(", ");
   const tone = !margin ? null : plan.balance < 0 ? "bad" : mark === "old" && isThin(plan) ? "caution" : null;
   const thin = tone === "caution" ? `The robot needs a margin of ${mm(plan.robot_margin)} mm as sent; below it only physics can say whether it walks.` : "";
-  return { mark, figure, tone, help: [`${word}.`, thin, plan.note, isMotion ? MARGIN_HELP : ""].filter(Boolean).join(" ") };
+  const live = word === USUAL && plan.live ? LIVE_HELP : "";
+  const help = [`${word}.`, thin, plan.note, live, isMotion ? MARGIN_HELP : ""].filter(Boolean).join(" ");
+  return { mark, figure, tone, help };
 }
 
 function robotPart(state) {

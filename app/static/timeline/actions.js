@@ -16,7 +16,7 @@ const NOTHING = "Nothing is selected: choose cells first (Shift+arrows, Ctrl+dra
 function leftOut({ timeline }, [foot, sample], block) {
   const feet = foot + block.length - timeline.feet.length;
   const samples = sample + block[0].length - timeline.feet[0].length;
-  const parts = [samples > 0 && `${counted(samples, "sample")} behind the end`, feet > 0 && `${counted(feet, "row")} below the last foot`].filter(Boolean);
+  const parts = [samples > 0 && `${counted(samples, "sample")} after the end`, feet > 0 && `${counted(feet, "row")} below the last foot`].filter(Boolean);
   return parts.length ? `${parts.join(" and ")} did not fit and were left out.` : null;
 }
 

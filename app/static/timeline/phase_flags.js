@@ -1,6 +1,6 @@
 /** Outlines around the phases of a drawing that miss a limit, each with a flag over it that says why in a few words. */
 
-import { missingPhases } from "../document/missing_motion.js";
+import { missingPhases, shortWords } from "../document/missing_motion.js";
 import { h, setText } from "../lib/dom.js";
 import { shownPlan } from "../state/store.js";
 import { axisKey, axisOf, columnFraction } from "../state/time_axis.js";
@@ -9,25 +9,24 @@ import { axisKey, axisOf, columnFraction } from "../state/time_axis.js";
 const PADDING = 14;
 const GAP = 2;
 const MARK = 16;
-/** Words that are cut to less than this become a mark. */
-const LEAST_WORDS = 44;
 
 /**
  * Where flags stand over their phases so that none lies on another or is cut.
- * @param {{left: number, right: number, width: number}[]} phases in view, in their order: borders, and the width of the flag
- *   with all its words, px
+ * @param {{left: number, right: number, width: number, short: number}[]} phases in view, in their order:
+ *   borders, and the width of the flag with all its words and with the short ones, px
  * @param {number} total width of the window, px
- * @returns {{left: number, width: number}[]} as wide as a mark where there is no room for words
+ * @returns {{left: number, width: number}[]} as wide as all words, the short ones, or a mark
  */
 export function flagPlaces(phases, total) {
   let free = 0;
-  return phases.map(({ left, width }, index) => {
+  return phases.map(({ left, width, short }, index) => {
     const next = phases[index + 1];
     const end = next ? Math.max(Math.min(next.left, total) - GAP, free) : total;
     const start = Math.max(free, Math.min(Math.max(left, 0), end - width));
     const room = end - start;
-    const own = room >= width ? width : room >= LEAST_WORDS ? room : MARK;
-    const place = { left: Math.max(Math.min(start, total - own), 0), width: own };
+    const own = [width, short].find((wide) => wide <= room) ?? MARK;
+    const at = Math.max(free, Math.min(Math.max(left, 0), end - own));
+    const place = { left: Math.max(Math.min(at, total - own), 0), width: own };
     free = place.left + place.width + GAP;
     return place;
   });
@@ -54,8 +53,10 @@ function build(marks) {
 
 /** Where a phase lies on the window, px; null where it is out of sight. */
 function placeOn(axis, width, { first, last, words }, widthOf) {
+  const short = shortWords(words);
   const [left, right] = [first, last + 1].map((column) => columnFraction(axis, Math.min(column, axis.samples)) * width);
-  return right <= left || right <= 0 || left >= width ? null : { left, right, words, width: widthOf(words) };
+  return right <= left || right <= 0 || left >= width ? null
+    : { left, right, words, short: widthOf(short), width: widthOf(words), shortWords: short };
 }
 
 function span({ style }, left, width) {
@@ -69,7 +70,8 @@ function show({ box, flag }, phase, place) {
   if (!phase) return;
   span(box, phase.left, phase.right - phase.left);
   span(flag, place.left, place.width);
-  setText(flag, place.width <= MARK ? "!" : phase.words);
+  const words = new Map([[phase.short, phase.shortWords], [phase.width, phase.words]]);
+  setText(flag, words.get(place.width) ?? "!");
 }
 
 /** Keeps outlines and flags current; `marks` lies over the cells. */

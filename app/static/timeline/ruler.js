@@ -5,6 +5,10 @@ import { hasRobotTimes, plannedAt } from "../state/robot_seconds.js";
 import { hasNoMotion, shownPlan } from "../state/store.js";
 import { axisKey, axisOf, fractionAt, labelEvery, momentOf, timeAt } from "../state/time_axis.js";
 
+/** The label of a moment; that of the beginning stands beside the playhead, which waits there. */
+const label = (time, kind = "") => h("span", {
+  class: `${kind}${time === 0 ? " origin" : ""}`.trim(), text: time === 0 ? "0 s" : String(Math.round(time * 10) / 10),
+});
 const percent = (fraction) => `${100 * fraction}%`;
 const isShown = (fraction) => fraction >= -1e-9 && fraction <= 1 + 1e-9;
 
@@ -21,7 +25,7 @@ function ticks(axis, width) {
   for (let count = 0; count * every <= end; count += 1) {
     const time = count * every;
     const left = fractionAt(axis, time);
-    if (isShown(left)) marks.push(placed(h("span", { text: time === 0 ? "0 s" : String(Math.round(time * 10) / 10) }), left), placed(h("i"), left));
+    if (isShown(left)) marks.push(placed(label(time), left), placed(h("i"), left));
   }
   return marks;
 }
@@ -35,7 +39,7 @@ function robotTicks(axis, plan, width) {
   for (let count = 0; count * every <= takes.at(-1) + 1e-9; count += 1) {
     const time = count * every;
     const left = fractionAt(axis, plannedAt(plan, time));
-    if (isShown(left)) marks.push(placed(h("span", { class: "on-robot", text: time === 0 ? "0 s" : String(Math.round(time * 10) / 10) }), left));
+    if (isShown(left)) marks.push(placed(label(time, "on-robot"), left));
   }
   return marks;
 }

@@ -51,7 +51,7 @@ function zoomGroup(store, zoom) {
   onPress(fit, zoom.fit);
   store.watch((state) => [state.zoom], (state) => setAllowed(fit, state.zoom ? null : "All of it is shown.", "The whole timeline (F)"));
   return h("div", { class: "segmented zoom", role: "group", "aria-label": "Zoom" },
-    button("Zoom out", "Further (−, or Ctrl and the wheel)", "−", () => zoom.closer(false)), button("Zoom in", "Closer (+, or Ctrl and the wheel)", "+", () => zoom.closer(true)), fit);
+    button("Zoom out", "Zoom out (−, or Ctrl and the wheel)", "−", () => zoom.closer(false)), button("Zoom in", "Zoom in (+, or Ctrl and the wheel)", "+", () => zoom.closer(true)), fit);
 }
 
 /**

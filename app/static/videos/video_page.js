@@ -23,7 +23,7 @@ function setupChoice({ setups, chosen, changed, edit, make }) {
   const show = () => {
     const one = now();
     change.hidden = !one;
-    setText(state, one ? `${one.setup.name}, version ${one.revision}: ${setupText(one)}` : "A setup tells the lens, where the platform is in the picture, and the colours of the feet.");
+    setText(state, one ? `${one.setup.name}, version ${one.revision}: ${setupText(one)}` : "A setup holds the lens, the place of the platform in the picture, and the colours of the feet.");
     changed(one);
   };
   select.addEventListener("change", show);

@@ -86,7 +86,7 @@ def test_the_judge_sees_a_wrong_stroke() -> None:
 @pytest.mark.parametrize(
     ("line", "sentence", "moves"),
     [
-        ("end of all", "did not say that it arrived", 2),
+        ("end of all", "did not report that it arrived", 2),
         ("Trajectory Point", "did not confirm the strokes", 1),
     ],
 )

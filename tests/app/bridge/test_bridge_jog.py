@@ -152,7 +152,7 @@ def test_a_jog_that_was_worked_out_elsewhere_is_refused() -> None:
     robot = armed()
     plan = jog_plan(robot)
     elsewhere = JogPlan(plan.text, plan.start + 0.0006, plan.way)
-    with pytest.raises(StateError, match=r"0\.60 mm from where the jog was worked out"):
+    with pytest.raises(StateError, match=r"0\.60 mm from where it stood when this jog was planned"):
         robot.machine.jog(elsewhere, "Ada", robot.now)
     assert robot.snapshot.robot is RobotState.ARMED
 

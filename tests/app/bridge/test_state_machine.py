@@ -188,7 +188,7 @@ def test_what_moves_the_robot_needs_to_know_where_it_stands_now(robot: VirtualRo
     robot.from_robot = lambda data: re.sub(rb"j,[\d.]+,", UNREADABLE, data)
     robot.wait(1.5)
     wish = getattr(robot.machine, verb)
-    with pytest.raises(StateError, match="not told its strokes for 1"):
+    with pytest.raises(StateError, match="not reported its strokes for 1"):
         wish(make_plan(SHORT), "Ada", robot.now) if verb == "send" else wish("Ada", robot.now)
     assert robot.snapshot.robot is RobotState.ARMED
     assert robot.sent == [encode_flush()]
@@ -200,7 +200,7 @@ def test_a_pause_does_not_end_before_it_is_known_where_the_robot_stands(robot: V
     robot.until_robot(RobotState.PAUSED)
     robot.from_robot = lambda data: re.sub(rb"j,[\d.]+,", UNREADABLE, data)
     robot.wait(1.5)
-    with pytest.raises(StateError, match="not told its strokes"):
+    with pytest.raises(StateError, match="not reported its strokes"):
         robot.machine.resume("Ada", robot.now)
     robot.from_robot = bytes
     robot.wait(0.2)

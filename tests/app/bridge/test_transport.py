@@ -30,7 +30,7 @@ def test_a_device_that_is_no_line_is_refused_by_name(device: str) -> None:
 def test_an_address_that_is_no_line_is_refused_before_anything_is_opened(tmp_path: Path) -> None:
     written = tmp_path / "written"
     for device in (f"spy:///dev/null?file={written}", "loop://", "rfc2217://127.0.0.1:9"):
-        with pytest.raises(InputError, match="is no robot's line"):
+        with pytest.raises(InputError, match="is not a line to a robot"):
             Transport(device, lambda _: None, lambda _: None)
     assert not written.exists()
 

@@ -279,7 +279,9 @@ def test_knots_beyond_todays_bounds_are_limited_and_said(
     assert (opened.gait.options.phase_knots, opened.gait.options.closing_knots) == (50, 100)
     assert opened.gait.notes == "two"
     assert opened.notice is not None
-    assert "60 phase knots (now 50) and 150 closing knots (now 100)" in opened.notice
+    assert (
+        "a phase length of 60 samples (now 50) and a final stance of 150 samples (now 100)" in opened.notice
+    )
     (tmp_path / "gaits" / "old.json").write_text(path.read_text())
     old = reopened(tmp_path, database).open_gait("old")
     assert old.notice is not None

@@ -209,12 +209,12 @@ def test_robots_without_a_cable_show_their_targets_and_what_they_lose(jog: Jog) 
     lift = {**LIFT, "foot": 1, "by_mm": 6.0}
     shown = jog(lift, preview=True, robot="deltawalker5").content
     assert (shown["from"], shown["wired"], shown["moves"]) == ("standing", False, 0)
-    assert "no cable leads to such a robot" in shown["reason"]
+    assert "this program cannot drive this robot" in shown["reason"]
     assert max(map(abs, shown["residual_mm"])) == pytest.approx(4.5)
     assert any("slides rather than lifts" in finding["sentence"] for finding in shown["findings"])
     refused = jog(lift, robot="deltawalker5")
     assert refused.status == 409
-    assert "no cable leads" in refused.content["error"]
+    assert "cannot drive this robot" in refused.content["error"]
 
 
 def test_the_target_is_drawn_where_the_body_stands(studio: StudioProcess) -> None:

@@ -92,7 +92,7 @@ def test_a_gait_changes_to_a_coupled_robot_as_one_edit_and_shows_what_is_made(
     assert not verdict["passed"]
     assert {f["rule"] for f in verdict["findings"] if f["severity"] == "error"} == {"coupling"}
     reason = studio.ask("GET", "/api/gaits/walk-manual-0/run").content["reason"]
-    assert "no cable leads to such a robot" in reason
+    assert "can design for this robot but not drive it" in reason
     assert "DeltaWalker, 12 motors" in reason
     six = studio.ask("PUT", "/api/gaits/walk-manual-0?label=Robot", {**document, "robot": "hexapod"})
     assert six.status == 422
@@ -112,7 +112,7 @@ def test_nothing_is_sent_to_a_robot_without_a_cable_even_when_it_is_approved(stu
     wish = {"gait": gait, "by": "Ada", "waypoints_hash": approval["waypoints_hash"]}
     answer = studio.ask("POST", "/api/robot/send", wish)
     assert (answer.status, answer.content["where"]) == (409, "robot")
-    assert "DeltaWalker, 9 motors: no cable leads to such a robot" in answer.content["error"]
+    assert "DeltaWalker, 9 motors: this program can design for this robot" in answer.content["error"]
 
 
 def test_the_command_line_takes_a_robot_by_name(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

@@ -104,7 +104,7 @@ def test_a_path_on_which_the_robot_tips_is_an_error_however_it_is_merged(outside
     way = plan_waypoints(MODEL, tipping, 0.001)
     (finding,) = next(o for o in check_path(MODEL, tipping, way) if o.margin.rule == "path_balance").findings
     assert finding.severity is Severity.ERROR
-    assert "one waypoint a knot as well" in finding.sentence
+    assert "one waypoint a sample as well" in finding.sentence
     assert finding.value == pytest.approx(-outside, abs=2e-4)
 
 

@@ -40,7 +40,7 @@ def test_a_return_turns_only_while_every_foot_stands_after_its_iteration(yaw: fl
 
 def test_a_return_without_a_closing_stance_is_refused() -> None:
     timeline = timeline_from_order(4, ORDER, closing_knots=2)
-    with pytest.raises(InputError, match="has 2 knots; it needs at least 3"):
+    with pytest.raises(InputError, match="has 2 samples; it needs at least 3"):
         heading_profile(timeline, 0.3, 1, HeadingProfile.RETURN)
 
 

@@ -72,7 +72,7 @@ def test_uneven_intervals_are_refused_by_knot() -> None:
     motion = Trajectory(
         times, np.zeros((4, 3)), np.zeros(4), np.zeros((4, 4, 3)), np.ones((4, 4), dtype=np.bool_)
     )
-    with pytest.raises(InputError, match=r"from knot 3 to 4 is 0.5 s, the first one 0.4 s"):
+    with pytest.raises(InputError, match=r"from sample 3 to 4 is 0.5 s, the first one 0.4 s"):
         gait_of_motion(motion, "uneven")
     even = replace(motion, times=np.array([0.0, 0.4, 0.8, 1.2]))
     assert gait_of_motion(even, "even").gait.timeline.sample_time == 0.4

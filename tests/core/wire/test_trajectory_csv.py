@@ -144,7 +144,7 @@ ROW = "0.0,0.1,0.2"
         ("Column1,Column2\n1,2\n1,1e400", "t.csv:3, column 2: 1e400 is not a finite"),
         ("Column1,Column2\n1,2\n-1e300,1", "t.csv:3, column 1: -1e300 is no position or speed of a gait"),
         ("\n".join(["duration_s,h1,h2", *[ROW] * 15]), "is a waypoint file"),
-        ("\n".join(["0.5"] * 15), "one knot"),
+        ("\n".join(["0.5"] * 15), "one sample"),
     ],
 )
 def test_malformed_files_are_refused_by_line_and_column(text: str, message: str) -> None:

@@ -87,7 +87,7 @@ def test_a_video_becomes_a_trial_through_a_setup_that_is_made_on_its_picture(pag
     for count, corner in enumerate(SQUARE, start=1):
         click_pixel(page, pixel_of(corner))
         expect(page.locator(".video-point")).to_have_count(count)
-    expect(state).to_contain_text("Complete. Kept, version")
+    expect(state).to_contain_text("Complete. Saved, version")
     expect(page.locator(".camera-axis")).to_have_count(2)
     before = page.locator(".video-point").nth(1).get_attribute("data-x")
     page.locator(".video-point").nth(1).press("ArrowRight")
@@ -193,7 +193,7 @@ def test_a_setup_that_was_changed_elsewhere_is_shown_as_it_is_now(
     expect(name).to_have_value("from another service")
     name.fill("mine")
     name.press("Tab")
-    expect(panel(page).get_by_role("status", name="Setup state")).to_contain_text("Kept, version 3.")
+    expect(panel(page).get_by_role("status", name="Setup state")).to_contain_text("Saved, version 3.")
 
 
 TURNS = ((0.0, 0.0, 0.0), (0.4, 0.0, 0.1), (-0.35, 0.2, 0.0), (0.1, -0.45, 0.2))
@@ -229,7 +229,7 @@ def test_a_lens_is_found_from_pictures_of_a_board_and_straightens_what_is_shown(
     straighten.click()
     expect(page.locator(".video-image")).not_to_have_attribute("src", shown or "")
     panel(page).get_by_role("button", name="Without a lens").click()
-    expect(panel(page).get_by_text("No lens: straight lines")).to_be_visible()
+    expect(panel(page).get_by_text("No lens correction:")).to_be_visible()
     expect(straighten).to_have_attribute("aria-disabled", "true")
 
 

@@ -62,7 +62,7 @@ def test_a_gait_is_simulated_shown_over_its_plan_and_stale_after_an_edit(page: P
     assert [one["id"] for one in found if one["impact"] in ("serious", "critical")] == []
 
     page.get_by_role("gridcell", name="foot 3, sample 12: stance").click()
-    expect(panel(page)).to_contain_text("The gait changed since")
+    expect(panel(page)).to_contain_text("The gait has changed")
     expect(page.get_by_role("note", name="Lines of the plots")).not_to_contain_text("simulated")
     expect(jobs).to_contain_text("older version of the gait")
     page.wait_for_function(f"() => !({GHOST})()")

@@ -67,7 +67,7 @@ def test_both_sides_are_compared_and_taken_over_in_one_undo_step(page: Page, tmp
     expect(page.get_by_role("region", name="Search")).to_be_hidden()
     expect(undo).to_have_attribute("title", re.compile("robot's clock"))
     undo.click()
-    expect(page.get_by_label("Phase knots", exact=True)).to_be_visible()
+    expect(page.get_by_label("Phase length", exact=True)).to_be_visible()
     expect(button(page, "Draw it freely")).to_be_hidden()
 
 
@@ -78,7 +78,7 @@ def test_it_becomes_a_new_gait_that_is_drawn_freely_again(page: Page) -> None:
     expect(page.get_by_role("status", name="Verdict")).to_contain_text("Plan margin")
     expect(button(page, "Faster on the robot")).to_be_hidden()
     button(page, "Draw it freely").click()
-    expect(page.get_by_label("Phase knots", exact=True)).to_have_value("5")
+    expect(page.get_by_label("Phase length", exact=True)).to_have_value("5")
     expect(button(page, "Faster on the robot")).to_be_visible()
     page.get_by_role("button", name="Undo").click()
     expect(page.get_by_label("Step length")).to_have_value("false")
@@ -105,7 +105,7 @@ def test_two_quick_presses_open_one_dialog_and_cancel_ends_its_search(page: Page
     with page.expect_event("requestfailed", lambda request: request.url.endswith("/faster")):
         dialog.get_by_role("button", name="Cancel").click()
     expect(dialog).to_be_hidden()
-    expect(page.get_by_label("Phase knots", exact=True)).to_be_visible()
+    expect(page.get_by_label("Phase length", exact=True)).to_be_visible()
     expect(page.locator("#toasts")).to_be_empty()
     faster.click()
     expect(dialog).to_be_visible()

@@ -68,9 +68,9 @@ def test_a_drawn_gait_keeps_its_phases_and_its_held_feet_when_it_is_turned(
     page: Page, studio: StudioProcess, made: dict[str, str]
 ) -> None:
     opened_gait(page, "On four feet")
-    expect(page.get_by_label("Phase knots", exact=True)).to_have_value("3")
+    expect(page.get_by_label("Phase length", exact=True)).to_have_value("3")
     page.get_by_text("More: ").first.click()
     page.get_by_label("Direction", exact=True).select_option("2")
     wait_for(lambda: held(studio, made["On four feet"]) == {"start": [2, 5], "end": [2, 5]}, "turned", 60)
     expect(page.get_by_label("Held up at start")).to_have_value("2 5")
-    expect(page.get_by_label("Phase knots", exact=True)).to_have_value("3")
+    expect(page.get_by_label("Phase length", exact=True)).to_have_value("3")

@@ -70,7 +70,7 @@ def test_a_ghost_says_why_there_is_none_and_stands_where_the_gait_was_before(
 ) -> None:
     page.get_by_role("button", name="Ghosts").click()
     before = page.get_by_role("menuitemcheckbox", name="Before the last edit")
-    expect(before).to_have_attribute("title", "This gait was not changed yet.")
+    expect(before).to_have_attribute("title", "This gait has not been changed yet.")
     page.keyboard.press("Escape")
     move_higher(studio, "walk", 0.056)
     expect(page.locator("#undo-label")).to_contain_text("higher")

@@ -19,7 +19,7 @@ def test_a_fault_is_chosen_and_its_effect_is_shown(
     ):
         name(page, "Ada")
         page.get_by_text("Faults of the emulated robot").click()
-        strike = page.get_by_role("button", name="Make it happen")
+        strike = page.get_by_role("button", name="Cause this fault")
         expect(strike).to_have_attribute("title", "Connect the emulated robot first.")
         page.get_by_role("button", name="Connect", exact=True).click()
         expect(page.get_by_role("button", name="Arm", exact=True)).not_to_have_attribute(

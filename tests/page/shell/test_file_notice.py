@@ -34,7 +34,7 @@ def test_the_list_marks_files_and_the_page_offers_both_ways(browser: Browser, tm
         expect(dialog).to_contain_text("cut-off.json is not JSON")
         dialog.get_by_role("button", name="Delete").click()
         expect(broken).to_have_count(0)
-        notice.get_by_role("button", name="Take it over").click()
+        notice.get_by_role("button", name="Use the file").click()
         expect(notice).to_be_hidden()
         assert studio.document(made["id"])["notes"] == "theirs"
         page.close()

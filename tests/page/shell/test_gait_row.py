@@ -71,8 +71,8 @@ def test_a_foot_order_is_judged_while_it_is_typed(page: Page) -> None:
     expect(order).to_have_attribute("aria-invalid", "true")
     order.fill("3 2 4 1")
     expect(refusal).to_be_hidden()
-    page.get_by_label("Phases").fill("2.5")
+    page.get_by_role("dialog").get_by_label("Phase length").fill("2.5")
     expect(
-        page.get_by_role("dialog").get_by_role("alert").filter(has_text="whole number of knots")
+        page.get_by_role("dialog").get_by_role("alert").filter(has_text="whole number of samples")
     ).to_be_visible()
     page.keyboard.press("Escape")

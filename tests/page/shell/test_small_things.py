@@ -123,7 +123,7 @@ def test_phases_of_a_timeline_drawn_by_hand_are_empty_until_one_is_typed(
     page: Page, studio: StudioProcess
 ) -> None:
     choose(page, "C-Gait 10 mm")
-    phases = number(page, "Phase knots")
+    phases = number(page, "Phase length")
     expect(phases).to_have_value("5")
     drawn = studio.document("c-gait")["timeline"]["feet"]
     foot = studio.document("c-gait")["order"][0]
@@ -131,12 +131,12 @@ def test_phases_of_a_timeline_drawn_by_hand_are_empty_until_one_is_typed(
     expect(phases).to_have_value("")
     expect(phases).to_have_attribute("placeholder", "as drawn")
     assert phases.evaluate(ROOM_FOR_PLACEHOLDER)
-    expect(number(page, "Closing knots")).to_have_value("")
+    expect(number(page, "Final stance")).to_have_value("")
     phases.fill("5")
     phases.press("Enter")
     wait_for(lambda: studio.document("c-gait")["timeline"]["feet"] == drawn, "it is drawn anew")
     expect(phases).to_have_value("5")
-    expect(number(page, "Closing knots")).to_have_value("5")
+    expect(number(page, "Final stance")).to_have_value("5")
 
 
 def test_the_direction_and_more_iterations_are_still_a_drawing(page: Page) -> None:
@@ -147,7 +147,7 @@ def test_the_direction_and_more_iterations_are_still_a_drawing(page: Page) -> No
     number(page, "Iterations").press("Enter")
     expect(page.locator("#undo-label")).to_have_text("iterations to 2")
     expect(page.get_by_role("grid", name="Footfall timeline")).to_have_attribute("aria-colcount", "85")
-    expect(number(page, "Phase knots")).to_have_value("5")
+    expect(number(page, "Phase length")).to_have_value("5")
     undo(page).click()
     undo(page).click()
 
@@ -179,8 +179,12 @@ def test_what_was_refused_stays_with_the_reason_until_it_is_repaired_or_escape(p
 @pytest.mark.parametrize(
     ("name", "typed", "sentence"),
     [
-        ("Phase knots", "2.5", "Phase knots is 2.5 knots; it must be a whole number between 2 and 50 knots."),
-        ("Closing knots", "", "Closing knots needs a whole number between 0 and 100 knots."),
+        (
+            "Phase length",
+            "2.5",
+            "Phase length is 2.5 samples; it must be a whole number between 2 and 50 samples.",
+        ),
+        ("Final stance", "", "Final stance needs a whole number between 0 and 100 samples."),
         ("Clearance", "99", "Clearance is 99 mm; it must lie between 0 and 15 mm."),
     ],
 )

@@ -24,6 +24,10 @@ PLACES = """async ([phases, total]) => {
   const { flagPlaces } = await import("/static/timeline/phase_flags.js");
   return flagPlaces(phases, total).map(({ left, width }) => [left, width]);
 }"""
+SHORT = """async (words) => {
+  const { shortWords } = await import("/static/document/missing_motion.js");
+  return shortWords(words);
+}"""
 HIT = """(flag) => {
   const { x, y, width } = flag.getBoundingClientRect();
   return document.elementFromPoint(x + width / 2, y + 20).className;
@@ -79,6 +83,22 @@ def test_a_flag_says_why_in_a_few_words(page: Page) -> None:
     assert words_of(page, "1111", lack("something new", 4, 6)) == "a limit is missed"
 
 
+@pytest.mark.parametrize(
+    ("words", "short"),
+    [
+        ("foot 2: reach 3.1 mm short", "foot 2"),
+        ("1 and 3 in the air", "1 and 3"),
+        ("margin 0.8 mm short", "margin"),
+        ("foot 4 too fast", "foot 4"),
+        ("feet 1 and 2 too close", "feet 1 and 2"),
+        ("body height off by 2.0 mm", "body height"),
+        ("a limit is missed", "a limit is missed"),
+    ],
+)
+def test_where_there_is_no_room_a_flag_keeps_whole_words(page: Page, words: str, short: str) -> None:
+    assert page.evaluate(SHORT, words) == short
+
+
 def test_entries_that_meet_are_one_phase_and_the_three_worst_are_shown(page: Page) -> None:
     still = ("1111",) * 40
     meeting = marks_of(
@@ -100,15 +120,15 @@ def test_entries_that_meet_are_one_phase_and_the_three_worst_are_shown(page: Pag
         ([(100, 140, 90), (300, 340, 90)], 600, [[100, 90], [300, 90]]),
         ([(560, 600, 90)], 600, [[510, 90]]),
         ([(-50, 40, 90)], 600, [[0, 90]]),
-        ([(10, 50, 90), (80, 120, 90), (400, 440, 90)], 600, [[0, 78], [80, 90], [400, 90]]),
-        ([(10, 20, 90), (30, 40, 90)], 600, [[0, 16], [30, 90]]),
+        ([(10, 50, 90), (80, 120, 90), (400, 440, 90)], 600, [[10, 50], [80, 90], [400, 90]]),
+        ([(10, 20, 90), (30, 40, 90)], 600, [[10, 16], [30, 90]]),
     ],
-    ids=["room", "at the end", "begun before", "cut", "a mark"],
+    ids=["room", "at the end", "begun before", "short words", "a mark"],
 )
 def test_flags_neither_lie_on_each_other_nor_are_cut(
     page: Page, phases: list[tuple[int, int, int]], total: int, places: list[list[int]]
 ) -> None:
-    given = [{"left": left, "right": right, "width": width} for left, right, width in phases]
+    given = [{"left": left, "right": right, "width": width, "short": 50} for left, right, width in phases]
     assert page.evaluate(PLACES, [given, total]) == places
 
 

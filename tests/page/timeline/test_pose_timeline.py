@@ -31,7 +31,7 @@ def test_samples_are_as_wide_as_they_last_and_an_edit_is_solved_after_it(page: P
     answer = page.get_by_role("status", name="Verdict")
     expect(answer).to_contain_text("Plan margin")
     expect(answer).to_contain_text("mm/s")
-    expect(page.get_by_label("Phase knots", exact=True)).to_be_hidden()
+    expect(page.get_by_label("Phase length", exact=True)).to_be_hidden()
     expect(page.get_by_label("Step length")).to_have_value("true")
     step = page.get_by_label("Step", exact=True)
     step.fill("20")
@@ -90,7 +90,7 @@ def test_a_pose_that_is_dragged_is_pinned_and_let_go(page: Page) -> None:
     pose.focus()
     page.keyboard.press("ArrowUp")
     expect(answer).to_contain_text("adapted, not solved")
-    pinned.get_by_role("button", name="Let go of pose 13").click()
+    pinned.get_by_role("button", name="Unpin pose 13").click()
     expect(pinned.get_by_role("listitem")).to_have_count(0)
     for _ in range(3):
         page.get_by_role("button", name="Undo").click()

@@ -278,7 +278,7 @@ def test_cells_are_copied_as_text_and_pasted_where_they_fit(timeline: TimelinePa
     timeline.cell(4, 23).focus()
     timeline.press("Control+v")
     timeline.becomes(gait, *painted(pasted, 4, 23, 24, "0"))
-    timeline.said("2 samples behind the end and 1 row below the last foot did not fit and were left out.")
+    timeline.said("2 samples after the end and 1 row below the last foot did not fit and were left out.")
     timeline.undo().click()
     page.evaluate("() => navigator.clipboard.writeText('stance, swing')")
     timeline.press("Control+v")
@@ -293,9 +293,9 @@ def test_a_copy_that_ends_with_the_timeline_is_cut_and_says_so(timeline: Timelin
     timeline.select((4, 17), (4, 21))
     timeline.press("Control+d")
     timeline.becomes(gait, *painted(FOUR, 4, 22, 24, "0"))
-    timeline.said("The last 2 samples would lie behind the end and are left out.")
+    timeline.said("The last 2 samples would lie after the end and are left out.")
     timeline.press("Control+d")
-    timeline.said("There is no room behind it")
+    timeline.said("There is no room after it")
 
 
 def test_cut_duplicate_and_delete_have_their_keys(timeline: TimelinePage) -> None:

@@ -163,7 +163,7 @@ def test_where_no_foot_stands_there_is_no_nearest_motion() -> None:
     falling = replace(problem, timeline=ContactTimeline(stance, np.zeros_like(stance), 0.4))
     result = solve_live(falling)
     assert result.evidence is Evidence.PROVEN
-    assert "No foot stands at knot 13" in result.explanation[0]
+    assert "No foot stands at sample 13" in result.explanation[0]
 
 
 def test_a_start_out_of_reach_is_said_and_not_solved() -> None:

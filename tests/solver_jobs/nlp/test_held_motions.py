@@ -134,7 +134,7 @@ QUICK = replace(
         (NARROW, "Feet 2, 4 are in the air together at samples 6 to 15"),
         (WIDE, "With feet 1 and 4 held up at the last sample the robot rests on feet 2, 3, 5 and 6: its"),
         (HIGH, "Foot 2 is held 6.0 mm up at the last sample, which is 1.0 mm more than its leg can draw in"),
-        (QUICK, "Foot 1 is in the air at knot 11: too short to go 3.0 mm up to where it is held"),
+        (QUICK, "Foot 1 is in the air at sample 11: too short to go 3.0 mm up to where it is held"),
     ],
 )
 def test_what_held_feet_rule_out_is_proven_and_named_by_both_tiers(gait: Gait, sentence: str) -> None:

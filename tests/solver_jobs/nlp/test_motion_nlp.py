@@ -140,7 +140,7 @@ def test_what_cannot_be_balanced_is_explained_with_the_nearest_motion() -> None:
     assert result.evidence is Evidence.DIAGNOSED
     assert "balance" in result.explanation[0]
     assert "mm" in result.explanation[0]
-    assert "knots 1" in result.explanation[0]
+    assert "samples 1" in result.explanation[0]
     assert "not proven" in result.explanation[-1]
     assert result.trajectory.knot_count == 45
 
@@ -190,7 +190,7 @@ def test_a_swing_too_short_for_its_clearance_is_named() -> None:
     stance = problem.timeline.stance.copy()
     stance[2, 6:10] = True
     sentence = proven(replace(problem, timeline=replace(problem.timeline, stance=stance)))
-    assert sentence.startswith("Foot 3 is in the air at knot 6: too short to rise 3.0 mm")
+    assert sentence.startswith("Foot 3 is in the air at sample 6: too short to rise 3.0 mm")
 
 
 def test_a_knot_with_no_foot_down_is_named() -> None:
@@ -198,7 +198,7 @@ def test_a_knot_with_no_foot_down_is_named() -> None:
     stance = problem.timeline.stance.copy()
     stance[:, 6:8] = False
     sentence = proven(replace(problem, timeline=replace(problem.timeline, stance=stance)))
-    assert sentence.startswith("No foot stands at knots 7–8")
+    assert sentence.startswith("No foot stands at samples 7–8")
 
 
 def test_a_start_outside_the_bodys_heights_is_named() -> None:
@@ -214,7 +214,7 @@ def test_a_start_out_of_reach_is_named() -> None:
     problem = gait_problem("walk", 0.010, Workspace.CYLINDER)
     feet = problem.start.feet_world + [[0.020, 0.0, 0.0], [0, 0, 0], [0, 0, 0], [0, 0, 0]]
     sentence = proven(replace(problem, start=RestPose(problem.start.body_world, feet)))
-    assert "6.5 mm in reach of foot 1 at knot 1" in sentence
+    assert "6.5 mm in reach of foot 1 at sample 1" in sentence
 
 
 def test_progress_that_says_no_ends_the_solve_at_that_iteration() -> None:

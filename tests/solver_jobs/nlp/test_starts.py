@@ -99,7 +99,7 @@ def test_a_motion_that_does_not_fit_is_refused() -> None:
     longer = gait_problem("walk", 0.010, Workspace.STROKE)
     stance = np.concatenate([longer.timeline.stance, np.ones((4, 2), dtype=np.bool_)], axis=1)
     timeline = replace(longer.timeline, stance=stance, locked=np.zeros_like(stance))
-    with pytest.raises(InputError, match="other knots"):
+    with pytest.raises(InputError, match="other samples"):
         solve_motion(replace(longer, timeline=timeline), start=known)
     with pytest.raises(InputError, match="lacks velocities"):
         solve_motion(WALK, start=replace(known, contact_forces=None))

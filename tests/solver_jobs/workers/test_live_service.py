@@ -181,4 +181,4 @@ def test_a_swing_that_is_too_short_is_placed_and_can_be_lengthened(knots: int) -
     assert solve_live(motion_problem(search.remedies[0].gait, MODEL)).status is SolveStatus.SOLVED
     if knots == 1:
         assert (result.lacks[0].family, result.lacks[0].feet) == ("clearance", (2,))
-        assert "at knot 6" in result.lacks[0].sentence
+        assert "at sample 6" in result.lacks[0].sentence

@@ -234,7 +234,7 @@ def test_more_iterations_draw_the_timeline_anew(service: GaitService) -> None:
 
 def test_an_approval_is_of_the_verdict_that_was_seen(service: GaitService) -> None:
     service.check(MANUAL)
-    with pytest.raises(StateError, match="Another verdict"):
+    with pytest.raises(StateError, match="The verdict has changed"):
         service.approve(MANUAL, ApprovalRequest("Ada", "0" * 64))
 
 

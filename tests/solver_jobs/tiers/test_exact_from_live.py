@@ -45,7 +45,7 @@ def test_the_live_motion_is_the_answer_where_the_exact_tier_finds_none(
     result = solve_exact(problem)
     assert result.status is SolveStatus.SOLVED
     assert not result.optimal
-    assert "not optimal" in result.explanation[0]
+    assert "not optimised" in result.explanation[0]
     assert check_motion(problem, result.trajectory).confirmed
     assert (result.objective is None) == (cost is Cost.GOAL_EFFORT)
 

@@ -29,8 +29,6 @@ from core.pose_gaits.start_motion import TURN_GUESS
 from core.robot.model import RobotModel, load_robot
 from solver_jobs import FastestSearch, PoseGaitSolver, PoseProgress, PoseResult, SolveStatus
 
-MOST_WALKS = 3
-"""So many of the fastest gaits of a search are tried from the standard stance to rest."""
 NO_TURN = 1e-6
 """A turn that is smaller is none, rad."""
 TICK_SECONDS = 0.1
@@ -183,7 +181,7 @@ def _walk_of_search(
 ) -> tuple[Gait, FastestWalk]:
     """The fastest choices in turn until one also walks from the standard stance to rest; else the fastest."""
     walks: list[tuple[Gait, FastestWalk]] = []
-    for choice, tried in found.ranked[:MOST_WALKS]:
+    for choice, tried in found.ranked:
         chosen = chosen_gait(document, choice, model)
         name = order_name(choice.order) or "-".join(map(str, choice.order))
         whole = _waited(solver, pose_problem(chosen, model), f"{name}, from stance to rest")

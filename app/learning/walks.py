@@ -35,8 +35,8 @@ def walks_of(trials: Sequence[SentTrial]) -> tuple[Walk, ...]:
     """The gaits of some trials; trials of the same waypoints, as often, are of one gait.
 
     Raises:
-        InputError: of a trial it is not known what was sent, its gait goes nowhere, or they are of several
-            robots.
+        InputError: a trial is an example made by simulation, it is not known what was sent, its gait goes
+            nowhere, or they are of several robots.
     """
     groups: dict[tuple[str, int, float], list[SentTrial]] = {}
     problems: dict[tuple[str, int, float], SimulationProblem] = {}
@@ -75,6 +75,12 @@ def heading_of(feet: Floats, name: str) -> float:
 
 def _sent(trial: SentTrial) -> tuple[SimulationProblem, int]:
     record = trial.record
+    if record.content.get("is_example", False):
+        raise InputError(
+            f"“{record.content['name']}” is an example made by simulation: no robot did it, so nothing "
+            "can be learned from it. Leave it out.",
+            "trials",
+        )
     if trial.sent is None or record.planned is None:
         raise InputError(
             f"Of the trial “{record.content['name']}” it is not known what the robot was sent. Leave it out, "

@@ -40,6 +40,7 @@ from app.studio.file_watch import FileWatch
 from app.studio.job_commands import JobCommands
 from app.studio.publisher import Publisher
 from app.trials.comparison import TrialComparison
+from app.trials.example import ExampleTrials
 from app.trials.photos import TrialPhotos
 from app.trials.report.service import TrialReportService
 from app.trials.service import TrialService
@@ -130,7 +131,8 @@ class Studio:
         """Optimisations and simulations."""
         runner = self._register(JobQueue(self._job_changed, warm_up=likely_problem()))
         self.jobs = OptimisationService(self.job_repository, runner, self._on_result)
-        simulator, shown = Simulator(), self.publisher.publish_simulation
+        self._simulator = simulator = Simulator()
+        shown = self.publisher.publish_simulation
         simulations = SimulationService(
             simulator, self.job_repository, self.simulations, self.commands.tell, shown
         )
@@ -151,6 +153,7 @@ class Studio:
         database, job_repository, publisher = self._database, self.job_repository, self.publisher
         self.runs = runs = RunService(database)
         self.trials = trials = TrialService(database, publisher.publish_trial)
+        self.examples = ExampleTrials(trials, self._simulator)
         self.comparison = TrialComparison(trials, self._trial_simulations)
         later, shown, publish = self.commands.tell, publisher.publish_job, self.hub.publish
         lab = Lab(data, database, job_repository, trials, runs, cameras, later, shown, publish)

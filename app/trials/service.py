@@ -41,6 +41,7 @@ class TrialDescription:
         gait: the id of the gait that walked, or "".
         gait_name: its name then.
         run: the id of the robot's run, or "".
+        is_example: whether it was made by simulation, to be looked at.
     """
 
     name: str
@@ -51,6 +52,7 @@ class TrialDescription:
     gait: str = ""
     gait_name: str = ""
     run: str = ""
+    is_example: bool = False
 
 
 class TrialService:
@@ -216,6 +218,11 @@ def revision_of(content: Json) -> int:
     return int(content.get("revision", 1))
 
 
+def is_example(content: Json) -> bool:
+    """Whether a trial was made by simulation, to be looked at; earlier versions kept none such."""
+    return bool(content.get("is_example", False))
+
+
 def _moved_on(row: TrialRow, revision: int) -> StateError:
     return StateError(
         f"The trial was changed meanwhile: it has revision {revision_of(row.content)}, and you changed "
@@ -248,6 +255,7 @@ def _summary(row: TrialRow) -> Json:
     length = load_robot(ROBOT).shape.plate_across
     summary = {
         **{key: content[key] for key in _WORDS},
+        "is_example": is_example(content),
         "revision": revision_of(content),
         "frame_rate": content["frame_rate"],
         "deleted": row.is_deleted,
@@ -284,7 +292,7 @@ def _line(row: TrialRow) -> Json:
     plan = summary["plan"]
     walk = summary["expected_cm"] if plan is None else plan["figures"]["net_distance"]
     return {
-        **{key: summary[key] for key in _WORDS},
+        **{key: summary[key] for key in (*_WORDS, "is_example")},
         "step_cm": round(walk / summary["iterations"], 2),
         **{key: mean[key] for key in ("distance", "angle_deg", "error_percent")},
         **{key: mean[key] for key in ("net_distance", "net_angle_deg", "net_error_percent")},
@@ -299,13 +307,16 @@ def _line(row: TrialRow) -> Json:
 def compared(lines: Sequence[Json]) -> list[Json]:
     """Trials of one gait, step and count of iterations together: mean and spread of their figures, by name.
 
-    The step is the plan's that is kept with a trial; without a plan it is what was wanted.
+    The step is the plan's that is kept with a trial; without a plan it is what was wanted. Examples made by
+    simulation are left out.
 
     Args:
         lines: of the list.
     """
     groups: dict[tuple[str, float, int], list[Json]] = {}
     for line in lines:
+        if line["is_example"]:
+            continue
         key = (line["gait_name"] or line["name"], line["step_cm"], line["iterations"])
         groups.setdefault(key, []).append(line)
     return [_group(*key, groups[key]) for key in sorted(groups)]

@@ -71,6 +71,16 @@ async def add_trial(trial: NewTrial, studio: TheStudio, author: TheAuthor) -> Js
     return await run_in_threadpool(studio.trials.add, track, words, planned)
 
 
+@router.post("/example", status_code=201)
+async def add_example(studio: TheStudio) -> Json:
+    """Keeps an example made by simulation from a gait of the library.
+
+    `is_example` marks it, also in the list. It counts in no comparison of gaits, and nothing is learned
+    from it.
+    """
+    return await run_in_threadpool(studio.examples.add)
+
+
 async def planned_for(
     studio: Studio, run: str, gait_id: str, iterations: int
 ) -> tuple[str, str, PlannedFeet | None]:

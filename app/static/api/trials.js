@@ -9,6 +9,7 @@ export const trialApi = {
   read: (id) => request("GET", trial(id)),
   paths: (id) => request("GET", `${trial(id)}/paths`),
   add: (body) => request("POST", "/api/trials", body),
+  example: () => request("POST", "/api/trials/example"),
   change: (id, revision, changes) => request("PUT", trial(id), { revision, ...changes }),
   remove: (id) => request("DELETE", trial(id)),
   restore: (id) => request("POST", `${trial(id)}/restore`),

@@ -2,9 +2,10 @@
 
 import { learningApi } from "../api/learning.js";
 import { trialApi } from "../api/trials.js";
-import { h, onPress, setAllowed, setText } from "../lib/dom.js";
+import { h, setText } from "../lib/dom.js";
 import { clockTime, fixed } from "../lib/format.js";
 import { announce, attempt, report, toast } from "../lib/toasts.js";
+import { trialChoice } from "./learning_choice.js";
 import { learnedResult } from "./learning_result.js";
 
 const POLL_MS = 1000;
@@ -146,32 +147,6 @@ export async function openLearning(page) {
   });
 
   await list();
-}
-
-const LEAST_GAITS = 3;
-const gaitOf = ({ gait_name: gait, name, expected_cm: wanted, iterations }) => `${gait || name}, ${fixed(wanted / iterations)} cm × ${iterations}`;
-
-function trialLine(trial, changed) {
-  const known = Boolean(trial.gait || trial.run);
-  const box = h("input", { type: "checkbox", value: trial.id, checked: known, disabled: !known, on: { change: changed } });
-  const why = known ? null : "It is not known what the robot was sent: add the trial again, laid over its run or gait";
-  return { box, trial, element: h("li", {}, h("label", { title: why }, box, h("span", { text: trial.name }), h("span", { class: "quiet", text: gaitOf(trial) }))) };
-}
-
-/** A list of trials to tick, and the button that starts. */
-function trialChoice(trials, start) {
-  const press = h("button", { class: "primary", text: "Learn" });
-  const lines = trials.map((trial) => trialLine(trial, refresh));
-  const chosen = () => lines.filter(({ box }) => box.checked).map(({ trial }) => trial);
-
-  function refresh() {
-    const gaits = new Set(chosen().map(gaitOf)).size;
-    setAllowed(press, gaits < LEAST_GAITS ? `The ticked trials are of ${gaits} gaits; ${LEAST_GAITS} different gaits or steps are needed, so that one can be left out.` : null, "Simulates every gait some forty times, in the background");
-  }
-  refresh();
-  onPress(press, () => start({ trials: chosen().map(({ id }) => id) }), (why) => toast(why));
-  return h("div", { class: "learning-choice" },
-    trials.length ? h("ul", { class: "learning-trials", "aria-label": "Trials to learn from" }, ...lines.map(({ element }) => element)) : h("p", { class: "teach", text: "No trial yet. Add trials of three gaits or steps, each laid over its run or gait." }), press);
 }
 
 /** Files of the published trials. */

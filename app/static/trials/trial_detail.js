@@ -7,6 +7,7 @@ import { figureTable, footName } from "../lib/tables.js";
 import { attempt } from "../lib/toasts.js";
 import { comparisonPart } from "./trial_comparison.js";
 import { displacementPlot } from "./trial_displacement.js";
+import { exampleMark } from "./trial_list.js";
 import { photosPart } from "./trial_photos.js";
 import { pathPlot } from "./trial_plot.js";
 import { followTrial } from "./trial_sync.js";
@@ -50,6 +51,10 @@ function endsLine(trial, change) {
   }
   return h("p", { class: trial.is_clear ? "quiet" : "why", text: trial.is_clear ? "The ends of iterations were found from the feet's steps." : "The feet's steps overlap between iterations: look at their ends." });
 }
+
+/** That no robot did it, where it is an example. */
+const exampleLine = ({ is_example: isExample }) => isExample
+  && h("p", { class: "why" }, exampleMark(), " No robot did this. It counts in no comparison of gaits, and nothing is learned from it.");
 
 /** That a trial is deleted, with a way back; nothing else can be done to it. */
 function deletedLine({ id, deleted }) {
@@ -105,7 +110,7 @@ export async function trialDetail(store, id, { all, remove, tracks, video }) {
     shown = now;
     note.show(now.note);
     head.replaceChildren(...[h("button", { class: "link", text: "All trials", on: { click: all } }),
-      h("div", { class: "run-line run-title" }, h("b", { text: now.name })), deletedLine(now), facts(now), sourcePart(now, video)].filter(Boolean));
+      h("div", { class: "run-line run-title" }, h("b", { text: now.name })), exampleLine(now), deletedLine(now), facts(now), sourcePart(now, video)].filter(Boolean));
     tail.replaceChildren(...[endsLine(now, (changes) => sync.change(changes)), comparison.element, iterationTable(now),
       movementTable("Movement as published", "Largest excursions from the first frame; never negative. Angles on the platform. The planned motion by the same definition", now.figures, now.plan, published),
       movementTable("Movement, first to last", "Last minus first frame; angles on the platform", now.figures, now.plan, net),

@@ -1,6 +1,6 @@
 /** The list of trials, and gaits by steps compared in a table that sorts by any column. */
 
-import { h, svg } from "../lib/dom.js";
+import { h, onPress, setAllowed, setText, svg } from "../lib/dom.js";
 import { clockTime, counted, fixed } from "../lib/format.js";
 import { ticket } from "../lib/latest_only.js";
 import { attempt } from "../lib/toasts.js";
@@ -69,8 +69,38 @@ function comparedTable(groups, band) {
   return h("table", { class: "run-table trial-compared" }, h("caption", { text: "Gaits compared" }), h("thead", {}, h("tr", {}, ...heads.map(({ cell }) => cell))), rows);
 }
 
+/** What marks a trial that no robot did. */
+export const exampleMark = () => h("span", { class: "trial-example", text: "Example, made by simulation" });
+
+/** What an empty list teaches, and an example to look at. */
+function emptyPart(open) {
+  const button = h("button", { text: "Look at an example" });
+  const words = h("p", { class: "quiet", role: "status", "aria-label": "Example" });
+  const allow = (busy) => {
+    setAllowed(button, busy, "Simulates a walk of the library and keeps it as a trial, marked as an example");
+    setText(words, busy ?? "A few seconds. It can be deleted like any trial, and counts in no comparison.");
+  };
+  const make = attempt(async () => {
+    // The list is drawn anew when the trial is there: only where the person has left it the example is not opened.
+    const list = button.closest(".trial-part");
+    allow("A walk of the library is being simulated…");
+    try {
+      const { id } = await trialApi.example();
+      if (list?.isConnected) open(id);
+    } finally {
+      allow(null);
+    }
+  });
+  allow(null);
+  onPress(button, make);
+  return h("div", { class: "trial-empty" },
+    h("p", { class: "teach", text: "No trial yet. Add the foot tracks of a recording: how far each foot went, which way, how fast, and how that compares with the plan." }),
+    h("div", { class: "buttons" }, button), words);
+}
+
 function trialRow(trial, open) {
   const button = h("button", { class: "run-row", data: { trial: trial.id }, title: "Show this trial beside its plan", on: { click: () => open(trial.id) } },
+    trial.is_example && h("span", { class: "run-line" }, exampleMark()),
     h("span", { class: "run-line" }, h("b", { text: trial.name }), h("span", { text: `${fixed(trial.distance, 1)} of ${fixed(trial.expected_cm, 1)} cm` })),
     h("span", { class: "run-line quiet" }, h("span", { text: [trial.gait_name, trial.by, clockTime(trial.made)].filter(Boolean).join(" · ") })),
     trial.note ? h("span", { class: "run-line run-note", text: trial.note }) : null);
@@ -87,8 +117,8 @@ function listParts({ trials, compared, unreadable }, { open, band }) {
   const groups = compared.map((group) => ({ ...group, lines: trials.filter(({ id }) => group.trials.includes(id)) }));
   const file = (form, text, help) => h("a", { href: `/api/trials/table?form=${form}`, download: "", text, title: help });
   return [
-    trials.length ? comparedTable(groups, band) : h("p", { class: "teach", text: "No trial yet. Add the foot tracks of a recording: how far each foot went, which way, how fast, and how that compares with the plan." }),
-    ...(trials.length ? [h("div", { class: "run-files" }, file("csv", "CSV", "The table of gaits"), file("latex", "LaTeX", "The table of gaits for a paper"),
+    ...(trials.length ? [] : [emptyPart(open)]),
+    ...(groups.length ? [comparedTable(groups, band), h("div", { class: "run-files" }, file("csv", "CSV", "The table of gaits"), file("latex", "LaTeX", "The table of gaits for a paper"),
       h("a", { href: "/api/trials/report", download: "", text: "Report", title: "One HTML file with the table, and the trials of each gait over each other" }))] : []),
     h("ul", { class: "run-list", role: "list", "aria-label": "Trials" }, ...trials.map((trial) => trialRow(trial, open)), ...unreadable.map(unreadableRow)),
   ];

@@ -24,6 +24,8 @@ from core.vision.track import FootTrack
 _LINES = {"tracked": "solid", "simulated": "dashed", "planned": "dotted"}
 
 
+EXAMPLE = "Example, made by simulation: no robot did this."
+
 _ENDS = {
     "hand": "moved by hand",
     "run": "by the log of the run",
@@ -56,6 +58,7 @@ class TrialReportService:
         comparison, sources = self._comparison.figures(trial), self._comparison.sources(record)
         key = _key(record, sources)
         parts = [
+            f'<p class="note">{text(EXAMPLE)}</p>' if summary["is_example"] else "",
             facts(_words(summary)),
             f'<p class="note">{text(summary["note"])}</p>' if summary["note"] else "",
             _beside_table(comparison["rows"]),

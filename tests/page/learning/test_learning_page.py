@@ -47,8 +47,12 @@ def test_a_course_runs_in_the_background_and_can_be_cancelled(
         panel.get_by_role("checkbox", name=GAITS[2]).uncheck()
         learn = panel.get_by_role("button", name="Learn", exact=True)
         expect(learn).to_have_attribute("aria-disabled", "true")
-        expect(learn).to_have_attribute("title", re.compile("^The ticked trials are of 2 gaits; 3 different"))
+        why = re.compile("^The ticked trials are of 2 gaits; 3 different")
+        expect(learn).to_have_attribute("title", why)
+        expect(panel.get_by_role("status", name="What Learn needs")).to_have_text(why)
+        expect(panel.get_by_text("It is not known what the robot was sent")).to_be_visible()
         panel.get_by_role("checkbox", name=GAITS[2]).check()
+        expect(panel.get_by_role("status", name="What Learn needs")).to_be_hidden()
         learn.click()
         expect(panel.get_by_role("status", name="Learning")).to_have_text(
             re.compile(r"^\d+ of \d+ simulations")

@@ -24,6 +24,35 @@ def track(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.heavy
+def test_an_empty_list_offers_an_example_that_is_marked_and_never_learned_from(
+    browser: Browser, studio: StudioProcess
+) -> None:
+    with opened_page(browser, studio.url, 1280, 800, has_scene=False) as page:
+        open_drawer(page, "Trials")
+        panel = page.get_by_role("region", name="Trials")
+        panel.get_by_role("button", name="Look at an example").click()
+        expect(panel.get_by_text("No robot did this. It counts in no comparison")).to_be_visible(
+            timeout=60_000
+        )
+        expect(panel.get_by_role("img", name=re.compile("^Feet from above"))).to_be_visible()
+        panel.get_by_role("button", name="All trials").click()
+        row = panel.get_by_role("list", name="Trials", exact=True).get_by_role("listitem")
+        expect(row).to_contain_text("Example, made by simulation")
+        expect(panel.get_by_role("table", name="Gaits compared")).to_have_count(0)
+        panel.get_by_role("button", name="Learn from trials").click()
+        expect(panel.get_by_role("checkbox", name=re.compile("^Example"))).to_be_disabled()
+        expect(panel.get_by_text("nothing is learned from it").first).to_be_visible()
+        needs = panel.get_by_role("status", name="What Learn needs")
+        expect(needs).to_contain_text(
+            "There is no trial to learn from yet; 3 different gaits or steps are needed"
+        )
+        panel.get_by_role("button", name="All trials").click()
+        row.get_by_role("button").click()
+        panel.get_by_role("button", name="Delete", exact=True).click()
+        expect(panel.get_by_role("button", name="Look at an example")).to_be_visible()
+
+
 def test_a_track_is_added_compared_moved_deleted_and_brought_back(
     browser: Browser, studio: StudioProcess, track: Path
 ) -> None:

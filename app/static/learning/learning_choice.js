@@ -1,0 +1,55 @@
+/** The trials to learn from: a list to tick, the button that starts, and in words what is still needed. */
+
+import { h, onPress, setAllowed, setText } from "../lib/dom.js";
+import { counted, fixed } from "../lib/format.js";
+import { toast } from "../lib/toasts.js";
+
+const LEAST_GAITS = 3;
+const WHERE = "Each trial has to be laid over its run or gait: choose that where a trial is added.";
+
+const gaitOf = ({ gait_name: gait, name, expected_cm: wanted, iterations }) => `${gait || name}, ${fixed(wanted / iterations)} cm × ${iterations}`;
+
+/** Why nothing can be learned from a trial; null where it can. */
+function whyNot({ is_example: isExample, gait, run }) {
+  if (isExample) return "Made by simulation: no robot did this, so nothing is learned from it.";
+  return gait || run ? null : "It is not known what the robot was sent: add the trial again, laid over its run or gait.";
+}
+
+function trialLine(trial, changed) {
+  const why = whyNot(trial);
+  const box = h("input", { type: "checkbox", value: trial.id, checked: !why, disabled: Boolean(why), on: { change: changed } });
+  const label = h("label", {}, box, h("span", { text: trial.name }), !trial.is_example && h("span", { class: "quiet", text: gaitOf(trial) }));
+  return { box, trial, element: h("li", {}, label, why && h("p", { class: "quiet", text: why })) };
+}
+
+/** What is missing, from the trials that there are and the gaits of those that are ticked; null where nothing is. */
+function missingText(trials, gaits) {
+  if (gaits >= LEAST_GAITS) return null;
+  const have = trials.some((trial) => !whyNot(trial)) ? `The ticked trials are of ${counted(gaits, "gait")}` : "There is no trial to learn from yet";
+  return `${have}; ${LEAST_GAITS} different gaits or steps are needed, so that one can be left out. ${WHERE}`;
+}
+
+/**
+ * A list of trials to tick, and the button that starts.
+ * @param {object[]} trials lines of the list of trials
+ * @param {(wanted: {trials: string[]}) => void} start
+ * @returns {HTMLElement}
+ */
+export function trialChoice(trials, start) {
+  const press = h("button", { class: "primary", text: "Learn" });
+  const needs = h("p", { class: "why", role: "status", "aria-label": "What Learn needs" });
+  const lines = trials.map((trial) => trialLine(trial, refresh));
+  const chosen = () => lines.filter(({ box }) => box.checked).map(({ trial }) => trial);
+
+  function refresh() {
+    const gaits = new Set(chosen().map(gaitOf)).size;
+    const missing = missingText(trials, gaits);
+    setAllowed(press, missing, "Simulates every gait some forty times, in the background");
+    setText(needs, missing ?? "");
+    needs.hidden = !missing;
+  }
+  refresh();
+  onPress(press, () => start({ trials: chosen().map(({ id }) => id) }), (why) => toast(why));
+  const list = h("ul", { class: "learning-trials", "aria-label": "Trials to learn from" }, ...lines.map(({ element }) => element));
+  return h("div", { class: "learning-choice" }, trials.length ? list : null, press, needs);
+}

@@ -38,7 +38,7 @@ function cutNote({ gaits }) {
 }
 
 function keeping(job, keep) {
-  if (!job.result.parameters.some((one) => one.is_identifiable)) return h("p", { class: "box-note", text: "These trials tell none of the parameters, so there is nothing to keep. More gaits, or more trials of each, may tell more." });
+  if (!job.result.parameters.some((one) => one.is_identifiable)) return h("p", { class: "box-note", text: "These trials do not identify any parameter, so there is nothing to keep. Add gaits, or more trials of each." });
   const name = h("input", { "aria-label": "Name of the set", placeholder: "Name, such as the floor", maxlength: "80", required: true });
   return h("form", { class: "learned-keep", on: { submit: (event) => { event.preventDefault(); keep(job, name.value); } } }, name,
     h("button", { class: "primary", text: "Keep as a set", title: "Offered in Simulate under Physics, by name and version; nothing uses it before it is chosen there" }));

@@ -13,9 +13,9 @@ const TEXTS = {
   cancelled: ["Cancelled", "quiet", "broken off before a pattern was found"],
 };
 
-/** "4 changes · 8 of single limbs": a pattern's score in words. */
+/** "4 moments of change · 8 foot changes": a pattern's score in words. */
 function scoreText({ sample_changes: changes, limb_changes: single, redrawn }, kept) {
-  return [counted(changes, "change"), `${single} of single limbs`, kept && `${counted(redrawn, "cell")} redrawn`].filter(Boolean).join(" · ");
+  return [`${counted(changes, "moment")} of change`, `${single} foot changes`, kept && `${counted(redrawn, "cell")} redrawn`].filter(Boolean).join(" · ");
 }
 
 /** How far the best pattern may be from the best there is, as a percentage. */

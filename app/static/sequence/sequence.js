@@ -127,7 +127,7 @@ const FIELDS = [
     help: "How high a foot rises at least where it steps to another place", ...option("clearance", 1000) },
   { label: "Stability margin", name: "Stability margin between parts", unit: "mm", min: 0, max: 30, step: 0.5, decimals: 2,
     help: "Least distance of the centre of pressure from the support polygon's edge while feet step", ...option("margin", 1000) },
-  { label: "Phase length", name: "Phase knots between parts", unit: "knots", min: 2, max: 50, step: 1, decimals: 0,
+  { label: "Phase length", name: "Phase length between parts", unit: "samples", min: 2, max: 50, step: 1, decimals: 0,
     help: "Length of each stance and of each swing of those steps", ...option("phase_knots") },
 ];
 

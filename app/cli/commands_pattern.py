@@ -186,7 +186,7 @@ def _gap(content: Json) -> str:
 
 def _scores(pattern: Pattern) -> str:
     return (
-        f"{counted(pattern.sample_changes, 'moment')} of change, "
+        f"Objective {pattern.sample_changes}: {counted(pattern.sample_changes, 'moment')} of change, "
         f"{counted(pattern.limb_changes, 'foot change')}."
     )
 

@@ -42,7 +42,9 @@ class OptionBounds:
             return None
         number = f"{shown:d}" if isinstance(shown, int) else f"{shown:g}"
         allowed = f"it must lie between {self.least:g} and {self.most:g}{self.unit}"
-        return f"The {sayable(name)} is {number}{self.unit}; {allowed}."
+        words, field = sayable(name), name.replace("_", " ")
+        called = words if words == field else f"{words} ({name})"
+        return f"The {called} is {number}{self.unit}; {allowed}."
 
 
 def sayable(name: str) -> str:

@@ -100,6 +100,7 @@ export function searchPart(store, { request, nameOf, use }) {
     error.hidden = true;
     try {
       await fastestApi.search(request(), front.checked);
+      element.scrollIntoView({ block: "start" });
     } catch ({ message }) {
       setText(error, message);
       error.hidden = false;

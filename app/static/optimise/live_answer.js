@@ -87,8 +87,8 @@ export function liveAnswer(store, edits, goTo) {
   const tryout = tryouts(store);
   const use = (document, label) => {
     tryout.end();
-    // Its button goes; Undo, which brings the drawing back, is the next thing to press.
-    if (element.contains(window.document.activeElement)) byId("undo").focus({ preventScroll: true });
+    // Its button goes. The step's title is no control: Space plays there, and the next Tab leads on from it.
+    if (element.contains(window.document.activeElement)) byId("step-title").focus({ preventScroll: true });
     edits.edit(({ name, notes }) => ({ ...document, name, notes }), label);
   };
   const remedies = remedyList({ use, show: tryout.show, end: tryout.end });

@@ -334,7 +334,9 @@ def test_a_long_search_shows_bound_and_gap_and_can_be_ended(search: Page) -> Non
     search.route("**/api/patterns/1**", lambda route: route.fulfill(json=running))
     search.get_by_label("Length", exact=True).fill("21")
     shown = search.get_by_role("status", name="Search", exact=True)
-    expect(shown).to_contain_text("best 5 moments of change · 8 foot changes · score 5008, at least 4006 · gap 20 %")
+    expect(shown).to_contain_text(
+        "best 5 moments of change · 8 foot changes · score 5008, at least 4006 · gap 20 %"
+    )
     expect(search.get_by_role("button", name="Make gait")).to_have_attribute("aria-disabled", "true")
     assert serious_findings(search, SEARCH) == []
     for button, asked in (

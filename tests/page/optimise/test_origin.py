@@ -69,7 +69,7 @@ def test_a_result_is_named_until_the_gait_is_another_one(page: Page) -> None:
     step = page.get_by_role("spinbutton", name="Step", exact=True)
     step.fill("9")
     step.press("Enter")
-    expect(origin(page)).to_have_text(re.compile(r"for another version: stale\.$"))
+    expect(origin(page)).to_have_text(re.compile(r"for another version: out of date\.$"))
     page.get_by_role("button", name=re.compile("^Undo")).click()
     expect(origin(page)).to_have_text(re.compile(r"^Optimised \d\d:\d\d in \d+ ms\.$"))
 

@@ -32,7 +32,7 @@ def test_the_stop_bound_says_what_it_costs_and_a_change_takes_the_approval(
         assert shown["document"]["options"]["stop_bound"] is None
         assert shown["plan"]["waypoints_hash"] != before["plan"]["waypoints_hash"]
         assert shown["plan"]["robot_seconds"] < before["plan"]["robot_seconds"]
-        words = f"{shown['plan']['waypoint_count']} waypoints of {len(shown['plan']['times'])} knots"
+        words = f"{shown['plan']['waypoint_count']} waypoints of {len(shown['plan']['times'])} samples"
         expect(sending).to_contain_text(words)
         bound.fill("0.3")
         bound.press("Enter")

@@ -12,6 +12,7 @@ import { mountStage } from "./stage/stage.js";
 import { attempt } from "./lib/toasts.js";
 import { mountTrialEntry } from "./lab/entry.js";
 import { mountNextActs } from "./steps/next_act.js";
+import { openStep } from "./steps/steps.js";
 import { selectGait } from "./shell/gait_list.js";
 import { mountVersions } from "./shell/versions.js";
 
@@ -20,7 +21,9 @@ function mountFastest(store, gaitTools) {
   const open = attempt(async (job = null) => {
     const { askFastest } = await import("./fastest/fastest.js");
     const id = await askFastest(store, job);
-    if (id) await selectGait(store, id);
+    if (!id) return;
+    await selectGait(store, id);
+    openStep("design");
   });
   gaitTools.addNew({ text: "Fastest gait…", help: "For the robot's clock: each choice with its speed in mm/s, and a search over foot orders", act: () => open() });
   store.watch(({ fastestWanted }) => [fastestWanted], ({ fastestWanted }) => {

@@ -70,10 +70,12 @@ function headFields(store, list, request) {
 }
 
 function form(store, list, close) {
-  let head = null;
+  let [head, named] = [null, null];
   const request = fastestRequest((value, title) => {
     head.follow(value, title);
     search.show(store.state);
+    if (value.robot !== named) search.rename();
+    named = value.robot;
   });
   const search = searchPart(store, { request: request.value, nameOf: request.nameOf, use: request.ask });
   head = headFields(store, list, request);

@@ -17,7 +17,7 @@ function outcomeText(option, title, isLooking) {
   const { price } = option;
   if (price.pace === null) return `${title}: no gait keeps every limit with these values.`;
   const cycle = price.on_the_spot ? `${degrees(Math.abs(price.turn), 1)}°` : `${mm(price.step)} mm`;
-  return `${title}: ${speedText(price)} in mid-walk, ${cycle} in ${price.moves} moves and ${fixed(price.seconds, 1)} s a cycle.`;
+  return `${title}: ${speedText(price)} in mid-walk, ${cycle} in ${price.moves} moves and ${fixed(price.seconds, 1)} s a cycle. From rest to rest it is slower: its first and last steps are shorter.`;
 }
 
 /**

@@ -47,7 +47,11 @@ function triedTable(nameOf, use) {
       });
       element.hidden = !sorted.length;
     },
-    clear() { this.show([]); },
+    /** Makes every row anew: foot orders have other names now. */
+    rename(tried) {
+      this.show([]);
+      this.show(tried);
+    },
   };
 }
 
@@ -126,10 +130,19 @@ export function searchPart(store, { request, nameOf, use }) {
     bar.style.transform = `scaleX(${job?.share ?? 0})`;
     setText(words, job ? sentenceOf(job) : "");
     setText(searched, job?.tried?.length ? `Searched with: ${searchedText(job.request)}.` : "");
-    if (job?.id !== before) table.clear();
+    if (job?.id !== before) table.show([]);
     if (job) table.show(listed(job));
     showFront(job ?? {});
   }
 
-  return { element, show, pick(id) { picked = id; } };
+  return {
+    element,
+    show,
+    rename() {
+      drawn = null;
+      if (job) table.rename(listed(job));
+      showFront(job ?? {});
+    },
+    pick(id) { picked = id; },
+  };
 }

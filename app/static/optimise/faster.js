@@ -160,7 +160,10 @@ function buttons(close, take) {
   const asNew = h("button", { type: "button", text: "As a new gait", title: NEW });
   asNew.addEventListener("click", () => take("new"));
   const cancel = h("button", { type: "button", text: "Cancel", on: { click: () => close(null) } });
-  const allow = (isAllowed) => { use.disabled = asNew.disabled = !isAllowed; };
+  const allow = (isAllowed, isBetter) => {
+    use.disabled = asNew.disabled = !isAllowed;
+    use.classList.toggle("primary", isBetter);
+  };
   return { element: h("div", { class: "buttons" }, cancel, asNew, use), allow };
 }
 
@@ -179,8 +182,9 @@ function ask(document, name, search) {
       sides.show(state);
       setText(line, lineOf(state, document));
       setText(notice, state.notice ?? "");
-      line.toggleAttribute("data-worse", isWorse(state, document));
-      acts.allow(state.state === "solved");
+      const isBetter = !isWorse(state, document);
+      line.toggleAttribute("data-worse", !isBetter);
+      acts.allow(state.state === "solved", isBetter);
     };
     const fail = (sentence) => show({ ...NOTHING, now: last.now, state: "failed", sentence });
     show({ ...NOTHING, state: "running", stage: "waiting for the solver" });

@@ -70,14 +70,14 @@ function stateOf(gait) {
   return pace(gait) ? "timed" : "unknown";
 }
 
-/** The last word of a line: the trouble of the gait, else its pace on the robot, else its orientation. */
+/** The last word of a line: the trouble of the gait, else its pace on the robot. */
 function tagOf(gait, state) {
   if (state === "unreadable" || state === "infeasible") return state;
   if (state === "outside") return "changed";
   const known = pace(gait);
   // The group's heading has the unit of speeds.
   if (known) return known.unit === SPEED_UNIT ? known.value : known.value + known.unit;
-  return gait.source === "sequence" ? "seq." : gait.orientation;
+  return gait.source === "sequence" ? "seq." : "–";
 }
 
 function titleOf(gait, state) {

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 from app.gaits.open_gait import OpenGait, VerdictOf
 from app.plans.plan import Plan, Solve
-from app.plans.sequence_plan import plan_of
-from app.store.database import Database
+from app.plans.sequence_plan import ResultFor, plan_of
 from core.gait.gait import Gait
 
 
@@ -22,13 +21,15 @@ class PlanCache:
     """The newest plan of each open gait.
 
     Args:
-        database: where results of the exact tier are.
+        result_for: gives the stored result that a document has.
         solve_for: gives what asks the live tier for a gait.
         verdict_of: checks a plan as everything stands now.
     """
 
-    def __init__(self, database: Database, solve_for: Callable[[Gait], Solve], verdict_of: VerdictOf) -> None:
-        self._database = database
+    def __init__(
+        self, result_for: ResultFor, solve_for: Callable[[Gait], Solve], verdict_of: VerdictOf
+    ) -> None:
+        self._result_for = result_for
         self.verdict_of = verdict_of
         self._solve_for = solve_for
         self._plans: dict[str, tuple[int, Plan]] = {}
@@ -36,7 +37,7 @@ class PlanCache:
 
     def made(self, gait: Gait) -> Plan:
         """Computes a document's plan now. Thread-safe."""
-        return plan_of(gait, self._database.result, self._solve_for)
+        return plan_of(gait, self._result_for, self._solve_for)
 
     def known(self, open_gait: OpenGait) -> Plan | None:
         """The plan of the gait's present revision, where it was made already."""

@@ -8,7 +8,6 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from app.common.json import Json
-from app.documents.gait_json import motion_hash
 from app.documents.stored_gait import stored_gait
 from app.gaits.approvals import ApprovalRequest, Approvals, approval_record, approved, is_confirmed
 from app.gaits.known_times import KnownTimes
@@ -17,13 +16,14 @@ from app.gaits.open_gait import OpenGait, gait_text
 from app.gaits.plan_cache import PlanCache, PlanRequest
 from app.gaits.recovery import GaitRecovery, WayOut
 from app.gaits.repository import GaitRepository
+from app.gaits.results import Results, lacks_poses
 from app.gaits.trash import DeletedGait
 from app.gaits.undo import merged_gait, without_unreadable
 from app.gaits.versions import VersionKind, Versions, is_said_already
 from app.gaits.views import require_line
 from app.plans.plan import Plan, Solve, verdict_of
-from app.plans.provenance import with_result
-from app.plans.sequence_plan import run_motions
+from app.plans.provenance import with_found_poses
+from app.plans.sequence_plan import runs_without_result
 from app.store.database import Database
 from app.store.edit_history_store import EditHistoryStore, VersionRow
 from app.store.gait_files import GaitFiles
@@ -36,8 +36,6 @@ from core.findings import Verdict
 from core.gait.gait import Gait, drawn_timeline
 from core.library.library import library
 from core.library.sequence import derived
-from core.pose_gaits.gait_poses import found_gait
-from core.robot.model import load_robot
 
 _SCRIPT = Author()
 
@@ -65,7 +63,8 @@ class GaitService:
     ) -> None:
         self._database = database
         self._simulated_for = simulated_for
-        self._plans = PlanCache(database, solve_for, self._verdict_of)
+        self._results = Results(database)
+        self._plans = PlanCache(self._results.of, solve_for, self._verdict_of)
         self._connected = connected
         log = EditHistoryStore(database)
         self.versions = Versions(log, clock)
@@ -85,8 +84,8 @@ class GaitService:
         there = self._open.get(gait_id)
         if there is None:
             return None
-        # A result's provenance is saved with the gait and is no edit, so that it makes no revision.
-        return there.revision, there.gait.provenance, self.times.last(gait_id)
+        # Poses that a search found are no edit, so that they make no revision.
+        return there.revision, there.gait.poses, self.times.last(gait_id)
 
     def glance(self, gait_id: str) -> tuple[Gait, bool, bool]:
         """A gait's present document, whether it is built in, and whether it is edited; not its history."""
@@ -259,19 +258,11 @@ class GaitService:
     def _edited(
         self, open_gait: OpenGait, gait: Gait, label: str, author: Author, notice: str | None = None
     ) -> OpenGait:
-        gait = self._with_known_poses(gait)
+        gait = self._results.with_known_poses(gait)
         require_line(gait)
         version = self.versions.due(open_gait)
         history = open_gait.history.edited(gait_text(gait), label, author, self._others(author))
         return self._put(open_gait.changed(history.pruned(), gait, notice), version)
-
-    def _with_known_poses(self, gait: Gait) -> Gait:
-        """The document with poses that were found for exactly what it asks, where its own are others."""
-        if gait.poses is None or found_gait(gait, load_robot(gait.robot)) is not None:
-            return gait
-        motion = motion_hash(gait)
-        content = self._database.result(motion)
-        return gait if content is None else with_result(gait, motion, content)
 
     def _others(self, author: Author) -> frozenset[str]:
         return self._connected() - {author.page}
@@ -318,7 +309,7 @@ class GaitService:
             raise StateError(
                 " ".join((*(state.sentence for state in skipped), error.sentence)), error.where
             ) from error
-        gait = merged_gait(open_gait.gait, step)
+        gait = self._results.with_late(gait_id, merged_gait(open_gait.gait, step))
         for state in skipped:
             self.versions.keep_unreadable(gait_id, state.position, state.document, author)
         notice = " ".join(state.sentence for state in skipped) or None
@@ -328,9 +319,6 @@ class GaitService:
     def save(self, gait_id: str, author: Author = _SCRIPT) -> OpenGait:
         """Writes the present document to the data folder."""
         open_gait = self.open_gait(gait_id)
-        plan = self._plans.known(open_gait)
-        if plan is not None and plan.provenance is not None:
-            open_gait = self._restated(open_gait, replace(open_gait.gait, provenance=plan.provenance))
         self._open[gait_id] = self._repository.write(
             open_gait, lambda saved: self.versions.keep(saved, VersionKind.SAVED, author)
         )
@@ -492,24 +480,64 @@ class GaitService:
         touched = [g for g in checked if g.verdict and g.verdict.waypoints_hash == waypoints_hash]
         return tuple(self._put(gait.unapproved("It was simulated since")) for gait in touched)
 
-    def on_result(self, motion: str, content: Json) -> tuple[OpenGait, ...]:
-        """Stores a checked result and gives back the open gaits whose plan it becomes."""
-        self._database.put_result(motion, content)
-        touched = []
-        for gait_id, open_gait in tuple(self._open.items()):
-            if motion in run_motions(open_gait.gait):
-                self._plans.drop(gait_id)
-                touched.append(self._resulted(open_gait, motion, content))
-        return tuple(touched)
+    def runs_without_result(self, open_gait: OpenGait) -> tuple[Gait, ...]:
+        """The runs of a sequence, each once, that the exact tier can solve and of which it has no result."""
+        return runs_without_result(open_gait.gait, self._results.of)
 
-    def _resulted(self, open_gait: OpenGait, motion: str, content: Json) -> OpenGait:
-        """The gait with a result's provenance in its present document, which is no edit of anybody."""
-        resulted = open_gait.unapproved("The motion was optimised")
-        gait = with_result(open_gait.gait, motion, content)
-        return self._put(resulted) if gait == open_gait.gait else self._restated(resulted, gait)
+    def on_result(
+        self, content: Json, gait_id: str | None = None, author: Author = _SCRIPT
+    ) -> OpenGait | None:
+        """Stores a checked result of the exact tier; the gait that it was asked for takes it, as an edit.
 
-    def _restated(self, open_gait: OpenGait, gait: Gait) -> OpenGait:
-        return self._put(replace(open_gait, gait=gait, history=open_gait.history.restated(gait_text(gait))))
+        Other gaits that ask the same keep their plans and approvals. A gait that changed meanwhile takes the
+        result when an undo makes it ask for that again.
+
+        Args:
+            content: the result as it is kept, with its provenance.
+            gait_id: the gait that it was asked for; None where it is only kept.
+            author: who asked.
+
+        Returns:
+            The gait with the result; None where it did not take it.
+        """
+        provenance = self._results.keep(content)
+        open_gait = None if gait_id is None else self._open.get(gait_id)
+        if open_gait is None:
+            return None
+        gait, is_asked = self._results.taken(open_gait.id, open_gait.gait, provenance)
+        if gait != open_gait.gait:
+            return self._edited(open_gait, gait, "Optimise", author)
+        plan = self._plans.known(open_gait)
+        if not is_asked or (plan is not None and plan.result == provenance.trajectory):
+            return None
+        self._plans.drop(open_gait.id)  # it names this result already, which was not here
+        return self._put(open_gait.unapproved("The motion was optimised"))
+
+    def on_poses(self, motion: str, content: Json) -> tuple[OpenGait, ...]:
+        """Stores what a search for poses ended with, for every gait that asks for it and has no poses yet.
+
+        Args:
+            motion: hash of what was asked.
+            content: the result as it is kept.
+
+        Returns:
+            The open gaits among them.
+        """
+        self._results.keep_poses(motion, content)
+        return tuple(
+            self._with_poses(open_gait, with_found_poses(open_gait.gait, motion, content))
+            for open_gait in tuple(self._open.values())
+            if lacks_poses(open_gait.gait, motion)
+        )
+
+    def _with_poses(self, open_gait: OpenGait, gait: Gait) -> OpenGait:
+        """The gait with poses in its present document, which are no edit of anybody."""
+        self._plans.drop(open_gait.id)
+        unapproved = open_gait.unapproved("Its poses were found")
+        if gait == open_gait.gait:
+            return self._put(unapproved)
+        history = open_gait.history.restated(gait_text(gait))
+        return self._put(replace(unapproved, gait=gait, history=history))
 
     def _put(
         self, open_gait: OpenGait, version: VersionRow | None = None, record: Json | None = None

@@ -17,6 +17,7 @@ from app.jobs.timing_view import timed_gait, timing_content, timing_problem
 from app.plans.plan import Plan, iterate_plan
 from app.plans.provenance import result_provenance
 from app.plans.verified_result import VerifiedResult, verify
+from app.undo.history import Author
 from core.errors import InputError, StateError, StorageError
 from core.gait.gait import Gait, motion_problem
 from core.gait.provenance import Provenance
@@ -26,6 +27,7 @@ from core.problem.motion_problem import MotionProblem
 from core.robot.model import RobotModel, load_robot
 from solver_jobs import Job, JobKind, JobQueue, JobState, MotionResult, SolveStatus, TimingResult
 
+_SCRIPT = Author()
 MOST_COURSES = 4
 """Jobs whose every iteration can still be looked at."""
 
@@ -34,14 +36,19 @@ KIND_WORDS = {JobKind.MOTION: "optimise", JobKind.TIMING: "timing"}
 """Kinds of jobs as the page and scripts name them."""
 
 
+OnResult = Callable[[Json, str | None, Author], object]
+"""Told of a checked result: its content, the id of the gait that takes it, if one does, and who asked."""
+
+
 @dataclass(frozen=True)
 class JobOrigin:
-    """What a job is for: the gait as it was, its motion's hash and the problem."""
+    """What a job is for: the gait as it was, its motion's hash, the problem and who asked."""
 
     gait_id: str
     gait: Gait
     motion: str
     problem: MotionProblem
+    author: Author
 
 
 class OptimisationService:
@@ -50,14 +57,14 @@ class OptimisationService:
     Args:
         job_repository: the list of jobs.
         job_queue: the worker processes.
-        on_result: told of a checked result: motion hash and content to keep.
+        on_result: told of a checked result: what to keep, the gait that takes it, and who asked.
     """
 
     def __init__(
         self,
         job_repository: JobRepository,
         job_queue: JobQueue,
-        on_result: Callable[[str, Json], None],
+        on_result: OnResult,
     ) -> None:
         self._job_repository = job_repository
         self._job_queue = job_queue
@@ -65,8 +72,13 @@ class OptimisationService:
         self._origins: dict[str, JobOrigin] = {}
         self._iterates: OrderedDict[str, tuple[RobotModel, tuple[Trajectory, ...]]] = OrderedDict()
 
-    def submit(self, open_gait: OpenGait, kind: JobKind = JobKind.MOTION) -> Json:
+    def submit(self, open_gait: OpenGait, kind: JobKind = JobKind.MOTION, author: Author = _SCRIPT) -> Json:
         """Starts the optimisation of a gait as it is now, or the search for its fastest timing.
+
+        Args:
+            open_gait: the gait; of a sequence, with the run of a part in place of its document.
+            kind: which of the two.
+            author: who asks, and takes the result back by an undo.
 
         Raises:
             StateError: the gait is made by hand.
@@ -84,7 +96,7 @@ class OptimisationService:
         problem = motion_problem(gait, load_robot(gait.robot))
         if kind is JobKind.TIMING:
             problem = timing_problem(gait, problem)
-        origin = JobOrigin(open_gait.id, gait, asked_hash(gait), problem)
+        origin = JobOrigin(open_gait.id, gait, asked_hash(gait), problem, author)
         job_id = self._job_queue.submit(problem, gait.name, kind)
         try:
             content = self._job_repository.begin(
@@ -172,13 +184,10 @@ class OptimisationService:
         if timed is None or result.usable is None:
             return None
         verified = verify(motion_problem(timed, load_robot(timed.robot)), result.usable)
-        return self._keep(asked_hash(timed), verified) if verified.status is SolveStatus.SOLVED else None
-
-    def _keep(self, motion: str, verified: VerifiedResult) -> Provenance:
-        """Hands a checked result on with its provenance."""
-        result = {**verified.content, "trajectory": trajectory_content(verified.trajectory)}
-        provenance = result_provenance(motion, result)
-        self._on_result(motion, {**result, "provenance": asdict(provenance)})
+        if verified.status is not SolveStatus.SOLVED:
+            return None
+        content, provenance = _kept(asked_hash(timed), verified)
+        self._on_result(content, None, _SCRIPT)
         return provenance
 
     def _verify(self, content: Json, origin: JobOrigin, result: MotionResult) -> None:
@@ -186,9 +195,17 @@ class OptimisationService:
         verified = verify(origin.problem, result)
         content["result"] = verified.content
         if verified.status is SolveStatus.SOLVED:
-            self._keep(origin.motion, verified)
+            kept, _ = _kept(origin.motion, verified)
+            self._on_result(kept, origin.gait_id, origin.author)
         elif content["state"] == JobState.DONE.value:
             content |= {"state": JobState.FAILED.value, "sentence": verified.explanation[0]}
+
+
+def _kept(motion: str, verified: VerifiedResult) -> tuple[Json, Provenance]:
+    """A checked result as it is kept, and its provenance."""
+    result = {**verified.content, "trajectory": trajectory_content(verified.trajectory)}
+    provenance = result_provenance(motion, result)
+    return {**result, "provenance": asdict(provenance)}, provenance
 
 
 def _iterate_content(iterate: Any) -> Json:

@@ -26,7 +26,6 @@ from core.gait.held_feet import HeldFeet, held_sentence
 from core.gait.manual_motion import manual_motion, stance_slip
 from core.gait.options import GaitOptions
 from core.gait.poses import FoundPoses
-from core.gait.provenance import Provenance
 from core.gait.recording import Recording, RecordingForm
 from core.motion.balance import balance_margins
 from core.motion.support_polygon import stability_margins
@@ -93,7 +92,6 @@ class Plan:
         live: the live tier's answer, where it was asked.
         seconds: time in the solver; None where none was asked.
         result: SHA-256 of the stored result that it is; None for every other plan.
-        provenance: of that result, where it is known.
         parts: of a sequence, and the moves between them; empty for a gait of its own.
         made_of: hash of the document that it was made of; None where it is of none.
         poses: of a gait for the robot's clock; adapted ones are not confirmed.
@@ -110,7 +108,6 @@ class Plan:
     live: VerifiedResult | None = None
     seconds: float | None = None
     result: str | None = None
-    provenance: Provenance | None = None
     parts: tuple[PlannedPart, ...] = ()
     made_of: str | None = None
     poses: PoseGait | None = None
@@ -181,7 +178,7 @@ def make_plan(gait: Gait, result: Json | None, solve: Solve) -> Plan:
 
     Args:
         gait: the document.
-        result: the stored result for exactly this document, where there is one.
+        result: the stored result that this document has, where there is one.
         solve: asks the live tier; called only where nothing else makes the plan.
     """
     model = load_robot(gait.robot)
@@ -201,7 +198,8 @@ def make_plan(gait: Gait, result: Json | None, solve: Solve) -> Plan:
         if stored is not None and result is not None:
             note = " ".join(filter(None, (_optimised_note(result), _held_note(gait, model))))
             plan = Plan(PlanSource.OPTIMISED, note, model, stored, None, None)
-            return with_waypoints(_with_origin(plan, result), gait.options)
+            seconds, trajectory = result["solve_seconds"], content_sha256(result["trajectory"])
+            return with_waypoints(replace(plan, seconds=seconds, result=trajectory), gait.options)
         plan = _live_plan(problem, verify(problem, solve(problem)))
         if plan.source is PlanSource.LIVE:
             plan = replace(plan, note=" ".join(filter(None, (plan.note, _held_note(gait, model)))))
@@ -280,16 +278,6 @@ def iterate_plan(model: RobotModel, trajectory: Trajectory, number: int, last: i
     """
     note = f"Iteration {number} of {last}: a motion on the solver's way, not the plan."
     return with_waypoints(Plan(PlanSource.ITERATE, note, model, trajectory, None, None), AS_PLANNED)
-
-
-def _with_origin(plan: Plan, result: Json) -> Plan:
-    kept = result.get("provenance")
-    return replace(
-        plan,
-        seconds=result["solve_seconds"],
-        result=content_sha256(result["trajectory"]),
-        provenance=None if kept is None else Provenance(**kept),
-    )
 
 
 def _recorded_plan(gait: Gait, recording: Recording, model: RobotModel) -> Plan:

@@ -25,8 +25,8 @@ from core.problem.start_footholds import SAME_PLACE
 from core.robot.model import load_robot
 from solver_jobs import SolveStatus
 
-ResultFor = Callable[[str], dict[str, Any] | None]
-"""Gives the stored result of a motion hash, where there is one."""
+ResultFor = Callable[[Gait], dict[str, Any] | None]
+"""Gives the stored result that a document has, where there is one."""
 SolveFor = Callable[[Gait], Solve]
 """Gives what asks the live tier for a gait."""
 
@@ -36,12 +36,12 @@ def plan_of(gait: Gait, result_for: ResultFor, solve_for: SolveFor) -> Plan:
 
     Args:
         gait: the document.
-        result_for: gives the stored result of exactly a document.
+        result_for: gives the stored result that a document has.
         solve_for: gives what asks the live tier where nothing else makes the plan.
     """
 
     def plan_single(single: Gait) -> Plan:
-        return make_plan(single, result_for(motion_hash(single)), solve_for(single))
+        return make_plan(single, result_for(single), solve_for(single))
 
     plan = sequence_plan(gait, plan_single, solve_for(gait)) if gait.sequence else plan_single(gait)
     return replace(plan, made_of=sent_hash(gait))
@@ -65,7 +65,7 @@ def runs_without_result(gait: Gait, result_for: ResultFor) -> tuple[Gait, ...]:
         InputError: a part would run through too many iterations.
     """
     runs = {motion_hash(run): run for run in _solved_runs(gait)}
-    return tuple(run for motion, run in runs.items() if result_for(motion) is None)
+    return tuple(run for run in runs.values() if result_for(run) is None)
 
 
 def _solved_runs(gait: Gait) -> list[Gait]:

@@ -10,10 +10,8 @@ from app.gaits.service import GaitService
 from app.jobs.optimisation_service import OptimisationService
 from app.jobs.repository import JobRepository
 from app.learning.parameter_sets import ParameterSets
-from app.plans.sequence_plan import runs_without_result
 from app.simulation.service import KIND as SIMULATE
 from app.simulation.service import SimulationService
-from app.store.database import Database
 from app.studio.publisher import Publisher
 from app.undo.history import Author
 from app.videos.tracking_service import KIND as TRACK
@@ -27,7 +25,6 @@ class JobCommands:
     """Starts and cancels jobs of every kind, and shows them to the pages; for the command queue's thread.
 
     Args:
-        database: where results are kept.
         gaits: the gaits.
         job_repository: the list of jobs.
         jobs: the optimisations.
@@ -38,7 +35,6 @@ class JobCommands:
         publisher: shows a job to the pages.
     """
 
-    database: Database
     gaits: GaitService
     job_repository: JobRepository
     jobs: OptimisationService
@@ -54,27 +50,27 @@ class JobCommands:
         What is optimised is computed from then on: a recorded motion is set aside, by an edit of the author.
         """
         open_gait = self.gaits.open_gait(gait_id)
-        content = self.jobs.submit(open_gait, kind)
+        content = self.jobs.submit(open_gait, kind, author)
         if kind is JobKind.MOTION and open_gait.gait.recorded is not None:
             computed = replace(open_gait.gait, recorded=None)
             self.gaits.edit(gait_id, computed, "Optimise", None, author)
             self.publisher.publish_soon(gait_id)
         return self.publisher.publish_job(content)
 
-    def submit_parts(self, gait_id: str) -> list[Json]:
+    def submit_parts(self, gait_id: str, author: Author) -> list[Json]:
         """Starts an optimisation of each part of a sequence that can have an exact motion and has none yet.
 
         Raises:
             StateError: there is none, or the gait is no sequence.
         """
         open_gait = self.gaits.open_gait(gait_id)
-        runs = runs_without_result(open_gait.gait, self.database.result) if open_gait.gait.sequence else ()
+        runs = self.gaits.runs_without_result(open_gait) if open_gait.gait.sequence else ()
         if not runs:
             raise StateError(
                 "There is no part to optimise: each has its exact motion, or is made by hand or recorded.",
                 "sequence",
             )
-        contents = [self.jobs.submit(replace(open_gait, gait=run)) for run in runs]
+        contents = [self.jobs.submit(replace(open_gait, gait=run), author=author) for run in runs]
         return [self.publisher.publish_job(content) for content in contents]
 
     def submit_simulation(self, gait_id: str, physics: str | None, variations: int) -> Json:

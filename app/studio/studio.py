@@ -45,6 +45,7 @@ from app.trials.photos import TrialPhotos
 from app.trials.report.service import TrialReportService
 from app.trials.service import TrialService
 from app.trials.simulated_feet import TrialSimulations
+from app.undo.history import Author
 from app.videos.lab import Lab
 from solver_jobs import BatchSimulator, Job, JobQueue, LiveSolver, PatternSolver, PoseGaitSolver, Simulator
 
@@ -118,7 +119,7 @@ class Studio:
         self.job_repository = JobRepository(database)
         pose_solver = self._register(PoseGaitSolver())
         self.pose_searches = PoseSearches(pose_solver, self._poses_answered, self._poses_sought)
-        self.faster = FasterGaits(pose_solver, self._keep_result)
+        self.faster = FasterGaits(pose_solver, self._keep_poses)
         self.publisher = Publisher(
             hub, self.gaits, self._plans, self.simulations, self.job_repository, self.pose_searches.look_at
         )
@@ -162,7 +163,6 @@ class Studio:
         self.reports = TrialReportService(trials, self.comparison, self.photos, runs)
         sets, tracks = self.learning.sets, lab.tracks
         self.job_commands = JobCommands(
-            database,
             self.gaits,
             job_repository,
             self.jobs,
@@ -236,12 +236,17 @@ class Studio:
         if content is not None:
             self.publisher.publish_job(content)
 
-    def _on_result(self, motion: str, content: Json) -> None:
-        self.publisher.publish_all_soon(self.gaits.on_result(motion, content))
+    def _on_result(self, content: Json, gait_id: str | None, author: Author) -> None:
+        resulted = self.gaits.on_result(content, gait_id, author)
+        if resulted is not None:
+            self.publisher.publish_soon(resulted.id)
 
-    def _keep_result(self, motion: str, content: Json) -> None:
-        """Stores a checked result of a motion that no gait may ask for yet. Thread-safe."""
-        self.commands.tell(lambda: self._on_result(motion, content))
+    def _on_poses(self, motion: str, content: Json) -> None:
+        self.publisher.publish_all_soon(self.gaits.on_poses(motion, content))
+
+    def _keep_poses(self, motion: str, content: Json) -> None:
+        """Stores checked poses that no gait may ask for yet. Thread-safe."""
+        self.commands.tell(lambda: self._on_poses(motion, content))
 
     def _poses_sought(self, gait_id: str, state: Json) -> None:
         self.hub.publish({"type": "search", "gait": gait_id, "search": state})
@@ -252,7 +257,7 @@ class Studio:
     def _take_poses(self, gait_id: str, answer: PoseAnswer) -> None:
         self.pose_searches.take(gait_id, answer)
         if answer.content is not None:
-            self._on_result(answer.motion, answer.content)
+            self._on_poses(answer.motion, answer.content)
         elif answer.failure is not None:
             self.publisher.publish_soon(gait_id)
 

@@ -100,7 +100,7 @@ async def resample_sequence(gait_id: str, asked: Resampling, studio: TheStudio, 
 
 
 @router.post("/gaits/{gait_id}/sequence/optimise", status_code=202)
-async def optimise_parts(gait_id: str, studio: TheStudio) -> Json:
+async def optimise_parts(gait_id: str, studio: TheStudio, author: TheAuthor) -> Json:
     """Starts the exact tier for each part that has no exact motion yet."""
-    views = await on_command_thread(studio, lambda: studio.job_commands.submit_parts(gait_id))
+    views = await on_command_thread(studio, lambda: studio.job_commands.submit_parts(gait_id, author))
     return {"jobs": [view["id"] for view in views]}

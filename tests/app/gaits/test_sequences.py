@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import time
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +28,7 @@ from app.gaits.sequence_documents import (
 )
 from app.gaits.service import GaitService
 from app.plans.plan import PlanSource
-from app.plans.sequence_plan import runs_without_result
+from app.plans.provenance import result_provenance
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
 from app.undo.history import Author
@@ -356,22 +356,25 @@ def test_a_solver_that_broke_off_is_asked_again(tmp_path: Path, database: Databa
     assert service.plan(tour) is not first
 
 
-def test_a_parts_exact_result_becomes_part_of_the_plan(
-    service: GaitService, tour: str, database: Database
-) -> None:
+def test_a_parts_exact_result_becomes_part_of_the_plan(service: GaitService, tour: str) -> None:
     run_gait = run_of(service.document(tour).sequence[0]).gait
     solved = solve_live(motion_problem(run_gait, load_robot(run_gait.robot)))
     content = {
-        "iterations": 9, "solve_seconds": 0.5, "max_violation": 1e-9,
+        "iterations": 9, "solve_seconds": 0.5, "max_violation": 1e-9, "status": "solved",
         "trajectory": trajectory_content(solved.trajectory),
     }  # fmt: skip
+    content["provenance"] = asdict(result_provenance(motion_hash(run_gait), content))
     service.check(tour)
-    touched = service.on_result(motion_hash(run_gait), content)
-    assert [one.id for one in touched] == [tour]
-    assert touched[0].verdict is None
+    twin = service.create(replace(service.document(tour), name="Twin")).id
+    resulted = service.on_result(content, tour)
+    assert resulted is not None
+    assert (resulted.verdict, resulted.undo_label()) == (None, "Optimise")
     assert [part.source for part in service.plan(tour).parts] == ["optimised", "live", "live"]
-    left = runs_without_result(service.document(tour), database.result)
+    assert [part.source for part in service.plan(twin).parts] == ["live", "live", "live"]
+    left = service.runs_without_result(resulted)
     assert [run.name for run in left] == ["Rotate 15°", "S-Gait 10 mm"]
+    service.undo(tour)
+    assert [part.source for part in service.plan(tour).parts] == ["live", "live", "live"]
 
 
 def test_five_parts_answer_well_under_a_second() -> None:

@@ -206,13 +206,6 @@ def test_a_gait_that_ends_in_the_air_keeps_its_drawing_and_says_why(service: Gai
         service.check(WALK)
 
 
-def test_a_result_for_an_older_version_is_not_shown_as_current(service: GaitService) -> None:
-    old = motion_hash(service.open_gait(WALK).gait)
-    edit(service, WALK)
-    assert service.on_result(old, {"trajectory": {}}) == ()
-    assert service.plan(WALK).source is PlanSource.DRAFT
-
-
 def test_locked_cells_stay_until_they_are_unlocked(service: GaitService) -> None:
     gait = service.open_gait(WALK).gait
     locked = gait.timeline.locked.copy()
@@ -238,11 +231,14 @@ def test_an_approval_is_of_the_verdict_that_was_seen(service: GaitService) -> No
         service.approve(MANUAL, ApprovalRequest("Ada", "0" * 64))
 
 
-def test_a_stored_result_that_the_checker_does_not_confirm_is_a_draft(service: GaitService) -> None:
+def test_a_stored_result_that_the_checker_does_not_confirm_is_a_draft(
+    service: GaitService, database: Database
+) -> None:
     gait = service.open_gait(WALK).gait
     drawn = service.plan(WALK).trajectory
     assert drawn is not None
-    service.on_result(motion_hash(gait), {"trajectory": trajectory_content(drawn)})
+    service.edit(WALK, replace(gait, notes="as it is"), "Notes", None)
+    database.put_result(motion_hash(gait), {"trajectory": trajectory_content(drawn)})
     assert service.plan(WALK).source is PlanSource.DRAFT
 
 

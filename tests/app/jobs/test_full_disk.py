@@ -12,6 +12,7 @@ from app.gaits.open_gait import fresh_gait
 from app.jobs.optimisation_service import OptimisationService
 from app.jobs.repository import JobRepository
 from app.store.database import Database
+from app.undo.history import Author
 from core.errors import NotFoundError, StorageFullError
 from core.gait.gait import motion_problem
 from core.library.library import library
@@ -52,7 +53,7 @@ def test_a_job_that_cannot_be_kept_is_not_begun(database: Database, monkeypatch:
 def test_a_result_that_cannot_be_kept_ends_its_job_with_the_reason(database: Database) -> None:
     results: list[Json] = []
 
-    def keep(motion: str, content: Json) -> None:
+    def keep(content: Json, gait_id: str | None, author: Author) -> None:
         results.append(content)
         refuse()
 

@@ -12,7 +12,7 @@ from app.documents.gait_json import gait_content, gait_from_content, motion_hash
 from app.gaits.normalise import normalise
 from app.gaits.pose_searches import result_content
 from app.plans.plan import PlanSource, make_plan, verdict_of
-from app.plans.provenance import with_result
+from app.plans.provenance import with_found_poses
 from app.plans.sequence_plan import plan_of
 from core.errors import InputError, StateError
 from core.gait.gait import Gait, heading_step
@@ -87,11 +87,11 @@ def test_a_change_adapts_the_poses_and_asks_for_new_ones(solved: Gait) -> None:
     result = solve_poses(pose_problem(changed, MODEL), near=near)
     content = result_content(result)
     assert content is not None
-    taken = with_result(changed, motion_hash(changed), content)
+    taken = with_found_poses(changed, motion_hash(changed), content)
     assert make_plan(taken, None, never_solve).source is PlanSource.POSES
     assert make_plan(changed, content, never_solve).source is PlanSource.POSES
     # What was asked before is found again without a search.
-    assert with_result(changed, motion_hash(solved), content) == changed
+    assert with_found_poses(changed, motion_hash(solved), content) == changed
 
 
 @pytest.mark.parametrize("direction", [2, 3, 4])

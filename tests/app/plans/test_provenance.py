@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import asdict, replace
 from datetime import datetime
 from pathlib import Path
@@ -12,6 +13,8 @@ import pytest
 from app.common.version import VERSION
 from app.documents.gait_json import asked_hash
 from app.documents.trajectory_json import content_sha256, trajectory_content
+from app.gaits.approvals import ApprovalRequest
+from app.gaits.open_gait import OpenGait
 from app.gaits.service import GaitService
 from app.plans.plan import PlanSource
 from app.plans.provenance import provenance_view, result_provenance
@@ -19,11 +22,13 @@ from app.store.database import Database
 from app.store.gait_files import GaitFiles
 from app.undo.history import Author
 from core.gait.gait import Gait, motion_problem
+from core.gait.provenance import Provenance
 from core.library.library import library
 from core.robot.model import load_robot
 from solver_jobs import solve_live
 
 WALK = "walk"
+SCRIPT = Author()
 
 
 def make_service(folder: Path, database: Database) -> GaitService:
@@ -52,11 +57,12 @@ def result_for(gait: Gait) -> dict[str, Any]:
     return {**content, "provenance": asdict(result_provenance(asked_hash(gait), content))}
 
 
-def take(service: GaitService, gait_id: str) -> dict[str, Any]:
+def take(service: GaitService, gait_id: str, author: Author = SCRIPT) -> dict[str, Any]:
     gait = service.open_gait(gait_id).gait
     content = result_for(gait)
-    touched = service.on_result(asked_hash(gait), content)
-    assert gait_id in [open_gait.id for open_gait in touched]
+    resulted = service.on_result(content, gait_id, author)
+    assert resulted is not None
+    assert resulted.id == gait_id
     return content
 
 
@@ -81,12 +87,59 @@ def test_a_result_that_is_taken_says_what_was_solved_and_what_came_out(service: 
     assert service.plan(WALK).source is PlanSource.OPTIMISED
 
 
-def test_it_is_no_edit_but_there_is_something_to_save(service: GaitService) -> None:
-    before = service.open_gait(WALK)
+def test_it_is_an_edit_that_can_be_undone_and_done_again(service: GaitService) -> None:
     take(service, WALK)
     after = service.open_gait(WALK)
-    assert (after.revision, after.undo_label(), after.edited) == (before.revision, None, True)
+    assert (after.undo_label(), after.edited) == ("Optimise", True)
+    undone = service.undo(WALK)
+    assert (undone.gait.provenance, undone.redo_label()) == (None, "Optimise")
+    assert service.plan(WALK).source is PlanSource.LIVE
+    service.redo(WALK)
+    assert service.plan(WALK).source is PlanSource.OPTIMISED
     assert service.save(WALK).edited is False
+
+
+def test_a_copy_that_is_optimised_leaves_its_source_and_the_approval_of_that(service: GaitService) -> None:
+    service.check(WALK)
+    service.approve(WALK, ApprovalRequest("Ada", accept_warnings=True))
+    gait_id = service.create(replace(service.open_gait(WALK).gait, name="Copy")).id
+    take(service, gait_id)
+    assert service.plan(gait_id).source is PlanSource.OPTIMISED
+    assert service.plan(WALK).source is PlanSource.LIVE
+    assert service.confirmed(WALK).approval is not None
+    assert shown(service, WALK) is None
+
+
+def test_the_same_motion_found_once_more_keeps_the_approval(service: GaitService) -> None:
+    content = take(service, WALK)
+    service.check(WALK)
+    approved = service.approve(WALK, ApprovalRequest("Ada", accept_warnings=True))
+    assert service.on_result(content, WALK) is None
+    assert service.open_gait(WALK) == approved
+
+
+def test_a_copy_of_an_optimised_gait_has_its_result_also_where_another_copy_has_a_newer_one(
+    service: GaitService,
+) -> None:
+    take(service, WALK)
+    optimised = service.open_gait(WALK).gait
+    first, second = (service.create(replace(optimised, name=name)).id for name in ("First", "Second"))
+    assert shown(service, first) == (True, True)
+    content = result_for(optimised)
+    content["trajectory"]["body_world"][20][2] += 1e-9
+    content["provenance"] = asdict(result_provenance(asked_hash(optimised), content))
+    service.on_result(content, second)
+    hashes = [service.plan(gait_id).result for gait_id in (WALK, first, second)]
+    assert hashes[0] == hashes[1] != hashes[2]
+
+
+def test_a_result_that_comes_after_an_edit_is_there_when_the_edit_is_undone(service: GaitService) -> None:
+    drawn = service.open_gait(WALK).gait
+    service.edit(WALK, longer(drawn), "Longer", None)
+    assert service.on_result(result_for(drawn), WALK) is None
+    assert shown(service, WALK) is None
+    service.undo(WALK)
+    assert shown(service, WALK) == (True, True)
 
 
 def test_an_edit_makes_it_stale_and_undo_makes_it_hold_again(service: GaitService) -> None:
@@ -104,8 +157,13 @@ def test_every_version_keeps_the_result_of_its_own(service: GaitService) -> None
     first = take(service, WALK)["provenance"]
     service.edit(WALK, longer(service.open_gait(WALK).gait), "Longer", None)
     second = take(service, WALK)["provenance"]
+
+    def twice(step: Callable[[str], OpenGait]) -> OpenGait:
+        step(WALK)
+        return step(WALK)
+
     for act, expected in ((service.undo, first), (service.redo, second), (service.undo, first)):
-        provenance = act(WALK).gait.provenance
+        provenance = twice(act).gait.provenance
         assert provenance is not None
         assert asdict(provenance) == expected
         assert shown(service, WALK) == (True, True)
@@ -150,28 +208,31 @@ def test_a_result_of_this_machine_takes_the_place_of_one_from_elsewhere(service:
     theirs = result_provenance(motion, {**content, "trajectory": {}})
     gait_id = service.create(replace(library()[WALK].gait, name="Theirs", provenance=theirs)).id
     assert shown(service, gait_id) == (True, False)
-    service.on_result(motion, content)
+    service.on_result(content, gait_id)
     assert shown(service, gait_id) == (True, True)
 
 
 def test_an_older_result_of_which_nothing_is_known_is_not_taken_for_the_one_that_is_named(
-    service: GaitService,
+    service: GaitService, database: Database
 ) -> None:
     content = result_for(library()[WALK].gait)
     motion = content.pop("provenance")["motion"]
     theirs = result_provenance(motion, {**content, "trajectory": {}})
     gait_id = service.create(replace(library()[WALK].gait, name="Theirs", provenance=theirs)).id
-    service.on_result(motion, content)
+    database.put_result(motion, content)
     assert service.plan(gait_id).source is PlanSource.OPTIMISED
     assert shown(service, gait_id) == (True, False)
 
 
-def test_a_result_that_was_found_for_another_gait_is_named_and_saved_too(service: GaitService) -> None:
-    take(service, WALK)
-    gait_id = service.create(replace(library()[WALK].gait, name="Twin")).id
-    assert service.open_gait(gait_id).gait.provenance is None
-    assert shown(service, gait_id) == (True, True)
-    assert service.save(gait_id).gait.provenance == service.open_gait(WALK).gait.provenance
+def test_a_result_that_an_older_program_stored_under_what_was_asked_is_of_the_document_that_names_it(
+    service: GaitService, database: Database
+) -> None:
+    gait = library()[WALK].gait
+    content = result_for(gait)
+    database.put_result(asked_hash(gait), content)
+    named = replace(gait, name="Named", provenance=Provenance(**content["provenance"]))
+    assert shown(service, service.create(named).id) == (True, True)
+    assert service.plan(WALK).source is PlanSource.LIVE
 
 
 def test_a_gait_without_a_result_has_none(service: GaitService) -> None:
@@ -179,15 +240,12 @@ def test_a_gait_without_a_result_has_none(service: GaitService) -> None:
     assert service.plan(WALK).result is None
 
 
-def test_a_result_of_what_an_undo_left_is_in_no_redos_way(service: GaitService) -> None:
+def test_a_result_of_what_an_undo_left_can_be_undone_too(service: GaitService) -> None:
     service.edit(WALK, longer(service.open_gait(WALK).gait), "Longer", None)
     service.undo(WALK)
     take(service, WALK)
-    redone = service.redo(WALK)
-    assert redone.gait.step == (0.0075, 0.0075, 0.0)
-    assert shown(service, WALK) in (None, (False, False))
-    service.undo(WALK)
     assert shown(service, WALK) == (True, True)
+    assert service.undo(WALK).gait == library()[WALK].gait
 
 
 def test_a_result_of_an_older_version_is_in_no_undos_way_beside_another_tabs_edit(
@@ -197,14 +255,14 @@ def test_a_result_of_an_older_version_is_in_no_undos_way_beside_another_tabs_edi
     service = GaitService(GaitFiles(tmp_path), database, lambda gait: solve_live, lambda: pages)
     take(service, WALK)
     service.edit(WALK, longer(service.open_gait(WALK).gait), "Longer", None, Author("one"))
-    newer = take(service, WALK)["provenance"]
+    take(service, WALK)
     service.edit(
         WALK, service.open_gait(WALK).gait.with_options(clearance=0.004), "Clearance", None, Author("two")
     )
-    undone = service.undo(WALK, Author("one")).gait
+    for _ in range(2):
+        undone = service.undo(WALK, Author("one")).gait
     assert (undone.step, undone.options.clearance) == (library()[WALK].gait.step, 0.004)
-    assert undone.provenance is not None
-    assert asdict(undone.provenance) == newer
+    assert shown(service, WALK) == (False, False)
 
 
 def test_beside_another_tabs_edit_an_undo_keeps_the_result_of_what_is_left(
@@ -215,7 +273,7 @@ def test_beside_another_tabs_edit_an_undo_keeps_the_result_of_what_is_left(
     one, two = Author("one", "Ada"), Author("two", "Bob")
     service.edit(WALK, longer(service.open_gait(WALK).gait), "Longer", None, one)
     service.edit(WALK, service.open_gait(WALK).gait.with_options(clearance=0.004), "Clearance", None, two)
-    provenance = take(service, WALK)["provenance"]
+    provenance = take(service, WALK, two)["provenance"]
     undone = service.undo(WALK, one).gait
     assert (undone.step, undone.options.clearance) == (library()[WALK].gait.step, 0.004)
     assert undone.provenance is not None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ import pytest
 from app.documents.gait_json import gait_content, motion_hash
 from app.documents.trajectory_json import trajectory_content
 from app.gaits.service import GaitService
+from app.plans.provenance import result_provenance
 from app.store.database import Database
 from app.store.gait_files import GaitFiles
 from app.studio.studio import Studio
@@ -68,8 +70,12 @@ def test_a_sequence_that_runs_too_often_keeps_no_result_from_another_gait(tmp_pa
         assert "at most 20 follow each other" in str(service.plan("long").refusal)
         service.open_gait("walk")
         solved = solve_live(motion_problem(walk, load_robot(walk.robot)))
-        result = {"solve_seconds": 0.5, "trajectory": trajectory_content(solved.trajectory)}
-        touched = service.on_result(motion_hash(walk), result)
+        result = {
+            "solve_seconds": 0.5,
+            "status": "solved",
+            "trajectory": trajectory_content(solved.trajectory),
+        }
+        provenance = asdict(result_provenance(motion_hash(walk), result))
+        assert service.on_result({**result, "provenance": provenance}, "long") is None
     finally:
         database.close()
-    assert [one.id for one in touched] == ["walk"]

@@ -24,7 +24,9 @@ def number(least: float, most: float, unit: str) -> Callable[[str], float]:
         except ValueError:
             raise argparse.ArgumentTypeError(f"“{text}” is not a number") from None
         if not (math.isfinite(value) and least <= value <= most):
-            raise argparse.ArgumentTypeError(f"{text} must lie between {least} and {most} {unit}")
+            is_mm = unit == "m" and most < value and least <= value / 1000 <= most
+            hint = f"; it is in m, did you mean {value / 1000:.3f}?" if is_mm else ""
+            raise argparse.ArgumentTypeError(f"{text} must lie between {least} and {most} {unit}{hint}")
         return value
 
     return convert

@@ -70,19 +70,8 @@ def run_fastest(options: Namespace) -> int:
             f"{options.output} is neither a waypoint file nor a gait file; end its name in .csv or .json.",
             "-o",
         )
-    model, found = load_robot(document.robot), None
-    if options.search or options.front:
-        if options.direction is not None:
-            raise InputError("The search chooses the direction too; leave out --direction.", "--direction")
-        with closing(FastestSearch(niceness=0)) as search:
-            problem = pose_problem(document, model)
-            found = searched(search, problem, options.order, options.front, show_progress)
-    with closing(PoseGaitSolver(niceness=0)) as solver:
-        if found is None or not found.ranked:
-            walk = _solved(solver, name, pose_problem(document, model))
-        else:
-            document, walk = _walk_of_search(solver, document, model, found)
-    problem = pose_problem(document, model)
+    document, walk, found = fastest_walk(options, name, document)
+    problem = pose_problem(document, load_robot(document.robot))
     written = None
     if options.output is not None and walk.walk.gait is not None and walk.status is SolveStatus.SOLVED:
         if options.output.suffix == ".json":
@@ -95,7 +84,7 @@ def run_fastest(options: Namespace) -> int:
         note(
             f"{problem.model.title} has no firmware of its own here; the DeltaWalker's law of time stands in."
         )
-    content, lines = _content(walk, problem, written), _lines(walk, written)
+    content, lines = walk_content(walk, problem, written), _lines(walk, written)
     if found is not None:
         content |= {"search": search_content(found)}
         lines = [*search_lines(found), *lines]
@@ -103,14 +92,44 @@ def run_fastest(options: Namespace) -> int:
     return {SolveStatus.SOLVED: 0, SolveStatus.INFEASIBLE: INFEASIBLE}.get(walk.status, NOT_FIT)
 
 
-def fastest_document(options: Namespace) -> tuple[str, Gait]:
+def fastest_walk(options: Namespace, name: str, document: Gait) -> tuple[Gait, FastestWalk, Searched | None]:
+    """The fastest walk of a document, or of all foot orders; the document without its poses, and the search.
+
+    Args:
+        options: whether to search, and over what.
+        name: what the walk is called.
+        document: what is asked.
+
+    Raises:
+        InputError: a search is to keep to one direction.
+    """
+    model, found = load_robot(document.robot), None
+    if options.search or options.front:
+        if options.direction is not None:
+            raise InputError("The search chooses the direction too; leave out --direction.", "--direction")
+        with closing(FastestSearch(niceness=0)) as search:
+            problem = pose_problem(document, model)
+            found = searched(search, problem, options.order, options.front, show_progress)
+    with closing(PoseGaitSolver(niceness=0)) as solver:
+        if found is None or not found.ranked:
+            walk = _solved(solver, name, pose_problem(document, model))
+        else:
+            document, walk = _walk_of_search(solver, document, model, found)
+    return document, walk, found
+
+
+def fastest_document(options: Namespace, like: Gait | None = None) -> tuple[str, Gait]:
     """The document of the walk that the options ask for, without poses yet, and the name of its gait.
+
+    Args:
+        options: what is asked.
+        like: a gait for foot order and direction; None for the one that the options name.
 
     Raises:
         InputError: there is no such gait, or what is asked does not fit together.
     """
     name = options.gait or _named_by(options.order)
-    gait = named_gait(name)
+    gait = named_gait(name) if like is None else like
     if gait.sequence:
         raise InputError(
             f"{name} is a sequence. Choose walk, amble, s-gait, c-gait or rotate, or give the foot order "
@@ -217,7 +236,8 @@ def _progress(what: str) -> Callable[[PoseProgress], None]:
     return tell
 
 
-def _content(walk: FastestWalk, problem: PoseProblem, written: str | None) -> Json:
+def walk_content(walk: FastestWalk, problem: PoseProblem, written: str | None) -> Json:
+    """A walk as JSON content, SI."""
     cycle, whole = walk.cycle.gait, walk.walk.gait
     checks = [result.check for result in (walk.cycle, walk.walk) if result.check is not None]
     solved = cycle is not None and whole is not None

@@ -72,36 +72,46 @@ def _source(options: Namespace) -> Exportable:
         for assumption in assumptions:
             note(assumption)
         return recorded
-    stem, gait = _gait(options, path)
+    stem, gait = stored_gait(options.source, options.data)
     if options.format in NEED_NO_MOTION:
         return Exportable(stem, gait, InputError("This form needs no motion.", "plan"))
-    return _planned(stem, gait, options.method)
+    plan = planned_gait(gait, options.method)
+    note(plan.note)
+    return exportable_plan(stem, gait, plan)
 
 
-def _gait(options: Namespace, path: Path) -> tuple[str, Gait]:
+def stored_gait(source: str, folder: Path | None) -> tuple[str, Gait]:
+    """A gait file, a saved gait or one that comes with the program, and what its files are called.
+
+    Args:
+        source: path or id.
+        folder: the data folder; None for the usual one.
+
+    Raises:
+        InputError: there is none, or it cannot be read.
+    """
+    path = Path(source)
     if path.suffix == ".json":
         return path.name.split(".")[0] or path.stem, parse_gait(read_text(path), path.name)
-    data: Path = options.data or default_data_folder()
-    if data.exists() and GaitFiles.is_id(options.source):
+    data = folder or default_data_folder()
+    if data.exists() and GaitFiles.is_id(source):
         files = GaitFiles(data)
-        if files.saved_at(options.source) is not None:
-            return options.source, files.read(options.source)
-    entry = library().get(options.source)
+        if files.saved_at(source) is not None:
+            return source, files.read(source)
+    entry = library().get(source)
     if entry is None:
         raise InputError(
-            f"There is no gait “{options.source}”: give a name that `footfall gaits` lists, a gait file "
+            f"There is no gait “{source}”: give a name that `footfall gaits` lists, a gait file "
             "(.json) or a trajectory (.csv).",
             "SOURCE",
         )
     return entry.id, entry.gait
 
 
-def _planned(stem: str, gait: Gait, method: Method) -> Exportable:
-    """The gait with its plan, made now; only what the checker confirms is a motion."""
+def planned_gait(gait: Gait, method: Method) -> Plan:
+    """The plan of any gait, made now; only what the checker confirms is a motion."""
     plan_single = partial(_plan, method=method)
-    plan = sequence_plan(gait, plan_single, solve_live) if gait.sequence else plan_single(gait)
-    note(plan.note)
-    return exportable_plan(stem, gait, plan)
+    return sequence_plan(gait, plan_single, solve_live) if gait.sequence else plan_single(gait)
 
 
 def _plan(gait: Gait, method: Method) -> Plan:
@@ -119,7 +129,7 @@ def _plan(gait: Gait, method: Method) -> Plan:
 
 def run_import(options: Namespace) -> int:
     """Makes a gait document from a trajectory, waypoints, a phase list or another gait document."""
-    described = _described(options)
+    described = imported_gait(options)
     content = gait_content(described.gait)
     for remark in described.remarks:
         note(remark)
@@ -137,7 +147,12 @@ def run_import(options: Namespace) -> int:
     return 0
 
 
-def _described(options: Namespace) -> DescribedGait:
+def imported_gait(options: Namespace) -> DescribedGait:
+    """The gait of another program's file.
+
+    Raises:
+        InputError: the file cannot be read.
+    """
     path: Path = options.file
     name = options.name or path.name.split(".")[0] or path.stem
     if path.suffix == ".npz" and options.sample_time is None:

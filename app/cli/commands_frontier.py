@@ -20,13 +20,13 @@ def run_frontier(options: Namespace) -> int:
     end_on_signals()
     gait = asked_gait(options)
     begin = time.perf_counter()
-    frontier = _search(gait, options).run()
+    frontier = frontier_search(gait, options).run()
     seconds = time.perf_counter() - begin
     output = options.output if frontier.motion is not None else None
     if output is not None and frontier.motion is not None:
         write_trajectory(output, frontier.motion, gait.robot)
     content = {
-        **_content(options, frontier),
+        **frontier_content(options.gait, frontier),
         "seconds": seconds,
         "trajectory": None if output is None else str(output),
     }
@@ -34,7 +34,7 @@ def run_frontier(options: Namespace) -> int:
     return 0 if frontier.reach > 0 else INFEASIBLE
 
 
-def _search(gait: Gait, options: Namespace) -> FrontierSearch:
+def frontier_search(gait: Gait, options: Namespace) -> FrontierSearch:
     """The search, with the heights free unless one is given.
 
     Raises:
@@ -57,12 +57,13 @@ def _search(gait: Gait, options: Namespace) -> FrontierSearch:
     )
 
 
-def _content(options: Namespace, frontier: Frontier) -> Json:
+def frontier_content(name: str, frontier: Frontier) -> Json:
+    """A frontier as JSON content, SI; `name` is the gait's."""
     gait = frontier.gait
     step, yaw = ("max_step", "live_step"), ("max_yaw", "live_yaw")
     found, absent = (yaw, step) if frontier.turns else (step, yaw)
     return {
-        "gait": options.gait,
+        "gait": name,
         **dict(zip(found, (frontier.reach, frontier.live_reach), strict=True)),
         **dict.fromkeys(absent),
         "limited_by": list(frontier.limited_by),

@@ -36,16 +36,21 @@ NOTHING: Json = {"objective": None, "limb_changes": None, "score": None, "patter
 def run_pattern(options: Namespace) -> int:
     """Finds the best footfall pattern, draws it, or says why there is none."""
     end_on_signals()
-    problem = asked_pattern(options)
-    if options.shortest:
-        problem = shortest_problem(problem)
-    result = _solved(problem, options)
-    failure = _failure(problem, result, options.seconds)
-    content = _content(problem, result, failure, options.words)
+    problem, result, failure = solved_pattern(options)
+    content = pattern_content(problem, result, failure, options.words)
     show(options, content, _lines(problem, result, failure, content))
     if failure is not None:
         return FAILED
     return INFEASIBLE if result.status is PatternStatus.INFEASIBLE else 0
+
+
+def solved_pattern(options: Namespace) -> tuple[PatternProblem, PatternResult, str | None]:
+    """What is asked, what the solver found, and why there is no checked answer, if there is none."""
+    problem = asked_pattern(options)
+    if options.shortest:
+        problem = shortest_problem(problem)
+    result = _solved(problem, options)
+    return problem, result, _failure(problem, result, options.seconds)
 
 
 def _solved(problem: PatternProblem, options: Namespace) -> PatternResult:
@@ -89,9 +94,10 @@ def _failure(problem: PatternProblem, result: PatternResult, seconds: float) -> 
     )
 
 
-def _content(
+def pattern_content(
     problem: PatternProblem, result: PatternResult, failure: str | None, arguments: list[str]
 ) -> Json:
+    """A result as JSON content; `arguments` are the command's, for what would help."""
     patterns = () if failure is not None else result.patterns
     answers = [_answer(problem, pattern) for pattern in patterns]
     best = answers[0] if answers else NOTHING

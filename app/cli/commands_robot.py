@@ -14,7 +14,7 @@ from typing import Any
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPlan
 from app.cli.output import INTERRUPTED, NOT_FIT, end_on_signals, note, show, verdict_lines, write
 from app.cli.served_cameras import served_cameras
-from app.cli.streaming import stream
+from app.cli.streaming import run_of_file, stream
 from app.common.signals import ending_signals
 from app.emulator.emulated_robot import start_emulator
 from app.export.trajectory_files import read_waypoints
@@ -112,7 +112,7 @@ def run_send(options: Namespace) -> int:
     plan = RunPlan(waypoints, _approval(verdict, options), (True,) * waypoints.count)
     data = (options.data or default_data_folder()).expanduser()
     clears_stop: bool = options.clear_stop
-    ended = stream(model, plan, options.file, options.robot, data, clears_stop=clears_stop)
+    ended = stream(plan, run_of_file(model, plan, options.file), options.robot, data, clears_stop=clears_stop)
     status = _report(options, ended.snapshot, plan)
     return INTERRUPTED if ended.is_interrupted else status
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from app.cli.commands_plan import ROBOT, sending_of, trajectory_of
 from app.cli.output import NOT_FIT, end_on_signals, note, show, tally
+from app.common.json import Json
 from app.common.signals import Interrupted
 from app.documents.gait_json import parse_gait
 from app.export.trajectory_files import read_text, read_trajectory
@@ -52,19 +53,30 @@ def run_simulate(options: Namespace) -> int:
         tell = _progress("Variations")
         runs = simulate_variations(problem, options.variations, options.seed, tell)
     passed = all(found.severity is not Severity.ERROR for found in findings)
-    content = {
+    content = simulation_content(problem, figures, findings, runs, options.seed)
+    show(options, content, _lines(problem, figures, findings, runs))
+    return 0 if passed else NOT_FIT
+
+
+def simulation_content(
+    problem: SimulationProblem,
+    figures: SimulationReport,
+    findings: Sequence[Finding],
+    runs: Sequence[VariedRun],
+    seed: int,
+) -> Json:
+    """A simulation as JSON content, SI."""
+    return {
         **report_figures(figures),
-        "passed": passed,
+        "passed": all(found.severity is not Severity.ERROR for found in findings),
         "findings": [asdict(found) for found in findings],
         "robot": problem.model.name,
         "physics": problem.physics.name,
         "rig": problem.rig.value,
         "waypoints": problem.waypoints.count,
         "hash": problem.waypoints.content_hash,
-        "variations": {"seed": options.seed, **variations_content(runs)} if runs else None,
+        "variations": {"seed": seed, **variations_content(runs)} if runs else None,
     }
-    show(options, content, _lines(problem, figures, findings, runs))
-    return 0 if passed else NOT_FIT
 
 
 def _simulated(problem: SimulationProblem) -> SimulatedMotion:
@@ -86,10 +98,10 @@ def _problem(options: Namespace) -> SimulationProblem:
     merge = merge if options.merge is None else options.merge
     bound = bound if options.stop_bound is None else options.stop_bound
     way = plan_waypoints(model, trajectory, merge, bound)
-    return way_problem(model, trajectory, way, _physics(options, model), options.rig)
+    return way_problem(model, trajectory, way, physics_set(options, model), options.rig)
 
 
-def _physics(options: Namespace, model: RobotModel) -> PhysicsSet:
+def physics_set(options: Namespace, model: RobotModel) -> PhysicsSet:
     """A set of the program, or one that was learned and is kept in the data folder.
 
     Raises:

@@ -26,7 +26,7 @@ _COLUMNS = ("+x", "−x", "dx", "+y", "−y", "dy", "dist", "angle", "% err", "n
 
 
 @dataclass(frozen=True)
-class _Trial:
+class Trial:
     """One file and what came of it."""
 
     path: Path
@@ -40,7 +40,7 @@ class _Trial:
 def run_trial(options: Namespace) -> int:
     """Movement tables of recorded foot tracks."""
     end_on_signals()
-    trials = [_read(options, path, track) for path, track in _tracks(options)]
+    trials = read_trials(options)
     for trial in trials:
         if trial.track.gaps:
             note(f"{trial.path}: {_gap_words(trial.track)}")
@@ -50,17 +50,27 @@ def run_trial(options: Namespace) -> int:
         note(
             f"The files have no times; they are taken to hold {FRAME_RATE:g} frames a second (--frame-rate)."
         )
-    overall = [trial.mean for trial in trials]
-    content = {
-        "files": [_content(trial) for trial in trials],
-        "mean": movement_content(mean_movement(overall)),
-        "spread": movement_content(spread(overall)) if len(overall) > 1 else None,
-    }
+    overall, content = [trial.mean for trial in trials], trials_content(trials)
     lines = [line for trial in trials for line in _lines(trial)]
     if len(trials) > 1:
         lines += [f"mean of {len(trials)} files", *_table([("all", mean_movement(overall))])]
     show(options, content, lines)
     return 0
+
+
+def read_trials(options: Namespace) -> list[Trial]:
+    """Every file, and how far its feet went."""
+    return [_read(options, path, track) for path, track in _tracks(options)]
+
+
+def trials_content(trials: list[Trial]) -> Json:
+    """Trials as JSON content, cm and degrees."""
+    overall = [trial.mean for trial in trials]
+    return {
+        "files": [_content(trial) for trial in trials],
+        "mean": movement_content(mean_movement(overall)),
+        "spread": movement_content(spread(overall)) if len(overall) > 1 else None,
+    }
 
 
 def _tracks(options: Namespace) -> Iterator[tuple[Path, FootTrack]]:
@@ -83,14 +93,14 @@ def _tracks(options: Namespace) -> Iterator[tuple[Path, FootTrack]]:
         yield path, tracked(path, setup)
 
 
-def _read(options: Namespace, path: Path, track: FootTrack) -> _Trial:
+def _read(options: Namespace, path: Path, track: FootTrack) -> Trial:
     expected = options.expect / 100.0
     feet = foot_movements(track, expected)
     if options.iterations is None:
-        return _Trial(path, track, feet, mean_movement(feet), None, ())
+        return Trial(path, track, feet, mean_movement(feet), None, ())
     found = find_iterations(track, options.iterations)
     parts = iteration_movements(track, found.ends, expected / options.iterations)
-    return _Trial(path, track, feet, mean_movement(feet), found, parts)
+    return Trial(path, track, feet, mean_movement(feet), found, parts)
 
 
 def _pixels(options: Namespace) -> PixelScale | None:
@@ -110,7 +120,7 @@ def _gap_words(track: FootTrack) -> str:
     )
 
 
-def _content(trial: _Trial) -> Json:
+def _content(trial: Trial) -> Json:
     content: Json = {"file": str(trial.path), **movement_content(trial.mean)}
     content["feet"] = [movement_content(foot) for foot in trial.feet]
     content["frames"] = trial.track.times.size
@@ -123,7 +133,7 @@ def _content(trial: _Trial) -> Json:
     return content
 
 
-def _lines(trial: _Trial) -> list[str]:
+def _lines(trial: Trial) -> list[str]:
     named = [(f"foot {number}", foot) for number, foot in enumerate(trial.feet, 1)]
     lines = [f"{trial.path} (cm, degrees)", *_table([*named, ("mean", trial.mean)])]
     for number, part in enumerate(trial.iterations, 1):

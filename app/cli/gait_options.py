@@ -62,7 +62,15 @@ def asked_gait(options: Namespace) -> Gait:
     Raises:
         InputError: there is no such gait, it is made by hand, or what is asked does not fit together.
     """
-    gait = named_gait(options.gait)
+    return gait_with_options(named_gait(options.gait), options)
+
+
+def gait_with_options(gait: Gait, options: Namespace) -> Gait:
+    """A gait with everything that a command line changes of it.
+
+    Raises:
+        InputError: what is asked does not fit together.
+    """
     if options.robot is not None:
         model = load_robot(options.robot)
         gait = with_robot(gait, model, options.order)

@@ -120,6 +120,16 @@ def make_parser() -> argparse.ArgumentParser:
     return parser
 
 
+def option_names(command: str) -> frozenset[str]:
+    """What the options of a command are called as keyword arguments, but for those that only print."""
+    for action in make_parser()._actions:
+        if isinstance(action.choices, dict):
+            options = action.choices[command]._option_string_actions
+            names = {name.removeprefix("--").replace("-", "_") for name in options if name.startswith("--")}
+            return frozenset(names - {"help", "json", "output"})
+    raise AssertionError(command)
+
+
 def _serve_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--host", default="127.0.0.1", help="address to listen on (default 127.0.0.1)")

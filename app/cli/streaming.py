@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -50,18 +51,34 @@ class Streamed:
     is_interrupted: bool
 
 
+class Tells(Protocol):
+    """Tells how far a run is."""
+
+    def tell(self, snapshot: RobotSnapshot) -> None:
+        """Tells what is new."""
+
+    def end(self) -> None:
+        """Ends the telling."""
+
+
 def stream(
-    model: RobotModel, plan: RunPlan, file: Path, device: str, data: Path, *, clears_stop: bool = False
+    plan: RunPlan,
+    run: RecordedRun,
+    device: str,
+    data: Path,
+    *,
+    clears_stop: bool = False,
+    progress: Tells | None = None,
 ) -> Streamed:
     """Connects the robot, sends the waypoints as a run that is kept, and waits for its end.
 
     Args:
-        model: the robot.
-        plan: the file's waypoints, approved.
-        file: what the run is called.
+        plan: the waypoints, approved.
+        run: what is kept of it.
         device: `emulator`, a serial device, or `socket://HOST:PORT`.
         data: the data folder.
         clears_stop: whether to lift a stop that the robot holds from before.
+        progress: is told how far it is; None for lines on standard error.
 
     Raises:
         InputError: the data folder cannot be used.
@@ -72,8 +89,7 @@ def stream(
     with closing(Database(data / "studio.sqlite3")) as database, _robot(device) as line:
         kept = RecordedBridge(database, lambda: note(kept.trouble or "The record of the run has caught up."))
         with closing(kept):
-            run = RecordedRun(_origin(plan, file), file_plan_content(model, plan))
-            sending = Sending(kept, plan, run, clears_stop=clears_stop)
+            sending = Sending(kept, plan, run, progress or Progress(plan), clears_stop=clears_stop)
             try:
                 return Streamed(sending.run(line), is_interrupted=False)
             except (KeyboardInterrupt, Interrupted):
@@ -81,9 +97,11 @@ def stream(
                 return Streamed(sending.stop(), is_interrupted=True)
 
 
-def _origin(plan: RunPlan, file: Path) -> RunOrigin:
+def run_of_file(model: RobotModel, plan: RunPlan, file: Path) -> RecordedRun:
+    """What is kept of a run of a waypoint file."""
     times = np.cumsum(plan.waypoints.durations) - plan.waypoints.durations[0]
-    return RunOrigin("", f"file:{file.name}", file.name, plan.waypoints, times)
+    origin = RunOrigin("", f"file:{file.name}", file.name, plan.waypoints, times)
+    return RecordedRun(origin, file_plan_content(model, plan))
 
 
 @contextmanager
@@ -102,18 +120,25 @@ class Sending:
         kept: the bridge and the record.
         plan: what is sent.
         run: what is kept of it, but for its id.
+        progress: is told how far it is.
         clears_stop: whether to lift a stop that the robot holds from before.
     """
 
     def __init__(
-        self, kept: RecordedBridge, plan: RunPlan, run: RecordedRun, *, clears_stop: bool = False
+        self,
+        kept: RecordedBridge,
+        plan: RunPlan,
+        run: RecordedRun,
+        progress: Tells,
+        *,
+        clears_stop: bool = False,
     ) -> None:
         self._kept = kept
         self._plan = plan
         self._run = run
         self._clears_stop = clears_stop
         self._by = plan.approval.by
-        self._progress = Progress(plan)
+        self._progress = progress
         self._changed = threading.Event()
         kept.bridge.subscribe(lambda snapshot: self._changed.set())
 

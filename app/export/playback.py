@@ -2,7 +2,6 @@
 
 import json
 from html import escape
-from importlib import resources
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from app.export.gait_diagram import PlotArea, facts, gait_diagram, plot_area, sa
 from app.export.source import Motion
 from app.export.svg import svg
 from core.arrays import Floats
+from core.data.tables import package_files
 from core.gait.gait import Gait
 from core.motion.support_polygon import stability_margins
 from core.robot.coupled_strokes import real_feet
@@ -49,7 +49,7 @@ def playback_page(gait: Gait, motion: Motion) -> str:
 
 
 def _part(name: str) -> str:
-    return resources.files("app.export").joinpath("page", name).read_text("utf-8")
+    return package_files("app.export").joinpath("page", name).read_text("utf-8")
 
 
 def _content(gait: Gait, motion: Motion) -> Json:

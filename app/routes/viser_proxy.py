@@ -12,7 +12,6 @@ import hashlib
 import importlib.util
 import json
 from collections.abc import Callable, Coroutine, Mapping, Sequence
-from importlib import resources
 from pathlib import Path
 from typing import Protocol
 
@@ -25,6 +24,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.typing import Subprotocol
 
 from app.scene.registry import FIRST_ROBOT
+from core.data.tables import package_files
 from core.errors import FootfallError, InputError, StateError
 
 CONTENT_SECURITY = "; ".join(
@@ -184,7 +184,7 @@ def poses_of(data: bytes) -> NDArray[np.float32]:
 def client_page() -> bytes:
     """The installed client's page with our script and style first in its head."""
     built = _viser_folder().joinpath("client", "build", "index.html").read_text("utf-8")
-    ours = resources.files("app").joinpath("static", "preview")
+    ours = package_files("app").joinpath("static", "preview")
     script = ours.joinpath("viser_frame.js").read_text("utf-8")
     style = ours.joinpath("viser_frame.css").read_text("utf-8")
     addition = f"<script>{script}</script><style>{style}</style>"

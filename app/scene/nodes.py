@@ -10,6 +10,7 @@ import yourdfpy
 from numpy.typing import NDArray
 
 from app.scene.poses import ROBOT_ROOT
+from core.data.tables import package_files
 from core.errors import InputError
 from core.robot.model import ROBOT_NAMES
 
@@ -41,7 +42,7 @@ def link_surfaces(robot_name: str) -> dict[str, tuple[Surface, ...]]:
     if robot_name not in ROBOT_NAMES:
         names = ", ".join(ROBOT_NAMES)
         raise InputError(f"There is no robot “{robot_name}”; choose one of {names}.", "robot")
-    with resources.as_file(resources.files("robot_description")) as folder:
+    with resources.as_file(package_files("robot_description")) as folder:
         urdf = yourdfpy.URDF.load(
             str(folder / f"{robot_name}.urdf"), build_scene_graph=False, load_meshes=False
         )

@@ -1,6 +1,5 @@
 """The web application: page, API, events and the 3D preview behind one port."""
 
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -40,6 +39,7 @@ from app.web.dependencies import install_error_handlers
 from app.web.head_requests import HeadRequests
 from app.web.page import ModulePage
 from app.web.socket_limit import SocketLimit
+from core.data.tables import package_files
 
 _ROUTERS = (
     exports.router,
@@ -97,7 +97,7 @@ def make_app(studio: Studio, scenes: Scenes, access: Access) -> FastAPI:
     install_error_handlers(app)
     for router in (*_ROUTERS, make_viser_router(scenes.of)):
         app.include_router(router)
-    static = Path(str(resources.files("app").joinpath("static"))).resolve()
+    static = Path(str(package_files("app").joinpath("static"))).resolve()
 
     module_page = ModulePage(static)
 

@@ -85,6 +85,21 @@ class StudioLock:
         self._lock.close()
 
 
+def studio_address(data: Path) -> str | None:
+    """Where the studio of a data folder can be reached; None where none is running."""
+    path = data / STUDIO
+    if not path.exists():
+        return None
+    try:
+        _Lock(path, fcntl.LOCK_SH).close()
+    except BlockingIOError:
+        address = _holder(path).get("address")
+        return address if isinstance(address, str) else None
+    except OSError as error:
+        raise _no_lock(path, error) from error
+    return None
+
+
 class DatabaseUse:
     """Held with others by each program that has the database open, and by one alone that replaces it.
 

@@ -6,12 +6,12 @@ import tomllib
 from dataclasses import asdict, dataclass, fields, is_dataclass
 from enum import StrEnum
 from functools import cache
-from importlib import resources
 from typing import Any
 
 import numpy as np
 
 from core.arrays import Floats, frozen_floats
+from core.data.tables import package_files
 from core.errors import InputError
 from core.robot.coupling import coupling_matrix
 
@@ -214,7 +214,7 @@ def load_robot(name: str) -> RobotModel:
     """
     if name not in ROBOT_NAMES:
         raise InputError(f"There is no robot “{name}”; choose one of {', '.join(ROBOT_NAMES)}.", "robot")
-    text = resources.files("robot_description").joinpath(f"{name}.toml").read_text("utf-8")
+    text = package_files("robot_description").joinpath(f"{name}.toml").read_text("utf-8")
     return robot_from_table(tomllib.loads(text), f"{name}.toml")
 
 

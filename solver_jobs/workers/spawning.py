@@ -3,9 +3,12 @@
 import multiprocessing
 import os
 import signal
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
+from types import ModuleType
 from typing import Any
 
 NICENESS = 5
@@ -34,9 +37,24 @@ def start_process(
     process = context.Process(
         target=_stand_back, args=(body, theirs, warm_up, niceness), name=name, daemon=True
     )
-    process.start()
+    with _without_main():
+        process.start()
     theirs.close()
     return process, ours
+
+
+@contextmanager
+def _without_main() -> Iterator[None]:
+    """Starts a worker without the file that is the main program, of which no worker has any need.
+
+    It would run a person's script once more, and load the command line in each worker of the studio.
+    """
+    main = sys.modules["__main__"]
+    sys.modules["__main__"] = ModuleType("__main__")
+    try:
+        yield
+    finally:
+        sys.modules["__main__"] = main
 
 
 def _stand_back(

@@ -91,6 +91,7 @@ ORDER: dict[str, tuple[str, ...]] = {
         "app/bench/page",
         "app/bench",
         "app/cli",
+        "app/scripting",
         "app",
     ),
     "app/static": (

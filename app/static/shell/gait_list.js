@@ -59,14 +59,25 @@ async function rename(store, id) {
   field.select();
 }
 
-/** After a greeting: the gait that runs, else the one shown, else the one used last, else the first. */
+/** The gait that the address names; it is asked for once, so that a reload shows what was shown last. */
+function takeNamed() {
+  const address = new URL(location.href);
+  const named = address.searchParams.get("gait");
+  if (named === null) return null;
+  address.searchParams.delete("gait");
+  history.replaceState(history.state, "", address);
+  return named;
+}
+
+/** After a greeting: the gait that the address names, that runs, that is shown, that was used last, or the first. */
 export function selectAfterHello(store) {
   const { gaits, selected, robot, view } = store.state;
+  const named = takeNamed();
   // What was just made may be shown before the greeting knows of it.
   const known = (id) => gaits.some((gait) => gait.id === id && !gait.problem) || id === view?.id;
   const running = robot?.run && robot.run.phase !== "ended" ? robot.run.gait : null;
   const first = gaits.find(({ problem }) => !problem)?.id;
-  const choice = [selected, running, lastUsed(), first].find((id) => id && known(id));
+  const choice = [named, selected, running, lastUsed(), first].find((id) => id && known(id));
   if (choice) selectGait(store, choice);
 }
 

@@ -5,11 +5,11 @@ import time
 from collections.abc import Iterable, Sequence
 from datetime import UTC, datetime
 from html import escape
-from importlib import resources
 
 from app.common.version import VERSION
 from app.export.drawing import Drawing
 from app.export.svg import svg
+from core.data.tables import package_files
 
 MINUS = "\u2212"
 
@@ -22,7 +22,7 @@ def page(title: str, parts: Iterable[str], origin: str) -> str:
         parts: HTML.
         origin: where it comes from, plain text.
     """
-    style = resources.files("app.export").joinpath("page", "report.css").read_text("utf-8")
+    style = package_files("app.export").joinpath("page", "report.css").read_text("utf-8")
     head = (
         '<!doctype html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'

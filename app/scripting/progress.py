@@ -1,0 +1,40 @@
+"""Progress of what takes seconds: a bar in a terminal or a notebook, where tqdm is installed."""
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+
+def _bar(what: str) -> Any:
+    """A bar from 0 to 100 %; None where tqdm is not installed, or nobody watches."""
+    try:
+        from tqdm.auto import tqdm  # type: ignore[import-untyped, unused-ignore]
+    except ImportError:
+        return None
+    is_watched = sys.stderr.isatty() or "ipykernel" in sys.modules
+    return tqdm(total=100, desc=what, unit="%", leave=False, disable=not is_watched)
+
+
+@contextmanager
+def progress_bar(what: str) -> Iterator[Callable[[float], bool]]:
+    """Shows how far it is.
+
+    Args:
+        what: is done, such as `Physics`.
+
+    Yields:
+        A function that takes the share that is done, 0 to 1, and is always true: go on.
+    """
+    bar = _bar(what)
+
+    def tell(share: float) -> bool:
+        if bar is not None:
+            bar.update(max(share * 100 - bar.n, 0.0))
+        return True
+
+    try:
+        yield tell
+    finally:
+        if bar is not None:
+            bar.close()

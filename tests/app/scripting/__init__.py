@@ -1,0 +1,1 @@
+"""Tests of `app.scripting`, through `footfall` as a script has it."""

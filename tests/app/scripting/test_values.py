@@ -1,0 +1,163 @@
+"""Gaits, plans, verdicts and the rest as a script has them, and what is refused in a sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import footfall as ff
+
+
+@pytest.fixture(autouse=True)
+def data_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """No gaits of the person who runs the tests."""
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
+    return tmp_path
+
+
+def plan_of_walk(**options: Any) -> Any:
+    return ff.optimise("walk", method="live", **options)
+
+
+def test_a_plan_has_the_arrays_that_its_docstring_says() -> None:
+    plan = plan_of_walk(iterations=2)
+    count = len(plan.times)
+    assert (plan.body.shape, plan.feet.shape) == ((count, 3), (count, 4, 3))
+    assert (plan.heading.shape, plan.contact.shape) == ((count,), (count, 4))
+    assert plan.waypoints.ndim == 3
+    assert np.linalg.norm(plan.body[-1, :2] - plan.body[0, :2]) == pytest.approx(0.020, abs=1e-6)
+    assert plan.speed == pytest.approx(0.020 / plan.robot_seconds, rel=1e-6)
+    assert 0 < plan.stop_seconds < 2.5
+    assert "solved" in repr(plan)
+
+
+def test_an_infeasible_plan_says_why_and_has_no_arrays() -> None:
+    plan = plan_of_walk(step=0.05)
+    assert plan.status == "infeasible"
+    assert "Lengthen its swing or shorten the step." in " ".join(plan.explanation)
+    with pytest.raises(ff.InfeasibleError, match="has to travel"):
+        _ = plan.body
+    with pytest.raises(ff.InfeasibleError, match="has to travel"):
+        ff.send(plan, to="emulator", by="Ada")
+    assert "has to travel" in plan._repr_html_()
+
+
+@pytest.mark.parametrize(
+    ("act", "kind", "words"),
+    [
+        (lambda: ff.optimise("wlk"), ff.InputError, "There is no gait “wlk” to optimise"),
+        (lambda: ff.gait("fast-c"), ff.InputError, "Did you mean “fast-c-gait”"),
+        (lambda: ff.gait("nothing at all"), ff.InputError, "There is no gait “nothing at all”"),
+        (lambda: ff.gait("nowhere.json"), ff.FootfallError, "nowhere.json"),
+        (lambda: ff.optimise("walk", step=10), ff.InputError, r"it is in m, did you mean 0\.010\?"),
+        (lambda: ff.fastest("walk", step=10), ff.InputError, r"it is in m, did you mean 0\.010\?"),
+        (lambda: ff.optimise("walk", stepp=0.01), ff.InputError, "Did you mean “step”"),
+        (lambda: ff.optimise("walk", method="guess"), ff.InputError, "must be one of live, nlp"),
+        (lambda: ff.plan([[0.005] * 3] * 3), ff.InputError, r"shape \(3, 3\); it must be \(n, 4, 3\)"),
+        (lambda: ff.plan([[np.nan] * 3] * 4), ff.InputError, "nan or infinity"),
+        (lambda: ff.check([["a"] * 3] * 4), ff.InputError, "no number"),
+        (lambda: ff.plan(np.full((2, 4, 3), 5.5)), ff.FootfallError, "mm"),
+        (lambda: ff.robot("spot"), ff.InputError, "There is no robot “spot”"),
+        (lambda: ff.robot().strokes([[0.0, 0.0, 0.0]] * 4), ff.FootfallError, "outside its workspace"),
+        (lambda: ff.send("walk-manual-0", to="emulator", by=" "), ff.InputError, "name of the person"),
+        (lambda: ff.send("hexapod-wave", to="emulator", by="Ada"), ff.FootfallError, "only the DeltaWalker"),
+        (lambda: ff.send("walk-manual-0", to="/dev/nothing", by="Ada"), ff.FootfallError, "/dev/nothing"),
+        (lambda: ff.sequence("walk", "hexapod-wave"), ff.InputError, "a sequence moves one robot"),
+        (lambda: ff.gait("walk").save("walk.txt"), ff.InputError, "a gait is written as .json, .svg, .png"),
+        (lambda: plan_of_walk().save("walk.xls"), ff.InputError, "a plan is written as .csv"),
+        (lambda: ff.show(ff.plan(np.full((2, 4, 3), 0.0055))), ff.InputError, "waypoints alone"),
+        (lambda: ff.trial("nowhere.csv", expect=5), ff.FootfallError, "nowhere.csv"),
+    ],
+)  # fmt: skip
+def test_bad_input_is_refused_in_a_sentence(
+    act: Callable[[], object], kind: type[Exception], words: str
+) -> None:
+    with pytest.raises(kind, match=words) as refusal:
+        act()
+    assert isinstance(refusal.value, ff.FootfallError)
+
+
+def test_strokes_of_ones_own_are_checked_and_simulated() -> None:
+    plan = plan_of_walk()
+    again = ff.plan(plan.waypoints)
+    assert np.allclose(again.waypoints, plan.waypoints)
+    assert ff.check(plan.waypoints).passed
+    assert not ff.simulate(plan.waypoints).fell
+
+
+def test_files_lead_back_to_the_same_plan(tmp_path: Path) -> None:
+    plan = plan_of_walk()
+    assert ff.plan(plan.save(tmp_path / "walk.waypoints.csv")).waypoints == pytest.approx(
+        plan.waypoints, abs=1e-7
+    )
+    trajectory = ff.plan(plan.save(tmp_path / "walk.csv"))
+    assert trajectory.status == "given"
+    assert trajectory.feet == pytest.approx(plan.feet, abs=1e-9)
+    assert ff.gait(plan.save(tmp_path / "walk.json")).document == plan.gait.document
+    for name in ("walk.npz", "walk.html", "walk.svg", "walk.png"):
+        assert plan.save(tmp_path / name).stat().st_size > 500
+
+
+def test_a_verdict_has_findings_and_margins_of_the_command() -> None:
+    verdict = ff.check("walk-manual-0")
+    assert verdict.passed
+    assert {one["rule"] for one in verdict.findings} >= {"slip"}
+    assert all(one["severity"] in ("error", "warning") for one in verdict.findings)
+    assert verdict.margins["stroke"] is not None
+    assert "Fit to send." in verdict._repr_html_()
+
+
+def test_variations_say_which_share_walks() -> None:
+    result = ff.simulate("fast-c-gait", variations=2)
+    assert result.walks
+    assert result.share == 1.0
+    assert "100 % of the variations walk" in repr(result)
+
+
+def test_a_gait_is_changed_and_stays_as_it_is() -> None:
+    walk = ff.gait("walk")
+    longer = walk.changed(step=0.012, name="Longer")
+    assert [np.hypot(*one.step[:2]) for one in (walk, longer)] == pytest.approx([0.010, 0.012])
+    assert (longer.name, longer.id) == ("Longer", None)
+    assert longer.content["name"] == "Longer"
+    assert "<svg" in walk._repr_html_()
+    assert ff.optimise(longer, method="live").status == "solved"
+
+
+def test_the_lists_show_themselves_as_tables() -> None:
+    gaits = ff.gaits()
+    assert len(gaits) > 50
+    assert "fast-c-gait" in gaits._repr_html_()
+    assert "strokes 0.5 to 19.5 mm" in repr(ff.robot())
+    assert "motor" in ff.robot()._repr_html_()
+
+
+def test_a_sequence_is_planned() -> None:
+    tour = ff.sequence(("walk", 2), "rotate", name="Tour")
+    plan = ff.plan(tour, method="live")
+    assert plan.status == "solved"
+    assert plan.heading[-1] == pytest.approx(np.radians(15), abs=1e-6)
+
+
+def test_a_pattern_is_drawn_or_says_why_there_is_none() -> None:
+    found = ff.pattern(legs=6, samples=20, start="111001", end="011011")
+    assert (found.status, found.stance.shape) == ("optimal", (6, 20))
+    none = ff.pattern(legs=4, samples=3, start="1111", end="0111")
+    assert (none.status, none.pattern) == ("infeasible", [])
+    with pytest.raises(ff.InfeasibleError, match="There is no pattern"):
+        _ = none.stance
+
+
+def test_plots_need_matplotlib_and_say_so() -> None:
+    plan = plan_of_walk()
+    try:
+        import matplotlib  # type: ignore[import-not-found, unused-ignore]  # noqa: F401
+    except ImportError:
+        with pytest.raises(ff.InputError, match="needs matplotlib"):
+            plan.plot()
+    else:
+        assert len(plan.plot().axes) == 3

@@ -2,6 +2,7 @@
 
 import { h, setAttribute, setText } from "../lib/dom.js";
 import { fixed, mm } from "../lib/format.js";
+import { oneTabStop } from "../lib/tab_stop.js";
 import { footfalls } from "../shell/footfalls.js";
 
 const NO_PHYSICS = { text: "Being tried in physics…", tone: null, title: null };
@@ -56,6 +57,7 @@ export function remedyList(acts) {
   const head = h("div", { class: "remedies-head" }, h("h4", { text: "What would help" }), h("span", { class: "quiet", text: "Margin" }));
   const list = h("ul", { class: "remedies", role: "list" });
   const group = h("div", { role: "group", "aria-label": "What would help" }, list);
+  oneTabStop(list);
   const note = h("p", { class: "why" });
   const rows = new Map();
   let shown = [];

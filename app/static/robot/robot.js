@@ -211,7 +211,7 @@ export function mountRobot(store, edits, playback) {
   store.watch(({ robot, view, runSummary, selected, runRange, connected }) => [robot, view, runSummary, selected, runRange, connected], (state) => {
     const reason = whyNotSend(state);
     send.allow(reason);
-    setText(parts.sendNote, reason ?? "Hold for a second, or click for a countdown.");
+    setText(parts.sendNote, reason ?? "Hold it, or Enter, for a second; or click for a countdown.");
     parts.summary.replaceChildren(...summaryRows(state));
     setText(parts.stopText, stopSentence(stopLimit(state)));
     parts.summary.hidden = parts.summary.childElementCount === 0;

@@ -1,5 +1,5 @@
 /**
- * "Send to robot": held for a second, or clicked (or Enter) and then a countdown that can be cancelled.
+ * "Send to robot": held for a second, by the pointer or by Enter, or pressed shortly and then a countdown that can be cancelled.
  * Either way a person has a second or more to think again.
  */
 
@@ -68,17 +68,33 @@ export function sendControl({ prepare, send }) {
     delete button.dataset.holding;
   }
 
-  button.addEventListener("pointerdown", (event) => {
-    held = false;
-    if (reason || event.button !== 0) return;
+  function hold(isPointer) {
     button.dataset.holding = "";
     holdTimer = setTimeout(async () => {
-      held = true;
+      held = isPointer;
       letGo();
       if (await prepare()) start();
     }, HOLD_MS);
+  }
+
+  button.addEventListener("pointerdown", (event) => {
+    held = false;
+    if (reason || event.button !== 0) return;
+    letGo();
+    hold(true);
   });
-  for (const type of ["pointerup", "pointerleave", "pointercancel"]) button.addEventListener(type, letGo);
+  // Enter acts when it is let go, so that it can be held; one that was held already when the focus came here does nothing.
+  button.addEventListener("keydown", (event) => {
+    if (event.key !== "Enter" || reason) return;
+    event.preventDefault();
+    if (!event.repeat && holdTimer === null) hold(false);
+  });
+  button.addEventListener("keyup", (event) => {
+    if (event.key !== "Enter" || holdTimer === null) return;
+    letGo();
+    count();
+  });
+  for (const type of ["pointerup", "pointerleave", "pointercancel", "blur"]) button.addEventListener(type, letGo);
   button.addEventListener("contextmenu", (event) => event.preventDefault());
   onPress(button, () => {
     if (!held) count();
@@ -92,7 +108,7 @@ export function sendControl({ prepare, send }) {
     allow(why) {
       reason = why;
       button.classList.toggle("primary", !why);
-      setAllowed(button, why, "Hold for a second, or click for a countdown that can be cancelled");
+      setAllowed(button, why, "Hold it, or Enter, for a second; or click for a countdown that can be cancelled");
       if (!why) return;
       cancel();
       letGo();

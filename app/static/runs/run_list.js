@@ -4,6 +4,7 @@ import { api } from "../api/gaits.js";
 import { h, setAttribute, setText } from "../lib/dom.js";
 import { clockTime, counted, fixed, seconds } from "../lib/format.js";
 import { ticket } from "../lib/latest_only.js";
+import { oneTabStop } from "../lib/tab_stop.js";
 import { attempt } from "../lib/toasts.js";
 
 const TONES = { done: "good", running: "accent", stopped: "caution", stopping: "caution", interrupted: "caution", fault: "bad", lost: "bad", refused: "quiet" };
@@ -55,6 +56,7 @@ export function runList(open) {
   const [gait, state, operator] = [choice("Gait of the runs", "Only runs of this gait"), choice("Result of the runs", "Only runs that ended so"), choice("Operator of the runs", "Only runs that this person sent")];
   const [since, until] = [dayField("Since", "Runs since", "Started on this day or later"), dayField("Until", "Runs until", "Started on this day or earlier")];
   const [count, list] = [h("p", { class: "quiet", role: "status" }), h("ul", { class: "run-list", role: "list", "aria-label": "Runs" })];
+  oneTabStop(list);
   const more = h("button", { class: "link", text: "Older runs", hidden: true });
   let shown = [];
   const begin = ticket();

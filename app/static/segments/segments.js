@@ -3,6 +3,7 @@
 import { errorsOf } from "../document/segment_sheet.js";
 import { byId, h, setAttribute, setText } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
+import { oneTabStop } from "../lib/tab_stop.js";
 import { toast } from "../lib/toasts.js";
 import { numberField } from "../state/fields.js";
 import { commit, protectedCells, segmentDraftOf, segmentSheetsOf, shownSegmentSheet } from "../state/segment_draft.js";
@@ -30,10 +31,12 @@ function numberFields(store, edits, run) {
 function tools(input, toggleDefinitions) {
   const button = (text, title, act) => h("button", { text, title, on: { click: act } });
   const words = h("button", { text: "Vocabulary", title: "Named positions and segments", "aria-expanded": "false", "aria-controls": "segment-words", on: { click: () => toggleDefinitions(words) } });
-  return h("div", { class: "sheet-tools", role: "toolbar", "aria-label": "Segment table" },
+  const bar = h("div", { class: "sheet-tools", role: "toolbar", "aria-label": "Segment table" },
     button("Insert", "A new segment after the selected ones, in which every foot waits (Insert; with Alt before them)", () => input.insert()),
     button("Remove", "Take the selected segments away from every foot (Ctrl+Delete)", () => input.remove()),
     button("Fill down", "The first selected segment into the ones below it (Ctrl+D)", () => input.fill()), words);
+  oneTabStop(bar, { isToolbar: true });
+  return bar;
 }
 
 /** Builds the section; `escape` closes what is open in it, and returns whether anything was. */

@@ -17,7 +17,10 @@ function sourceOf({ view }, part) {
 
 /** One of all names is reached by Tab; the arrows move on from there. */
 function rovingNames(rows) {
-  const mark = (index) => rows.forEach(({ name }, other) => { name.tabIndex = other === index ? 0 : -1; });
+  const mark = (index) => rows.forEach(({ name, element }, other) => {
+    // The other controls of a row follow its name; those of all other rows are left out.
+    for (const control of [name, ...element.querySelectorAll("button, input")]) control.tabIndex = other === index ? 0 : -1;
+  });
   return {
     mark,
     focus(index) {
@@ -86,7 +89,7 @@ export function partRows(store, edits, playback, takeOver) {
       runThrough: () => actions.runThrough(index),
     });
     row.name.addEventListener("keydown", (event) => press(event, index, actions, focus));
-    row.name.addEventListener("focus", () => mark(index));
+    row.element.addEventListener("focusin", () => mark(index));
     rows.push(row);
     grid.append(row.element);
   }
@@ -96,7 +99,7 @@ export function partRows(store, edits, playback, takeOver) {
     const plan = shownPlan(state);
     while (rows.length < sequence.length) grow(rows.length);
     while (rows.length > sequence.length) rows.pop().element.remove();
-    if (!rows.some(({ name }) => name.tabIndex === 0)) mark(0);
+    mark(Math.max(0, rows.findIndex(({ name }) => name.tabIndex === 0)));
     sequence.forEach((part, index) => showRow(rows[index], {
       index, count: sequence.length, part, plan, source: sourceOf(state, part),
       planned: stretchOf(plan, index, part.gait.name, false), move: stretchOf(plan, index, part.gait.name, true),

@@ -14,6 +14,7 @@ const GROUPS = {
     ["Ctrl+Z", "Undo"],
     ["Ctrl+Y", "Redo; Ctrl+Shift+Z as well"],
     ["Ctrl+S", "Save"],
+    ["F6", "The next part of the page; with Shift the one before. Before the top bar comes the button of the next act"],
     ["[ ]", "Fold the drawer, fold the inspector; a step opens it again"],
     ["?", "This list"],
   ],
@@ -36,8 +37,15 @@ const GROUPS = {
     ["Double click", "With Select: the whole swing; its drag moves it, with Alt a copy"],
     ["Ctrl + wheel", "Zoom; two fingers as well. The wheel alone scrolls"],
   ],
-  "List of gaits": [
-    ["Double click", "The gait's name, to write another one"],
+  "Lists and toolbars": [
+    ["↑ ↓", "In a list: another line. Home and End: the first and the last one"],
+    ["← →", "In a toolbar, or on the tabs: another one"],
+    ["Enter", "Open it; on Send to robot, held for a second, send it"],
+    ["Double click", "A gait's name, to write another one"],
+  ],
+  "Touch": [
+    ["Long press", "What something means: the same words as under the pointer"],
+    ["Two fingers", "Zoom the timeline"],
   ],
   "Segment table": [
     ["Letters, Enter", "Choose a segment"],

@@ -4,6 +4,7 @@ import { dialogOpen } from "../lib/dialogs.js";
 import { byId } from "../lib/dom.js";
 import { foldDrawer } from "./drawers.js";
 import { showKeys } from "./key_list.js";
+import { goToPart } from "./part_keys.js";
 import { runIsOn } from "../state/store.js";
 import { stopRobot } from "./topbar.js";
 
@@ -37,6 +38,12 @@ function onTimeline(event, { store, actions, zoom }) {
   return ownsLetters(event.target) ? null : (byKey[event.key.toLowerCase()] ?? null);
 }
 
+/** True where an arrow key, Home or End belongs to the focused control; a list leaves Left and Right to the preview. */
+function ownsArrow({ target, key }) {
+  const owner = target.closest?.("select, [role=gridcell], [role=tab], [role=menu], [data-arrows]");
+  return Boolean(owner) && !(owner.dataset.arrows === "upright" && key.startsWith("Arrow"));
+}
+
 const foldInspector = () => document.body.toggleAttribute("data-inspector-folded");
 
 /** Keys that only look: they work without the studio too. */
@@ -54,7 +61,7 @@ function plain(event, page) {
   if (folds) return folds;
   const does = store.state.view && onTimeline(event, page);
   if (does) return does;
-  return event.target.closest?.("select, [role=gridcell], [role=tab], [role=menu], [data-arrows]") ? null : (byKey[event.key] ?? null);
+  return ownsArrow(event) ? null : (byKey[event.key] ?? null);
 }
 
 /**
@@ -76,6 +83,10 @@ export function mountKeys(page) {
   function press(event) {
     if (event.key === "Escape") return escape(event);
     if (dialogOpen()) return undefined;
+    if (event.key === "F6") {
+      event.preventDefault();
+      return goToPart(event.shiftKey ? -1 : 1);
+    }
     const isOff = "offline" in document.body.dataset;
     if (isOff && (event.ctrlKey || event.metaKey || !LOOKS.has(event.key))) return undefined;
     if (event.ctrlKey || event.metaKey) {

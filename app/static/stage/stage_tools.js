@@ -5,6 +5,7 @@ import { checkMenu } from "../lib/check_menu.js";
 import { recalled, remember } from "../lib/remembered.js";
 import { byId } from "../lib/dom.js";
 import { latestOnly } from "../lib/latest_only.js";
+import { oneTabStop } from "../lib/tab_stop.js";
 import { shownDocument } from "../state/store.js";
 import { drawnPlan } from "../state/worked_plan.js";
 
@@ -115,6 +116,7 @@ export function mountTools(store, preview, look, onShow) {
     },
   });
   byId("stage-tools").append(menu.element);
+  oneTabStop(byId("stage-tools"), { items: "#camera, #fit-view, .menu-button", isToolbar: true });
   ENTRIES.forEach(apply);
   preview.addEventListener("poses", () => menu.allow("cop", preview.knowsPressure ? null : NO_PRESSURE));
 }

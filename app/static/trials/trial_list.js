@@ -3,6 +3,7 @@
 import { h, onPress, setAllowed, setText, svg } from "../lib/dom.js";
 import { clockTime, counted, fixed } from "../lib/format.js";
 import { ticket } from "../lib/latest_only.js";
+import { oneTabStop } from "../lib/tab_stop.js";
 import { attempt } from "../lib/toasts.js";
 import { trialApi } from "../api/trials.js";
 
@@ -116,11 +117,13 @@ function unreadableRow({ id, name, sentence }) {
 function listParts({ trials, compared, unreadable }, { open, band }) {
   const groups = compared.map((group) => ({ ...group, lines: trials.filter(({ id }) => group.trials.includes(id)) }));
   const file = (form, text, help) => h("a", { href: `/api/trials/table?form=${form}`, download: "", text, title: help });
+  const list = h("ul", { class: "run-list", role: "list", "aria-label": "Trials" }, ...trials.map((trial) => trialRow(trial, open)), ...unreadable.map(unreadableRow));
+  oneTabStop(list);
   return [
     ...(trials.length ? [] : [emptyPart(open)]),
     ...(groups.length ? [comparedTable(groups, band), h("div", { class: "run-files" }, file("csv", "CSV", "The table of gaits"), file("latex", "LaTeX", "The table of gaits for a paper"),
       h("a", { href: "/api/trials/report", download: "", text: "Report", title: "One HTML file with the table, and the trials of each gait over each other" }))] : []),
-    h("ul", { class: "run-list", role: "list", "aria-label": "Trials" }, ...trials.map((trial) => trialRow(trial, open)), ...unreadable.map(unreadableRow)),
+    list,
   ];
 }
 

@@ -1,6 +1,7 @@
 /** Trials from a video: the file is sent, a camera setup chosen or made, the feet tracked; it ends in the open trial. */
 
 import { h } from "../lib/dom.js";
+import { oneTabStop } from "../lib/tab_stop.js";
 import { attempt, report } from "../lib/toasts.js";
 import { openVideo } from "./video_page.js";
 import { videoApi } from "../api/videos.js";
@@ -18,11 +19,13 @@ export const openVideos = attempt(async (page) => {
   if (isOld()) return;
   const upload = uploadField(open);
   const kept = videos.filter(({ state }) => state !== "removed");
+  const list = h("ul", { class: "run-list", role: "list", "aria-label": "Videos" }, ...kept.map((video) => videoRow(video, { open, trial: page.one })));
+  oneTabStop(list);
   page.show(h("div", { class: "trial-form" },
     h("button", { type: "button", class: "link", text: "All trials", on: { click: page.all } }),
     h("p", { class: "quiet", text: "A video of the robot from under its glass platform: the four coloured feet are found in every frame." }), upload,
     h("h3", { text: "Videos" }), kept.length ? null : h("p", { class: "teach", text: "No video yet. What is sent here and what cameras record is kept in the data folder." }),
-    h("ul", { class: "run-list", role: "list", "aria-label": "Videos" }, ...kept.map((video) => videoRow(video, { open, trial: page.one })))));
+    list));
 });
 
 /** Opens one video by its id. */

@@ -1,0 +1,22 @@
+/** The key F6: from one part of the page to the next, with Shift to the one before. */
+
+/** The parts in their order; the button of the next act is one of its own. */
+const PARTS = [".topbar", ".rail", "#drawers", ".stage", "#verdict", ".transport", "#chart, #segments", "#sections", ".inspector-foot"];
+const STOPS = "a[href], button, input, select, summary, [tabindex]";
+
+const isStop = (element) => element.tabIndex >= 0 && !element.disabled && element.checkVisibility({ visibilityProperty: true }) && !element.closest("[inert]");
+
+/** What Tab reaches first in a part; undefined where the part is hidden. */
+const firstStop = (part) => [...document.querySelectorAll(`:is(${part}) :is(${STOPS})`)].find(isStop);
+
+/**
+ * Moves the focus to the next part that is shown.
+ * @param {1|-1} way
+ */
+export function goToPart(way) {
+  const { length } = PARTS;
+  const here = PARTS.findIndex((part) => document.activeElement?.closest(part));
+  const from = here < 0 && way < 0 ? 0 : here;
+  const others = PARTS.map((_, step) => PARTS[(from + way * (step + 1) + 2 * length) % length]);
+  others.map(firstStop).find(Boolean)?.focus();
+}

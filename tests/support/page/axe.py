@@ -1,0 +1,33 @@
+"""What axe-core finds on a page: every rule, of any impact."""
+
+from __future__ import annotations
+
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Page
+
+OWN = {"exclude": [["#viser"]]}
+"""The scene's frame is Viser's own page."""
+NODES = 3
+
+
+def findings(page: Page) -> list[str]:
+    """A line for each broken rule: its impact and name, its help, and the first elements."""
+    answer = Axe().run(page, context=OWN, options={"resultTypes": ["violations"]}).response
+    return [
+        f"{rule['impact']}, {rule['id']}: {rule['help']} at {[node['target'] for node in rule['nodes'][:NODES]]}"
+        for rule in answer["violations"]
+    ]
+
+
+def require_no_finding(page: Page, state: str) -> None:
+    """Fails where axe finds something, in light or in dark.
+
+    Args:
+        page: as it is.
+        state: what it shows, for the message.
+    """
+    for scheme in ("light", "dark"):
+        page.emulate_media(color_scheme="dark" if scheme == "dark" else "light")
+        found = findings(page)
+        assert found == [], f"{state}, {scheme}: {found}"
+    page.emulate_media(color_scheme="light")

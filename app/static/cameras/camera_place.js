@@ -2,6 +2,7 @@
 
 import { h, setText, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
+import { columnHeads } from "../lib/tables.js";
 import { picturePoints } from "../pictures/picture_points.js";
 
 const MOST_POINTS = 200;
@@ -69,7 +70,7 @@ function fitText({ view }, count) {
 function pointTable({ change, remove, choose }) {
   const body = h("tbody");
   const element = h("table", { class: "run-table camera-points", hidden: true }, h("caption", { text: "Points" }),
-    h("thead", {}, h("tr", {}, ...["", "x, cm", "y, cm", "off, mm", ""].map((text) => h("th", { scope: "col", text })))), body);
+    h("thead", {}, h("tr", {}, ...columnHeads(["", "x, cm", "y, cm", "off, mm", ""]))), body);
   let rows = [];
 
   function row(index) {

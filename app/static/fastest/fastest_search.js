@@ -33,7 +33,7 @@ function tableRow(one, nameOf, use) {
 function triedTable(nameOf, use) {
   const body = h("tbody");
   const element = h("table", { class: "fast-table", "aria-label": "Gaits that were tried", hidden: true },
-    h("thead", {}, h("tr", {}, ...HEADS.map((text, place) => h("th", { class: place && "number", text })))), body);
+    h("thead", {}, h("tr", {}, ...HEADS.map((text, place) => h(text ? "th" : "td", { class: place && "number", text })))), body);
   let rows = new Map();
   return {
     element,

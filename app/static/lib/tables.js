@@ -2,9 +2,12 @@
 
 import { h } from "./dom.js";
 
+/** The heads of columns; over what has none stands an empty cell, which is no heading. */
+export const columnHeads = (texts) => texts.map((text) => (text ? h("th", { scope: "col", text }) : h("td")));
+
 /** Builds a table from finished rows. */
 export const captionedTable = (attributes, caption, head, rows) => h("table", attributes, h("caption", { text: caption }),
-  h("thead", {}, h("tr", {}, ...head.map((text) => h("th", { scope: "col", text })))), h("tbody", {}, ...rows));
+  h("thead", {}, h("tr", {}, ...columnHeads(head))), h("tbody", {}, ...rows));
 
 /** What a foot's row is called; `foot` counts from 0. */
 export const footName = (foot) => ({ text: `foot ${foot + 1}`, foot: foot + 1 });

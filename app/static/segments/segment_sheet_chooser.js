@@ -84,7 +84,7 @@ export function openSegmentChooser(cell, sheet, [row, foot], { text, choose, clo
   });
 
   const box = cell.getBoundingClientRect();
-  document.body.append(element);
+  document.querySelector("main").append(element);
   input.value = text;
   filter();
   const { offsetWidth: width, offsetHeight: height } = element;

@@ -71,13 +71,14 @@ export function openAmount({ actions, id, place, anchor, close }) {
 
   const factor = amount.factor ? factorField(input, () => lengthOf(region()), look) : null;
   const cancel = h("button", { type: "button", text: "Cancel", on: { click: () => { close(); anchor.focus(); } } });
-  const form = h("form", { class: "op-popover", role: "dialog", "aria-label": name, novalidate: true, on: { submit: (event) => event.preventDefault() } },
+  const form = h("form", { novalidate: true, on: { submit: (event) => event.preventDefault() } },
     title, scope, row, factor?.row, note, h("div", { class: "buttons" }, cancel, apply));
+  const popover = h("div", { class: "op-popover", role: "dialog", "aria-label": name }, form);
   form.addEventListener("submit", finish);
   input.addEventListener("input", look);
-  fitAbove(place, form);
+  fitAbove(place, popover);
   look();
   input.focus();
   input.select();
-  return { close: () => form.remove(), refresh: look };
+  return { close: () => popover.remove(), refresh: look };
 }

@@ -2,6 +2,7 @@
 
 import { axisKey, axisOf, fractionAt, timeAt } from "../state/time_axis.js";
 import { checkMenu } from "../lib/check_menu.js";
+import { onPointed } from "../lib/pointed.js";
 import { recalled, remember } from "../lib/remembered.js";
 import { HEIGHT, acrossOf, indexAt } from "./curves.js";
 import { byId, h, setAttribute, setText, svg } from "../lib/dom.js";
@@ -165,10 +166,7 @@ function mountHover(store, rows) {
     return undefined;
   }
 
-  for (const row of rows) {
-    row.strip.addEventListener("pointermove", (event) => show(row, event));
-    row.strip.addEventListener("pointerleave", hide);
-  }
+  for (const row of rows) onPointed(row.strip, (event) => show(row, event), hide);
   store.watch((state) => [drawnPlan(state), greyOf(state)], hide);
 }
 

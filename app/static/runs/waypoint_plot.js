@@ -2,6 +2,7 @@
 
 import { h, svg } from "../lib/dom.js";
 import { fixed } from "../lib/format.js";
+import { onPointed } from "../lib/pointed.js";
 
 const [WIDTH, HEIGHT] = [276, 132];
 const [LEFT, RIGHT, TOP, BOTTOM] = [38, 6, 8, 20];
@@ -25,12 +26,11 @@ const key = (kind) => h("span", {}, svg("svg", { class: "run-key", viewBox: "0 0
 function pointed(picture, reading, { places, series, unit }, placeAt) {
   const empty = "Point at a waypoint to read both.";
   reading.textContent = empty;
-  picture.addEventListener("pointermove", (event) => {
+  onPointed(picture, (event) => {
     const box = picture.getBoundingClientRect();
     const index = placeAt(((event.clientX - box.left) / box.width) * WIDTH);
     reading.textContent = `${places[index]}: ${series.map(({ kind, values }) => `${kind} ${fixed(values[index], 2)}`).join(", ")} ${unit}`;
-  });
-  picture.addEventListener("pointerleave", () => { reading.textContent = empty; });
+  }, () => { reading.textContent = empty; });
 }
 
 /**

@@ -1,4 +1,4 @@
-"""The page as assistive tools find it: axe finds nothing on any panel, menu and dialog, in light and in dark."""
+"""The page as assistive tools find it: axe finds nothing on any panel, menu or dialog."""
 
 from __future__ import annotations
 

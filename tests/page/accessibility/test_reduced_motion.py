@@ -14,10 +14,12 @@ SHARES_STUDIO = True
 pytestmark = pytest.mark.heavy
 
 MOVING = """() => {
-  const moves = (style) => style.animationName !== "none" || style.transitionDuration.split(", ").some((one) => one !== "0s");
+  const moves = ({ animationName, transitionDuration }) =>
+    animationName !== "none" || transitionDuration.split(", ").some((one) => one !== "0s");
   const found = [...document.querySelectorAll("body, body *")].filter((element) =>
     [null, "::before", "::after"].some((part) => moves(getComputedStyle(element, part))));
-  return [...found.map((element) => element.outerHTML.slice(0, 120)), ...document.getAnimations().map(String)];
+  const names = found.map((element) => element.outerHTML.slice(0, 120));
+  return [...names, ...document.getAnimations().map(String)];
 }"""
 
 

@@ -11,6 +11,7 @@ from app.emulator.emulated_robot import EmulatedRobot
 from app.emulator.faults import Fault
 from tests.support.page.axe import require_no_finding
 from tests.support.page.drawers import open_drawer
+from tests.support.page.keyboard import tab_stops
 from tests.support.page.opened import opened_page
 from tests.support.page.robot_panel import name
 from tests.support.studio_process import StudioProcess, wait_for
@@ -121,6 +122,7 @@ def test_jobs_and_runs_one_opened_and_two_compared(page: Page) -> None:
     runs = open_drawer(page, "Runs")
     expect(runs.locator(".run-row")).to_have_count(2)
     require_no_finding(page, "runs")
+    assert tab_stops(page, "ul[aria-label=Runs]") == 1
     runs.locator(".run-row").first.click()
     expect(page.get_by_role("button", name="All runs")).to_be_visible()
     unfold(page)

@@ -14,7 +14,8 @@ def findings(page: Page) -> list[str]:
     """A line for each broken rule: its impact and name, its help, and the first elements."""
     answer = Axe().run(page, context=OWN, options={"resultTypes": ["violations"]}).response
     return [
-        f"{rule['impact']}, {rule['id']}: {rule['help']} at {[node['target'] for node in rule['nodes'][:NODES]]}"
+        f"{rule['impact']}, {rule['id']}: {rule['help']} at "
+        f"{[node['target'] for node in rule['nodes'][:NODES]]}"
         for rule in answer["violations"]
     ]
 

@@ -189,12 +189,12 @@ def approve(verdict: Verdict, by: str, when: datetime, *, accept_warnings: bool 
         raise StateError("An approval needs the name of the person who gives it.", "by")
     if not verdict.passed:
         errors = [f for f in verdict.findings if f.severity is Severity.ERROR]
-        raise StateError(f"{len(errors)} errors stand, the first: {errors[0].sentence}", "verdict")
+        raise StateError(f"Errors block approval ({len(errors)}). First: {errors[0].sentence}", "verdict")
     if verdict.warnings and not accept_warnings:
         count = len(verdict.warnings)
         raise StateError(
-            f"{count} warning{'s stand' if count > 1 else ' stands'}, the first: "
-            f"{verdict.warnings[0].sentence} Look at every warning, then approve with accept_warnings.",
+            f"{count} warning{'s are' if count > 1 else ' is'} not accepted yet, the first: "
+            f"{verdict.warnings[0].sentence} Read every warning, then approve with accept_warnings.",
             "accept_warnings",
         )
     seen = tuple(finding.sentence for finding in verdict.warnings)

@@ -145,7 +145,7 @@ class Lease:
             raise StateError(refusal(now), "lease")
         if now.asker is not None and now.asker.page != who.page:
             raise StateError(
-                f"{now.asker.title} has asked for the robot before you. Wait until "
+                f"{now.asker.title} has asked for control before you. Wait until "
                 f"{now.holder.title} has answered.",
                 "lease",
             )
@@ -161,7 +161,7 @@ class Lease:
         self._require_holder(who)
         asker = self.now.asker
         if asker is None:
-            raise StateError("Nobody asks for the robot.", "lease")
+            raise StateError("Nobody asks for control.", "lease")
         self._become(asker)
 
     def keep(self, who: Person) -> None:
@@ -232,7 +232,7 @@ class Lease:
         if now.holder is None:
             raise StateError("No one is in control. Connect or arm the robot to take control.", "lease")
         if now.holder.page != who.page:
-            raise StateError(f"{now.holder.title} is in control, and decides who gets it.", "lease")
+            raise StateError(f"{now.holder.title} is in control, and decides who gets control.", "lease")
 
 
 def refusal(now: Holding) -> str:
@@ -247,8 +247,8 @@ def refusal(now: Holding) -> str:
     if now.holder.is_script:
         return f"{title} is in control. Take over, or wait until the script is done."
     if now.is_gone:
-        return f"{title} is in control and has been gone for {now.away:.0f} s. Take it over first."
-    return f"{title} is in control. Ask {now.holder.name or 'them'} for it; Stop works for everybody."
+        return f"{title} is in control and has been gone for {now.away:.0f} s. Take control first."
+    return f"{title} is in control. Ask {now.holder.name or 'them'} for control; everybody can stop."
 
 
 def policy(holder: Person) -> str:

@@ -81,9 +81,7 @@ def run_fastest(options: Namespace) -> int:
             write_pose_gait(options.output, walk.walk.gait, _origin(walk))
         written = str(options.output)
     if not problem.model.wired:
-        note(
-            f"{problem.model.title} has no firmware of its own here; the DeltaWalker's law of time stands in."
-        )
+        note(f"The firmware timing of {problem.model.title} is not known. Times are as for the DeltaWalker.")
     content, lines = walk_content(walk, problem, written), _lines(walk, written)
     if found is not None:
         content |= {"search": search_content(found)}

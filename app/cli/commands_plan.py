@@ -150,8 +150,8 @@ def poses_of(gait: Gait) -> PoseGait:
     if found is not None and check_poses(found).confirmed:
         return found
     is_bare = gait.poses is None or gait.poses.found is None
-    why = "has no poses yet" if is_bare else "asks something else than its poses were found for"
-    note(f"“{gait.name}” {why}; they are searched for now.")
+    why = "has no poses yet" if is_bare else "has changed since its poses were found"
+    note(f"“{gait.name}” {why}. The poses are searched for now.")
     result = solve_poses(pose_problem(gait, model))
     if result.gait is not None:
         return result.gait

@@ -256,8 +256,8 @@ def _fastest_options(parser: argparse.ArgumentParser) -> None:
     turn = "rad a cycle, to the left above 0; on the spot also left or right: as fast as possible (default 0)"
     add("--turn", type=turn_or_side, default=None, metavar="RAD|left|right", help=turn)
     text = (
-        "how far the heading may leave an even turn, rad (default 0): it makes a gait faster, but soles "
-        "pivot on the ground, and how flat shoes pivot is not known"
+        "how far the heading may differ from an even turn, rad (default 0): sway makes a gait faster, but "
+        "soles pivot on the ground, which is not tested with flat shoes yet"
     )
     add("--sway", type=number(0.0, MOST_SWAY, "rad"), default=0.0, metavar="RAD", help=text)
     text = "from the standard stance to rest (default 1)"

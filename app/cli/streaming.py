@@ -37,8 +37,8 @@ STOP_SECONDS = STOP_LIMIT + 0.5
 TOLD_SECONDS = 1.0
 """A run's progress is told at least this often, where it can be told on one line, s."""
 STOP_HELD = (
-    "The robot holds a stop from before this run, so nothing moved and the stop stands. Find out who stopped "
-    "it and why; to lift it and send the file, add --clear-stop."
+    "The robot holds a stop from before this run, so nothing moved. The stop is still active. Find out who "
+    "stopped the robot, and why. To lift the stop and send the file, add --clear-stop."
 )
 _ENDS = frozenset({RobotState.DONE, RobotState.STOPPED, RobotState.FAULT})
 

@@ -86,7 +86,7 @@ class OpenGait:
             why: what happened, as the beginning of a sentence.
         """
         had_one = self.approval is not None or self.kept_approval is not None
-        revoked = f"{why}, and its approval is gone." if had_one else self.revoked
+        revoked = f"{why}, so it is no longer approved." if had_one else self.revoked
         return replace(self, verdict=None, approval=None, kept_approval=None, revoked=revoked)
 
     def with_plan(self, plan: Plan, verdict_of: VerdictOf) -> OpenGait:
@@ -113,8 +113,8 @@ def _what_changed(approval: Approval, verdict: Verdict) -> str:
     if approval.robot_hash and approval.robot_hash != verdict.robot_hash:
         return "The robot's parameters changed"
     if approval.waypoints_hash != verdict.waypoints_hash:
-        return "The plan is another one than before"
-    return "The rules of the check, or the simulation, give another result than before"
+        return "The plan changed"
+    return "The rules of the check, or the simulation, give a different result than before"
 
 
 def fresh_gait(

@@ -18,7 +18,7 @@ from core.errors import FootfallError, InputError, StateError
 from core.gait.gait import Gait
 from core.library.library import library
 
-LAST_LABEL, ORIGINAL_LABEL = "Go back to the last state that can be shown", "Back to how it came"
+LAST_LABEL, ORIGINAL_LABEL = "Go back to the last state that can be shown", "Restore the original gait"
 """What the two ways out are called, on the page and in the history."""
 
 

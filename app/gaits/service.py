@@ -350,9 +350,7 @@ class GaitService:
         """
         open_gait = self.open_gait(gait_id)
         if self.outside(gait_id) is None:
-            raise StateError(
-                f"{gait_id}.json is as the studio saved it; nothing has to be set aside.", "keep"
-            )
+            raise StateError(f"{gait_id}.json has not been changed outside the studio.", "keep")
         self._open[gait_id] = self._repository.keep_mine(open_gait)
         return self._open[gait_id]
 
@@ -428,7 +426,7 @@ class GaitService:
         if self._is_recoverable(gait_id):
             self.recover(gait_id)
         if had_approval:
-            revoked = "The gait was deleted and brought back, and its approval is gone."
+            revoked = "The gait was deleted and brought back, so it is no longer approved."
             self._open[gait_id] = replace(self.open_gait(gait_id), revoked=revoked)
         return (
             self._return(gait_id, "Bring back what was saved")

@@ -73,7 +73,7 @@ class JobTracker:
         """Asks a job to end; one that ended already stays as it is."""
         job, handle = self._job_repository.content(job_id), self._on.get(job_id)
         if handle is not None and job["state"] not in ENDED:
-            job |= {"state": "cancelling", "sentence": "It ends in a moment."}
+            job |= {"state": "cancelling", "sentence": "The job is being cancelled."}
             handle.cancel()
         return job
 

@@ -139,7 +139,7 @@ class LearningService:
         with self._lock:
             work = self._on
             if work is not None and work.content["id"] == learning:
-                work.content.update(state="cancelling", sentence="It ends in a moment.")
+                work.content.update(state="cancelling", sentence="Learning is being cancelled.")
                 work.runner.cancel()
         return self.content(learning)
 

@@ -111,6 +111,6 @@ def learned_sentence(content: Mapping[str, Any]) -> str:
         f"These trials identify {', '.join(told)}." if told else "These trials do not identify any parameter."
     )
     return (
-        f"{what} A gait that was left out is predicted to {errors['left out']:.2f} cm; as planned it is "
-        f"{errors['as planned']:.2f} cm, by a line through the others {errors['ratio, left out']:.2f} cm."
+        f"{what} Mean error for gaits left out of the fit: {errors['left out']:.2f} cm; of the plan: "
+        f"{errors['as planned']:.2f} cm; of a line through the others: {errors['ratio, left out']:.2f} cm."
     )

@@ -83,8 +83,8 @@ def _sent(trial: SentTrial) -> tuple[SimulationProblem, int]:
         )
     if trial.sent is None or record.planned is None:
         raise InputError(
-            f"Of the trial “{record.content['name']}” it is not known what the robot was sent. Leave it out, "
-            "or add it again laid over its run or gait.",
+            f"The waypoints sent in the trial “{record.content['name']}” are not known. Leave the trial out, "
+            "or add it again with its run or gait.",
             "trials",
         )
     return sent_problem(dict(trial.sent)), record.planned.laps

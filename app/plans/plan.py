@@ -46,7 +46,7 @@ from core.wire.waypoint_merging import WaypointPlan, plan_waypoints
 from core.wire.waypoints import Waypoints
 from solver_jobs import MotionResult, SolveStatus
 
-ADAPTED_NOTE = "The last poses, adapted to what is asked now; they are not solved, and cannot be sent."
+ADAPTED_NOTE = "The last poses, adapted to the new values: they are not solved, and cannot be sent."
 _OPTION_NAME = re.compile(r" \(--[a-z-]+\)")
 """What the command line calls an option, in a reason; a document has no such names."""
 PIN_SEEN = 1e-6

@@ -160,7 +160,7 @@ def steps_between(solve: Solve, before: Piece, piece: Piece, problem: MotionProb
     why = verified.explanation[0] if verified.explanation else "the live optimiser gave no answer."
     sentence = (
         f"Between {before.name} and {piece.name} feet have to step: {feet}. There is no motion for that: "
-        f"{why} Let the one end where the other begins, or put a gait between them."
+        f"{why} Let the first end where the second begins, or put a gait between them."
     )
     kind = InfeasibleError if verified.status is SolveStatus.INFEASIBLE else CheckError
     raise kind(sentence, "sequence")
@@ -199,7 +199,7 @@ def _require_motions(gait: Gait, plans: Sequence[Plan], alone: frozenset[int]) -
         way = (
             "Run once, the gait has a motion: let each repetition start from rest."
             if index in alone
-            else "The gait itself says all that it lacks."
+            else "Open the gait itself to see all that is missing."
         )
         raise InfeasibleError(f"{sentence} {way}", "sequence")
 

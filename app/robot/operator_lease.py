@@ -235,10 +235,10 @@ class OperatorLease:
 def _absence(holder: Person | None) -> str:
     """Who has not been there."""
     if holder is None:
-        return "nobody held it"
+        return "nobody was in control"
     if holder.is_script:
-        return f"{holder.title[0].lower()}{holder.title[1:]} asked nothing of it"
-    return f"{holder.name}’s page was gone" if holder.name else "its holder’s page was gone"
+        return f"{holder.title[0].lower()}{holder.title[1:]} sent no request"
+    return f"{holder.name}’s page was gone" if holder.name else "the page of the person in control was gone"
 
 
 def person(author: Author) -> Person:

@@ -12,7 +12,7 @@ Numbers3 = tuple[float, float, float]
 
 CAMERA = "ViewerCameraMessage"
 
-REFUSAL = "The 3D scene cannot read this message. Reload the page."
+REFUSAL = "The page sent a message that the 3D scene cannot read. Reload the page."
 
 
 class Kind(msgspec.Struct):

@@ -17,19 +17,19 @@ _WRONG_PATH = frozenset({errno.ENOENT, errno.ENOTDIR, errno.EISDIR, errno.ENAMET
 _RIGHT = "Give yourself the right to write to it and to its folder"
 _DAMAGED = frozenset({sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB})
 _FULL = {
-    sqlite3.SQLITE_FULL: ("its disk is full", "Make room on it, then try again."),
-    sqlite3.SQLITE_TOOBIG: ("one entry cannot hold so much", "Make smaller what is to be stored."),
+    sqlite3.SQLITE_FULL: ("its disk is full", "Free space on the disk, then try again."),
+    sqlite3.SQLITE_TOOBIG: ("one entry cannot hold so much", "Store something smaller."),
     sqlite3.SQLITE_NOMEM: ("this computer's memory is full", "End other programs, then try again."),
 }
 _OTHER = {
     sqlite3.SQLITE_IOERR: (
         "the disk reports an error or takes no more",
-        "Look at its state and its room, then try again.",
+        "Check the disk and its free space, then try again.",
     ),
     sqlite3.SQLITE_READONLY: ("it may only be read", f"{_RIGHT}, or give another folder with --data."),
     sqlite3.SQLITE_PERM: ("the rights to it are missing", f"{_RIGHT}."),
     sqlite3.SQLITE_AUTH: ("the rights to it are missing", f"{_RIGHT}."),
-    sqlite3.SQLITE_BUSY: ("another program is writing to it", "Try again when that has ended."),
+    sqlite3.SQLITE_BUSY: ("another program is writing to it", "Try again when that program has ended."),
     sqlite3.SQLITE_LOCKED: ("something else is writing to it", "Try again in a moment."),
     sqlite3.SQLITE_PROTOCOL: ("its locks fail", "Keep the data folder on a disk of this computer."),
     sqlite3.SQLITE_NOLFS: (
@@ -62,7 +62,7 @@ def storage_error(error: sqlite3.Error, path: Path) -> StorageError | None:
         return StorageDamagedError(f"The database {path} is damaged ({error}).", str(path))
     reason, remedy = (_FULL | _OTHER).get(primary or 0, _UNKNOWN)
     kind = StorageFullError if primary in _FULL else StorageError
-    sentence = f"The database {path} cannot do this: {reason} ({error}). Nothing of it was stored. {remedy}"
+    sentence = f"The database {path} cannot do this: {reason} ({error}). Nothing was stored. {remedy}"
     return kind(sentence, str(path))
 
 
@@ -70,7 +70,7 @@ def file_error(error: OSError, path: Path) -> StorageError | InputError:
     """Why a file cannot be written; the file that was there before is as it was."""
     reason = f"{path} cannot be written: {error.strerror}."
     if error.errno in FULL:
-        return StorageFullError(f"{reason} Make room on its disk, then try again.", str(path))
+        return StorageFullError(f"{reason} Free space on its disk, then try again.", str(path))
     return InputError(reason, str(path)) if error.errno in _WRONG_PATH else StorageError(reason, str(path))
 
 

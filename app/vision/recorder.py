@@ -125,11 +125,11 @@ class Recorder:
         try:
             self._writer.add(file, at)
         except OSError as error:
-            self._stop_writing(f"The pictures are kept until {at:.1f} s: {error.strerror}.")
+            self._stop_writing(f"The recorded pictures end at {at:.1f} s: {error.strerror}.")
             return
         if self._writer.size > MOST_BYTES:
             self._stop_writing(
-                f"The pictures are kept until {at:.1f} s: a recording has at most {MOST_BYTES / 1e9:g} GB."
+                f"The recorded pictures end at {at:.1f} s: a recording has at most {MOST_BYTES / 1e9:g} GB."
             )
 
     def _stop_writing(self, sentence: str) -> None:

@@ -94,7 +94,7 @@ def check_coupling(model: RobotModel, trajectory: Trajectory, lift_limit: float)
             f"{model.actuator_count} motors cannot make {model.motor_count} strokes: that of motor "
             f"{actuator + 1} of foot {foot + 1} is {largest * 1000:.1f} mm off at sample {sample + 1}, where "
             f"{RESIDUAL_LIMIT * 1000:.0f} mm is allowed. {_feet_words(model, trajectory)} "
-            f"{_lifted(swings, dragged)} The other rules judge what was wanted."
+            f"{_lifted(swings, dragged)} The other rules judge the planned motion."
         )
         remedy = "Move feet that share a motor alike, or choose a robot with more motors."
         place = {

@@ -47,7 +47,7 @@ def check_slip(plan: CheckedPlan) -> Outcome:
     for foot in np.nonzero(slips > SLIP_LIMIT + TOLERANCE)[0].tolist():
         value, place = float(slips[foot]), knot_place(plan, int(worst[foot]))
         words = (
-            f"Foot {foot + 1} slides {value * 1000:.1f} mm while it stands; more than "
+            f"Foot {foot + 1} slides {value * 1000:.1f} mm while it stands. The limit is "
             f"{SLIP_LIMIT * 1000:.1f} mm."
         )
         remedy = "An optimised gait keeps standing feet still."
@@ -73,7 +73,7 @@ def check_clearance(plan: CheckedPlan) -> Outcome:
             if rise < CLEARANCE_LIMIT - TOLERANCE:
                 words = (
                     f"Foot {foot + 1} rises only {rise * 1000:.1f} mm in its swing from "
-                    f"{t.times[first]:.1f} s; less than {CLEARANCE_LIMIT * 1000:.0f} mm drags."
+                    f"{t.times[first]:.1f} s. A foot drags below {CLEARANCE_LIMIT * 1000:.0f} mm."
                 )
                 remedy, place = "Ask for more clearance.", knot_place(plan, first)
                 findings.append(

@@ -193,8 +193,8 @@ def acceleration_note(plan: CheckedPlan) -> str:
     if needed <= limit + TOLERANCE:
         return ""
     return (
-        f"The plan's motors gain speed with up to {needed * 1000:.1f} mm/s², the robot's with "
-        f"{limit * 1000:.0f} mm/s²: it keeps the path and takes its own time."
+        f"The plan needs motor accelerations of up to {needed * 1000:.1f} mm/s², the robot's motors make "
+        f"{limit * 1000:.0f} mm/s². The robot keeps the path but needs more time."
     )
 
 

@@ -116,11 +116,11 @@ def _outcome(
     place = f"Between waypoints {worst.move} and {worst.move + 1} ({times[0]:.1f} to {times[1]:.1f} s)"
     if is_own:
         way_out = (
-            "It is so with one waypoint a sample as well: change the motion, such as its timeline or margin."
+            "The same with one waypoint a sample as well: change the motion, such as its timeline or margin."
         )
     else:
         fits = _fitting(rule, slack, asked)
-        way_out = f"With one waypoint a sample it is not so: merge within {fits * 1000:.2g} mm at most."
+        way_out = f"One waypoint a sample avoids this: merge within {fits * 1000:.2g} mm at most."
     severity = Severity.WARNING if is_own and not worst.is_sure else Severity.ERROR
     knot = min(int(np.searchsorted(trajectory.times, times[1] - TIME_SLACK)), plan.kept[worst.move])
     where = {"sample": knot, "foot": worst.foot, "time": float(times[1])}

@@ -129,7 +129,7 @@ def _require_same(held: HeldFeet) -> None:
     if held.start != held.end:
         raise InputError(
             f"The gait is a cycle, which ends as it begins, but {_unlike(held)}. Hold the same feet at both "
-            "ends, or set its boundary to rest.",
+            "ends, or set Ends to “at rest” (boundary).",
             "held",
         )
 

@@ -145,7 +145,7 @@ class Poses:
     def __post_init__(self) -> None:
         numbers = [pin.pose for pin in self.pinned]
         if len(set(numbers)) < len(numbers):
-            raise InputError("poses.pinned names a pose twice; each may stand there once.", "poses.pinned")
+            raise InputError("poses.pinned names a pose twice. Name each pose once.", "poses.pinned")
         object.__setattr__(self, "pinned", tuple(sorted(self.pinned, key=lambda pin: pin.pose)))
         if not 0.0 <= self.sway <= MOST_SWAY:
             raise InputError(

@@ -149,7 +149,7 @@ def ends_and_contact(gait: Gait, model: RobotModel) -> Trajectory:
     if gait.options.boundary is Boundary.PERIODIC:
         raise InputError(
             "it is a cycle, which begins and ends in motion, and a sequence chains gaits from rest to rest. "
-            "Set its boundary to rest.",
+            "Set Ends to “at rest” (boundary).",
             "boundary",
         )
     return straight(motion_problem(gait, model))

@@ -125,7 +125,7 @@ def _slip(report: SimulationReport, problem: SimulationProblem) -> Outcome:
         time = float(report.arrival_times[moves[foot]])
         words = (
             f"In the simulation foot {foot + 1} slides {slides[foot] * 1000:.1f} mm during one stance, "
-            f"most about {time:.1f} s; more than {SLIP_LIMIT * 1000:.0f} mm."
+            f"most of it near {time:.1f} s. The limit is {SLIP_LIMIT * 1000:.0f} mm."
         )
         remedy = "Keep standing feet still in the plan, or expect the robot to go less far."
         place = _place(report, problem, time, int(foot))
@@ -185,7 +185,7 @@ def _tracking(report: SimulationReport, problem: SimulationProblem) -> Outcome:
     time = float(report.motor_error_times[foot, motor])
     words = (
         f"In the simulation motor {motor + 1} of foot {foot + 1} is {value * 1000:.2f} mm behind its ramp at "
-        f"{time:.1f} s; more than {TRACK_LIMIT * 1000:.1f} mm, within which the firmware calls it arrived."
+        f"{time:.1f} s. The firmware counts a motor as arrived within {TRACK_LIMIT * 1000:.1f} mm."
     )
     remedy = "Lighten the load on that foot, or make the step shorter."
     place = _place(report, problem, time, foot, motor)
@@ -203,7 +203,7 @@ def _saturation(report: SimulationReport, problem: SimulationProblem) -> Outcome
     words = (
         f"In the simulation motor {motor + 1} of foot {foot + 1} is at its limit of "
         f"{report.peak_forces[foot, motor]:.1f} N for {share * 100:.0f} % of the time, as at {time:.1f} s; "
-        f"more than {SATURATION_LIMIT * 100:.0f} %."
+        f"the limit is {SATURATION_LIMIT * 100:.0f} %."
     )
     remedy = "Keep the feet nearer to their modules' middles, or lighten the load on that foot."
     place = _place(report, problem, time, foot, motor)

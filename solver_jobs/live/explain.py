@@ -89,7 +89,7 @@ def low_lacks(problem: MotionProblem) -> tuple[Lack, ...]:
     for swing, highest in low_swings(problem, problem_swings(problem)):
         amount = (problem.limits.clearance - highest) * MM
         sentence = (
-            f"Rise lacks {amount:.1f} mm at {knot_ranges(tuple(swing.samples))}: the swing of foot "
+            f"Rise is {amount:.1f} mm short at {knot_ranges(tuple(swing.samples))}: the swing of foot "
             f"{swing.foot + 1} is too short for the clearance."
         )
         family = Family.CLEARANCE.value
@@ -114,21 +114,21 @@ def _sentence(problem: MotionProblem, contact: Bools, lack: Lack) -> str:
         f"comes nearer to {edge} than {limits.margin * MM:g} mm" if limits.margin > 0 else f"leaves {edge}"
     )
     words = {
-        Family.BODY_TORQUE: f"Balance lacks {size} mm {where}: the centre of pressure {crossed}.",
-        Family.WORKSPACE: f"Reach lacks {size} mm {where}: {whose} is outside its workspace.",
-        Family.FOOT_SPEED: f"Speed lacks {size} mm/s {where}: {whose} would have to be faster than "
+        Family.BODY_TORQUE: f"Balance is {size} mm short {where}: the centre of pressure {crossed}.",
+        Family.WORKSPACE: f"Reach is {size} mm short {where}: {whose} is outside its workspace.",
+        Family.FOOT_SPEED: f"Speed is {size} mm/s short {where}: {whose} would have to be faster than "
         f"{limits.foot_speed * MM:g} mm/s.",
-        Family.BODY_SPEED: f"Speed lacks {size} mm/s {where}: the body would have to be faster than "
+        Family.BODY_SPEED: f"Speed is {size} mm/s short {where}: the body would have to be faster than "
         f"{limits.body_speed * MM:g} mm/s.",
-        Family.BODY_HEIGHT: f"Height lacks {size} mm {where}: the actuator plane must stay between "
+        Family.BODY_HEIGHT: f"Height is {size} mm off {where}: the actuator plane must stay between "
         f"{limits.plane_height[0] * MM:g} and {limits.plane_height[1] * MM:g} mm.",
-        Family.CLEARANCE: f"Rise lacks {size} mm {where}: {whose} would have to rise to "
+        Family.CLEARANCE: f"Rise is {size} mm short {where}: {whose} would have to rise to "
         f"{limits.clearance * MM:.3g} mm in its middle.",
-        Family.FRICTION: f"Grip lacks {size} mm of centre of pressure {where}: the body is thrown sideways.",
+        Family.FRICTION: f"Grip is {size} mm short {where}: the body accelerates too fast for the friction.",
         Family.MOTOR_SPEED: f"A motor of {whose} would have to be {size} mm/s faster than allowed {where}.",
         Family.MOTOR_ACCELERATION: f"A motor of {whose} would have to change its speed by {size} mm/s more "
         f"from sample to sample than allowed {where}.",
-        Family.SHOE_DISTANCE: f"Room for shoes lacks {size} mm {where}: feet {' and '.join(map(str, ends))} "
+        Family.SHOE_DISTANCE: f"Shoes need {size} mm more room {where}: feet {' and '.join(map(str, ends))} "
         f"come nearer to each other than {(least_distance(problem.model) or 0.0) * MM:g} mm.",
     }
     return words[Family(lack.family)]

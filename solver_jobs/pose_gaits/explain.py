@@ -32,7 +32,7 @@ _OPTIONS = {
     "coupling": "motors that share an actuator",
 }
 
-NOT_PROVEN = "This was found by a search and is no proof."
+NOT_PROVEN = "This is the result of a search, not a proof."
 
 Run = Callable[..., Attempt]
 """Calls IPOPT (see `solve_poses`)."""
@@ -53,11 +53,11 @@ def explained(
         of, farthest = longest
         reach = float(farthest.values[of.reach_place])
         if reach < asked_reach(problem):
-            held = f"It is held back by {_holding_back(of, farthest)}."
+            held = f"The limits that prevent more: {_holding_back(of, farthest)}."
             return (f"{_too_far(problem, reach)} {held}", NOT_PROVEN)
     sentences = tuple(_helpful(problem, program, run))
     if not sentences:
-        return ("No gait was found, nor a single limit whose loosening would help.", NOT_PROVEN)
+        return ("No gait was found. Loosening one limit alone does not help.", NOT_PROVEN)
     return (*sentences, NOT_PROVEN)
 
 

@@ -133,7 +133,7 @@ class Candidates:
         """Changes for a gait that tips: more margin, longer pauses and swings, a shorter step."""
         asked = self._asked.options.margin
         if self._raised > asked and self._trial.works(_margin(self._asked, self._raised)):
-            yield self._margin_remedy(self._asked, self._raised, "Below it this robot is likely to tip.")
+            yield self._margin_remedy(self._asked, self._raised, "Below this, the robot is likely to tip.")
         else:
             yield self._largest_margin(self._asked, asked + MORE_MARGIN, asked + MOST_MORE_MARGIN)
         yield from self._for_shape()
@@ -155,7 +155,7 @@ class Candidates:
     def _ends(self) -> Remedy | None:
         gait = self._at_best_margin(self._mended)
         words = "Every foot swings, and stands at the start and at the end."
-        return None if gait is None else self._remedy(RemedyKind.MENDED, "Mend the ends", words, gait)
+        return None if gait is None else self._remedy(RemedyKind.MENDED, "Repair the ends", words, gait)
 
     def _for_shape(self) -> Iterator[Remedy | None]:
         """Changes for swings that overlap or are too short."""
@@ -396,9 +396,9 @@ class Candidates:
         if gait is None:
             return None
         text = f"{gait.options.plane_height * MM:.1f} mm"
-        words = f"It has a motion with the actuator plane {text} above the ground."
+        words = f"There is a motion with the actuator plane {text} above the ground."
         if self._asked.options.end_plane_height is not None:
-            words = f"It has a motion with the actuator plane {text} above the ground from start to end."
+            words = f"There is a motion with the actuator plane {text} above the ground from start to end."
         return self._remedy(RemedyKind.HEIGHT, f"Body height {text}", words, gait)
 
     def _clearance(self) -> Remedy | None:
@@ -445,7 +445,7 @@ class Candidates:
         if margin != asked and kind not in (RemedyKind.MARGIN, RemedyKind.NO_MARGIN):
             others.append(f"Margin {margin * MM:g} mm.")
         if self._mended is not self._asked and kind is not RemedyKind.MENDED:
-            others.append("The ends are mended too.")
+            others.append("The ends are repaired too.")
         return Remedy(kind, label, " ".join([words, *others]), gait, motion, caution)
 
 

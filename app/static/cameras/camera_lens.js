@@ -106,7 +106,7 @@ export function lensPart(draft, stage) {
   draft.watch(({ setup }) => [setup.lens], (state) => { if (isOn) { showCheckerboards(); show(state); } });
   return {
     element: h("div", { class: "camera-part" },
-      h("p", { class: "quiet", text: "Wide lenses bend straight lines. Pictures of a checkerboard in different places and at different angles measure by how much. To go on without them, choose Place." }),
+      h("p", { class: "quiet", text: "Wide lenses bend straight lines. Pictures of a checkerboard in different places and at different angles measure by how much. To go on without these pictures, open Place." }),
       columns.label, rows.label, checkerboardSources(stage, book, status), status, list, words, h("div", { class: "camera-row" }, straight.button, without)),
     enter() {
       isOn = true;

@@ -20,7 +20,7 @@ function figuresText({ figures, warnings }) {
 
 function item(record, compare) {
   const { by, when, stands, waypoints_hash: waypoints, warnings } = record;
-  const state = h("span", { class: "approval-state", data: { stands: String(stands) }, text: stands ? "stands" : "gone" });
+  const state = h("span", { class: "approval-state", data: { stands: String(stands) }, text: stands ? "valid" : "no longer valid" });
   return h("li", { class: "approval" },
     h("span", { class: "approval-head" }, h("b", { text: by }), h("span", { class: "quiet", text: clockTime(when), title: when }), state),
     h("span", { class: "quiet", text: figuresText(record), title: warnings.join("\n") || null }),

@@ -33,7 +33,7 @@ const warningsOf = (verdict) => (verdict?.findings ?? []).filter(({ severity }) 
 function summary(view, before) {
   const { verdict } = view;
   if (!verdict) {
-    const text = view.revoked ? `${view.revoked} Check it again.` : before?.word === "approved" ? "The gait changed, and its approval is gone. Check it again."
+    const text = view.revoked ? `${view.revoked} Check it again.` : before?.word === "approved" ? "The gait changed, so it is no longer approved. Check it again."
       : before ? `${capital(checkGone(view, before))}. Check it again.` : "Check tries every rule on the waypoints that would be sent.";
     return h("p", { class: before || view.revoked ? "box-note" : "why", data: { tone: before || view.revoked ? "caution" : "plain" }, text });
   }
@@ -68,7 +68,7 @@ function whyNotApprove({ view, pending, seenWarnings }) {
   if (!view?.verdict || pending.length) return "Check this version first.";
   if (!view.verdict.passed) return "The check failed. Errors block approval.";
   if (view.approval) return `Already approved by ${view.approval.by}.`;
-  if (warningsOf(view.verdict).length && seenWarnings !== view.verdict.hash) return "Warnings stand. Look at each, then tick that you have seen them.";
+  if (warningsOf(view.verdict).length && seenWarnings !== view.verdict.hash) return "There are warnings. Read each one, then tick that you have seen them.";
   return null;
 }
 

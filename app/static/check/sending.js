@@ -12,9 +12,9 @@ const option = (name, factor = 1) => ({
 
 const FIELDS = [
   { label: "Merge within", name: "Merge waypoints within", unit: "mm", min: 0, max: 5, step: 0.1, decimals: 2, ...option("merge", 1000),
-    help: "A waypoint is one message with a stroke for every motor. Waypoints this close to the motors' straight path are left out. The robot stops at each one, so fewer are quicker; it counts up to 1 mm off as arrived anyway. 0 sends every sample" },
-  { label: "Stop within", name: "Stop bound", unit: "s", min: 0.8, max: 10, step: 0.1, decimals: 2, empty: "none", fallback: 1, ...option("stop_bound"),
-    help: "Longest time before Stop is heard. The robot hears Stop only between moves, so long moves are cut; each cut costs time. Empty: moves stay whole" },
+    help: "A waypoint is one message with a stroke for every motor. Waypoints this close to the motors' straight path are left out. The robot stops at each waypoint, so fewer waypoints take less time. The robot counts a waypoint as reached within 1 mm anyway. 0 sends every sample" },
+  { label: "Stop bound", name: "Stop bound", unit: "s", min: 0.8, max: 10, step: 0.1, decimals: 2, empty: "none", fallback: 1, ...option("stop_bound"),
+    help: "Longest time until the robot hears Stop. The robot hears Stop only between moves, so long moves are cut into shorter ones, which costs time. Empty: no move is cut" },
 ];
 
 const bound = (value) => (value === null ? "none" : `${fixed(value)} s`);
@@ -29,7 +29,7 @@ function costRow(cost) {
 /** The cost of bound and merging in robot seconds, from the verdict; nothing without a verdict. */
 export function costTable(verdict) {
   if (!verdict?.costs?.length) return [];
-  const head = ["Stop within", `Merged within ${fixed(verdict.costs[0].merge * 1000)} mm`, "Every sample", "Stop in"];
+  const head = ["Stop bound", `Merged within ${fixed(verdict.costs[0].merge * 1000)} mm`, "Every sample", "Stop acts within"];
   return [h("h3", { text: "Time on the robot" }),
     h("table", { class: "costs", "aria-label": "Time on the robot" }, h("thead", {}, h("tr", {}, ...head.map((text) => h("th", { scope: "col", text })))), h("tbody", {}, ...verdict.costs.map(costRow))),
     ...verdict.notes.map((text) => h("p", { class: "why", text }))];

@@ -59,7 +59,7 @@ function progressPart() {
       if (!job) return;
       bar.style.transform = `scaleX(${job.share ?? 0})`;
       setText(text, job.state === "running" ? `${fixed((job.share ?? 0) * 100, 0)} %` : job.state);
-      setAllowed(cancel, job.state === "cancelling" ? "It ends in a moment." : null);
+      setAllowed(cancel, job.state === "cancelling" ? "The simulation is being cancelled." : null);
     },
   };
 }

@@ -30,12 +30,12 @@ function rows(simulation, goToTime) {
   return [
     ["Body, mean error", mm(report.body_error), "mm", null, "Mean distance of the body from the plan at the end of each move"],
     ["Feet, mean error", mm(feetMean), "mm", null, "Mean distance of the feet from the plan at the end of each move"],
-    ["Distance", `${mm(report.distance)} of ${mm(report.planned_distance)}`, "mm", null, "How far the body goes from the first waypoint to the last, and by the plan"],
-    ["Heading", `${degrees(report.heading)} of ${degrees(report.planned_heading)}`, "°", null, "How far it turns, and by the plan"],
+    ["Distance", `${mm(report.distance)} of ${mm(report.planned_distance)}`, "mm", null, "Travel of the body from the first to the last waypoint, in the simulation and in the plan"],
+    ["Heading", `${degrees(report.heading)} of ${degrees(report.planned_heading)}`, "°", null, "Turn of the body, in the simulation and in the plan"],
     ["Largest tilt", degrees(report.max_tilt), "°", at(report.max_tilt_time, "largest tilt"), "Angle between the body's axis and the vertical"],
-    ["Smallest margin", mm(report.min_margin), "mm", at(report.min_margin_time, "smallest margin"), "How far the centre of mass stays inside the area between the feet that carry load; below 0 only the width of the soles holds it"],
+    ["Smallest margin", mm(report.min_margin), "mm", at(report.min_margin_time, "smallest margin"), "How far the centre of mass stays inside the area between the feet that carry load; below 0 only the width of the soles keeps the robot from tipping"],
     ["Motor behind", mm(behind.value, 2), "mm", at(report.motor_error_times[behind.foot][behind.motor], "motor behind"), `Largest distance of a motor from the firmware's ramp: ${motorText(behind)}`],
-    ["Motor at limit", fixed(force.value * 100, 0), "%", force.value > 0 ? at(report.peak_force_times[force.foot][force.motor], "motor at its limit") : null, `Part of the time at which a motor's force is at its limit: ${motorText(force)}`],
+    ["Motor at limit", fixed(force.value * 100, 0), "%", force.value > 0 ? at(report.peak_force_times[force.foot][force.motor], "motor at its limit") : null, `Share of the time in which a motor's force is at its limit: ${motorText(force)}`],
   ];
 }
 

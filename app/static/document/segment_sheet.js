@@ -59,7 +59,7 @@ function cellError(sheet, row, foot) {
 function chainError(sheet, foot) {
   const last = (sheet.rows.length > sheet.count ? sheet.rows.length : sheet.to) - 1;
   const [after, goal] = [placeAfter(sheet, last, foot), sheet.words.segments[sheet.rows[sheet.from - 1]?.[foot]]?.start];
-  return after === goal ? null : { row: last, sentence: `leads to ${after}, but the next iteration goes on from ${goal}.` };
+  return after === goal ? null : { row: last, sentence: `ends at ${after}, but the next iteration starts at ${goal}.` };
 }
 
 /**

@@ -12,7 +12,7 @@ import { searchPart } from "./fastest_search.js";
 
 const PURPOSE = "Makes the gait that goes farthest in a second on the robot. The number under a value is the speed of the "
   + "fastest gait with this value and the other chosen ones. Everything can be changed afterwards.";
-const OTHER_LAW = "This robot has no firmware of its own here; the DeltaWalker's law of time stands in.";
+const OTHER_LAW = "The timing of this robot's firmware is not known. Times are computed as for the DeltaWalker.";
 const MOST_CYCLES = 20;
 
 function addStyles() {

@@ -123,7 +123,7 @@ export function searchPart(store, { request, nameOf, use }) {
     const before = job?.id;
     job = shownJob(state, request().robot, picked);
     const isOn = Boolean(job) && jobIsOn(job);
-    setAllowed(start, isOn ? "A search is on. Wait for it, or cancel it." : null, "Tries every foot order and direction with the values above");
+    setAllowed(start, isOn ? "A search is running. Wait for it, or cancel it." : null, "Tries every foot order and direction with the values above");
     // What has the focus is not taken away with it.
     if (!isOn && document.activeElement === cancel) start.focus();
     progress.hidden = !isOn;

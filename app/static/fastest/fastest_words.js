@@ -38,8 +38,8 @@ export function courseText({ course, turn }) {
 const millimetres = (value) => `${mm(value, 0)} mm`;
 const STOP = "Within this time the robot hears a stop, whenever it comes";
 const MARGIN = "Least distance of the centre of mass from the edge of the support polygon, at every place of every move";
-const SWAY = "How far the heading may leave an even turn. Soles pivot on the ground then, and nobody has tried yet how "
-  + "flat shoes do that";
+const SWAY = "How far the heading may differ from an even turn. Soles then pivot on the ground, which is not tested with "
+  + "flat shoes yet";
 
 /** The options: what each is called, what it means, and its values in words. */
 export const GROUPS = [

@@ -59,7 +59,7 @@ export const ACTS = [
   {
     key: "remedy", title: "Ask for too much, then use a remedy", place: remedyPlace,
     sentence: ({ view }) => (view && isDrawn(view.document)
-      ? "Set Step to 30 mm. There is no motion for it: choose Use this at one of the remedies."
+      ? "Set Step to 30 mm. No motion is possible with it. Press “Use this” beside one of the remedies."
       : "Only drawn gaits get remedies: first choose Walk 10 mm under Examples. Then set its Step to 30 mm."),
   },
   {

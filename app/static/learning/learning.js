@@ -52,7 +52,7 @@ function jobRow(job, open) {
 
 function setRow(set, remove) {
   return h("li", { class: "learned-set" }, h("span", { title: set.title }, h("b", { text: set.key }), h("span", { class: "quiet", text: ` ${[set.note, set.by, clockTime(set.made)].filter(Boolean).join(" · ")}` })),
-    h("button", { class: "link", text: "Delete", "aria-label": `Delete ${set.key}`, title: "It can be brought back; what was simulated with it counts as stale meanwhile", on: { click: () => remove(set) } }));
+    h("button", { class: "link", text: "Delete", "aria-label": `Delete ${set.key}`, title: "The set can be brought back. Until then simulations with this set count as out of date", on: { click: () => remove(set) } }));
 }
 
 /**
@@ -78,7 +78,7 @@ export async function openLearning(page) {
     show(h("div", { class: "run-all learning" }, h("button", { class: "link", text: "All trials", on: { click: all } }),
       h("div", { class: "run-line run-title" }, h("b", { text: "Learn from trials" })), h("p", { class: "quiet", text: PURPOSE }),
       ...(followed ? [followed.element] : [trialChoice(trials, start), tableChoice(start)]),
-      ...rows("Courses of learning", "Learned", ended.map((job) => jobRow(job, open))),
+      ...rows("Learning jobs", "Learned", ended.map((job) => jobRow(job, open))),
       ...rows("Sets of physics parameters", "Sets", sets.map((set) => setRow(set, remove)))), leave);
     followed?.begin();
   });

@@ -5,14 +5,14 @@ import { counted, fixed } from "../lib/format.js";
 import { toast } from "../lib/toasts.js";
 
 const LEAST_GAITS = 3;
-const WHERE = "Each trial has to be laid over its run or gait: choose that where a trial is added.";
+const WHERE = "Each trial needs its run or gait for comparison. Choose the run or gait when you add the trial.";
 
 const gaitOf = ({ gait_name: gait, name, expected_cm: wanted, iterations }) => `${gait || name}, ${fixed(wanted / iterations)} cm × ${iterations}`;
 
 /** Why nothing can be learned from a trial; null where it can. */
 function whyNot({ is_example: isExample, gait, run }) {
   if (isExample) return "Made by simulation: no robot did this, so nothing is learned from it.";
-  return gait || run ? null : "It is not known what the robot was sent: add the trial again, laid over its run or gait.";
+  return gait || run ? null : "The waypoints that the robot was sent are not known. Add the trial again, with its run or gait.";
 }
 
 function trialLine(trial, changed) {
@@ -26,7 +26,7 @@ function trialLine(trial, changed) {
 function missingText(trials, gaits) {
   if (gaits >= LEAST_GAITS) return null;
   const have = trials.some((trial) => !whyNot(trial)) ? `The ticked trials are of ${counted(gaits, "gait")}` : "There is no trial to learn from yet";
-  return `${have}; ${LEAST_GAITS} different gaits or steps are needed, so that one can be left out. ${WHERE}`;
+  return `${have}; ${LEAST_GAITS} different gaits or steps are needed, so that one can be left out as a test. ${WHERE}`;
 }
 
 /**

@@ -12,14 +12,14 @@ const withUnit = (value, unit) => `${figure(value)} ${unit}`.trim();
 const table = (caption, title, head, rows) => captionedTable({ class: "run-table learned-table", title }, caption, head, rows);
 
 function parameterRow({ title, unit, default: usual, fitted, low, high, is_identifiable: isIdentifiable, effect, left }) {
-  const help = `Through its range it changes a gait by up to ${fixed(effect)} spreads of a trial; ${fixed(left * 100, 0)} % of what was unknown of it is left`;
+  const help = `Over its range this parameter changes a gait by up to ${fixed(effect)} standard deviations of a trial; ${fixed(left * 100, 0)} % of its uncertainty is left`;
   return h("tr", { title: help }, h("th", { scope: "row", text: title }), h("td", { text: withUnit(usual, unit) }),
     isIdentifiable ? h("td", {}, h("b", { text: figure(fitted) }), h("span", { class: "quiet range", text: `${figure(low)} to ${figure(high)}` })) : h("td", { class: "quiet", text: UNKNOWN }));
 }
 
-const parameterTable = ({ parameters }) => table("Parameters", "Fitted values with one standard deviation below and above; what the trials cannot tell stays as it was", ["", "usual", "fitted"], parameters.map(parameterRow));
+const parameterTable = ({ parameters }) => table("Parameters", "Fitted values with one standard deviation below and above; parameters that the trials do not identify keep their usual value", ["", "usual", "fitted"], parameters.map(parameterRow));
 
-const predictionTable = ({ foretold: predicted }) => table("How far foretold travel is off", "Mean over gaits, without sign. A gait that is left out is predicted by the fit to the others", ["", "cm", "°"],
+const predictionTable = ({ foretold: predicted }) => table("Error of the predicted travel", "Mean over gaits, without sign. A gait that is left out is predicted by the fit to the others", ["", "cm", "°"],
   predicted.map(({ title, error_cm: distance, error_deg: angle, angles, falls }) => h("tr", falls ? { title: `If a gait falls, its whole distance counts as the error and its angle does not: the angle is a mean of ${angles}` } : {},
     h("th", { scope: "row", text: falls ? `${title} (${falls} fall, angle of ${angles})` : title }), h("td", { text: fixed(distance, 2) }), h("td", { text: fixed(angle) }))));
 

@@ -73,8 +73,8 @@ export function mountConvergence(store, section) {
   const frame = h("div", { role: "img" });
   const last = { objective: h("span"), primal: h("span") };
   const key = h("div", { class: "curve-key" },
-    h("span", { title: "What the optimiser makes small; see Cost under More" }, h("i"), "objective ", last.objective),
-    h("span", { class: "primal", title: "By how much limits are still broken; 0 at the end" }, h("i"), "violation ", last.primal));
+    h("span", { title: "The cost that the optimiser minimises; see Cost under More" }, h("i"), "objective ", last.objective),
+    h("span", { class: "primal", title: "Largest violation of a limit, in the solver's scale; 0 when every limit holds" }, h("i"), "violation ", last.primal));
   const line = h("p", { class: "why" });
   const plot = h("div", { class: "curve" }, frame, key);
   section.append(h("h3", { title: "How the last optimisation went, iteration by iteration" }, "Convergence", state), plot, line);

@@ -96,7 +96,7 @@ function groupsOf(document) {
     ...(onTheSpot ? [] : [of("Travel", "mm", (side) => side.distance, (value) => mm(value))]),
     ...(turns ? [of("Turn", "°", (side) => side.turn, (value) => fixed(value * DEGREES))] : []),
     of("Least margin", "mm", (side) => side.margin, (value) => mm(value)),
-    of("Stop within", "s", (side) => side.stop_seconds, (value) => fixed(value, 2)),
+    of("Stop acts within", "s", (side) => side.stop_seconds, (value) => fixed(value, 2)),
   ];
   return [{ head: "One iteration in mid-walk", rows: middle }, { head: whole, rows: all }];
 }

@@ -19,7 +19,7 @@ import { pinnedPoses } from "./pinned_poses.js";
 import { poseSearch } from "./pose_search.js";
 import { timingAnswer, timingButton, timingNote } from "./timing.js";
 
-const POSES = "Each edit is answered at once by the last motion, adapted; the fastest one is searched for meanwhile.";
+const POSES = "After each edit you see the last motion, adapted to the new values, while the studio searches for the fastest motion.";
 const nameOf = (element) => element.querySelector("[aria-label]").getAttribute("aria-label");
 
 const TIERS = "The plan follows your edits. Optimise also improves footholds and body height.";
@@ -123,8 +123,8 @@ function ofResult(provenance, source, isEdited) {
   const [when, title] = [clockTime(made), details(provenance)];
   if (!matches || isEdited) return { text: `Optimised ${when} for another version: out of date.`, title, tone: "caution" };
   if (isHere) return { text: `Optimised ${when} in ${fixed(seconds * 1000, 0)} ms.`, title, tone: null };
-  if (source === "optimised") return { text: `Optimised elsewhere ${when}; shown is a result from here.`, title, tone: null };
-  return { text: `Optimised elsewhere ${when}; the result is not here. Optimise again.`, title, tone: "caution" };
+  if (source === "optimised") return { text: `Optimised elsewhere ${when}. The shown motion was computed by this studio.`, title, tone: null };
+  return { text: `Optimised elsewhere ${when}. This studio does not have the result. Optimise again.`, title, tone: "caution" };
 }
 
 function words({ view, pending, gesture }) {

@@ -37,8 +37,8 @@ const ITERATIONS = { label: "Iterations", name: "Iterations", unit: "", min: 1, 
 
 /** The step once more, by its shares along the axes. */
 const SHARES = [
-  { label: "Step x", name: "Step x", help: "Its share along the scene's x axis", ...axis(0) },
-  { label: "Step y", name: "Step y", help: "Its share along the scene's y axis", ...axis(1) },
+  { label: "Step x", name: "Step x", help: "Part of the step along the scene's x axis", ...axis(0) },
+  { label: "Step y", name: "Step y", help: "Part of the step along the scene's y axis", ...axis(1) },
 ];
 
 const SAMPLE_TIME = {
@@ -50,7 +50,7 @@ const LIMITS = [
   { label: "Body height", name: "Body height", unit: "mm", min: 53, max: 60.5, step: 0.5, decimals: 2,
     help: "Height of the plane of the motors above the standing feet at the start", ...option("plane_height", 1000) },
   { label: "End height", name: "End height", unit: "mm", min: 53, max: 60.5, step: 0.5, decimals: 2, empty: "same", fallback: 53.5,
-    help: "The same at the goal; empty: as at the start", ...option("end_plane_height", 1000) },
+    help: "Height of the plane of the motors at the goal; empty: as at the start", ...option("end_plane_height", 1000) },
   { label: "Clearance", name: "Clearance", unit: "mm", min: 0, max: 15, step: 0.5, decimals: 2,
     limit: "clearance", fromSI: (metres) => metres * 1000, help: "Each foot rises at least this high in its swing", ...option("clearance", 1000) },
   { label: "Stability margin", name: "Stability margin", unit: "mm", min: 0, max: 30, step: 0.5, decimals: 2,
@@ -90,9 +90,9 @@ const POSE_CHOICES = [
 ];
 const DEGREES = 180 / Math.PI;
 const POSE_NUMBERS = [
-  { label: "Sway", name: "Sway", unit: "°", min: 0, max: 40, step: 1, decimals: 1, help: "How far the heading may leave an even turn. It makes a gait faster, but soles pivot on the ground, and nobody has tried yet how flat shoes do that",
+  { label: "Sway", name: "Sway", unit: "°", min: 0, max: 40, step: 1, decimals: 1, help: "How far the heading may differ from an even turn. Sway makes a gait faster, but soles pivot on the ground, which is not tested with flat shoes yet",
     read: ({ poses }) => (poses ? (poses.sway ?? 0) * DEGREES : null), write: (document, value) => ({ ...document, poses: { ...document.poses, sway: value / DEGREES } }) },
-  { label: "Slip", name: "Slip", unit: "mm", min: 0.05, max: 5, step: 0.1, decimals: 2, help: "How far a standing foot may leave its foothold within a move, since motors that go straight do not keep it exactly", ...limit("slip") },
+  { label: "Slip", name: "Slip", unit: "mm", min: 0.05, max: 5, step: 0.1, decimals: 2, help: "How far a standing foot may slide off its foothold within a move: motors that move in proportion do not hold the foot exactly", ...limit("slip") },
   { label: "Shoe distance", name: "Shoe distance", unit: "mm", min: 0, max: 60, step: 0.5, decimals: 1, help: "Least distance between the middles of two feet; a shoe is 25 mm across", ...limit("shoe_distance") },
   { label: "Arm distance", name: "Arm distance", unit: "mm", min: 0, max: 10, step: 0.5, decimals: 1, help: "Least room between the arms of neighbouring legs; 0 where they may touch", ...limit("arm_distance") },
 ];
@@ -119,14 +119,14 @@ export function hasField({ poses, timeline }, name) {
 
 const MORE_CHOICES = [
   { label: "Orientation", name: "Orientation", options: [["FB", "FB"], ["FBS", "FBS"]],
-    help: "Which way the feet are seen. FB: front and back pairs, along the diagonal between x and y; FBS: front, sides and back, along x. Roles and Mirror follow; the step stays",
+    help: "Heading of the gait. FB: along the diagonal between x and y, feet in front and back pairs; FBS: along x, feet front, sides and back. Names of the feet and Mirror follow; the step does not change",
     read: ({ orientation }) => orientation, write: (document, value) => ({ ...document, orientation: value }) },
   { label: "Direction", name: "Direction", options: [1, 2, 3, 4].map((value) => [value, String(value)]),
     help: "The gait turned by quarter turns: 1 as drawn", ...property("direction") },
   { label: "Ends", name: "Boundary", options: [["rest", "at rest"], ["periodic", "cycle"]],
     help: "Boundary. at rest: begins and ends standing still; cycle: ends as it begins, so that it can be repeated", ...word("boundary") },
   { label: "Turning", name: "Turning", options: [["steady", "steady"], ["return", "at the end"]],
-    help: "When the body turns: all the while, or while every foot stands", ...word("turning") },
+    help: "When the body turns. steady: during the whole gait; at the end: while every foot stands", ...word("turning") },
 ];
 
 function orderField(store, edits) {

@@ -4,8 +4,8 @@ import { pinWords, pinnedOf, withoutPinned } from "../document/pinned_poses.js";
 import { h, setText } from "../lib/dom.js";
 import { shownDocument } from "../state/store.js";
 
-const HOW = "Pause at a pose and drag its mark in the 3D preview, or move it by arrow keys: the body is kept there, and the rest is solved anew.";
-const NOT_HERE = "No pose can be pinned where the gait turns or sways, or where its stop bound divides moves.";
+const HOW = "Pause at a pose and drag its mark in the 3D preview, or move it by arrow keys: the search keeps the body there and solves all other poses again.";
+const NOT_HERE = "Poses cannot be pinned in a gait that turns or sways, or whose stop bound cuts moves.";
 
 /** The list, hidden for every other gait. */
 export function pinnedPoses(store, edits, goTo) {

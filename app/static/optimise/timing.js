@@ -25,7 +25,7 @@ function whyNot(state) {
   if (view.document.segment_table) return "This gait is made by hand from its segment table. Draw on the timeline first.";
   if (stepTurn(view.document) !== 0) return TURNS;
   const job = timingOf(state);
-  return job && jobIsOn(job) ? "The search is on. Cancel the job or wait for it." : null;
+  return job && jobIsOn(job) ? "A search is running. Cancel the job or wait for it." : null;
 }
 
 /** The button that begins the search. */
@@ -102,7 +102,7 @@ function found({ result }, view, store, edits) {
   const label = `Use ${fixed(usable.seconds)} s`;
   const button = h("button", { text: label, title: "Takes over the phases in whole samples and the motors' limits, and runs Optimise",
     on: { click: attempt(() => use(usable, store, edits)) } });
-  return [bars, note, h("div", { class: "buttons" }, button, h("span", { class: "why", text: `in whole samples, ${fixed(usable.sample_time, 2)} s apart` }))];
+  return [bars, note, h("div", { class: "buttons" }, button, h("span", { class: "why", text: `rounded to samples of ${fixed(usable.sample_time, 2)} s` }))];
 }
 
 /** The box with what the search found. */

@@ -134,7 +134,7 @@ function limbLocks(problem, { refusal, lock }) {
       buttons.forEach((button, foot) => {
         const isGiven = given(foot);
         setAttribute(button, "aria-pressed", String(isGiven || problem.state.locked.includes(foot)));
-        setAllowed(button, isGiven ? "Both gaits leave this limb as it is, and so does the transition." : refusal(foot), "Keeps the value that it has at both ends; it then counts as no walking limb");
+        setAllowed(button, isGiven ? "Both gaits leave this limb as it is, and so does the transition." : refusal(foot), "The limb keeps its value of both ends, and does not count as a walking limb");
       });
     },
   };

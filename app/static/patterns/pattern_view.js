@@ -36,7 +36,7 @@ const hatch = () => svg("svg", { class: "sprite", "aria-hidden": "true" }, svg("
   svg("line", { x1: 0, y1: 0, x2: 0, y2: 0.4, "stroke-width": 0.22, class: "pattern-hatch-line" }))));
 
 function gaitParts(store, problem) {
-  const part = (side, name) => patternGaitStrip({ side, name, help: `The gait that the transition leads ${side}`,
+  const part = (side, name) => patternGaitStrip({ side, name, help: `The transition leads ${side} this gait`,
     choose: (gait) => problem.set({ [side]: { gait, sample: null } }), move: (sample) => problem.set({ [side]: { ...problem.state[side], sample } }) });
   const parts = { from: part("from", "Gait A"), to: part("to", "Gait B") };
   return {

@@ -122,7 +122,7 @@ async function save(form, drawn) {
 
 /** Buttons that save a plot, one for each format; `drawn()` returns the argument of `plotSvg` and `plotCsv`, or null. */
 export function saveButtons(kind, drawn) {
-  const help = { SVG: "a picture for papers", PNG: "a picture for slides", CSV: "every value, a row a sample" };
+  const help = { SVG: "a picture for papers", PNG: "a picture for slides", CSV: "all values, one row per sample" };
   return h("div", { class: "plot-save", role: "group", "aria-label": `Save ${kind.name}` }, ...Object.keys(FORMS).map((form) => h("button", {
     class: "link", text: form, "aria-label": `Save ${kind.name} as ${form}`, title: `Save as ${form}: ${help[form]}`,
     on: { click: () => { const now = drawn(); if (now) save(form, now); } },

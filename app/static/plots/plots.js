@@ -93,7 +93,7 @@ function showSentence(row, sentence) {
 function emptyWords(state, plan) {
   if (!state.view) return "";
   if (isRefusedDrawing(state)) return "No motion: the inspector says why.";
-  return plan?.refusal ? "No motion: the reason stands at the timeline." : "No plan yet.";
+  return plan?.refusal ? "No motion: the timeline shows the reason." : "No plan yet.";
 }
 
 /** Shows the legend of all plots: a name for each line style. A preview that has none keeps its row, so that nothing moves. */

@@ -30,7 +30,7 @@ const mmRequested = (value) => (value ? value * 1000 : null);
 export const STRIPS = [
   {
     key: "margin", name: "Stability margin", title: "Margin, mm", unit: "mm", shown: true, lack: "No margin.",
-    help: "Distance of the centre of mass from the edge of the support polygon, in mm; below 0 it tips",
+    help: "Distance of the centre of mass from the edge of the support polygon, in mm; below 0 the robot tips",
     of: (plan, options) => (plan.margin ? {
       series: [{ foot: null, motor: null, valueAt: (index) => (plan.margin[index] === null ? null : plan.margin[index] * 1000) }],
       low: 0, high: null, wanted: mmRequested(options?.margin), most: 1,

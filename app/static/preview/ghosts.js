@@ -8,10 +8,10 @@ import { latestOnly } from "../lib/latest_only.js";
 import { simulationOver } from "../state/simulation.js";
 
 const KINDS = {
-  before: { text: "Before the last edit", help: "The gait as it was before the last edit, at the same time; while you drag, as it is without the drag" },
+  before: { text: "Before the last edit", help: "The gait before the last edit, at the same time; while you drag, the gait before the drag" },
   saved: { text: "As saved", help: "The gait as it was saved, at the same time" },
   measured: { text: "As measured", shown: true, help: "The robot of the run that is open, by its measured strokes, with the plan's standing feet on the ground" },
-  simulated: { text: "As simulated", shown: true, help: "The robot of the simulation, leaning and slipping as physics has it; green rings are feet that carry load, red lines where feet slid" },
+  simulated: { text: "As simulated", shown: true, help: "The robot as it leans and slips in the simulation; green rings are feet that carry load, red lines where feet slid" },
 };
 
 const keyOf = (view, of) => `${view.id} ${of} ${view.revision} ${view.saved_at}`;

@@ -18,7 +18,7 @@ import { handlesOf, PARTS, withStep } from "./jog_steps.js";
 
 const STEP_MM = { least: 0.1, most: 10, first: 2 };
 const BEGINS = {
-  measured: "From where the motors stand.",
+  measured: "The steps begin at the present strokes of the motors.",
   standing: "No strokes are known: the steps begin with every motor at 8 mm.",
 };
 
@@ -35,7 +35,7 @@ function build(change) {
     parts, foot, size,
     findings: h("ul", { class: "jog-findings" }),
     target: h("p", { class: "why" }), why: h("p", { class: "why" }),
-    move: h("button", { class: "primary", text: "Move", "data-robot": true }), back: h("button", { text: "Back to where it stands" }),
+    move: h("button", { class: "primary", text: "Move", "data-robot": true }), back: h("button", { text: "Target to present pose" }),
   };
 }
 
@@ -140,7 +140,7 @@ export function jogPart(store, edits) {
       setText(parts.target, answer ? targetText(answer, now.steps) : "");
       setText(parts.why, why && !answer?.findings.some(({ sentence }) => sentence === why) ? why : "");
     }
-    setAllowed(parts.back, now.steps.length ? null : "The target is where it stands.");
+    setAllowed(parts.back, now.steps.length ? null : "The target is the present pose of the robot.");
     const { target_mm: pose = null, wired = false } = answer ?? now.answer ?? {};
     store.set({ jog: { ...body(), pose_mm: pose, target_mm: now.steps.length ? pose : null, wired } });
     return undefined;

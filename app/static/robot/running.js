@@ -8,7 +8,7 @@ import { whyNotHeld } from "../state/lease.js";
 import { acceptRobot, planIsOn, runIsOn, shownDocument } from "../state/store.js";
 
 const TICK_MS = 200;
-const PAUSE_HELP = "Stands still at the next pose with all feet down.";
+const PAUSE_HELP = "The robot pauses at the next pose with all feet down.";
 
 /** What the robot does now, in a sentence. */
 function nowText(state) {
@@ -49,7 +49,7 @@ function actButton(store, text, verb, help) {
 export function runningPart(store) {
   const [left, bar, done, poses, now, later] = [h("b"), h("i"), h("span"), h("span"), h("p"), h("p", { class: "why", role: "status", "aria-label": "Later edit", data: { toneText: "caution" } })];
   const pause = actButton(store, "Pause robot", "pause", PAUSE_HELP);
-  const resume = actButton(store, "Resume robot", "resume", "Goes on from where it stands.");
+  const resume = actButton(store, "Resume robot", "resume", "The run continues from the present pose.");
   const element = h("div", { class: "running", role: "group", "aria-label": "Run", hidden: true },
     h("p", { class: "time-left number" }, left, h("span", { class: "quiet", text: " left" })), h("div", { class: "progress" }, bar),
     h("p", { class: "run-figures number" }, done, poses), now, later, pause.button, resume.button, h("p", { class: "why", text: PAUSE_HELP }));
@@ -72,7 +72,7 @@ export function runningPart(store) {
     known = { seconds: run.seconds_left ?? null, at: performance.now(), elapsed: run.elapsed ?? 0, isStart: run.phase === "start pose" };
     bar.style.transform = `scaleX(${run.count ? run.reached / run.count : 0})`;
     const again = run.iterations > 1 ? `iteration ${run.iteration} of ${run.iterations}, ` : "";
-    setText(poses, `${again}pose ${run.reached} of ${run.count}`);
+    setText(poses, `${again}waypoint ${run.reached} of ${run.count}`);
     const isPaused = robot.robot === "paused";
     pause.button.hidden = isPaused;
     resume.button.hidden = !isPaused;

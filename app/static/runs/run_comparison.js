@@ -36,7 +36,7 @@ function extentText(both) {
   const { waypoints, runs, apart_mm: apart } = both;
   const stopped = runs.some(({ reached, count }) => reached !== count);
   const end = `Aligned by waypoint: ${counted(waypoints.length, "waypoint")} that both reached, up to ${placeText(both, waypoints.length - 1)}`;
-  const other = apart > SAME_MM ? ` The two were sent other waypoints: their commanded strokes are up to ${fixed(apart, 2)} mm apart.` : "";
+  const other = apart > SAME_MM ? ` The two runs had different waypoints: their commanded strokes differ by up to ${fixed(apart, 2)} mm.` : "";
   return `${end}${stopped ? ", where the shorter run ended" : ""}.${other}`;
 }
 
@@ -70,7 +70,7 @@ function tables({ runs: [one, other] }) {
   const times = ({ figures, move_seconds: moves }) => [figures.seconds, figures.estimate, Math.max(...moves), figures.start_seconds];
   const largest = (figures) => [figures.largest_mm, Math.max(...figures.foot_largest_mm), figures.body_largest_mm];
   return [
-    figureTable("Times, s", "Of the waypoints that both reached: from the first one's message to the last arrival, what the ramp law lets expect, and the slowest move",
+    figureTable("Times, s", "For the waypoints that both runs reached: time from the first message to the last arrival, time that the firmware's ramps predict, and the slowest move",
       head, rowsOf(words(["duration", "expected", "slowest move", "to the start pose"]), times(one), times(other), 1)),
     figureTable("These waypoints, mm", "Largest errors of any motor, of any foot, and of the body at the waypoints that both reached",
       head, rowsOf(words(["motors, largest", "feet, largest", "body, largest"]), largest(a), largest(b))),

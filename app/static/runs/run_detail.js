@@ -55,7 +55,7 @@ const endOf = (run) => (run.state === "running" ? null : run.states.find(({ link
 /** The choice of another run, and the comparison of the two. */
 function comparing(run, others, tables) {
   const comparable = others.filter(({ id, errors }) => id !== run.id && errors);
-  const select = h("select", { "aria-label": "Compare with", title: "Another run beside this one, waypoint by waypoint" }, h("option", { value: "", text: "no other run" }),
+  const select = h("select", { "aria-label": "Compare with", title: "Compare this run with another run, waypoint by waypoint" }, h("option", { value: "", text: "no other run" }),
     ...comparable.map((other) => h("option", { value: other.id, text: `${other.gait_name}, ${clockTime(other.started)}, ${other.by}, ${other.state}` })));
   select.addEventListener("change", attempt(async () => {
     const id = select.value;

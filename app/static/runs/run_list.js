@@ -53,7 +53,7 @@ const plain = (values) => values.map((value) => ({ value, text: value }));
  * @returns {{element: HTMLElement, refresh: () => Promise<object[]|null>}} `refresh` resolves to the runs that are listed
  */
 export function runList(open) {
-  const [gait, state, operator] = [choice("Gait of the runs", "Only runs of this gait"), choice("Result of the runs", "Only runs that ended so"), choice("Operator of the runs", "Only runs that this person sent")];
+  const [gait, state, operator] = [choice("Gait of the runs", "Only runs of this gait"), choice("Result of the runs", "Only runs with this result"), choice("Operator of the runs", "Only runs that this person sent")];
   const [since, until] = [dayField("Since", "Runs since", "Started on this day or later"), dayField("Until", "Runs until", "Started on this day or earlier")];
   const [count, list] = [h("p", { class: "quiet", role: "status" }), h("ul", { class: "run-list", role: "list", "aria-label": "Runs" })];
   oneTabStop(list);
@@ -85,4 +85,4 @@ export function runList(open) {
   };
 }
 
-const noRuns = ({ states }) => (states.length ? "No run is like that." : "No run yet. Send an approved gait to the robot: every run is kept here, with what was measured.");
+const noRuns = ({ states }) => (states.length ? "No run matches the filters." : "No run yet. Send an approved gait to the robot: every run is kept here, with what was measured.");

@@ -25,7 +25,7 @@ const withCells = (cells) => (sheet) => {
 
 const put = (sheet, cells, label) => {
   const changed = cells.filter(([row, foot, name]) => sheet.rows[row][foot] !== name);
-  return changed.length ? { change: withCells(changed), label, kept: changed.map(([row, foot]) => [row, foot]) } : { reason: "The same stands here already." };
+  return changed.length ? { change: withCells(changed), label, kept: changed.map(([row, foot]) => [row, foot]) } : { reason: "These cells have this value already." };
 };
 
 const cellsOf = ({ rows, feet }) => {
@@ -133,7 +133,7 @@ export function setNumber(sheet, field, value) {
     samples: [2, Math.floor(MOST_SAMPLES / walked(sheet).length), `a timeline has ${MOST_SAMPLES} samples at most`],
     from: [1, sheet.to, `the repeating part ends with segment ${sheet.to}`], to: [sheet.from, sheet.count, `the part begins with segment ${sheet.from}, and the table has ${sheet.count}`],
   }[field];
-  if (sheet[field] === value) return { reason: "The same stands here already." };
+  if (sheet[field] === value) return { reason: "The field has this value already." };
   if (value < least || value > most) return { reason: `${words[field]} is ${value}; it must lie between ${least} and ${most}: ${why}.` };
   return { change: (now) => ({ ...now, [field]: value, toEnd: field === "to" ? false : now.toEnd }), label: `${words[field]} ${field === "samples" ? "to " : ""}${value}`, kept: [] };
 }

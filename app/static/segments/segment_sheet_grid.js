@@ -44,7 +44,7 @@ export function createSegmentSheetGrid(grid, addLink) {
     parts = sheet.rows.map((_, row) => bodyRow(sheet, row));
     const elements = parts.map(({ element }) => element);
     const linked = sheet.rows.length > sheet.count;
-    const bridge = h("div", { role: "row", class: "bridge" }, h("div", { role: "rowheader", title: "Between two iterations the segments behind the repeating part and those before it give way to the link" }, "Link", h("span", { text: linked ? "leads into the next iteration" : "none" }),
+    const bridge = h("div", { role: "row", class: "bridge" }, h("div", { role: "rowheader", title: "Between two iterations the link replaces the segments before and after the repeating part" }, "Link", h("span", { text: linked ? "leads into the next iteration" : "none" }),
       linked ? null : h("button", { class: "link", text: "Add", title: "Add a segment that leads from one iteration into the next", on: { click: addLink } })));
     elements.splice(sheet.count, 0, bridge);
     grid.replaceChildren(headRow(sheet.legs, roles), ...elements);

@@ -16,7 +16,7 @@ function offerOf({ foot, first, names, inserted, table }, sheet, document) {
   const own = Array.from({ length: sheet.legs }, (_, one) => one).find((one) => ownRow(sheet, one) === foot);
   const words = names.join(", ");
   const label = !names.length ? "Make the link fit" : inserted ? `Insert ${words}` : `${capital(range(first, names.length))} to ${words}`;
-  const help = inserted ? `New ${range(first, names.length)}; the other feet wait meanwhile` : `Of foot ${own + 1}; nothing else changes but the link where it must`;
+  const help = inserted ? `New ${range(first, names.length)}; the other feet wait meanwhile` : `Changes foot ${own + 1} only, and the link if that is necessary`;
   const mended = segmentSheetOf({ ...document, segment_table: table });
   const moved = inserted && names.length ? ([row, column]) => [row + (row >= first ? names.length : 0), column] : undefined;
   return { label, help, step: { moved, change: (now) => ({ ...mended, iterations: now.iterations }), label: `Foot ${own + 1}: ${lowered(label)}`, kept: [] } };
@@ -66,7 +66,7 @@ export function mountSegmentSheetRepairs(store, edits, note, focus) {
     }
     note.dataset.tone = stops ? "bad" : "caution";
     const more = errors.length > 1 ? ` ${errors.length - 1} more ${errors.length > 2 ? "cells do" : "cell does"} not fit.` : "";
-    const after = stops ? "The gait keeps its last table until all fits." : "One iteration can be run, several cannot.";
+    const after = stops ? "The gait keeps its last table until every segment fits." : "The gait can run one iteration, but not several.";
     note.replaceChildren(h("p", { text: `${errorSentence(sheet, errors[0])}${more}`, title: after }),
       h("div", { class: "buttons" },
         ...offers.map(({ label, help, step }) => h("button", { text: label, title: help, on: { click: act(() => commit(store, edits, step)) } })),

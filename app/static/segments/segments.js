@@ -149,7 +149,7 @@ function mountSegmentDrafts(store) {
   function drop(view) {
     put(view.id, null);
     write(view.id, null);
-    toast(`The changes of the segment table of “${view.document.name}” that did not fit yet are dropped: its table was changed meanwhile.`);
+    toast(`The segment table of “${view.document.name}” was changed elsewhere. Your changes that did not fit yet are dropped.`);
   }
 
   function recall(view, base) {

@@ -92,7 +92,7 @@ export function showRow(row, { index, count, part, planned, move, source, plan }
   row.dot.dataset.tone = tone;
   const isFromRest = Boolean(part.restarts) && part.times > 1;
   setText(row.word, isFromRest ? `${word}, each from rest` : word);
-  setAttribute(row.word, "title", source === "changed" ? "The gait that it was copied from moves differently by now" : planned?.note);
+  setAttribute(row.word, "title", source === "changed" ? "The gait that this part was copied from has a different motion now" : planned?.note);
   row.over.hidden = source !== "changed";
   row.through.hidden = !isFromRest || source === "changed";
 }

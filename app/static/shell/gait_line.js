@@ -6,9 +6,9 @@ import { thumbnail } from "./footfalls.js";
 
 /** States of a gait, each with the mark before its name and a sentence. */
 const STATES = {
-  unreadable: { mark: "bad", sentence: "It cannot be shown" },
+  unreadable: { mark: "bad", sentence: "This gait cannot be shown" },
   outside: { mark: "bad", sentence: "" },
-  infeasible: { mark: "bad", sentence: "No motion of it keeps every limit" },
+  infeasible: { mark: "bad", sentence: "No motion of this gait keeps every limit" },
   edited: { mark: "edited", sentence: "Unsaved changes" },
   timed: { mark: "good", sentence: "Its time on the robot is known" },
   unknown: { mark: "unknown", sentence: "Its time on the robot is not known yet" },

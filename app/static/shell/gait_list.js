@@ -81,7 +81,7 @@ export function selectAfterHello(store) {
   if (choice) selectGait(store, choice);
 }
 
-const WAYS_OUT = { last: "Go back to the last state that can be shown", original: "Back to how it came" };
+const WAYS_OUT = { last: "Go back to the last state that can be shown", original: "Restore the original gait" };
 
 /** Says why a gait cannot be shown, and offers its way out; one of a person's own can be deleted, and brought back. */
 function showWaysOut(store, { id, name, problem, way_out: wayOut }) {
@@ -305,7 +305,7 @@ function found(gait, search) {
  * @returns {{element: HTMLElement, show: (listed: number, count: number) => void, search: () => string, clear: () => void}}
  */
 function gaitSearch(changed) {
-  const field = h("input", { type: "search", "aria-label": "Find a gait", placeholder: "Find a gait", autocomplete: "off", spellcheck: "false", title: "Words of its name, robot, orientation or making; or its foot order" });
+  const field = h("input", { type: "search", "aria-label": "Find a gait", placeholder: "Find a gait", autocomplete: "off", spellcheck: "false", title: "Type words of the gait's name, robot, orientation or kind, or type its foot order" });
   const nothing = h("p", { class: "teach", role: "status", hidden: true });
   const element = h("div", { class: "gait-search" }, field, nothing);
   const clear = () => {

@@ -33,7 +33,7 @@ const GROUPS = {
     ["Drag", "What the tool says. Paint: from stance it paints, a swing or its end is moved"],
     ["Alt or B + drag", "Paint over swings too; B alone chooses Paint"],
     ["Shift + drag", "Lock; from a locked cell on unlock"],
-    ["Ctrl + drag", "Select; Shift + click extends, a row's name takes the row"],
+    ["Ctrl + drag", "Select cells; Shift + click extends the selection, a click on a row's name selects the row"],
     ["Double click", "With Select: the whole swing; its drag moves it, with Alt a copy"],
     ["Ctrl + wheel", "Zoom; two fingers as well. The wheel alone scrolls"],
   ],

@@ -8,7 +8,7 @@ const PARTS = [
   "#drawers", ".rail", ".inspector-head", "#sections", ".inspector-foot", ".pattern-panel", "#tools", "#timeline", "#parts", "#segments", ".pattern-view",
   ".gait-pill", ".history", "#operator", "#goal", "#pose", "#file-notice",
 ];
-const SENTENCE = "No connection to the studio. All but Stop is off until it is back; Stop is tried all the same.";
+const SENTENCE = "No connection to the studio. Until the connection is back only Stop can be pressed, and even Stop may not arrive.";
 
 function sentence({ pending, left }) {
   const unsent = pending.length + left.length;

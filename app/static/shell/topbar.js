@@ -87,13 +87,13 @@ function mountName(store, edits) {
     const unfit = segmentDraftOf(now).steps.length > 0;
     show();
     input.size = Math.max(4, input.value.length);
-    setAttribute(input, "title", view ? `${view.name}. Its file stays gaits/${view.id}.json under another name too` : null);
+    setAttribute(input, "title", view ? `${view.name}. The file keeps its name gaits/${view.id}.json when you rename the gait` : null);
     setText(byId("saved-state"), savedWord(now, unfit));
     setAttribute(byId("saved-state"), "title", view ? `${unfit ? `${UNFIT} ` : ""}${savedHelp(view)}` : null);
   });
 }
 
-const UNFIT = "The last change of the segment table does not fit together yet: this tab keeps it, the gait has its last good table.";
+const UNFIT = "The segment table does not fit together after its last change. This tab keeps the change, the gait still has the last table that fits.";
 
 /** How the shown gait is kept, in a few words. */
 function savedWord({ view, pending, refused, connected }, unfit) {

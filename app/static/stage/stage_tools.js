@@ -58,7 +58,7 @@ const ENTRIES = [
   },
 ];
 
-const NO_PRESSURE = "Not known: this motion has no accelerations. Optimised and live plans have.";
+const NO_PRESSURE = "The centre of pressure is not known: this motion has no accelerations. Optimised and live plans have them.";
 
 /** Fetches the reach of the drawn plan while its layer is on. */
 function followReach(store, preview, isOn) {

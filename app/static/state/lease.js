@@ -37,7 +37,7 @@ function handOver(store, act) {
 /** The question before a take-over, in the panel, with what becomes of the run. */
 function takeOverQuestion(store) {
   const sentence = h("p");
-  const [yes, no] = [h("button", { class: "primary", text: "Take it over" }), h("button", { text: "Cancel" })];
+  const [yes, no] = [h("button", { class: "primary", text: "Take control" }), h("button", { text: "Cancel" })];
   const element = h("div", { class: "box-note", role: "group", "aria-label": "Take over", data: { tone: "caution", ownEscape: "" }, hidden: true }, sentence, h("div", { class: "buttons" }, yes, no));
   let opener = null;
   const close = () => {
@@ -54,7 +54,7 @@ function takeOverQuestion(store) {
     element,
     open({ currentTarget }) {
       const { robot } = store.state;
-      const run = robot.robot === "paused" ? " The run stays paused until you resume it." : runIsOn(robot) ? " The run goes on, and is yours to pause." : "";
+      const run = robot.robot === "paused" ? " The run stays paused until you resume it." : runIsOn(robot) ? " The run continues, and you can pause it." : "";
       setText(sentence, `${robot.lease.name} cannot move the robot any more.${run} Look at the robot before you go on.`);
       opener = currentTarget;
       element.hidden = false;
@@ -73,18 +73,18 @@ function build(store) {
   const question = takeOverQuestion(store);
   return {
     question, sentence: h("p"), policy: h("p", { class: "why" }),
-    ask: button("Ask for it", handOver(store, "ask")),
+    ask: button("Ask for control", handOver(store, "ask")),
     take: button("Take over", question.open),
-    give: button("Give it", handOver(store, "give")),
-    keep: button("Keep it", handOver(store, "keep")),
+    give: button("Give control", handOver(store, "give")),
+    keep: button("Keep control", handOver(store, "keep")),
     release: button("Release control", handOver(store, "release")),
   };
 }
 
 function words(lease, robot) {
   if (!isTaken(lease)) return FREE;
-  if (isMine(lease) && lease.asker) return `You are in control. ${lease.asker.name} asks for it.`;
-  if (lease.asker?.page === pageId()) return `${holderSentence(robot)} You have asked for it; wait for the answer.`;
+  if (isMine(lease) && lease.asker) return `You are in control. ${lease.asker.name} asks for control.`;
+  if (lease.asker?.page === pageId()) return `${holderSentence(robot)} You have asked for control. Wait for the answer.`;
   return holderSentence(robot);
 }
 
@@ -94,7 +94,7 @@ function show(parts, robot) {
   setText(parts.sentence, robot ? words(lease, robot) : "");
   setText(parts.policy, robot?.link === "ready" ? (lease?.policy ?? "") : "");
   parts.give.hidden = parts.keep.hidden = !(mine && lease.asker);
-  setText(parts.give, `Give it to ${lease?.asker?.name ?? ""}`);
+  setText(parts.give, `Give control to ${lease?.asker?.name ?? ""}`);
   parts.release.hidden = !mine || Boolean(lease.asker) || runIsOn(robot);
   parts.take.hidden = !taken || mine || !lease.can_be_taken;
   parts.question.show(!parts.take.hidden);
@@ -107,7 +107,7 @@ function tell(store) {
   store.watch(({ robot }) => [robot?.lease?.page, robot?.lease?.asker?.page], ({ robot }) => {
     const now = robot?.lease ?? null;
     const isRequested = isMine(now) && now.asker && now.asker.page !== before?.asker?.page;
-    if (isRequested) toast(`${now.asker.name} asks for the robot. Give or keep it in the Run step.`, { of: "studio" });
+    if (isRequested) toast(`${now.asker.name} asks for control of the robot. Answer in the Run step.`, { of: "studio" });
     if (isMine(now) && isTaken(before) && !isMine(before)) toast("You are in control now.", { of: "studio" });
     if (isMine(before) && isTaken(now) && !isMine(now)) toast(`${now.name} is in control now.`, { of: "studio" });
     before = now;

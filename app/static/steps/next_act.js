@@ -13,7 +13,7 @@ import { openStep } from "./steps.js";
 const ACTS = {
   simulate: { step: "simulate", text: "Simulate", button: "act-simulate", help: "Physics tries exactly what would be sent." },
   check: { step: "check", text: "Check", button: "act-check", help: "Every rule with its margin, then your approval." },
-  approve: { step: "check", text: "Go to approval", button: null, focus: "act-approve", help: "Your approval lets it be sent." },
+  approve: { step: "check", text: "Go to approval", button: null, focus: "act-approve", help: "Only an approved gait can be sent." },
   run: { step: "run", text: "Go to Run", button: null, help: "Approved. Connect, arm and send." },
 };
 

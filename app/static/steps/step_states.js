@@ -64,7 +64,7 @@ export function checkState(now) {
 export function approvalState(now) {
   const { view, checked } = now;
   if (view?.approval && !isEdited(now)) return state("done", `by ${view.approval.by}`);
-  if (view?.approval || view?.revoked || (view && checked[view.id]?.word === "approved")) return state("old", "gone");
+  if (view?.approval || view?.revoked || (view && checked[view.id]?.word === "approved")) return state("old", "no longer valid");
   return state("none", "not yet");
 }
 

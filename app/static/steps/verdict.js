@@ -10,7 +10,7 @@ import { approvalState, checkState, gaitParts, simulateState, stepStates } from 
 import { openStep } from "./steps.js";
 
 const MARGIN_HELP = "Margin: how far the balance point stays inside the area between the standing feet; "
-  + "below 0 it tips. "
+  + "below 0 the robot tips. "
   + "The balance point is the centre of pressure where the motion is solved, else the centre of mass.";
 const LIVE_HELP = "A live plan is made anew after every edit; footholds and body height are given.";
 
@@ -59,7 +59,7 @@ function checkedPart(state) {
 
 function approvedPart(state) {
   const { mark, word } = approvalState(state);
-  const help = mark === "none" ? "Not approved yet." : mark === "old" ? (state.view?.revoked ?? "The gait changed, and its approval is gone.") : `Approval: ${word}.`;
+  const help = mark === "none" ? "Not approved yet." : mark === "old" ? (state.view?.revoked ?? "The gait changed, so it is no longer approved.") : `Approval: ${word}.`;
   return { mark, figure: mark === "none" ? NONE : word, help };
 }
 

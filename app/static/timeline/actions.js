@@ -89,7 +89,7 @@ export function createActions({ store, edits, playback, focused }) {
     const at = region() ? [region().feet[0], region().samples[0]] : focused();
     const apply = (now) => withBlock(now, at, block);
     const refusal = heldBack(document(), apply(document()));
-    if (refusal) return toast(refusal === "Nothing would change." ? "The same stands here already." : refusal);
+    if (refusal) return toast(refusal === "Nothing would change." ? "These cells have these values already." : refusal);
     const { feet } = document().timeline;
     const selection = {
       feet: [at[0], Math.min(at[0] + block.length, feet.length) - 1],

@@ -28,8 +28,8 @@ function figures({ rows }) {
 }
 
 const TEXTS = {
-  absent: () => "Physics is asked for what the robot was sent.",
-  running: ({ share }) => (share > 0 ? `Physics is at it: ${fixed(share * 100, 0)} %.` : "Physics is asked, after what is simulated now."),
+  absent: () => "The simulation of the sent waypoints is being requested.",
+  running: ({ share }) => (share > 0 ? `The simulation is running: ${fixed(share * 100, 0)} %.` : "The simulation is waiting or starting."),
   failed: ({ sentence }) => `No simulated feet: ${sentence} `,
   none: ({ sentence }) => sentence,
   done: ({ remark }) => remark ?? "",

@@ -36,7 +36,7 @@ function facts(trial) {
   const rows = [
     ["By", trial.by || "–"], ["Added", clockTime(trial.made)], ["Gait", trial.gait_name || "–"], ["Wanted", `${fixed(trial.expected_cm, 1)} cm`],
     ["Frames", `${trial.frames}, ${fixed(trial.frame_rate, 1)} a second`], ["Gaps", trial.filled ? `${trial.gaps.length}, ${trial.filled} places filled` : "none"],
-    ...(trial.plan ? [["Placement", `${fixed(trial.plan.turn_deg, 1)}°, feet ± ${fixed(Math.max(...trial.plan.gaps_cm) * 10, 1)} mm`, "How the plan lies over the track: turned so that the feet of the first frame agree best; by how much they still differ at most"]] : []),
+    ...(trial.plan ? [["Placement", `${fixed(trial.plan.turn_deg, 1)}°, feet ± ${fixed(Math.max(...trial.plan.gaps_cm) * 10, 1)} mm`, "How the plan is placed over the track: turned to fit the feet of the first frame best, with the largest remaining distance of a foot"]] : []),
   ];
   return h("dl", { class: "summary" }, ...rows.flatMap(([name, value, help]) => [h("dt", { text: name }), h("dd", { text: value, title: help ?? null })]));
 }

@@ -10,7 +10,7 @@ const LAYER = "trial-tracks";
 /** How the robots stood, and what the rings are. */
 function words(tracks) {
   const [{ turn_deg: turn, gaps_mm: gaps }] = tracks;
-  const stood = tracks.length > 1 ? `${tracks.length} tracks, each turned back by how its robot stood.` : `Turned back by the robot's ${fixed(turn, 1)}°, feet of the first frame ± ${fixed(Math.max(...gaps), 1)} mm.`;
+  const stood = tracks.length > 1 ? `${tracks.length} tracks, each turned back by the heading of its robot in the first frame.` : `Turned back by the robot's ${fixed(turn, 1)}°, feet of the first frame ± ${fixed(Math.max(...gaps), 1)} mm.`;
   return `${stood} Rings follow the playhead; grey is unseen.`;
 }
 
@@ -29,7 +29,7 @@ export function tracksParts(store, showGait) {
     const box = h("input", { type: "checkbox", "aria-label": "Tracks in 3D" });
     box.checked = recalled(LAYER, { on: true }).on;
     const [note, other] = [h("p", { class: "quiet" }), h("p", { class: "why", hidden: true })];
-    const lap = h("select", { "aria-label": "Lap of the walk", title: "The walk does the plan several times: which of them lies over the shown gait" });
+    const lap = h("select", { "aria-label": "Lap of the walk", title: "The walk repeats the plan several times. Choose which repetition is drawn over the shown gait" });
     const ofLaps = h("label", { hidden: true }, "lap", lap);
     let tracks = [];
 

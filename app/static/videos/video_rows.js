@@ -34,7 +34,7 @@ function buildUpload() {
 
   function progress(share, size) {
     bar.style.transform = `scaleX(${share})`;
-    setText(words, share < 1 ? `${fixed(share * 100, 0)} % of ${sizeText(size)} sent` : "Sent; the studio looks at it…");
+    setText(words, share < 1 ? `${fixed(share * 100, 0)} % of ${sizeText(size)} sent` : "Sent. The studio is reading the video…");
   }
 
   async function send() {

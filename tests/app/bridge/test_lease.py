@@ -45,7 +45,7 @@ def test_the_first_deed_takes_the_robot_and_its_doer_goes_on(lease: Lease) -> No
 @pytest.mark.parametrize("is_idle", [True, False])
 def test_another_page_is_refused_with_the_holders_name_and_what_to_do(lease: Lease, is_idle: bool) -> None:
     lease.admit(ADA, is_idle=is_idle)
-    with pytest.raises(StateError, match=r"Ada is in control\. Ask Ada for it; Stop works for everybody"):
+    with pytest.raises(StateError, match=r"Ada is in control\. Ask Ada for control; everybody can stop"):
         lease.admit(GRACE, is_idle=is_idle)
     assert holder(lease) == "Ada"
 
@@ -116,7 +116,7 @@ def test_the_second_who_asks_waits(lease: Lease) -> None:
     lease.admit(ADA, is_idle=True)
     lease.ask(GRACE)
     lease.ask(GRACE)
-    with pytest.raises(StateError, match="Grace has asked for the robot before you"):
+    with pytest.raises(StateError, match="Grace has asked for control before you"):
         lease.ask(ALAN)
 
 
@@ -157,9 +157,9 @@ def test_a_holder_who_is_gone_is_noticed_once_and_may_be_followed(lease: Lease, 
     clock.time = GONE_SECONDS + 1.0
     assert lease.note_gone()
     assert not lease.note_gone()
-    with pytest.raises(StateError, match=r"Ada is in control and has been gone for 16 s\. Take it over"):
+    with pytest.raises(StateError, match=r"Ada is in control and has been gone for 16 s\. Take control"):
         lease.admit(GRACE, is_idle=False)
-    with pytest.raises(StateError, match="Take it over"):
+    with pytest.raises(StateError, match="Take control"):
         lease.ask(GRACE)
     lease.take(GRACE)
     assert holder(lease) == "Grace"

@@ -95,7 +95,7 @@ def test_a_closing_stance_that_a_file_sets_is_kept(
 def test_too_large_a_turn_is_proven_without_a_search(capsys: pytest.CaptureFixture[str]) -> None:
     status, answer = run_json(capsys, "optimise", "rotate", "--yaw", str(np.radians(40)))
     assert (status, answer["status"], answer["iterations"]) == (3, "infeasible", 0)
-    assert answer["explanation"][0].startswith("Reach lacks")
+    assert answer["explanation"][0].startswith("Reach is")
     assert answer["explanation"][-1] == "This is proven: no motion of the model can do it."
 
 
@@ -107,7 +107,7 @@ def test_too_large_a_margin_over_two_iterations_is_explained_by_both_tiers(
     assert (status, answer["status"]) == (3, "infeasible")
     told = answer["explanation"]
     assert any("IPOPT" in sentence for sentence in told)
-    assert any(sentence.startswith("Balance lacks") for sentence in told)
+    assert any(sentence.startswith("Balance is") for sentence in told)
     assert len(told) == len(set(told))
     assert sum("roven" in sentence for sentence in told) == 1
     assert told[-1].endswith("not proven.")
@@ -193,8 +193,8 @@ def test_what_does_not_fit_is_refused(
         (["--step", "0.1"], "has to travel"),
         (["--plane-height", "0.050"], "The actuator plane"),
         (["--clearance", "0.02", "--phase-knots", "2"], "too short to rise"),
-        (["--step", "0.03", "--workspace", "cylinder", "--method", "live"], "Reach lacks"),
-        (["--closing-knots", "0", "--margin", "0.003", "--method", "live"], "Balance lacks"),
+        (["--step", "0.03", "--workspace", "cylinder", "--method", "live"], "Reach is"),
+        (["--closing-knots", "0", "--margin", "0.003", "--method", "live"], "Balance is"),
     ],
 )
 def test_what_no_motion_can_do_is_explained(
@@ -233,7 +233,7 @@ def test_a_gait_without_any_step_is_infeasible(capsys: pytest.CaptureFixture[str
     status, out, _ = run(capsys, "frontier", "walk", "--margin", "0.02", "--method", "live")
     assert status == 3
     assert "no step is possible" in out
-    assert "Balance lacks" in out
+    assert "Balance is" in out
 
 
 def test_phases_drawn_by_hand_are_not_lengthened(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

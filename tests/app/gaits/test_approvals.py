@@ -60,7 +60,7 @@ def test_warnings_that_were_not_accepted_block_and_accepted_ones_are_recorded(op
     service = opened()
     verdict = service.check(GAIT).verdict
     assert verdict is not None
-    with pytest.raises(StateError, match="warnings stand, the first: "):
+    with pytest.raises(StateError, match="warnings are not accepted yet, the first: "):
         service.approve(GAIT, ApprovalRequest("Ada"))
     approved(service)
     [record] = service.approvals.all(GAIT)
@@ -76,7 +76,7 @@ def test_a_newer_simulation_takes_verdict_and_approval_away_and_is_part_of_the_n
     approved(service)
     [gone] = service.on_simulated(simulate(service, simulations))
     assert (gone.verdict, gone.approval) == (None, None)
-    assert gone.revoked == "It was simulated since, and its approval is gone."
+    assert gone.revoked == "It was simulated since, so it is no longer approved."
     verdict = service.check(GAIT).verdict
     assert verdict is not None
     assert NOT_SIMULATED not in verdict.notes
@@ -103,7 +103,7 @@ def test_other_parameters_of_the_robot_take_the_approval_for_good(
         service = opened()
         service.plan(GAIT)
         said = service.open_gait(GAIT).revoked
-        assert said == "The robot's parameters changed, and its approval is gone."
+        assert said == "The robot's parameters changed, so it is no longer approved."
     again = opened()
     again.plan(GAIT)
     assert again.open_gait(GAIT).approval is None
@@ -129,7 +129,7 @@ def test_approvals_are_compared_in_sentences(opened: Opened) -> None:
     service = opened()
     approved(service)
     service.edit(GAIT, service.document(GAIT).with_options(stop_bound=0.9), "Stop bound", None)
-    assert service.open_gait(GAIT).revoked == "The gait changed (“Stop bound”), and its approval is gone."
+    assert service.open_gait(GAIT).revoked == "The gait changed (“Stop bound”), so it is no longer approved."
     approved(service, ApprovalRequest("Grace", accept_warnings=True))
     after, before = service.approvals.all(GAIT)
     documents = (service.approvals.document(GAIT, before), service.approvals.document(GAIT, after))

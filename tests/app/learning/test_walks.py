@@ -81,7 +81,7 @@ def test_trials_of_other_iterations_are_another_gait(database: Database) -> None
 
 
 def test_a_trial_of_unknown_waypoints_is_refused_with_its_name(database: Database) -> None:
-    with pytest.raises(InputError, match="“first” it is not known what the robot was sent") as refused:
+    with pytest.raises(InputError, match="“first” are not known") as refused:
         walks_of([trial(database, stepping_track((0.0085, 0.0085), 3), None)])
     assert refused.value.where == "trials"
 

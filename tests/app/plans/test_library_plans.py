@@ -57,7 +57,7 @@ def test_every_gait_of_the_library_opens_and_is_judged(gait_id: str) -> None:
     assert json.loads(shown)["plan"]["note"]
     if plan.refusal is not None:
         assert entry.group is Group.TEXTBOOK or gait_id == "hexapod-front-up"
-        reason = "in the air together" if entry.group is Group.TEXTBOOK else "Balance lacks"
+        reason = "in the air together" if entry.group is Group.TEXTBOOK else "Balance is"
         with pytest.raises(CheckError, match=reason):
             verdict_of(plan, entry.gait)
         return

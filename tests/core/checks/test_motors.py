@@ -99,7 +99,7 @@ def test_motors_are_held_to_the_speed_that_the_document_allows() -> None:
 def test_acceleration_is_a_finding_where_the_document_sets_a_limit_and_else_a_note() -> None:
     plan = bobbing(0.003, 3)
     assert check_motor_acceleration(plan) == []
-    assert "with up to 18.8 mm/s², the robot's with 15 mm/s²" in acceleration_note(plan)
+    assert "of up to 18.8 mm/s², the robot's motors make 15 mm/s²" in acceleration_note(plan)
     assert acceleration_note(bobbing(0.002, 3)) == ""
     allowed = check_motor_acceleration(replace(plan, asked=Asked(motor_acceleration=0.019)))
     assert [len(outcome.findings) for outcome in allowed] == [0]

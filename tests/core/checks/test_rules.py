@@ -165,7 +165,7 @@ def test_an_approval_binds_a_name_to_a_verdict() -> None:
 
 def test_warnings_stand_in_the_approval_and_block_it_until_they_are_accepted() -> None:
     verdict = check_plan(plan_of(manual_motion(manual_entry("walk", 0).gait, MODEL).trajectory))
-    with pytest.raises(StateError, match=r"\d warnings stand, the first: "):
+    with pytest.raises(StateError, match=r"\d warnings are not accepted yet, the first: "):
         approve(verdict, "Ada", NOON)
     approval = approve(verdict, "Ada", NOON, accept_warnings=True)
     assert approval.warnings == tuple(f.sentence for f in verdict.warnings)

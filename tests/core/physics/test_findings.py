@@ -79,7 +79,7 @@ def test_slides_add_up_over_one_stance() -> None:
     finding = only(slid)
     assert (finding.rule, finding.severity, finding.foot) == ("simulated_slip", Severity.WARNING, 1)
     assert finding.value == pytest.approx(0.0015)
-    assert "foot 2 slides 1.5 mm during one stance, most about 1.0 s" in finding.sentence
+    assert "foot 2 slides 1.5 mm during one stance, most of it near 1.0 s" in finding.sentence
     lifted = np.array(PROBLEM.standing)
     lifted[2, 1] = False
     assert findings(slid, made.problem_of(made.walking_plan(), lifted)) == []

@@ -72,14 +72,14 @@ def test_looked_on_asked_for_and_taken_over(page: Page, browser: Browser, studio
         press(grace, "Connect")
         expect(held).to_contain_text("Grace is in control.")
         require_no_finding(page, "looked on")
-        press(page, "Ask for it")
-        expect(grace.get_by_role("group", name="Who is in control")).to_contain_text("Ada asks for it.")
+        press(page, "Ask for control")
+        expect(grace.get_by_role("group", name="Who is in control")).to_contain_text("Ada asks for control.")
         require_no_finding(grace, "asked")
     expect(held).to_contain_text("Grace left without releasing control.")
     press(page, "Take over")
     expect(page.get_by_role("group", name="Take over")).to_be_visible()
     require_no_finding(page, "before taking over")
-    press(page, "Take it over")
+    press(page, "Take control")
     expect(held).to_contain_text("You are in control.")
 
 

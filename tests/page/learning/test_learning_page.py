@@ -50,7 +50,7 @@ def test_a_course_runs_in_the_background_and_can_be_cancelled(
         why = re.compile("^The ticked trials are of 2 gaits; 3 different")
         expect(learn).to_have_attribute("title", why)
         expect(panel.get_by_role("status", name="What Learn needs")).to_have_text(why)
-        expect(panel.get_by_text("It is not known what the robot was sent")).to_be_visible()
+        expect(panel.get_by_text("The waypoints that the robot was sent are not known")).to_be_visible()
         panel.get_by_role("checkbox", name=GAITS[2]).check()
         expect(panel.get_by_role("status", name="What Learn needs")).to_be_hidden()
         learn.click()
@@ -60,7 +60,7 @@ def test_a_course_runs_in_the_background_and_can_be_cancelled(
         expect(panel).to_contain_text("Learning from 3 trials of 3 gaits")
         look(page, "learning-on")
         panel.get_by_role("button", name="Cancel learning").click()
-        expect(panel.get_by_role("list", name="Courses of learning")).to_contain_text("cancelled")
+        expect(panel.get_by_role("list", name="Learning jobs")).to_contain_text("cancelled")
         expect(learn).to_be_visible()
 
 
@@ -101,7 +101,7 @@ def test_what_was_learned_is_kept_chosen_in_simulate_deleted_and_brought_back(
         expect(drag).to_contain_text(" to ")
         speed = panel.get_by_role("table", name="Parameters").get_by_role("row", name="Motor speed")
         expect(speed).to_contain_text("not identifiable")
-        ways = panel.get_by_role("table", name="How far foretold travel is off")
+        ways = panel.get_by_role("table", name="Error of the predicted travel")
         expect(ways.get_by_role("row", name="Physics, gait left out")).to_be_visible()
         cut = "The strokes of 1 of 3 gaits were cut to the motors’ range, at most by 4.2 mm (Walk, 3 cm)."
         expect(panel.get_by_text(cut)).to_be_visible()

@@ -64,7 +64,7 @@ def test_the_body_is_raised_by_a_target_that_is_seen_first(page: Page, studio: S
     assert page.evaluate(SCROLLED) > 0
     place = move.bounding_box()
     wait_for(lambda: min(studio.robot()["strokes_mm"]) > 6.0, "the body is raised", 60.0)
-    expect(jog.get_by_text("From where the motors stand.")).to_be_visible()
+    expect(jog.get_by_text("The steps begin at the present strokes of the motors.")).to_be_visible()
     wait_for(lambda: studio.robot()["robot"] == "armed", "the jog is done", 60.0)
     expect(page.get_by_role("status", name="Robot")).to_contain_text("armed")
     now = move.bounding_box()
@@ -87,7 +87,7 @@ def test_letters_and_the_target_alone_move_nothing(page: Page, studio: StudioPro
     expect(jog.get_by_role("img", name=re.compile("Motor 2 of foot 1"))).to_be_visible()
     page.keyboard.press("m")
     page.keyboard.press("ArrowRight")
-    jog.get_by_role("button", name="Back to where it stands").click()
+    jog.get_by_role("button", name="Target to present pose").click()
     assert studio.robot()["jog"] is None
     if stands is not None:
         assert studio.robot()["strokes_mm"] == pytest.approx(stands, abs=0.1)

@@ -27,7 +27,7 @@ def test_the_stop_bound_says_what_it_costs_and_a_change_takes_the_approval(
         bound.fill("")
         bound.press("Enter")
         sending = page.get_by_role("group", name="How it is sent")
-        expect(page.get_by_text("its approval is gone")).to_be_visible()
+        expect(page.get_by_text("so it is no longer approved")).to_be_visible()
         shown = studio.ask("GET", "/api/gaits/walk/view").content
         assert shown["document"]["options"]["stop_bound"] is None
         assert shown["plan"]["waypoints_hash"] != before["plan"]["waypoints_hash"]

@@ -57,7 +57,7 @@ def test_a_run_is_found_by_who_sent_it(page: Page) -> None:
     page.get_by_label("Operator of the runs").select_option("Bob")
     expect(listed(page)).to_have_count(1)
     page.get_by_label("Runs until").fill("2020-01-01")
-    expect(panel(page)).to_contain_text("No run is like that.")
+    expect(panel(page)).to_contain_text("No run matches the filters.")
     page.keyboard.press("Escape")
     page.get_by_role("tab", name="Design").click()
     expect(panel(page)).to_be_hidden()

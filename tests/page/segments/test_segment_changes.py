@@ -126,7 +126,7 @@ def test_a_paste_that_does_not_fit_is_refused_with_the_place_and_the_table_stays
     put_on_clipboard(page, "Wait A\tWait A\tWait A\tWait A\tWait A")
     page.keyboard.press("Control+v")
     expect(page.locator("#toasts")).to_contain_text("2 columns behind the last foot did not fit")
-    expect(page.locator("#toasts")).to_contain_text("The same stands here already")
+    expect(page.locator("#toasts")).to_contain_text("have this value already")
 
 
 def test_segments_are_inserted_removed_and_filled_down(page: Page, studio: StudioProcess) -> None:
@@ -146,7 +146,7 @@ def test_segments_are_inserted_removed_and_filled_down(page: Page, studio: Studi
     cell(page, 6, 3).click()
     cell(page, 9, 3).click(modifiers=["Shift"])
     page.keyboard.press("Control+d")
-    expect(page.locator("#toasts")).to_contain_text("stands here already")
+    expect(page.locator("#toasts")).to_contain_text("have this value already")
     assert table(studio, gait) == before
 
 

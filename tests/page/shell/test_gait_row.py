@@ -54,7 +54,7 @@ def test_a_double_click_leads_to_the_name_and_letters_are_its(page: Page, studio
 def test_a_gait_that_cannot_walk_says_so_in_the_list(page: Page) -> None:
     stuck = page.get_by_role("list", name="Gaits").get_by_role("button", name="Hexapod, front pair up")
     expect(stuck).to_contain_text("infeasible")
-    expect(stuck).to_have_attribute("title", re.compile("No motion of it keeps every limit"))
+    expect(stuck).to_have_attribute("title", re.compile("No motion of this gait keeps every limit"))
     walks = page.get_by_role("list", name="Gaits").get_by_role("button", name="Hexapod tripod")
     expect(walks).not_to_contain_text("infeasible")
 

@@ -37,7 +37,7 @@ def test_both_ways_out_and_the_versions_that_keep_what_could_not_be_shown(
     with running_studio(tmp_path) as studio:
         page = browser.new_page(viewport={"width": 1280, "height": 800})
         page.goto(studio.url)
-        ways = {made: "Go back to the last state that can be shown", "walk": "Back to how it came"}
+        ways = {made: "Go back to the last state that can be shown", "walk": "Restore the original gait"}
         for gait, way in ways.items():
             row = page.locator(f'[data-gait="{gait}"]')
             expect(row).to_contain_text("unreadable")

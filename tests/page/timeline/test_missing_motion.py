@@ -149,7 +149,7 @@ def test_two_feet_in_the_air_are_hatched_outlined_and_flagged_while_the_hand_dra
     flag = page.locator(".phase-flag:visible")
     expect(flag).to_have_text("1 and 3 in the air")
     expect(page.locator(".cell[data-lack]")).to_have_count(8)
-    expect(page.locator(".cell[data-lack]").first).to_have_attribute("title", re.compile("Balance lacks"))
+    expect(page.locator(".cell[data-lack]").first).to_have_attribute("title", re.compile("Balance is"))
     outline = page.locator(".phase-box:visible").bounding_box()
     assert outline is not None
     assert outline["x"] == pytest.approx(boxes[0]["x"], abs=2)

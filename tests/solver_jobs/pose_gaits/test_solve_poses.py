@@ -115,7 +115,7 @@ def test_a_step_that_is_too_long_is_explained_by_the_longest_that_works() -> Non
     assert result.gait is None
     assert "longest that was found is 51." in result.explanation[0]
     assert "foot" in result.explanation[0]
-    assert "no proof" in result.explanation[-1]
+    assert "not a proof" in result.explanation[-1]
 
 
 @pytest.mark.soak

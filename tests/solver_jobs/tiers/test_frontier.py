@@ -48,7 +48,7 @@ def test_shoes_end_the_walk_s_step_where_a_foot_comes_up_to_its_neighbour() -> N
     found = FrontierSearch(gait_with("walk"), MODEL, exact=False).run()
     assert found.limited_by == ("shoe_distance",)
     assert found.reach == pytest.approx(0.04 * np.sqrt(2) - 0.028, abs=1e-4)
-    assert "Room for shoes lacks" in found.explanation[0]
+    assert "Shoes need" in found.explanation[0]
 
 
 def test_a_margin_and_the_cylinder_shorten_the_step() -> None:

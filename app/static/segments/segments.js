@@ -41,7 +41,7 @@ function tools(input, toggleDefinitions) {
 
 /** Builds the section; `escape` closes what is open in it, and returns whether anything was. */
 export function mountSegments(store, edits) {
-  const title = h("h3", {}, "Segment table", h("span"));
+  const title = h("h2", {}, "Segment table", h("span"));
   const grid = h("div", { class: "sheet", role: "grid", "aria-label": "Segment table", "aria-multiselectable": "true" });
   const note = h("div", { class: "box-note", role: "status", "aria-label": "Segment table note" });
   const notice = h("p", { class: "box-note", data: { tone: "caution" } });

@@ -40,9 +40,15 @@ def unfold(page: Page) -> None:
     page.evaluate("document.querySelectorAll('details').forEach((one) => { one.open = true; })")
 
 
+def is_walking(studio: StudioProcess) -> bool:
+    """Whether the robot moves and has reached a waypoint of this run."""
+    view = studio.robot()
+    return bool(view["robot"] == "moving" and view["run"]["reached"] > 0)
+
+
 def walks(studio: StudioProcess) -> None:
     """Waits until the robot walks."""
-    wait_for(lambda: (studio.robot()["run"] or {}).get("reached", 0) > 0, "the robot walks")
+    wait_for(lambda: is_walking(studio), "the robot walks")
 
 
 def test_simulated_checked_and_approved(page: Page) -> None:

@@ -74,12 +74,12 @@ def test_a_group_that_is_folded_or_searched_away_leaves_one_stop(page: Page) -> 
 def test_left_and_right_move_in_a_toolbar_and_scrub_from_a_list(page: Page) -> None:
     page.keyboard.press("Home")
     clock = page.locator("#clock b")
-    tab_to(page, "Find a gait")
+    page.get_by_label("Find a gait").focus()
     page.keyboard.press("Tab")
     page.keyboard.press("ArrowRight")
     expect(clock).not_to_have_text("0.0")
     shown = clock.inner_text()
-    tab_to(page, "Paint", most=80)
+    tab_to(page, "Paint")
     page.keyboard.press("ArrowRight")
     assert focused(page) == "Select"
     page.keyboard.press("End")

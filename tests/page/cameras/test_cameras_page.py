@@ -12,7 +12,7 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from app.emulator.emulated_robot import EmulatedRobot
 from tests.app.routes.test_cameras_http import walked
 from tests.app.routes.test_videos_http import SETUP, TRACK
-from tests.page.shell.test_accessibility import serious_findings
+from tests.support.page.axe import findings
 from tests.support.page.drawers import open_drawer
 from tests.support.page.opened import look, opened_page
 from tests.support.studio_process import StudioProcess, running_studio
@@ -83,7 +83,7 @@ def test_a_run_is_recorded_and_its_note_leads_to_the_trial_with_its_figures(
     camera(page, "Glass").get_by_role("button", name="Look").click()
     feet = panel(page).get_by_role("list", name="Feet in this picture").get_by_role("listitem")
     expect(feet.filter(has_text="cm")).to_have_count(4)
-    assert serious_findings(page) == []
+    assert findings(page) == []
 
     run = walked(studio)
     expect(panel(page)).to_be_hidden()

@@ -13,7 +13,7 @@ from playwright.sync_api import Browser, Locator, Page, expect
 from app.vision.video_io import jpeg
 from tests.app.routes.test_videos_http import SETUP
 from tests.app.vision.test_lens import CORNERS, seen_from
-from tests.page.shell.test_accessibility import serious_findings
+from tests.support.page.axe import findings
 from tests.support.page.drawers import open_drawer
 from tests.support.page.late_answers import LateRequests
 from tests.support.page.opened import opened_page
@@ -102,7 +102,7 @@ def test_a_video_becomes_a_trial_through_a_setup_that_is_made_on_its_picture(pag
     panel(page).get_by_role("button", name="Pick colour").click()
     click_pixel(page, pixel_of((0, 4)))
     expect(panel(page).get_by_role("list", name="Spots of this colour")).to_contain_text("taken as the foot")
-    assert serious_findings(page) == []
+    assert findings(page) == []
 
     panel(page).get_by_role("button", name="Done").click()
     panel(page).get_by_label("Wanted distance, cm").fill("1.2")

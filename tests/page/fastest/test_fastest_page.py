@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from tests.page.shell.test_accessibility import serious_findings
+from tests.support.page.axe import findings
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess
 
@@ -42,7 +42,7 @@ def test_the_price_of_each_choice_is_there_before_it_is_made(page: Page) -> None
     assert early < 0.75 * usual
     assert price(dialog, "Foot order", "Amble, at 45°") > usual
     assert price(dialog, "Stability margin", "10 mm") < usual
-    assert serious_findings(page) == []
+    assert findings(page) == []
     dialog.get_by_role("radio", name=re.compile("1.0 s")).press("Space")
     expect(dialog.get_by_text(re.compile("C-Gait, along x: 1[.]8[0-9] mm/s in mid-walk"))).to_be_visible()
     # The focus stays on what was chosen, though every price is new.
@@ -108,7 +108,7 @@ def test_the_dialog_is_whole_and_accessible(page: Page, width: int, height: int,
     page.emulate_media(color_scheme=scheme)  # type: ignore[arg-type]
     dialog = open_dialog(page)
     assert price(dialog, "Stop bound", "1.5 s") > 3.0
-    assert serious_findings(page) == []
+    assert findings(page) == []
     box = dialog.bounding_box()
     assert box is not None
     assert box["x"] >= 0

@@ -9,7 +9,7 @@ from functools import partial
 import pytest
 from playwright.sync_api import Browser, Locator, Page, Request, expect
 
-from tests.page.shell.test_accessibility import serious_findings
+from tests.support.page.axe import findings
 from tests.support.page.drawers import gait_act
 from tests.support.page.late_answers import LateList
 from tests.support.page.opened import opened_page
@@ -202,7 +202,7 @@ def test_a_conflict_is_explained_and_a_button_relaxes_it(search: Page) -> None:
     why = search.get_by_role("alert").filter(has_text="No pattern keeps all of this")
     expect(why).to_contain_text("only two feet are down")
     expect(search.get_by_role("button", name="Make gait")).to_have_attribute("aria-disabled", "true")
-    assert serious_findings(search, SEARCH) == []
+    assert findings(search, SEARCH) == []
     why.get_by_role("button", name="2 feet down instead of 3").click()
     solved(search)
     expect(why).to_be_hidden()
@@ -343,7 +343,7 @@ def test_a_long_search_shows_bound_and_gap_and_can_be_ended(search: Page) -> Non
         "best 5 moments of change · 8 foot changes · score 5008, at least 4006 · gap 20 %"
     )
     expect(search.get_by_role("button", name="Make gait")).to_have_attribute("aria-disabled", "true")
-    assert serious_findings(search, SEARCH) == []
+    assert findings(search, SEARCH) == []
     for button, asked in (
         ("Use this now", f"POST /api/patterns/{10**15}/use"),
         ("Cancel the search", f"DELETE /api/patterns/{10**15}"),
@@ -381,7 +381,7 @@ def test_no_kind_of_pattern_has_a_serious_finding(search: Page, scheme: str) -> 
         search.get_by_role("button", name=kind, exact=True).click()
         # On a busy machine the time limit may come before the proof.
         solved(search, re.compile("^(Optimal|Feasible)"))
-        assert serious_findings(search, SEARCH) == [], f"{kind}, {scheme}"
+        assert findings(search, SEARCH) == [], f"{kind}, {scheme}"
     search.get_by_role("tab", name="Design").click()
     expect(search.get_by_role("grid", name="Footfall timeline")).to_be_visible()
     expect(search.get_by_role("tabpanel", name="Pattern search")).to_be_hidden()

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.page.shell.test_accessibility import serious_findings
+from tests.support.page.axe import findings
 from tests.support.page.opened import look, opened_page
 from tests.support.page.robot_panel import name
 from tests.support.studio_process import StudioProcess, wait_for
@@ -49,7 +49,7 @@ def test_the_body_is_raised_by_a_target_that_is_seen_first(page: Page, studio: S
     page.keyboard.press("Enter")
     expect(jog.get_by_role("status", name="Jog findings")).to_contain_text("No motor would move")
     expect(move).to_have_attribute("aria-disabled", "true")
-    assert serious_findings(page, {"include": [["#robot"]]}) == []
+    assert findings(page, {"include": [["#robot"]]}) == []
     jog.get_by_role("spinbutton", name="Jog step").fill("3")
     jog.get_by_role("spinbutton", name="Jog step").press("Enter")
     higher.click()

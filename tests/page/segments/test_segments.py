@@ -9,7 +9,7 @@ from typing import Literal
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.page.shell.test_accessibility import serious_findings
+from tests.support.page.axe import findings
 from tests.support.page.segments_page import (
     WALK,
     cell,
@@ -281,10 +281,10 @@ def test_list_note_and_vocabulary_have_no_serious_finding(
     page.get_by_role("button", name="Vocabulary").click()
     cell(page, 4, 1).click()
     page.keyboard.type("lift")
-    assert serious_findings(page) == []
+    assert findings(page) == []
     page.keyboard.press("Enter")
     expect(note(page).get_by_role("button")).to_have_count(3)
-    assert serious_findings(page) == []
+    assert findings(page) == []
     page.keyboard.press("Control+z")
     expect(note(page)).to_be_hidden()
     page.get_by_role("button", name="Vocabulary").click()

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 
-from tests.page.shell.test_accessibility import serious_findings
+from tests.support.page.axe import findings
 from tests.support.page.opened import opened_page
 from tests.support.studio_process import StudioProcess, wait_for
 
@@ -196,7 +196,7 @@ def test_what_is_asked_between_parts_is_one_edit(page: Page, studio: StudioProce
     speed.press("Enter")
     expect(undo(page)).to_contain_text("body speed between parts to 8 mm/s", ignore_case=True)
     assert studio.ask("GET", f"/api/gaits/{tour}").content["options"]["body_speed"] == 0.008
-    assert serious_findings(page) == []
+    assert findings(page) == []
 
 
 def test_one_check_is_for_the_whole_sequence(page: Page, tour: str) -> None:
@@ -266,7 +266,7 @@ def test_repetitions_start_from_rest_and_follow_each_other_again(
     expect(undo(page)).to_contain_text("run Walk 10 mm without a pause")
     expect(rows(page).first).not_to_contain_text("each from rest")
     assert "restarts" not in studio.ask("GET", f"/api/gaits/{tour}").content["sequence"][0]
-    assert serious_findings(page) == []
+    assert findings(page) == []
 
 
 def test_other_gaits_have_their_segment_table_again(page: Page, tour: str) -> None:

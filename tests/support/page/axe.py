@@ -10,9 +10,14 @@ OWN = {"exclude": [["#viser"]]}
 NODES = 3
 
 
-def findings(page: Page) -> list[str]:
-    """A line for each broken rule: its impact and name, its help, and the first elements."""
-    answer = Axe().run(page, context=OWN, options={"resultTypes": ["violations"]}).response
+def findings(page: Page, context: dict[str, list[list[str]]] = OWN) -> list[str]:
+    """A line for each broken rule: its impact and name, its help, and the first elements.
+
+    Args:
+        page: as it is.
+        context: axe's, for a part of the page.
+    """
+    answer = Axe().run(page, context=context, options={"resultTypes": ["violations"]}).response
     return [
         f"{rule['impact']}, {rule['id']}: {rule['help']} at "
         f"{[node['target'] for node in rule['nodes'][:NODES]]}"

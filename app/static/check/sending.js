@@ -17,6 +17,9 @@ const FIELDS = [
     help: "Longest time until the robot hears Stop. The robot hears Stop only between moves, so long moves are cut into shorter ones, which costs time. Empty: no move is cut" },
 ];
 
+/** What a move may last beyond its law, s, as the studio counts it (docs/firmware.md, Times). */
+const OVERRUN = 0.18;
+
 const bound = (value) => (value === null ? "none" : `${fixed(value)} s`);
 
 function costRow(cost) {
@@ -35,14 +38,17 @@ export function costTable(verdict) {
     ...verdict.notes.map((text) => h("p", { class: "why", text }))];
 }
 
+/** The robot hears Stop within the bound; its motors may take longer than their law says. */
+const stopText = (stop) => `Stop acts within ${seconds(stop)} s: the longest move, and ${OVERRUN} s that it may take longer than computed.`;
+
 function inShort(view) {
   const plan = view?.plan;
   if (!plan?.waypoint_count) return "";
   const { waypoint_count: count, times, robot_seconds: takes, every_knot_seconds: every, stop_seconds: stop } = plan;
-  if (view.document.poses) return `${timesText(view)}. ${count} waypoints, one a pose. Stop acts within ${seconds(stop)} s.`;
-  const instead = Math.abs(every - takes) >= 0.5 ? ` (with every sample: ${fixed(every, 0)} s)` : "";
+  if (view.document.poses) return `${timesText(view)}. ${count} waypoints, one a pose. ${stopText(stop)}`;
+  const instead = Math.abs(every - takes) >= 0.5 ? ` (${fixed(every, 0)} s with every sample and no stop bound)` : "";
   const lasts = timesText(view) || `About ${fixed(takes, 0)} s on the robot`;
-  return `${lasts}. ${count} waypoints of ${times.length} samples${instead}. Stop acts within ${seconds(stop)} s.`;
+  return `${lasts}. ${count} waypoints of ${times.length} samples${instead}. ${stopText(stop)}`;
 }
 
 /** Builds the two fields and the line of what they cost. */

@@ -6,9 +6,7 @@ import { fixed, mm } from "../lib/format.js";
 import { attempt, report, toast } from "../lib/toasts.js";
 import { followSimulation, simulationJob, simulationOf, simulationOver } from "../state/simulation.js";
 import { fallOf } from "../state/live_plan.js";
-import { shownPlan } from "../state/store.js";
-import { openedStep, openStep } from "../steps/steps.js";
-import { jobIsOn } from "../shell/job_list.js";
+import { openStep } from "../steps/steps.js";
 import { simulateState } from "../steps/step_states.js";
 import { reportParts } from "./simulation_report.js";
 
@@ -88,11 +86,8 @@ export function mountSimulate(store, goToTime) {
   const progress = progressPart();
   const [note, figures, map] = [h("p", { class: "box-note" }), h("div", { class: "simulated" }), robustness()];
   const help = h("button", { class: "link", text: "See what would help", hidden: true, on: { click: () => openStep("design") } });
-  let begun = null;
   const press = (variations) => attempt(async () => {
-    const { selected, view } = store.state;
-    const { id } = await api.simulate(selected, select.value || null, variations);
-    begun = variations ? null : { id, gait: selected, plan: view.plan.hash };
+    await api.simulate(store.state.selected, select.value || null, variations);
   });
   onPress(run, press(0), (why) => toast(why));
   onPress(vary, press(VARIATIONS), (why) => toast(why));
@@ -100,25 +95,12 @@ export function mountSimulate(store, goToTime) {
   byId("simulate").append(sets, progress.element, note, help, figures, map.element, h("p", { class: "why", text: AXIS }));
   followSimulation(store);
 
-  /** Opens the next step where what was begun here has come out well and is looked at. Variations are to be read. */
-  function goOn(state) {
-    const job = begun && state.jobs.find(({ id }) => id === begun.id);
-    if (!job || jobIsOn(job)) return;
-    const isStill = job.state === "done" && begun.gait === state.selected && begun.plan === shownPlan(state)?.hash;
-    const { mark } = simulateState(state);
-    // Its result comes a moment after its end.
-    if (isStill && mark !== "done" && mark !== "failed") return;
-    if (isStill && mark === "done" && openedStep() === "simulate") openStep("check");
-    begun = null;
-  }
-
   store.watch(({ jobs, view, pending, selected, simulation, live }) => [jobs, view, pending.length, selected, simulation, live], (state) => {
     const why = whyNot(state);
     setAllowed(run, why, HELP);
     run.classList.toggle("primary", simulateState(state).mark !== "done");
     setAllowed(vary, why, `The same ${VARIATIONS} times with random changes (the same ones each time): friction, masses, motor speed, one weak motor, 1° of slope, softer legs`);
     progress.show(simulationJob(state));
-    goOn(state);
   });
   store.watch((state) => [simulationOf(state), simulationOver(state), state.view, state.jobs, state.selected], (state) => {
     const [simulation, words] = [simulationOf(state), standing(state)];

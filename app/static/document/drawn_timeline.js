@@ -37,3 +37,16 @@ export function repeatedRows({ timeline, options, iterations }, wanted) {
   if (!Number.isInteger(length)) return null;
   return feet.map((row) => row.slice(0, length).repeat(wanted) + row.slice(length * iterations));
 }
+
+/**
+ * The foot order that a document shows: that of the first swings of a painted timeline, where each foot has its own.
+ * @param {object} document
+ * @returns {number[]}
+ */
+export function drawnOrder(document) {
+  const { order, timeline, direction } = document;
+  if (document.poses || direction !== 1 || isDrawn(document)) return order;
+  const firsts = timeline.feet.map((row) => row.indexOf("0"));
+  const isPlain = firsts.every((first) => first >= 0) && new Set(firsts).size === firsts.length;
+  return isPlain ? firsts.map((_, foot) => foot + 1).sort((one, other) => firsts[one - 1] - firsts[other - 1]) : order;
+}

@@ -1,6 +1,6 @@
 /** The optimiser's options: every number and choice, with its unit, range and help. */
 
-import { isDrawn } from "../document/drawn_timeline.js";
+import { drawnOrder, isDrawn } from "../document/drawn_timeline.js";
 import { heldOf, withHeld } from "../document/held_feet.js";
 import { stepLength, stepTurn, withStepLength, withTurn, withWorldStep, worldStep } from "../document/step.js";
 import { robotField } from "../shell/robots.js";
@@ -132,9 +132,10 @@ const MORE_CHOICES = [
 function orderField(store, edits) {
   return textField(store, {
     label: "Foot order", name: "Foot order", help: "Which foot steps when. Another order draws the timeline anew",
-    read: (document) => document.order.join(" "),
+    read: (document) => drawnOrder(document).join(" "),
     commit(text) {
-      const { order, options } = edits.shown();
+      const document = edits.shown();
+      const [order, options] = [drawnOrder(document), document.options];
       const digits = text.split(/[^0-9]+/).filter(Boolean);
       const wanted = (digits.length === 1 && digits[0].length === order.length ? [...digits[0]] : digits).map(Number);
       if ([...wanted].sort((a, b) => a - b).join() !== [...order].sort((a, b) => a - b).join()) {

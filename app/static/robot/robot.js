@@ -157,7 +157,7 @@ function showRobot(parts, ways, state) {
 /** The last run in a line: how far it came, and how long it took. */
 function lastRun(robot) {
   const [run, before] = [robot?.run, robot?.previous_run];
-  if (run) return `${run.gait_name ?? "Run"}: ${run.reached} of ${run.count} waypoints reached in ${seconds(run.elapsed)} s.`;
+  if (run) return `${run.gait_name ?? "Run"}: ${run.reached} of ${run.count} waypoints reached in ${seconds(run.elapsed)} s, the way to the start pose included.`;
   return before ? `Last run: ${before.gait_name}, ${before.state}.` : "";
 }
 

@@ -2,12 +2,13 @@
 
 import { api } from "../api/gaits.js";
 import { h, onPress, setAllowed, setText } from "../lib/dom.js";
-import { fixed, seconds } from "../lib/format.js";
+import { clockTime, fixed, seconds } from "../lib/format.js";
 import { attempt, toast } from "../lib/toasts.js";
 import { whyNotHeld } from "../state/lease.js";
 import { acceptRobot, planIsOn, runIsOn, shownDocument } from "../state/store.js";
 
 const TICK_MS = 200;
+const UNKNOWN = "The studio does not answer: what the robot does now is not known. The power switch stops it.";
 const PAUSE_HELP = "The robot pauses at the next pose with all feet down.";
 
 /** What the robot does now, in a sentence. */
@@ -54,11 +55,17 @@ export function runningPart(store) {
     h("p", { class: "time-left number" }, left, h("span", { class: "quiet", text: " left" })), h("div", { class: "progress" }, bar),
     h("p", { class: "run-figures number" }, done, poses), now, later, pause.button, resume.button, h("p", { class: "why", text: PAUSE_HELP }));
   let known = { seconds: null, at: 0, elapsed: 0, isStart: false };
+  let heard = new Date();
 
   /** The studio's figures come at each pose; between two of them the page's own clock counts. The way to the start pose is not in the time left. */
   function tick() {
-    const { robot } = store.state;
+    const { robot, connected } = store.state;
     if (!planIsOn(robot)) return;
+    if (!connected) {
+      setText(left, "–");
+      setText(done, `last heard at ${clockTime(heard)}`);
+      return;
+    }
     const since = robot.robot === "moving" ? (performance.now() - known.at) / 1000 : 0;
     const rest = known.seconds === null ? null : Math.max(known.seconds - (known.isStart ? 0 : since), 0);
     setText(left, rest === null ? "–" : `${fixed(rest)} s`);
@@ -79,12 +86,14 @@ export function runningPart(store) {
     tick();
   });
   store.watch(({ robot }) => [robot], ({ robot }) => {
+    heard = new Date();
     pause.show(robot);
     resume.show(robot);
   });
-  store.watch((state) => [state.robot, state.view, state.pending.length, state.gesture], (state) => {
+  store.watch((state) => [state.robot, state.view, state.pending.length, state.gesture, state.connected], (state) => {
     setText(later, laterEdit(state));
-    if (planIsOn(state.robot)) setText(now, nowText(state));
+    if (planIsOn(state.robot)) setText(now, state.connected ? nowText(state) : UNKNOWN);
+    tick();
   });
   setInterval(tick, TICK_MS);
   return element;

@@ -51,11 +51,15 @@ function staleness(takeOver) {
   };
 }
 
+/** Makes a sequence of the shown gait; of the first that can be a part where the shown one cannot. */
 async function createSequence(store) {
   const { gaits, selected } = store.state;
-  const view = await api.sequence({ name: freeName(store.state, "Sequence"), parts: [{ gait: selected ?? gaits[0].id }] });
+  const shown = gaits.find(({ id }) => id === selected);
+  const first = shown && !shown.part_refusal ? shown : gaits.find(({ part_refusal: refusal, problem, walks }) => !refusal && !problem && walks !== false);
+  const view = await api.sequence({ name: freeName(store.state, "Sequence"), parts: [{ gait: first.id }] });
   await selectGait(store, view.id);
   openStep("design");
+  if (shown && first !== shown) toast(`${shown.name} cannot be a part (${shown.part_refusal}), so the sequence begins with ${first.name}. Choose other gaits under “Gait to add”.`);
 }
 
 /** What a sequence is offered: to optimise its parts. */

@@ -93,6 +93,7 @@ function panel(store, edits, ui) {
     await edits.restoreVersion(chosen);
     toast(`Version ${chosen} is restored. Undo takes that back.`);
     announce(`Version ${chosen} restored.`);
+    ui.list.focus();
   });
   const keep = attempt(async () => {
     const name = ui.name.value.trim();

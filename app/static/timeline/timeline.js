@@ -1,7 +1,7 @@
 /** The footfall timeline: an ARIA grid, a row a foot, a cell a sample. */
 
 import { missingMotionByCell } from "../document/missing_motion.js";
-import { byId, h } from "../lib/dom.js";
+import { byId, h, icon } from "../lib/dom.js";
 import { mountSelection } from "../state/selection.js";
 import { isRefusedDrawing } from "../state/live_plan.js";
 import { previewedDocument, shownDocument, shownPlan } from "../state/store.js";
@@ -12,6 +12,9 @@ import { drawBars } from "./swing_bars.js";
 import { mountTimelineInput } from "./timeline_input.js";
 import { buildRow, DENSE, drawRow, findingsByCell, fitRow } from "./timeline_rows.js";
 
+/** The notice on an edit that a person has read and sent away. */
+let dismissed = null;
+
 function showNote(store, edits) {
   const note = byId("edit-note");
   const { refused, view } = store.state;
@@ -19,10 +22,13 @@ function showNote(store, edits) {
   // An adapted motion may be out of reach; its search says whether the gait is. Of a drawing the inspector says why.
   const isSaid = plan?.live?.status === "infeasible" || plan?.source === "adapted" || isRefusedDrawing(store.state);
   const refusal = isSaid ? null : plan?.refusal?.sentence;
-  const sentence = refused ?? refusal ?? view?.notice ?? null;
+  const notice = view?.notice === dismissed ? null : view?.notice;
+  const sentence = refused ?? refusal ?? notice ?? null;
   if (!sentence) return note.replaceChildren();
+  const dismiss = () => { dismissed = view.notice; showNote(store, edits); };
   const text = h("p", { text: refused ? `Not accepted: ${refused}` : sentence, title: sentence, data: { toneText: refused || refusal ? "bad" : "caution" } });
-  return note.replaceChildren(text, ...(refused ? [h("button", { text: "Take it back", on: { click: edits.dropRefused } })] : []));
+  return note.replaceChildren(text, ...(refused ? [h("button", { text: "Take it back", on: { click: edits.dropRefused } })] : []),
+    ...(sentence === notice ? [h("button", { class: "plain icon-only", "aria-label": "Dismiss the note", on: { click: dismiss } }, icon("close"))] : []));
 }
 
 /** Gives back what a function made of a value the last time, as long as the value is the same. */

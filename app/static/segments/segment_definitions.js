@@ -131,7 +131,7 @@ function axisPart(sheet, axis, { run, refuse, strokes }) {
       run({ change: withDefinitions((words) => ({ [axis]: { ...words[axis], [name]: fresh } })), label: `Add ${what} ${name}` });
     },
   } });
-  return h("div", { class: "axis", role: "group", "aria-label": title }, h("h4", { text: title, title: help }), ...rows, add);
+  return h("div", { class: "axis", role: "group", "aria-label": title }, h("h3", { text: title, title: help }), ...rows, add);
 }
 
 function segmentRow(sheet, name, { run, refuse }) {
@@ -164,7 +164,7 @@ function segmentPart(sheet, actions) {
     },
   } });
   return h("div", { class: "axis", role: "group", "aria-label": "Segments" },
-    h("h4", { text: "Segments" }), h("div", { class: "word segment head" }, h("span", { text: "from" }), h("span", { text: "to" }), h("span", { text: "air", title: "In the air" }), h("span")),
+    h("h3", { text: "Segments" }), h("div", { class: "word segment head" }, h("span", { text: "from" }), h("span", { text: "to" }), h("span", { text: "air", title: "In the air" }), h("span")),
     ...names.map((name) => segmentRow(sheet, name, actions)), add);
 }
 

@@ -105,7 +105,6 @@ def versions(at: Sitting, path: Path) -> None:
     made = at.studio.ask("POST", "/api/gaits", document)
     at.choose(document["name"])
     place = f"/api/gaits/{made.content['id']}"
-    at.studio.ask("POST", f"{place}/versions", {"name": "As it came"})
     document["name"] = "Amble, faster"
     document["step"] = [1.2 * value for value in document["step"]]
     document["options"]["margin"] = 0.005

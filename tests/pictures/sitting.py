@@ -69,7 +69,7 @@ class Sitting:
         """Closes the card First steps, which opens by itself for a new data folder."""
         close = self.page.get_by_role("button", name="Close first steps")
         if close.is_visible():
-            close.click()
+            close.dispatch_event("click")  # a dialog may lie over it
 
     def open_menu(self, menu: str, entry: str) -> None:
         """Chooses an entry of a menu."""

@@ -3,6 +3,7 @@
 COMMAND_GROUPS = {
     "Studio": {
         "serve": "Serve the studio and print its address.",
+        "doctor": "Say whether this computer has all that is needed.",
     },
     "Design": {
         "gaits": "List built-in and saved gaits.",

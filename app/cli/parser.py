@@ -8,6 +8,7 @@ from typing import NoReturn
 
 from app.cli import (
     commands_bench,
+    commands_doctor,
     commands_fastest,
     commands_files,
     commands_frontier,
@@ -91,6 +92,9 @@ def make_parser() -> argparse.ArgumentParser:
         return added
 
     _serve_options(command("serve", commands_robot.run_serve, "Serve the studio and print its address."))
+    text = "Look at Python, solvers, port, serial devices and data folder, and say what to do about each."
+    doctor = command("doctor", commands_doctor.run_doctor, text)
+    doctor.add_argument("--data", type=Path, default=None, help="data folder")
     _gaits_options(command("gaits", commands_gait.run_gaits, "List built-in and saved gaits."))
     _manual_options(command("manual", commands_gait.run_manual, "Trajectory of a gait made by hand."))
     _optimise_options(command("optimise", commands_gait.run_optimise, "Optimised trajectory of a gait."))

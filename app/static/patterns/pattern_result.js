@@ -62,7 +62,7 @@ function conflictBox(problem) {
       element.hidden = result?.status !== "infeasible";
       if (element.hidden || shown === result) return;
       shown = result;
-      element.replaceChildren(h("h4", { text: "No pattern keeps all of this" }), ...result.explanation.map((text) => h("p", { text })), ...longerSwings(problem.state, result.explanation),
+      element.replaceChildren(h("h3", { text: "No pattern keeps all of this" }), ...result.explanation.map((text) => h("p", { text })), ...longerSwings(problem.state, result.explanation),
         h("div", { class: "buttons", role: "group", "aria-label": "What would make it possible" }, ...result.relaxations.map((one) => h("button", { text: one.words, title: "Changes this and searches again", on: { click: () => apply(one) } }))));
     },
   };

@@ -24,7 +24,7 @@ from core.patterns.problem import (
     Relaxation,
     Rule,
 )
-from core.patterns.sentences import explanation, failing_samples, length_words
+from core.patterns.sentences import explanation, failing_ends, failing_samples, length_words
 
 _log = logging.getLogger(__name__)
 
@@ -223,15 +223,18 @@ class PatternSearchService:
     def _searched(
         self, tier: PatternTier, search: Search, question: PatternRequest, problem: PatternProblem
     ) -> tuple[PatternProblem, PatternResult]:
-        """The answer of the first length that works, or of the last one; cancelled where time runs out."""
+        """The answer of the first length that works, or of the last one for which there was time."""
         deadline = time.monotonic() + question.seconds
+        lengths = helpful_lengths(question)
         while True:
             left = max(deadline - time.monotonic(), LEAST_SECONDS)
             result = self._solved(tier, search, problem, question.count, left)
-            longer = next_length(problem, result, question.lengths)
+            longer = next_length(problem, result, lengths)
             if longer is None:
-                return problem, result
-            if search.is_ended or time.monotonic() > deadline:
+                return problem, none_up_to(problem, result, lengths)
+            if not search.is_ended and time.monotonic() > deadline:
+                return problem, none_up_to(problem, result, lengths, "; there was no time for longer ones")
+            if search.is_ended:
                 # This length has no pattern, but longer ones were asked for as well.
                 return problem, PatternResult(PatternStatus.CANCELLED, (), None, result.solve_seconds)
             problem = question.problem_of(longer)
@@ -274,6 +277,35 @@ def _end(search: Search) -> None:
         search.handle.cancel()
 
 
+def helpful_lengths(question: PatternRequest) -> range | None:
+    """The lengths that may be tried; None where what is drawn leaves too few feet down in every one of them.
+
+    Cells that finish a phase which a cursor cuts may overlap in a short length and not in a longer one, so
+    the longest length tells.
+    """
+    lengths = question.lengths
+    if lengths is None or failing_samples(question.problem_of(lengths[-1])):
+        return None
+    return lengths
+
+
+def none_up_to(
+    problem: PatternProblem, result: PatternResult, lengths: range | None, ending: str = ""
+) -> PatternResult:
+    """The answer of the last length, which says that no shorter one has a pattern either.
+
+    Args:
+        problem: of the last length that was tried.
+        result: its answer.
+        lengths: that may be tried; None where the length is given.
+        ending: of the sentence.
+    """
+    if lengths is None or result.status is not PatternStatus.INFEASIBLE or failing_ends(problem):
+        return result
+    sentence = f"None of {lengths[0]} to {problem.sample_count} samples works{ending}."
+    return replace(result, explanation=(sentence, *result.explanation))
+
+
 def next_length(problem: PatternProblem, result: PatternResult, lengths: range | None) -> int | None:
     """The length that is tried after one that has no pattern; None where the search is at its end.
 
@@ -284,7 +316,7 @@ def next_length(problem: PatternProblem, result: PatternResult, lengths: range |
         result: its answer.
         lengths: that may be tried; None where the length is given.
     """
-    if lengths is None or result.status is not PatternStatus.INFEASIBLE or failing_samples(problem):
+    if lengths is None or result.status is not PatternStatus.INFEASIBLE or failing_ends(problem):
         return None
     offered = [one.samples for one in result.relaxations if one.samples is not None]
     longer = min(offered, default=problem.sample_count + 1)

@@ -148,6 +148,9 @@ class PatternProblem:
         noun: what sentences call a limb: "limb", or "foot" in a document.
         once_an_order: whether patterns whose limbs change in the same order, only at other samples, count as
             one; the best of them is given.
+        finishing: (2, legs) how many cells after the first sample keep its value, and how many before the
+            last one keep that, so that phases which a transition's ends cut are finished; `fixed` has them,
+            and in another length they are laid anew. None for none.
     """
 
     kind: PatternKind
@@ -161,6 +164,7 @@ class PatternProblem:
     sample_time: float = 0.4
     noun: str = "limb"
     once_an_order: bool = False
+    finishing: NDArray[np.intp] | None = None
 
     def __post_init__(self) -> None:
         fixed = np.array(self.fixed, dtype=np.int8)
@@ -287,6 +291,21 @@ class PatternResult:
     solve_seconds: float
     explanation: tuple[str, ...] = ()
     relaxations: tuple[Relaxation, ...] = ()
+
+
+def with_finished_phases(cells: Cells, finishing: NDArray[np.intp]) -> Cells:
+    """(legs, samples) cells of a transition with those fixed that finish the phases which its ends cut.
+
+    Args:
+        cells: with the first and the last sample fixed.
+        finishing: (2, legs) of `PatternProblem`.
+    """
+    laid, samples = cells.copy(), cells.shape[1]
+    inner = samples - 2
+    for limb, (begun, ending) in enumerate(finishing.T):
+        laid[limb, 1 : 1 + min(int(begun), inner)] = cells[limb, 0]
+        laid[limb, samples - 1 - min(int(ending), inner) : samples - 1] = cells[limb, -1]
+    return laid
 
 
 def index_halves(legs: int) -> Bools:

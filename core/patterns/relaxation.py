@@ -6,7 +6,15 @@ from typing import Any
 import numpy as np
 
 from core.errors import InputError
-from core.patterns.problem import FREE, PatternKind, PatternProblem, Relaxation, Rule, free_cells
+from core.patterns.problem import (
+    FREE,
+    PatternKind,
+    PatternProblem,
+    Relaxation,
+    Rule,
+    free_cells,
+    with_finished_phases,
+)
 
 
 def relaxed(problem: PatternProblem, relaxation: Relaxation) -> PatternProblem:
@@ -43,11 +51,11 @@ def with_rule(problem: PatternProblem, rule: Rule, value: float | None) -> Patte
 
 
 def with_samples(problem: PatternProblem, samples: int) -> PatternProblem:
-    """The problem in another length, where only boundary states and whole limbs are fixed.
+    """The problem in another length, where only ends, whole limbs and what finishes cut phases are fixed.
 
     Args:
         problem: what is sought; its drawing goes, for it belongs to the old length.
-        samples: the new length.
+        samples: the new length; no shorter than what finishes cut phases needs.
 
     Raises:
         InputError: single cells are fixed, which have no place in another length.
@@ -59,22 +67,33 @@ def with_samples(problem: PatternProblem, samples: int) -> PatternProblem:
     fixed = free_cells(problem.leg_count, samples)
     if problem.kind is PatternKind.TRANSITION:
         fixed[:, 0], fixed[:, -1] = problem.fixed[:, 0], problem.fixed[:, -1]
+        if problem.finishing is not None:
+            fixed = with_finished_phases(fixed, problem.finishing)
     held = ~problem.walking
     fixed[held] = problem.fixed[held, :1]
     return replace(problem, fixed=fixed, drawing=None)
 
 
 def has_fixed_cells(problem: PatternProblem) -> bool:
-    """Whether cells of walking limbs are fixed elsewhere than in a transition's first and last sample."""
-    inside = slice(1, -1) if problem.kind is PatternKind.TRANSITION else slice(None)
-    return bool((problem.fixed[problem.walking, inside] != FREE).any())
+    """Whether walking limbs have fixed cells besides a transition's ends and what finishes cut phases."""
+    given = free_cells(problem.leg_count, problem.sample_count)
+    if problem.kind is PatternKind.TRANSITION:
+        given[:, 0], given[:, -1] = problem.fixed[:, 0], problem.fixed[:, -1]
+        if problem.finishing is not None:
+            given = with_finished_phases(given, problem.finishing)
+    drawn = (problem.fixed != FREE) & (given == FREE)
+    return bool(drawn[problem.walking].any())
 
 
 def _freed(problem: PatternProblem, cells: tuple[tuple[int, int], ...]) -> PatternProblem:
     fixed, walking = np.array(problem.fixed), np.array(problem.walking)
+    finishing = None if problem.finishing is None else np.array(problem.finishing)
     for limb, sample in cells:
         if not (0 <= limb < problem.leg_count and 0 <= sample < problem.sample_count):
             raise InputError(f"Limb {limb + 1} at sample {sample + 1} lies outside the pattern.", "cells")
         fixed[limb, sample] = FREE
         walking[limb] = True
-    return replace(problem, fixed=fixed, walking=walking)
+        if finishing is not None:
+            # What is left of its cut phases is fixed like cells that were drawn.
+            finishing[:, limb] = 0
+    return replace(problem, fixed=fixed, walking=walking, finishing=finishing)

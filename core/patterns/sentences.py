@@ -46,7 +46,7 @@ def explanation(problem: PatternProblem, sentence: str, relaxations: Sequence[Re
     if relaxations:
         ways = [f"with {one.words[0].lower()}{one.words[1:]}" for one in relaxations]
         return sentence, f"It works {listed(ways, ' or ')}."
-    ends = [sample for sample in failing_samples(problem) if sample in (0, problem.sample_count - 1)]
+    ends = failing_ends(problem)
     if problem.kind is PatternKind.TRANSITION and ends:
         states = "another state" if len(ends) == 1 else "other states"
         return sentence, f"No change of one rule mends this: choose {states} at {named('sample', ends)}."
@@ -287,3 +287,8 @@ def failing_samples(problem: PatternProblem) -> list[int]:
     fails = down.sum(axis=0) < (rules.feet_down or 0)
     fails |= (problem.sides.astype(int) @ down).min(axis=0) < (rules.feet_down_each_side or 0)
     return [int(sample) for sample in np.nonzero(fails)[0]]
+
+
+def failing_ends(problem: PatternProblem) -> list[int]:
+    """Those of the failing samples that are the first or the last one, which no other length mends."""
+    return [sample for sample in failing_samples(problem) if sample in (0, problem.sample_count - 1)]

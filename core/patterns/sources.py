@@ -20,6 +20,7 @@ from core.patterns.problem import (
     PatternWeights,
     free_cells,
     transition_cells,
+    with_finished_phases,
 )
 from core.patterns.sides import PatternSide, locked_limbs, require_alike, still_limbs
 from core.robot.model import RobotModel, load_robot
@@ -89,8 +90,10 @@ def transition_problem(
     require_alike(first, second)
     locked = locked_limbs(first, second)
     fixed = transition_cells(sides[0].state, sides[1].state, samples, locked)
+    finishing = None
     if finish_phases:
         fixed = finished_phases(fixed, *sides, rules)
+        finishing = finishing_cells(*sides, rules)
     model = load_robot(first.robot)
     return PatternProblem(
         kind=PatternKind.TRANSITION,
@@ -102,6 +105,7 @@ def transition_problem(
         drawing=drawing,
         balance_model=shared_balance(model, first, second),
         sample_time=first.timeline.sample_time,
+        finishing=finishing,
     )
 
 
@@ -120,20 +124,20 @@ def finished_phases(fixed: Cells, first: PatternSide, second: PatternSide, rules
     Raises:
         InputError: there is no room for them (see `finishing_length`).
     """
-    cells = fixed.copy()
-    samples, needed = cells.shape[1], finishing_length(first, second, rules)
+    samples, needed = fixed.shape[1], finishing_length(first, second, rules)
     if samples < needed:
         raise InputError(
             f"The transition has {samples} samples; the swings and stances that its cursors cut need "
             f"{needed} to be finished. Give it as many, or move a cursor.",
             "samples",
         )
-    inner = samples - 2
+    return with_finished_phases(fixed, finishing_cells(first, second, rules))
+
+
+def finishing_cells(first: PatternSide, second: PatternSide, rules: PatternRules) -> NDArray[np.intp]:
+    """(2, legs) how many cells finish the phases that the first and the second cursor cut."""
     before, after = _cut_phases(first, second, rules)
-    for limb, (begun, ending) in enumerate(zip(before[1], after[1], strict=True)):
-        cells[limb, 1 : 1 + min(int(begun), inner)] = cells[limb, 0]
-        cells[limb, samples - 1 - min(int(ending), inner) : samples - 1] = cells[limb, -1]
-    return cells
+    return np.array([before[1], after[1]])
 
 
 def finishing_length(first: PatternSide, second: PatternSide, rules: PatternRules) -> int:

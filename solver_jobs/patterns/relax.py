@@ -5,14 +5,18 @@ from dataclasses import replace
 
 from core.patterns.clause import Clause
 from core.patterns.problem import FREE, MOST_SAMPLES, PatternKind, PatternProblem, Relaxation, Rule
-from core.patterns.relaxation import has_fixed_cells, relaxed, with_rule
-from core.patterns.sentences import failing_samples, relaxation_words
+from core.patterns.relaxation import has_fixed_cells, relaxed, with_rule, with_samples
+from core.patterns.sentences import failing_ends, failing_samples, relaxation_words
 from solver_jobs.patterns.conflict import find_conflict
 from solver_jobs.patterns.probe import Feasibility, Probe
 
 MOST_OFFERED = 6
-MOST_ADDED = 12
+MOST_ADDED = 40
 """Samples that are added at most."""
+LONGER_WORK = 2.0
+"""What the search for a longer pattern may use, in the solver's deterministic seconds."""
+DROPS_A_FOOT = (Rule.FEET_DOWN, Rule.FEET_DOWN_EACH_SIDE)
+"""Rules without which a robot may tip."""
 FREEING = 2
 """A freed limb or cell counts as this many steps of a number, where changes are put in order."""
 SWITCHED_OFF = 10
@@ -37,12 +41,19 @@ def find_relaxations(
 
     Returns:
         Single changes; where none suffices, changes of two rules, unless an end's own state breaks a rule.
+        A longer pattern, which keeps every rule, comes first; what lets a foot go comes last.
     """
     found = _single_changes(problem, clauses, probe)
     if not found and not failing_samples(problem):
         found = _double_changes(problem, clauses, probe)
-    ranked = sorted(found, key=lambda one: one[0])[:MOST_OFFERED]
+    ranked = sorted(found, key=_rank)[:MOST_OFFERED]
     return tuple(_worded(problem, one) for _, one in ranked)
+
+
+def _rank(step: Step) -> tuple[bool, bool, int]:
+    steps, one = step
+    drops = any(change.rule in DROPS_A_FOOT for change in (one, *one.also))
+    return drops, one.samples is None, steps
 
 
 def _worded(problem: PatternProblem, one: Relaxation) -> Relaxation:
@@ -52,7 +63,7 @@ def _worded(problem: PatternProblem, one: Relaxation) -> Relaxation:
 
 def _single_changes(problem: PatternProblem, clauses: Sequence[Clause], probe: Probe) -> list[Step]:
     changes = [_rule_change(problem, rule, probe) for rule in _rules_of(clauses)]
-    freed, longer = _freed(problem, clauses, probe), _longer(problem, probe)
+    freed, longer = _freed(problem, clauses, probe), _longer(problem)
     return [*filter(None, changes), *freed, *filter(None, [longer])]
 
 
@@ -158,15 +169,21 @@ def _inner_cells(problem: PatternProblem, clause: Clause) -> tuple[tuple[int, in
     )
 
 
-def _longer(problem: PatternProblem, probe: Probe) -> Step | None:
-    """The fewest samples that suffice, where nothing but the ends and whole limbs is fixed."""
-    if has_fixed_cells(problem) or failing_samples(problem):
+def _longer(problem: PatternProblem) -> Step | None:
+    """The fewest samples that suffice, where no single cells are fixed; with work of its own.
+
+    Where it is proven that even the longest one has no pattern, the others are not tried.
+    """
+    if has_fixed_cells(problem) or failing_ends(problem):
         return None
-    for added in range(1, MOST_ADDED + 1):
-        samples = problem.sample_count + added
-        if samples <= MOST_SAMPLES:
-            change = Relaxation(Rule.FIXED, None, (), "", samples)
-            answer = probe.ask(relaxed(problem, change))
-            if answer is not Feasibility.CONFLICT:
-                return (added, change) if answer is Feasibility.SOLVABLE else None
+    probe, now = Probe(work=LONGER_WORK), problem.sample_count
+    longest = min(now + MOST_ADDED, MOST_SAMPLES)
+    if longest <= now or probe.ask(with_samples(problem, longest)) is Feasibility.CONFLICT:
+        return None
+    for samples in range(now + 1, longest + 1):
+        answer = probe.ask(with_samples(problem, samples))
+        if answer is Feasibility.SOLVABLE:
+            return samples - now, Relaxation(Rule.FIXED, None, (), "", samples)
+        if answer is Feasibility.UNKNOWN:
+            return None
     return None

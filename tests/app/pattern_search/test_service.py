@@ -258,7 +258,15 @@ def test_where_no_length_works_the_last_ones_reason_stands_too(
 ) -> None:
     asked = PatternRequest(transition, range(7, 8), 1, 5.0, too_few=4)
     result = service_of(told, Tier(none)).ask("page", asked).future.result(5)["result"]
-    assert result["explanation"][1:] == ["It is too short."]
+    assert result["explanation"][1:] == ["None of 7 to 7 samples works.", "It is too short."]
+
+
+def test_where_no_length_up_to_the_longest_works_that_is_said(
+    told: list[tuple[str, dict[str, Any]]],
+) -> None:
+    result = service_of(told, Tier(none)).ask("page", question(range(4, 9))).future.result(5)["result"]
+    assert (result["status"], result["samples"]) == ("infeasible", 8)
+    assert result["explanation"] == ["None of 4 to 8 samples works.", "It is too short."]
 
 
 def test_a_solver_that_breaks_off_is_said(told: list[tuple[str, dict[str, Any]]]) -> None:

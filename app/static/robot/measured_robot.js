@@ -24,7 +24,7 @@ export function mountMeasuredRobot(store, preview) {
     badge.toggleAttribute("data-measured", isMeasured);
     const isBad = !isMeasured && isStuck(store.state);
     badge.toggleAttribute("data-bad", isBad);
-    setText(word, isMeasured ? "Robot, measured" : store.state.iterate ? "An iteration" : isBad ? "No motion" : "Plan");
+    setText(word, isMeasured ? "Robot, measured" : store.state.iterate ? (store.state.iterate.pattern ? "Pattern" : "An iteration") : isBad ? "No motion" : "Plan");
     setText(age, isMeasured ? `${fixed((performance.now() - measuredAt) / 1000)} s ago` : isBad ? (GREY[greyOf(store.state)]?.stage ?? "") : "");
   }
 

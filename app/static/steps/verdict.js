@@ -86,7 +86,7 @@ function build({ name, step, of }) {
 
 /** What is shown instead of the gait's plan, in a few words. */
 function previewText({ iterate, preview, view, live, gesture, pending }) {
-  if (iterate) return "An iteration, not the plan";
+  if (iterate) return iterate.pattern ? "The pattern, not the plan" : "An iteration of the optimiser, not the plan";
   if (preview) return "Preview";
   if (view && (gesture || pending.length || (live && live.plan !== view.plan))) return "Edit under way";
   return "";

@@ -228,7 +228,7 @@ class RemedyRun:
             return
         live = self._parts.live.plan(gait).live
         if live is not None and live.status is SolveStatus.SOLVED:
-            self._found(completion_remedy(self._gait, gait, live.result))
+            self._found(completion_remedy(self._gait, gait, self._model, live.result))
 
     def _shown(self) -> list[_Offer]:
         """The best offers: what physics refuses comes last."""

@@ -40,6 +40,26 @@ def check_arms_of_waypoints(model: RobotModel, waypoints: Waypoints) -> list[Out
     return [_outcome(model, gaps, moves, [{"sample": move} for move in moves.tolist()])]
 
 
+def least_arm_gap(model: RobotModel, waypoints: Waypoints) -> tuple[tuple[int, int], float] | None:
+    """The two neighbouring legs whose arms come nearest to each other, 0-based, and the room between them, m.
+
+    Args:
+        model: the robot.
+        waypoints: what would be sent; what lies between them counts too.
+
+    Returns:
+        None where motors share actuators, or where no arm can be placed.
+    """
+    if model.is_coupled:
+        return None
+    gaps, _ = _least_gaps(model, waypoints.strokes)
+    nearest = int(gaps.argmin())
+    if not np.isfinite(gaps[nearest]):
+        return None
+    first, second = sorted(neighbour_pairs(model.leg_count)[nearest].tolist())
+    return (first, second), float(gaps[nearest])
+
+
 def _least_gaps(model: RobotModel, strokes: Floats) -> tuple[Floats, NDArray[np.int64]]:
     """Least room of each pair of neighbours, m, and the waypoint to which the robot is under way there.
 

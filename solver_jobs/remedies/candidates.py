@@ -17,6 +17,7 @@ from core.gait.gait import Gait, drawn_timeline, with_iterations
 from core.patterns.limits import needed_swing
 from core.problem.motion_problem import MotionLimits, Workspace
 from core.robot.model import RobotModel
+from solver_jobs.remedies.arms import arm_caution, arm_room
 from solver_jobs.remedies.layout import (
     CLOSING,
     Item,
@@ -239,7 +240,10 @@ class Candidates:
         yield self._more_iterations()
         shorter = self._shorter_step(self._mended, self._raised)
         if shorter is not None:
-            yield self._step_remedy(shorter, "The largest that works for this drawing.")
+            largest = self._step_remedy(shorter, "The largest that works for this drawing.")
+            yield largest
+            if largest is not None:
+                yield self._clear_step(largest)
         if self._asked.options.margin > self._model.margin:
             yield self._kept_margin(self._mended)
         yield self._slower()
@@ -256,6 +260,28 @@ class Candidates:
             if found is not None:
                 return self._scaled(safe, found)
         return None
+
+    def _clear_step(self, largest: Remedy) -> Remedy | None:
+        """The largest step or turn whose arms keep clear, where those of the largest that works do not."""
+        room = arm_room(largest.gait, self._model, largest.motion)
+        if room >= 0.0:
+            return None
+        size = self._size(largest.gait)
+        least, unit = (LEAST_TURN, UNIT_TURN) if self._turns else (LEAST_STEP, UNIT_STEP)
+        if size <= least:
+            return None
+        # Two neighbouring feet come nearer to each other by about what the step grows.
+        near = None if self._turns else size + room
+        change = partial(self._scaled, largest.gait)
+        found = self._trial.largest(least, size, change, unit, near, self._keeps_arms_clear)
+        if found is None:
+            return None
+        return self._step_remedy(change(found), "The largest whose arms keep clear of each other.")
+
+    def _keeps_arms_clear(self, gait: Gait) -> bool:
+        """Whether a gait works with arms that the check does not warn of."""
+        motion = self._trial.solved(gait) if self._trial.works(gait) else None
+        return motion is not None and arm_room(gait, self._model, motion) >= 0.0
 
     def _step_remedy(self, gait: Gait, words: str) -> Remedy | None:
         return self._remedy(RemedyKind.STEP, self._step_words(gait), words, gait)
@@ -446,7 +472,8 @@ class Candidates:
             others.append(f"Margin {margin * MM:g} mm.")
         if self._mended is not self._asked and kind is not RemedyKind.MENDED:
             others.append("The ends are repaired too.")
-        return Remedy(kind, label, " ".join([words, *others]), gait, motion, caution)
+        cautions = " ".join(filter(None, [caution, arm_caution(gait, self._model, motion)]))
+        return Remedy(kind, label, " ".join([words, *others]), gait, motion, cautions)
 
 
 def _margin(gait: Gait, margin: float) -> Gait:

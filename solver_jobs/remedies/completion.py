@@ -12,6 +12,7 @@ from core.patterns.problem import PatternProblem
 from core.patterns.sources import completion_problem
 from core.patterns.to_gait import completed_gait, order_of
 from core.robot.model import RobotModel
+from solver_jobs.remedies.arms import arm_caution
 from solver_jobs.remedies.layout import with_ends
 from solver_jobs.remedies.remedy import Remedy, RemedyKind, order_words
 from solver_jobs.results.motion import MotionResult
@@ -52,19 +53,20 @@ def completed_drawing(gait: Gait, model: RobotModel, stance: Bools) -> Gait:
     return with_iterations(drawn, gait.iterations)
 
 
-def completion_remedy(asked: Gait, gait: Gait, motion: MotionResult) -> Remedy:
+def completion_remedy(asked: Gait, gait: Gait, model: RobotModel, motion: MotionResult) -> Remedy:
     """The remedy that offers a finished drawing.
 
     Args:
         asked: the drawing before it was finished.
         gait: the finished drawing.
+        model: its robot.
         motion: the motion of the finished drawing.
     """
     words = f"{order_words(gait)}, as near to your drawing as the rules of footfall patterns allow."
     margin = gait.options.margin
     if margin != asked.options.margin:
         words += f" Margin {margin * 1000:g} mm."
-    return Remedy(RemedyKind.COMPLETED, LABEL, words, gait, motion)
+    return Remedy(RemedyKind.COMPLETED, LABEL, words, gait, motion, arm_caution(gait, model, motion))
 
 
 def _one_iteration(gait: Gait, model: RobotModel) -> Gait:

@@ -60,7 +60,7 @@ class Remedy:
         sentence: what it does, and what it costs.
         gait: the changed gait.
         motion: the motion of the changed gait.
-        caution: why the remedy ranks last; empty for a remedy that does not.
+        caution: why the remedy ranks last: it may tip, or arms touch; empty for a remedy that does not.
     """
 
     kind: RemedyKind

@@ -96,6 +96,7 @@ class Trial:
         change: Callable[[float], Gait],
         unit: float,
         near: float | None = None,
+        works: Callable[[Gait], bool] | None = None,
     ) -> float | None:
         """The largest value that works: `most`, `least`, or a multiple of `unit` between; None if none works.
 
@@ -105,7 +106,9 @@ class Trial:
             change: returns the gait with a value.
             unit: step between two values.
             near: a likely result, at which the search starts; None to start at `most`.
+            works: whether a gait is good; None for `Trial.works`.
         """
+        is_good = self.works if works is None else works
         first, last = int(np.floor(least / unit + 1e-9)), int(np.ceil(most / unit - 1e-9))
 
         def value(number: int) -> float:
@@ -116,7 +119,7 @@ class Trial:
         number = last if near is None else int(np.clip(near // unit, first, last))
         stride = max(last - first, 1) if near is None else 1
         while high - low > 1:
-            low, high = (number, high) if self.works(change(value(number))) else (low, number)
+            low, high = (number, high) if is_good(change(value(number))) else (low, number)
             if high > last:
                 number = min(low + stride, last)
             elif low < first:

@@ -8,9 +8,11 @@ import { footfalls } from "../shell/footfalls.js";
 const NO_PHYSICS = { text: "Being tried in physics…", tone: null, title: null };
 
 /** The result of the physics trial of a remedy, as a short text. */
-function physicsWords({ physics, caution }, isTrying) {
+function physicsWords({ kind, physics, caution }, isTrying) {
   if (!physics) return isTrying ? NO_PHYSICS : { text: caution, tone: "caution", title: null };
   if (physics.walks === null) return { text: "Physics gave no result.", tone: "caution", title: physics.sentence };
+  // What is likely to tip has proven that it does not; arms that touch still do.
+  if (physics.walks && caution && kind !== "no_margin") return { text: `Walks in physics. ${caution}`, tone: "caution", title: null };
   return physics.walks ? { text: "Walks in physics.", tone: "good", title: null } : { text: "Does not walk in physics.", tone: "caution", title: physics.sentence };
 }
 

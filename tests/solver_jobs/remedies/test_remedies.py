@@ -8,12 +8,14 @@ import numpy as np
 import pytest
 
 from app.bench.common.random_drawings import random_drawing
+from core.checks.arms import check_arms_of_waypoints
 from core.gait.gait import Gait, heading_step, motion_problem
 from core.gait.held_feet import HeldFeet
 from core.library.library import library
 from core.motion.contact_timeline import ContactTimeline
 from core.problem.motion_check import check_motion
 from core.robot.model import load_robot
+from core.wire.waypoint_merging import plan_waypoints
 from solver_jobs import Remedy, RemedyKind, SolveStatus, solve_live
 from solver_jobs.remedies.layout import items_of, longer, one_after_the_other, with_single_swings
 from solver_jobs.remedies.remedy import MOST_REMEDIES, is_one_by_one, order_words
@@ -74,9 +76,30 @@ def test_a_step_that_is_too_long_keeps_its_way_in_more_iterations() -> None:
     assert {RemedyKind.STEP, RemedyKind.ITERATIONS} <= set(kinds(found))
     (twice,) = (remedy.gait for remedy in found if remedy.kind is RemedyKind.ITERATIONS)
     assert np.hypot(*twice.step[:2]) * twice.iterations == pytest.approx(0.034)
-    (step,) = (remedy.gait for remedy in found if remedy.kind is RemedyKind.STEP)
+    steps = [remedy.gait for remedy in found if remedy.kind is RemedyKind.STEP]
+    step = max(steps, key=lambda gait: float(np.hypot(*gait.step[:2])))
     further = replace(step, step=heading_step(WALK.orientation, float(np.hypot(*step.step[:2])) + 0.0008))
     assert solve_live(motion_problem(further, load_robot("deltawalker"))).status is SolveStatus.INFEASIBLE
+
+
+def test_a_step_whose_arms_touch_says_so_and_comes_after_the_largest_whose_arms_keep_clear() -> None:
+    long = replace(WALK.with_options(margin=0.006), step=heading_step(WALK.orientation, 0.030))
+    found = remedies_of(long)
+    cautions = {remedy.label: remedy.caution for remedy in found}
+    assert cautions["Step 28.5 mm"] == "The arms of legs 2 and 3 touch: 4.2 mm in one another."
+    assert found[-1].label == "Step 28.5 mm"
+    (clear,) = (one for one in found if one.kind is RemedyKind.STEP and not one.caution)
+    assert clear.label == "Step 23.8 mm"
+    for remedy in found:
+        assert is_warned_of_arms(remedy) == bool(remedy.caution), remedy.label
+
+
+def is_warned_of_arms(remedy: Remedy) -> bool:
+    """Whether the check warns of the arms in a remedy's motion as sent."""
+    model, options = load_robot(remedy.gait.robot), remedy.gait.options
+    way = plan_waypoints(model, remedy.motion.trajectory, options.merge, options.stop_bound)
+    (outcome,) = check_arms_of_waypoints(model, way.waypoints)
+    return bool(outcome.findings)
 
 
 def test_a_margin_that_nobody_can_keep_has_a_largest() -> None:

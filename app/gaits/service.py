@@ -38,6 +38,8 @@ from core.library.library import library
 from core.library.sequence import derived
 
 _SCRIPT = Author()
+OPTIMISE = "Optimise"
+"""What an edit is called that takes a result, or sets a recorded motion aside for one."""
 
 
 class GaitService:
@@ -504,7 +506,10 @@ class GaitService:
             return None
         gait, is_asked = self._results.taken(open_gait.id, open_gait.gait, provenance)
         if gait != open_gait.gait:
-            return self._edited(open_gait, gait, "Optimise", author)
+            present = open_gait.history.present
+            if present.label == OPTIMISE and present.author.page == author.page:
+                return self._resulted(open_gait, gait)
+            return self._edited(open_gait, gait, OPTIMISE, author)
         plan = self._plans.known(open_gait)
         if not is_asked or (plan is not None and plan.result == provenance.trajectory):
             return None
@@ -530,11 +535,16 @@ class GaitService:
 
     def _with_poses(self, open_gait: OpenGait, gait: Gait) -> OpenGait:
         """The gait with poses in its present document, which are no edit of anybody."""
+        if gait != open_gait.gait:
+            return self._resulted(open_gait, gait)
         self._plans.drop(open_gait.id)
-        unapproved = open_gait.unapproved("Its poses were found")
-        if gait == open_gait.gait:
-            return self._put(unapproved)
+        return self._put(open_gait.unapproved("Its poses were sought"))
+
+    def _resulted(self, open_gait: OpenGait, gait: Gait) -> OpenGait:
+        """The gait with a result in its present document, as a part of the edit before."""
+        self._plans.drop(open_gait.id)
         history = open_gait.history.restated(gait_text(gait))
+        unapproved = open_gait.unapproved("The motion was optimised")
         return self._put(replace(unapproved, gait=gait, history=history))
 
     def _put(

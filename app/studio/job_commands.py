@@ -6,7 +6,7 @@ from app.common.json import Json
 from app.fastest.request import FastestRequest
 from app.fastest.service import KIND as FASTEST
 from app.fastest.service import FastestService
-from app.gaits.service import GaitService
+from app.gaits.service import OPTIMISE, GaitService
 from app.jobs.optimisation_service import OptimisationService
 from app.jobs.repository import JobRepository
 from app.learning.parameter_sets import ParameterSets
@@ -53,7 +53,7 @@ class JobCommands:
         content = self.jobs.submit(open_gait, kind, author)
         if kind is JobKind.MOTION and open_gait.gait.recorded is not None:
             computed = replace(open_gait.gait, recorded=None)
-            self.gaits.edit(gait_id, computed, "Optimise", None, author)
+            self.gaits.edit(gait_id, computed, OPTIMISE, None, author)
             self.publisher.publish_soon(gait_id)
         return self.publisher.publish_job(content)
 

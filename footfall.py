@@ -27,8 +27,10 @@ from typing import Any
 
 _NAME = "footfall"
 _PACKAGES = frozenset({"app", "core", "robot_description", "solver_jobs"})
-__path__ = [str(Path(__file__).resolve().parent)]
+_HOME = str(Path(__file__).resolve().parent)
 """Where the packages stand: beside this file, in a checkout as in an installation."""
+__path__: list[str] = []
+"""Makes them parts of this module, and nothing else that stands there."""
 
 
 def _import(
@@ -58,7 +60,7 @@ class _Loader(SourceFileLoader):
         super().exec_module(module)
 
 
-class _Finder(MetaPathFinder):
+class _FootfallFinder(MetaPathFinder):
     """Finds the program's packages under this module's name."""
 
     def find_spec(
@@ -68,14 +70,16 @@ class _Finder(MetaPathFinder):
         top, _, rest = fullname.partition(".")
         if top != _NAME or rest.partition(".")[0] not in _PACKAGES:
             return None
-        spec = PathFinder.find_spec(fullname, path, target)
+        spec = PathFinder.find_spec(fullname, [_HOME] if "." not in rest else path, target)
         if spec is not None and type(spec.loader) is SourceFileLoader:
             spec.loader = _Loader(spec.loader.name, spec.loader.path)
         return spec
 
 
-if __name__ == _NAME and not any(isinstance(finder, _Finder) for finder in sys.meta_path):
-    sys.meta_path.insert(0, _Finder())
+if __name__ == _NAME and not any(
+    type(finder).__name__ == _FootfallFinder.__name__ for finder in sys.meta_path
+):
+    sys.meta_path.insert(0, _FootfallFinder())
 
 _HOMES = {
     "gaits": ("Gait", "gait", "gaits", "sequence"),

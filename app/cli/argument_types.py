@@ -25,7 +25,8 @@ def number(least: float, most: float, unit: str) -> Callable[[str], float]:
             raise argparse.ArgumentTypeError(f"“{text}” is not a number") from None
         if not (math.isfinite(value) and least <= value <= most):
             is_mm = unit == "m" and most < value and least <= value / 1000 <= most
-            hint = f"; it is in m, did you mean {value / 1000:.3f}?" if is_mm else ""
+            near = f"{value / 1000:.3f}" if round(value / 1000, 3) == value / 1000 else f"{value / 1000:g}"
+            hint = f"; it is in m, did you mean {near}?" if is_mm else ""
             raise argparse.ArgumentTypeError(f"{text} must lie between {least} and {most} {unit}{hint}")
         return value
 

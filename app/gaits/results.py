@@ -47,14 +47,18 @@ class Results:
             provenance: of the result.
         """
         if provenance.motion not in _asked(gait):
-            self._late[gait_id, provenance.motion] = provenance
+            self.keep_late(gait_id, provenance)
             return gait, False
         return with_result(gait, provenance), True
+
+    def keep_late(self, gait_id: str, provenance: Provenance) -> None:
+        """Keeps a result for the time when its gait asks for it again."""
+        self._late[gait_id, provenance.motion] = provenance
 
     def with_late(self, gait_id: str, gait: Gait) -> Gait:
         """A document that an undo or redo leads to, with the results that came too late for it."""
         for motion in _asked(gait):
-            late = self._late.pop((gait_id, motion), None)
+            late = self._late.get((gait_id, motion))
             gait = gait if late is None else with_result(gait, late)
         return gait
 
@@ -82,4 +86,7 @@ def lacks_poses(gait: Gait, motion: str) -> bool:
 
 
 def _asked(gait: Gait) -> frozenset[str]:
+    """What a document's plan is solved for; nothing where it has a recorded motion."""
+    if gait.recorded is not None:
+        return frozenset()
     return run_motions(gait) if gait.sequence else frozenset({asked_hash(gait)})

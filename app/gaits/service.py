@@ -19,7 +19,7 @@ from app.gaits.repository import GaitRepository
 from app.gaits.results import Results, lacks_poses
 from app.gaits.trash import DeletedGait
 from app.gaits.undo import merged_gait, without_unreadable
-from app.gaits.versions import VersionKind, Versions, is_said_already
+from app.gaits.versions import VersionKind, Versions
 from app.gaits.views import require_line
 from app.plans.plan import Plan, Solve, verdict_of
 from app.plans.provenance import with_found_poses
@@ -364,7 +364,7 @@ class GaitService:
         """
         open_gait = self.open_gait(gait_id)
         gait = stored_gait(self.versions.get(gait_id, number).document, f"version {number}").gait
-        if is_said_already(gait, open_gait.gait):
+        if gait == open_gait.gait:
             return open_gait
         self.versions.keep(open_gait, VersionKind.BEFORE_RESTORE, author)
         return self._edited(open_gait, gait, f"Restore version {number}", author)
@@ -503,18 +503,21 @@ class GaitService:
         provenance = self._results.keep(content)
         open_gait = None if gait_id is None else self._open.get(gait_id)
         if open_gait is None:
+            if gait_id is not None:  # it is deleted, and may be brought back
+                self._results.keep_late(gait_id, provenance)
             return None
         gait, is_asked = self._results.taken(open_gait.id, open_gait.gait, provenance)
         if gait != open_gait.gait:
             present = open_gait.history.present
             if present.label == OPTIMISE and present.author.page == author.page:
-                return self._resulted(open_gait, gait)
+                return self._resulted(replace(open_gait, revision=open_gait.revision + 1), gait)
             return self._edited(open_gait, gait, OPTIMISE, author)
         plan = self._plans.known(open_gait)
         if not is_asked or (plan is not None and plan.result == provenance.trajectory):
             return None
         self._plans.drop(open_gait.id)  # it names this result already, which was not here
-        return self._put(open_gait.unapproved("The motion was optimised"))
+        # Where it was not planned yet, its approval is looked at with its plan.
+        return open_gait if plan is None else self._put(open_gait.unapproved("The motion was optimised"))
 
     def on_poses(self, motion: str, content: Json) -> tuple[OpenGait, ...]:
         """Stores what a search for poses ended with, for every gait that asks for it and has no poses yet.

@@ -82,7 +82,6 @@ def merged_gait(present: Gait, step: UndoResult) -> Gait:
             if notice is not None or replace(whole, provenance=gait.provenance) != gait:
                 disagree = "The timeline would no longer agree with the segment table or the feet held up."
                 raise StateError(notice or disagree, "history")
-            return whole
     except FootfallError as error:
         raise StateError(
             f"“{step.label}” does not fit what others changed since: {error.sentence} "

@@ -31,7 +31,7 @@ from core.library.sequence import sequence_gait
 from core.robot.model import load_robot
 
 _FORMS = {".json": ExportFormat.JSON, ".svg": ExportFormat.SVG, ".png": ExportFormat.PNG}
-_FOREIGN = (".csv", ".npz")
+_FILES = (".csv", ".npz", ".json")
 
 
 @dataclass(frozen=True, repr=False)
@@ -109,7 +109,9 @@ class Gait:
             >>> ff.gait("walk").changed(step=0.012, iterations=2).stance.shape
             (4, 85)
         """
-        asked = gait_with_options(self.document, command_options("optimise", [self.id or ""], **options))
+        words = command_options("optimise", [self.id or ""], ("method", "remedy"), **options)
+        # A recorded motion is what the gait has, not what is asked.
+        asked = gait_with_options(replace(self.document, recorded=None), words)
         return Gait(asked if name is None else replace(asked, name=name))
 
     def save(self, path: str | Path) -> Path:
@@ -184,20 +186,20 @@ def gait(source: str | Path | Gait, **options: Any) -> Gait:
         >>> ff.gait("amble", step=0.012)
         Gait “Amble 10 mm”: deltawalker, feet 3-1-4-2, 12.0 mm
     """
+    if not isinstance(source, str | Path | Gait):
+        raise InputError("A gait is named by its id, by a file, or is a gait itself.", "source")
     found = source if isinstance(source, Gait) else _read(source)
     return found.changed(**options) if options else found
 
 
 def _read(source: str | Path) -> Gait:
-    path = Path(source)
-    if path.suffix in _FOREIGN:
-        return Gait(imported_gait(command_options("import", [str(path)])).gait)
-    if path.suffix == ".json":
-        return Gait(imported_gait(command_options("import", [str(path)])).gait)
+    if Path(source).suffix in _FILES:
+        return Gait(imported_gait(command_options("import", [str(source)])).gait)
     try:
         gait_id, document = stored_gait(str(source), None)
     except InputError as error:
-        known = [one.id or "" for one in gaits()]
+        folder = default_data_folder()
+        known = [*library(), *(GaitFiles(folder).ids() if folder.exists() else ())]
         near = get_close_matches(str(source), known, 3, 0.5)
         if not near:
             raise

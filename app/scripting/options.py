@@ -11,19 +11,22 @@ from app.cli.parser import make_parser, option_names
 from core.errors import InputError
 
 
-def command_options(command: str, words: Iterable[str] = (), **options: Any) -> Namespace:
+def command_options(
+    command: str, words: Iterable[str] = (), without: Iterable[str] = (), **options: Any
+) -> Namespace:
     """What a command is asked by keyword arguments.
 
     Args:
         command: such as `optimise`.
         words: its arguments that are no options.
+        without: options of the command that mean nothing here.
         options: by the names of the command line, with underscores; None for one that is left out, True for
             one without a value, and a sequence where the command line has commas.
 
     Raises:
         InputError: there is no such option, or its value does not fit.
     """
-    known = option_names(command)
+    known = option_names(command) - set(without)
     for name in options:
         if name not in known:
             near = get_close_matches(name, known, 1)
@@ -35,9 +38,9 @@ def command_options(command: str, words: Iterable[str] = (), **options: Any) -> 
 
 def _words(name: str, value: Any) -> list[str]:
     option = f"--{name.replace('_', '-')}"
-    if value is None or value is False:
+    if value is None or (isinstance(value, bool | np.bool_) and not value):
         return []
-    return [option] if value is True else [f"{option}={_text(value)}"]
+    return [option] if isinstance(value, bool | np.bool_) else [f"{option}={_text(value)}"]
 
 
 def _text(value: Any) -> str:

@@ -120,7 +120,7 @@ def simulate(source: Plan | Gait | str | Path | ArrayLike, **options: Any) -> Si
         False
     """
     of = plan(source)
-    asked = command_options("simulate", ["plan"], **options)
+    asked = command_options("simulate", ["plan"], ("robot", "merge", "stop_bound"), **options)
     model = of.robot.model
     problem = way_problem(model, of.need_motion(), of.need_way(), physics_set(asked, model), asked.rig)
     with progress_bar("Physics") as tell:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from argparse import Namespace
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,8 +20,9 @@ from app.export.formats import ExportFormat, export
 from app.export.gait_diagram import gait_diagram
 from app.export.source import exportable_plan
 from app.export.svg import svg
-from app.export.trajectory_files import write_trajectory
+from app.export.trajectory_files import companion_path, write_trajectory
 from app.export.way_files import is_way_file, read_way_file
+from app.gaits.live_plans import is_drawing
 from app.plans.plan import Plan as Made
 from app.plans.plan import PlanSource, make_plan
 from app.scripting.arrays import array_of
@@ -31,11 +33,13 @@ from app.scripting.robots import Robot
 from app.store.gait_files import write_atomically
 from core.arrays import Bools, Floats
 from core.errors import CheckError, InfeasibleError, InputError
+from core.gait.gait import Gait as Document
 from core.motion.trajectory import Trajectory
 from core.pose_gaits.gait_poses import pose_problem, with_poses
 from core.recorded.waypoint_motion import motion_of_waypoints
 from core.robot.model import load_robot
 from core.wire.robot_time import estimate_seconds, move_estimates, stop_time
+from core.wire.waypoint_companion import WaypointCompanion, format_waypoint_companion
 from core.wire.waypoint_merging import WaypointPlan, plan_of_knots
 from core.wire.waypoints import Waypoints, format_waypoint_csv
 from solver_jobs import SolveStatus, solve_live
@@ -156,8 +160,9 @@ class Plan:
         """Writes the motion, the waypoints, the gait or a picture.
 
         Args:
-            path: `X.csv` for the trajectory in SI with its companion, `X.waypoints.csv` for the waypoints in
-                mm, `.npz` for arrays, `.html` for a page that plays it, `.json` for the gait, `.svg`, `.png`.
+            path: `X.csv` for the trajectory in SI, `X.waypoints.csv` for the waypoints in mm, both with
+                their companions, `.npz` for arrays, `.html` for a page that plays it, `.json` for the gait,
+                `.svg` or `.png` for a picture.
 
         Returns:
             The path.
@@ -173,7 +178,7 @@ class Plan:
         """
         file = Path(path)
         if file.name.endswith(".waypoints.csv"):
-            write_atomically(file, format_waypoint_csv(self.need_way().waypoints))
+            self._save_waypoints(file)
         elif file.suffix == ".csv":
             write_trajectory(file, self.need_motion(), self.robot.name)
         elif file.suffix in _FORMS and self.gait is not None:
@@ -184,6 +189,14 @@ class Plan:
             known = ", ".join((".csv", ".waypoints.csv", *_FORMS))
             raise InputError(f"{file.name}: a plan is written as {known}.", "path")
         return file
+
+    def _save_waypoints(self, file: Path) -> None:
+        way = self.need_way()
+        text = format_waypoint_csv(way.waypoints)
+        origin = {} if self.gait is None else {"gait": self.gait.name}
+        companion = WaypointCompanion(self.robot.name, way.stop_bound, origin, None)
+        write_atomically(file, text)
+        write_atomically(companion_path(file), format_waypoint_companion(companion, text))
 
     def plot(self) -> Figure:
         """Draws foot heights, stability margin and strokes over time, by matplotlib.
@@ -250,34 +263,62 @@ def optimise(source: str | Path | Gait, **options: Any) -> Plan:
         >>> plan.status, plan.waypoints.shape[1:]
         ('solved', (4, 3))
     """
+    document, asked = _drawn("optimise", source, ("remedy",), options)
+    return _optimised(Gait(document), asked.method, asked.gait)
+
+
+def _drawn(
+    command: str, source: str | Path | Gait, without: tuple[str, ...], options: dict[str, Any]
+) -> tuple[Document, Namespace]:
+    """A gait that a solver can be asked for, with what is changed of it, and the options of its command.
+
+    Raises:
+        InputError: it is made by hand, for the robot's clock, or a sequence.
+    """
     name = source.name if isinstance(source, Gait) else str(source)
-    asked = command_options("optimise", [name], **options)
-    document = gait_with_options(
-        source.document if isinstance(source, Gait) else named_gait(name),
-        asked,
-    )
-    verified = solve(document, asked.method)
+    asked = command_options(command, [name], without, **options)
+    document = source.document if isinstance(source, Gait) else named_gait(name)
+    if not is_drawing(replace(document, recorded=None)) or document.sequence:
+        raise InputError(
+            f"“{document.name}” is made by hand, for the robot's clock, or a sequence; there is nothing to "
+            "optimise. footfall.plan(…) gives its plan.",
+            "source",
+        )
+    return gait_with_options(replace(document, recorded=None), asked), asked
+
+
+def _optimised(of: Gait, method: Method, name: str) -> Plan:
+    verified = solve(of.document, method)
     figures = {
         "gait": name,
-        "method": asked.method.value,
-        "knots": document.timeline.sample_count,
-        "knot_time": document.timeline.sample_time,
-        "robot": document.robot,
+        "method": method.value,
+        "knots": of.document.timeline.sample_count,
+        "knot_time": of.sample_time,
+        "robot": of.robot,
         **verified.content,
     }
-    robot, of = Robot(load_robot(document.robot)), Gait(document)
     if verified.status is not SolveStatus.SOLVED:
+        robot = Robot(load_robot(of.robot))
         return Plan(verified.status.value, robot, of, tuple(verified.explanation), figures)
     result = {**verified.content, "trajectory": trajectory_content(verified.trajectory)}
-    return _of_made(of, make_plan(document, result, solve_live), verified.status.value, figures)
+    return _of_made(of, make_plan(of.document, result, solve_live), verified.status.value, figures)
 
 
 def _of_made(of: Gait, made: Made, status: str, figures: dict[str, Any]) -> Plan:
     robot = Robot(made.model)
     if made.trajectory is None or made.is_draft:
         why = made.note if made.refusal is None else made.refusal.sentence
-        return Plan(SolveStatus.INFEASIBLE.value, robot, of, (why,), figures)
+        return Plan(_failure(made).value, robot, of, (why,), figures)
     return Plan(status, robot, of, (), figures, made.trajectory, made.way)
+
+
+def _failure(made: Made) -> SolveStatus:
+    """Whether a plan without a motion is proven to have none, or nothing was found."""
+    if isinstance(made.refusal, InputError):
+        raise made.refusal
+    if made.live is not None:
+        return made.live.status
+    return SolveStatus.FAILED if isinstance(made.refusal, CheckError) else SolveStatus.INFEASIBLE
 
 
 def fastest(source: str | Path | Gait | None = None, **options: Any) -> Plan:
@@ -303,7 +344,7 @@ def fastest(source: str | Path | Gait | None = None, **options: Any) -> Plan:
     """
     of = source if isinstance(source, Gait) else None
     words = [] if source is None else [of.name if of is not None else str(source)]
-    asked = command_options("fastest", words, **options)
+    asked = command_options("fastest", words, ("front",), **options)
     name, document = fastest_document(asked, None if of is None else of.document)
     document, walk, _ = fastest_walk(asked, name, document)
     model = load_robot(document.robot)
@@ -334,10 +375,8 @@ def frontier(source: str | Path | Gait, **options: Any) -> dict[str, Any]:
         >>> ff.frontier("walk", method="live")["max_step"] > 0.01
         True
     """
-    name = source.name if isinstance(source, Gait) else str(source)
-    asked = command_options("frontier", [name], **options)
-    document = gait_with_options(source.document if isinstance(source, Gait) else named_gait(name), asked)
-    return frontier_content(name, frontier_search(document, asked).run())
+    document, asked = _drawn("frontier", source, (), options)
+    return frontier_content(asked.gait, frontier_search(document, asked).run())
 
 
 def plan(
@@ -365,6 +404,8 @@ def plan(
         (5, 4, 3)
     """
     if isinstance(source, Plan):
+        if robot is not None or method != Method.NLP:
+            raise InputError("A plan is made already; robot and method are for gaits.", "source")
         return source
     if not isinstance(source, str | Path | Gait):
         return _of_strokes(array_of(source, _shape(robot), "strokes", "m"), robot)
@@ -374,8 +415,10 @@ def plan(
     of = gait(source)
     if robot is not None:
         of = of.changed(robot=robot)
-    chosen = command_options("optimise", [of.name], method=method).method
-    made = planned_gait(of.document, Method(chosen))
+    chosen = Method(command_options("optimise", [of.name], method=method).method)
+    if is_drawing(of.document) and not of.document.sequence:
+        return _optimised(of, chosen, of.id or of.name)
+    made = planned_gait(of.document, chosen)
     given = (PlanSource.MANUAL, PlanSource.RECORDED)
     return _of_made(of, made, "given" if made.source in given else SolveStatus.SOLVED.value, {})
 

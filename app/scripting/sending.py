@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.bridge.states import LinkState, RobotSnapshot, RobotState, RunPlan
+from app.cli.output import end_on_signals
 from app.cli.streaming import stream
 from app.common.signals import ending_signals
 from app.robot.recorded_bridge import RecordedRun
@@ -31,7 +32,7 @@ from app.store.database import DATABASE, Database
 from app.store.gait_files import default_data_folder
 from app.store.run_store import RunStore
 from core.arrays import Floats
-from core.errors import CheckError, InputError, RobotError
+from core.errors import CheckError, InputError, RobotError, StateError
 from core.findings import Severity, Verdict, approve
 from core.names import is_visible
 from core.runs.pose import RanPlan
@@ -134,6 +135,8 @@ def send(
         InputError: no name was given, or the plan cannot be read.
         InfeasibleError, CheckError: the plan has no motion, or an error stands; nothing was sent.
         RobotError: no robot answers, or the run did not reach its end; it is kept all the same.
+        StateError: it was not called in the main thread, or the robot cannot be armed.
+        StorageError: the data folder takes no record of the run.
 
     Example:
         >>> import footfall as ff
@@ -142,7 +145,9 @@ def send(
         'done'
     """
     of = plan(source)
-    if not is_visible(by):
+    if threading.current_thread() is not threading.main_thread():
+        raise StateError("send works in the main thread alone, since interrupting it is Stop.", "send")
+    if not isinstance(by, str) or not is_visible(by):
         raise InputError("by must be the name of the person who approves the run.", "by")
     if not of.robot.model.wired:
         raise InputError(f"{of.robot.title} has no cable here; only the DeltaWalker can be sent to.", "robot")
@@ -201,13 +206,12 @@ def _read(folder: Path, run_id: str) -> Run:
 
 @contextmanager
 def _handlers_kept() -> Iterator[None]:
-    """Gives the signals back to the script or notebook as they were."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
+    """Makes every signal that ends the program a Stop, and gives them back as they were."""
     before = {number: signal.getsignal(number) for number in (signal.SIGINT, *ending_signals())}
+    end_on_signals()
     try:
         yield
     finally:
         for number, handler in before.items():
-            signal.signal(number, handler)
+            if handler is not None:  # None: it was not set by Python
+                signal.signal(number, handler)

@@ -13,7 +13,7 @@ from functools import cached_property
 from types import MappingProxyType
 from typing import Any
 
-from app.undo.merge import Path, merge, place_words, say_the_same, value_at
+from app.undo.merge import RESULT, Path, merge, place_words, say_the_same, value_at
 from core.errors import StateError
 
 MOST_STEPS = 300
@@ -181,7 +181,7 @@ class History:
         return replace(self, entries={**self.entries, unread: entry}, done=done, undone=undone)
 
     def restated(self, document: str) -> History:
-        """The log with its newest document said anew: what is no edit, such as a result's provenance."""
+        """The log with its newest document said anew: with a result that belongs to the newest edit."""
         entry = replace(self.present, document=document)
         return replace(self, entries={**self.entries, self.last: entry})
 
@@ -236,7 +236,11 @@ class History:
                 "history",
             )
         exact = say_the_same(present, old)
-        return UndoResult(action.position, label, again, new if exact else merged.content, new, exact)
+        content = merged.content
+        if exact:  # but for a result that came since, which stays
+            (key,) = RESULT
+            content = new | {key: content[key]} if key in content else new
+        return UndoResult(action.position, label, again, content, new, exact)
 
     def _claims(self, action: Action, places: tuple[Path, ...], others: frozenset[str]) -> dict[Path, Author]:
         """Places that others changed after an edit, and who did; also where they changed them back."""

@@ -25,8 +25,11 @@ _CELLS = (("timeline", "feet"), ("timeline", "locked"))
 _WHOLE: tuple[Path, ...] = (("order",), ("held", "start"), ("held", "end"), ("poses", "pinned"))
 """Lists that make sense as a whole only."""
 
-_BESIDE: tuple[Path, ...] = (("provenance",), ("poses", "found"))
-"""What stands in a document without being edited."""
+RESULT: Final = ("provenance",)
+"""Which result a document has; an edit that brought one is undone where no other has come since."""
+
+_BESIDE: tuple[Path, ...] = (RESULT, ("poses", "found"))
+"""Results in a document; others that came since are in no undo's way."""
 
 MOST_PLACES = 3
 """Places that a sentence names."""
@@ -98,6 +101,8 @@ class _Merging:
         self.conflicts: list[Path] = []
 
     def merged(self, base: Any, want: Any, present: Any, path: Path) -> Any:
+        if path == RESULT and base != want and present == base:
+            return want
         if base == want or present == want or path in self.left:
             return present
         values = (base, want, present)

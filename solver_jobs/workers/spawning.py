@@ -4,6 +4,7 @@ import multiprocessing
 import os
 import signal
 import sys
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from multiprocessing.connection import Connection
@@ -13,6 +14,9 @@ from typing import Any
 
 NICENESS = 5
 """How far a solver stands back where cores are scarce, so that a stop of the robot never waits for one."""
+
+_STARTING = threading.Lock()
+"""One process is started at a time."""
 
 BACKGROUND_NICENESS = 10
 """Niceness of background workers, which yield to the page and to live results."""
@@ -47,14 +51,16 @@ def start_process(
 def _without_main() -> Iterator[None]:
     """Starts a worker without the file that is the main program, of which no worker has any need.
 
-    It would run a person's script once more, and load the command line in each worker of the studio.
+    It would run a person's script once more, and load the command line in each worker of the studio. Other
+    threads may meet the stand-in for some milliseconds.
     """
-    main = sys.modules["__main__"]
-    sys.modules["__main__"] = ModuleType("__main__")
-    try:
-        yield
-    finally:
-        sys.modules["__main__"] = main
+    with _STARTING:
+        main = sys.modules["__main__"]
+        sys.modules["__main__"] = ModuleType("__main__")
+        try:
+            yield
+        finally:
+            sys.modules["__main__"] = main
 
 
 def _stand_back(

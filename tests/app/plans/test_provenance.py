@@ -138,7 +138,8 @@ def test_a_result_that_comes_after_an_edit_is_there_when_the_edit_is_undone(serv
     service.edit(WALK, longer(drawn), "Longer", None)
     assert service.on_result(result_for(drawn), WALK) is None
     assert shown(service, WALK) is None
-    service.undo(WALK)
+    for step in (service.undo, service.redo, service.undo):
+        step(WALK)
     assert shown(service, WALK) == (True, True)
 
 
@@ -279,3 +280,51 @@ def test_beside_another_tabs_edit_an_undo_keeps_the_result_of_what_is_left(
     assert undone.provenance is not None
     assert asdict(undone.provenance) == provenance
     assert shown(service, WALK) == (False, False)
+
+
+def two_pages(tmp_path: Path, database: Database) -> GaitService:
+    pages = frozenset({"one", "two"})
+    return GaitService(GaitFiles(tmp_path), database, lambda gait: solve_live, lambda: pages)
+
+
+ONE, TWO = Author("one", "Ada"), Author("two", "Bob")
+
+
+def test_an_undo_of_words_keeps_the_result_that_another_tab_took_since(
+    tmp_path: Path, database: Database
+) -> None:
+    service = two_pages(tmp_path, database)
+    renamed = replace(service.open_gait(WALK).gait, notes="words")
+    service.edit(WALK, renamed, "Notes", None, ONE)
+    take(service, WALK, TWO)
+    assert service.undo(WALK, ONE).gait.notes == library()[WALK].gait.notes
+    assert shown(service, WALK) == (True, True)
+
+
+def test_a_result_is_undone_beside_another_tabs_words(tmp_path: Path, database: Database) -> None:
+    service = two_pages(tmp_path, database)
+    take(service, WALK, TWO)
+    service.edit(WALK, replace(service.open_gait(WALK).gait, notes="words"), "Notes", None, ONE)
+    undone = service.undo(WALK, TWO).gait
+    assert (undone.provenance, undone.notes) == (None, "words")
+
+
+def test_the_state_before_a_result_can_be_restored(service: GaitService) -> None:
+    service.check(WALK)
+    service.approve(WALK, ApprovalRequest("Ada", accept_warnings=True))
+    number = service.versions.newest_number(WALK)
+    assert number is not None
+    take(service, WALK)
+    service.restore_version(WALK, number)
+    assert service.plan(WALK).source is PlanSource.LIVE
+
+
+def test_a_result_for_a_deleted_gait_is_there_when_it_comes_back(service: GaitService) -> None:
+    gait_id = service.create(replace(library()[WALK].gait, name="Gone")).id
+    content = result_for(service.open_gait(gait_id).gait)
+    service.edit(gait_id, longer(service.open_gait(gait_id).gait), "Longer", None)
+    service.delete(gait_id)
+    assert service.on_result(content, gait_id) is None
+    service.restore(gait_id)
+    service.undo(gait_id)
+    assert shown(service, gait_id) == (True, True)

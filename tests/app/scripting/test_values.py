@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -71,6 +73,12 @@ def test_an_infeasible_plan_says_why_and_has_no_arrays() -> None:
         (lambda: plan_of_walk().save("walk.xls"), ff.InputError, "a plan is written as .csv"),
         (lambda: ff.show(ff.plan(np.full((2, 4, 3), 0.0055))), ff.InputError, "waypoints alone"),
         (lambda: ff.trial("nowhere.csv", expect=5), ff.FootfallError, "nowhere.csv"),
+        (lambda: ff.optimise(ff.gait("walk-manual-0")), ff.InputError, "there is nothing to optimise"),
+        (lambda: ff.frontier(ff.gait("fast-c-gait")), ff.InputError, "there is nothing to optimise"),
+        (lambda: ff.simulate("walk-manual-0", stop_bound=0.5), ff.InputError, "no option “stop_bound”"),
+        (lambda: ff.optimise("walk", remedy=1), ff.InputError, "no option “remedy”"),
+        (lambda: ff.gait(None), ff.InputError, "A gait is named by its id"),
+        (lambda: ff.send("walk-manual-0", to="emulator", by=None), ff.InputError, "name of the person"),
     ],
 )  # fmt: skip
 def test_bad_input_is_refused_in_a_sentence(
@@ -161,3 +169,36 @@ def test_plots_need_matplotlib_and_say_so() -> None:
             plan.plot()
     else:
         assert len(plan.plot().axes) == 3
+
+
+def test_a_solver_that_gives_up_is_not_called_solved(monkeypatch: pytest.MonkeyPatch) -> None:
+    plans = importlib.import_module("footfall.app.scripting.plans")
+    gaits = importlib.import_module("footfall.core.gait.gait")
+    tiers = importlib.import_module("footfall.solver_jobs")
+    verify = importlib.import_module("footfall.app.plans.verified_result").verify
+
+    def fails(document: Any, method: Any) -> Any:
+        problem = gaits.motion_problem(document, plans.load_robot(document.robot))
+        return verify(problem, replace(tiers.solve_live(problem), status=tiers.SolveStatus.FAILED))
+
+    monkeypatch.setattr(plans, "solve", fails)
+    plan = ff.plan("walk")
+    assert plan.status == "failed"
+    with pytest.raises(ff.CheckError, match="has no motion"):
+        _ = plan.body
+
+
+def test_a_recorded_motion_is_optimised_anew(tmp_path: Path) -> None:
+    recorded = ff.gait(plan_of_walk().save(tmp_path / "walk.csv"))
+    assert ff.plan(recorded).status == "given"
+    plan = ff.optimise(recorded, method="live")
+    assert plan.status == "solved"
+    assert plan.gait.document.recorded is None
+    assert recorded.changed(step=0.008).document.recorded is None
+
+
+def test_waypoints_name_their_robot(tmp_path: Path) -> None:
+    plan = ff.plan("hexapod-wave", method="live")
+    again = ff.plan(plan.save(tmp_path / "wave.waypoints.csv"))
+    assert again.robot.name == "hexapod"
+    assert again.waypoints == pytest.approx(plan.waypoints, abs=1e-7)

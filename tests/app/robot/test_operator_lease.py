@@ -49,7 +49,7 @@ def test_a_looker_on_moves_nothing_and_can_stop(studio: StudioProcess, ask: Subm
     for verb in ("arm", "pause", "resume", "reset", "disconnect"):
         refused = ask(verb, GRACE)
         assert refused.status == 409
-        assert refused.content["error"].startswith("Ada is in control. Ask Ada for it")
+        assert refused.content["error"].startswith("Ada is in control. Ask Ada for control")
     refused = ask("send", GRACE, gait="walk")
     assert (refused.status, refused.content["where"]) == (409, "lease")
     assert ask("arm", ADA).content["robot"] == "armed"

@@ -59,7 +59,7 @@ def test_a_full_disk_is_507_with_a_sentence_and_room_makes_everything_well(
             client.post("/api/gaits", json=long | {"name": "New"}),
         ):
             assert answer.status_code == 507, answer.text
-            assert "room" in answer.json()["error"]
+            assert "Free space" in answer.json()["error"]
         after = client.get(f"{MANUAL}/view").json()
         assert {key: after[key] for key in ("document", "revision", "approval", "saved_at")} == {
             key: before[key] for key in ("document", "revision", "approval", "saved_at")

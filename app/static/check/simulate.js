@@ -164,7 +164,7 @@ export function robustness() {
       known = variations;
       const walking = variations.runs.filter(({ walks }) => walks).length;
       setText(share, `${walking} of ${variations.count} walk (${fixed((100 * walking) / variations.count, 0)} %)`);
-      setText(description, "Friction, masses, motor speed, one weak motor, 1° of slope and softer legs, changed at random. Point at a cell for one of them.");
+      setText(description, "The variations change friction, masses, motor speed, one weak motor, 1° of slope and softer legs at random. Point at a cell to see one variation.");
       list.replaceChildren(...variations.runs.map(cell));
     },
   };

@@ -106,7 +106,7 @@ export function mountFirstSteps(store, playback) {
     if (opened === null || opened === key) opened = firstToDo();
     show();
   });
-  addHelp({ text: "First steps", help: "Four acts that lead from a gait to the robot", act: begin });
+  addHelp({ text: "First steps", help: "Four things to try on the way from a gait to the robot", act: begin });
 
   opened = firstToDo();
   store.watch(({ view, robot }) => [view?.document, robot?.emulated, planIsOn(robot)], show);

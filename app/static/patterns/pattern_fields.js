@@ -48,7 +48,7 @@ export function patternFields(store, problem, lock) {
   };
   const choice = modes(problem);
   const samples = lengthField("Length", "Of the transition, with its two boundary samples", (value) => problem.set({ samples: value }));
-  const cycle = lengthField("Length of a cycle", "After so many samples the pattern repeats", (value) => problem.set({ cycle: value }));
+  const cycle = lengthField("Length of a cycle", "The pattern repeats after this many samples", (value) => problem.set({ cycle: value }));
   const shortest = check("Shortest that works", "The search chooses the length: as few samples as the rules allow", (on) => problem.set({ shortest: on, ...(on || !shown ? {} : { samples: shown.samples }) }));
   const walkable = check("Swings that the feet can do", "Beyond the thesis: every swing, also one that a cursor cuts, is long enough for the feet to take the gaits' steps", (on) => problem.set({ walkable: on }));
   const keep = check("Keep what I drew where you can", "What is shown now, or the gait's own drawing, is a hint: of patterns that are equally good the one most like it is taken", (on) => problem.set({ keep: on }));

@@ -21,7 +21,7 @@ function ofTransition(store, problem) {
   return {
     legs: first.timeline.feet.length, samples: count, isLocked, limbHelp: "Click: lock this limb to the value that it has at both ends, or unlock it",
     given: (foot) => given(first, second, foot),
-    lockRefusal: (foot) => (ends(foot)[0] === ends(foot)[1] ? null : "It stands at one end and swings at the other. Move a cursor first."),
+    lockRefusal: (foot) => (ends(foot)[0] === ends(foot)[1] ? null : "A locked limb keeps one state, but this one stands at one end of the transition and swings at the other. Move the cursor in one of the two gaits first."),
     base: (foot, sample) => (sample === 0 ? ["end", ends(foot)[0]] : sample === count - 1 ? ["end", ends(foot)[1]] : isLocked(foot) ? ["limb", ends(foot)[0]] : null),
   };
 }

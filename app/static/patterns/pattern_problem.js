@@ -14,7 +14,7 @@ export const RULES = [
   { rule: "workload", name: "Workloads differ by", unit: "samples", usual: 2, help: "g6 and g7 of the footfall thesis: stance of any two limbs that walk" },
   { rule: "limb_changes", name: "Changes a limb, at most", unit: "times", usual: 2, help: "g8 of the footfall thesis: from stance to swing or back" },
   { rule: "least_swing", name: "Swing of a limb, at least", unit: "samples", usual: 2, help: "g11 of the footfall thesis, for limbs that walk" },
-  { rule: "balance", name: "Balance margin", unit: "mm", usual: null, first: 0, scale: 0.001, help: "Not in the thesis. At every sample the body can stay at least this far inside the support polygon, and get there from the sample before at its largest speed" },
+  { rule: "balance", name: "Balance margin", unit: "mm", usual: null, first: 0, scale: 0.001, help: "Not in the thesis. At every sample there is a place for the body at least this far inside the support polygon, and the body can go from each such place to the next without exceeding its largest speed" },
 ];
 
 /** What a change costs; the pattern of the smallest sum is best. */

@@ -20,7 +20,7 @@ function standing(store, run) {
   if (run.gait.startsWith("file:")) return "This run was of a file, sent by a command: nothing is laid over the plots.";
   const known = store.state.gaits.some(({ id }) => id === run.gait);
   if (selected !== run.gait) return `The gait of this run is not ${known ? "the one that is shown" : "among the gaits any more"}: nothing is laid over the plots.`;
-  if (view?.plan?.waypoints_hash !== run.waypoints_hash) return "The gait has changed since: measured strokes stand over what is planned now.";
+  if (view?.plan?.waypoints_hash !== run.waypoints_hash) return "The gait has changed since this run. The plots show the run's measured strokes over the new plan, so they need not agree.";
   return "Measured strokes stand over the planned ones in the plots.";
 }
 

@@ -81,7 +81,7 @@ const AXES = {
     uses: (position) => position.split("-")[0],
   },
   z: {
-    title: "Heights", unit: "mm", help: "Motor stroke of a centred foot", shown: (value) => String(Number((value * 1000).toFixed(4))), stored: (value) => value / 1000,
+    title: "Heights", unit: "mm", help: "Stroke of each motor when the foot is in its middle position", shown: (value) => String(Number((value * 1000).toFixed(4))), stored: (value) => value / 1000,
     least: 0.5, most: 19.5, fresh: 0.006, uses: (position) => position.split("-").slice(1).join("-"),
   },
 };

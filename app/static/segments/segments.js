@@ -32,7 +32,7 @@ function tools(input, toggleDefinitions) {
   const button = (text, title, act) => h("button", { text, title, on: { click: act } });
   const words = h("button", { text: "Vocabulary", title: "Named positions and segments", "aria-expanded": "false", "aria-controls": "segment-words", on: { click: () => toggleDefinitions(words) } });
   const bar = h("div", { class: "sheet-tools", role: "toolbar", "aria-label": "Segment table" },
-    button("Insert", "A new segment after the selected ones, in which every foot waits (Insert; with Alt before them)", () => input.insert()),
+    button("Insert", "Adds a segment after the selected ones, in which every foot waits (key Insert; Alt+Insert adds it before them)", () => input.insert()),
     button("Remove", "Take the selected segments away from every foot (Ctrl+Delete)", () => input.remove()),
     button("Fill down", "The first selected segment into the ones below it (Ctrl+D)", () => input.fill()), words);
   oneTabStop(bar, { isToolbar: true });

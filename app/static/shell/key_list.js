@@ -15,7 +15,7 @@ const GROUPS = {
     ["Ctrl+Y", "Redo; Ctrl+Shift+Z as well"],
     ["Ctrl+S", "Save"],
     ["F6", "The next part of the page; with Shift the one before. Before the top bar comes the button of the next act"],
-    ["[ ]", "Fold the drawer, fold the inspector; a step opens it again"],
+    ["[ ]", "[ folds the drawer, ] the inspector; the same key opens it again. Design, Simulate, Check & approve and Run open the inspector too"],
     ["?", "This list"],
   ],
   "Cells of the timeline": [
@@ -39,7 +39,7 @@ const GROUPS = {
   ],
   "Lists and toolbars": [
     ["↑ ↓", "In a list: another line. Home and End: the first and the last one"],
-    ["← →", "In a toolbar, or on the tabs: another one"],
+    ["← →", "In a toolbar: the next or previous button. On the tabs: the next or previous tab"],
     ["Enter", "Open it; on Send to robot, held for a second, send it"],
     ["Double click", "A gait's name, to write another one"],
   ],

@@ -58,7 +58,7 @@ const ENTRIES = [
   },
 ];
 
-const NO_PRESSURE = "The centre of pressure is not known: this motion has no accelerations. Optimised and live plans have them.";
+const NO_PRESSURE = "The centre of pressure is not known, because the accelerations of this motion are not known. Optimised and live plans have both.";
 
 /** Fetches the reach of the drawn plan while its layer is on. */
 function followReach(store, preview, isOn) {

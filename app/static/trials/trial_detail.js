@@ -113,7 +113,7 @@ export async function trialDetail(store, id, { all, remove, tracks, video }) {
       h("div", { class: "run-line run-title" }, h("b", { text: now.name })), exampleLine(now), deletedLine(now), facts(now), sourcePart(now, video)].filter(Boolean));
     tail.replaceChildren(...[endsLine(now, (changes) => sync.change(changes)), comparison.element, iterationTable(now),
       movementTable("Movement as published", "Largest excursions from the first frame; never negative. Angles on the platform. The planned motion by the same definition", now.figures, now.plan, published),
-      movementTable("Movement, first to last", "Last minus first frame; angles on the platform", now.figures, now.plan, net),
+      movementTable("Movement, first to last", "Where each foot is in the last frame, minus where it was in the first. Angle: the direction of this movement on the platform", now.figures, now.plan, net),
       slipTable(now), filesLine(now, remove)].filter(Boolean));
     drawPlots();
     attempt(comparison.refresh)();

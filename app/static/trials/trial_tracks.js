@@ -48,7 +48,7 @@ export function tracksParts(store, showGait) {
       other.hidden = !line;
       if (!line) return;
       const show = h("button", { class: "link", text: `Show ${line.name}`, on: { click: () => showGait(wanted) } });
-      other.replaceChildren("Another gait is shown than this trial's. ", show);
+      other.replaceChildren("The shown gait is not the gait of this trial. ", show);
     }
 
     const part = {

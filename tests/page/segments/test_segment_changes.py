@@ -200,7 +200,7 @@ def test_segments_and_positions_of_ones_own(page: Page, studio: StudioProcess) -
     hover = {"start": "Home-None", "end": "Home-None", "swing": True}
     wait_for(lambda: table(studio, gait)["definitions"]["segments"].get("Hover A") == hover, "the segment")
     expect(undo_label(page)).to_have_text("hover A in the air")
-    height = words.get_by_label("Motor stroke of a centred foot at Base, mm")
+    height = words.get_by_label("Stroke of each motor when the foot is in its middle position at Base, mm")
     height.fill("6")
     height.press("Enter")
     wait_for(lambda: table(studio, gait)["definitions"]["z"]["Base"] == 0.006, "the height")
@@ -237,7 +237,7 @@ def test_words_that_changed_while_one_types_are_there_afterwards(page: Page, stu
     expect(undo_label(page)).to_have_text("elsewhere")
     page.keyboard.press("Escape")
     page.keyboard.press("Tab")
-    expect(words.get_by_label("Motor stroke of a centred foot at Base, mm")).to_have_value("6")
+    expect(words.get_by_label("Stroke of each motor when the foot is in its middle position at Base, mm")).to_have_value("6")
     assert "Step" in table(studio, gait)["definitions"]["xy"]
 
 

@@ -6,8 +6,11 @@ const STOPS = "a[href], button, input, select, summary, [tabindex]";
 
 const isStop = (element) => element.tabIndex >= 0 && !element.disabled && element.checkVisibility({ visibilityProperty: true }) && !element.closest("[inert]");
 
-/** What Tab reaches first in a part; undefined where the part is hidden. */
-const firstStop = (part) => [...document.querySelectorAll(`:is(${part}) :is(${STOPS})`)].find(isStop);
+/** Of a foot the button of the next act, of any other part what Tab reaches first; undefined where the part is hidden. */
+function firstStop(part) {
+  const stops = [...document.querySelectorAll(`:is(${part}) :is(${STOPS})`)].filter(isStop);
+  return stops.find((stop) => stop.matches(".inspector-foot .primary")) ?? stops[0];
+}
 
 /**
  * Moves the focus to the next part that is shown.

@@ -116,6 +116,6 @@ def test_the_inspector_folds_after_its_edge_was_dragged(page: Page) -> None:
 
 def test_the_focus_goes_to_the_step_that_opens(page: Page) -> None:
     page.get_by_role("button", name="Simulate", exact=True).press("Enter")
-    tab = page.get_by_role("tab", name="Check & approve")
+    tab = page.get_by_role("tab", name="Simulate")
     expect(tab).to_have_attribute("aria-selected", "true")
     expect(tab).to_be_focused()

@@ -23,8 +23,10 @@ from app.store.gait_files import GaitFiles
 from app.undo.history import Author
 from core.gait.gait import Gait, motion_problem
 from core.gait.provenance import Provenance
+from core.gait.recording import Recording, RecordingForm
 from core.library.library import library
 from core.robot.model import load_robot
+from core.wire.trajectory_csv import format_companion, format_trajectory_csv
 from solver_jobs import solve_live
 
 WALK = "walk"
@@ -328,3 +330,17 @@ def test_a_result_for_a_deleted_gait_is_there_when_it_comes_back(service: GaitSe
     service.restore(gait_id)
     service.undo(gait_id)
     assert shown(service, gait_id) == (True, True)
+
+
+def test_a_result_leaves_a_recorded_motion_and_waits_for_the_gait_without_it(service: GaitService) -> None:
+    drawn = service.open_gait(WALK).gait
+    motion = solve_live(motion_problem(drawn, load_robot(drawn.robot))).trajectory
+    text = format_trajectory_csv(motion)
+    recording = Recording("walk.csv", RecordingForm.TRAJECTORY, text, format_companion(motion, text))
+    service.edit(WALK, replace(drawn, recorded=recording), "Record", None)
+    recorded = service.open_gait(WALK)
+    assert service.on_result(result_for(drawn), WALK) is None
+    assert service.open_gait(WALK) == recorded
+    assert service.plan(WALK).source is PlanSource.RECORDED
+    service.undo(WALK)
+    assert shown(service, WALK) == (True, True)

@@ -237,7 +237,9 @@ def test_words_that_changed_while_one_types_are_there_afterwards(page: Page, stu
     expect(undo_label(page)).to_have_text("elsewhere")
     page.keyboard.press("Escape")
     page.keyboard.press("Tab")
-    expect(words.get_by_label("Stroke of each motor when the foot is in its middle position at Base, mm")).to_have_value("6")
+    expect(
+        words.get_by_label("Stroke of each motor when the foot is in its middle position at Base, mm")
+    ).to_have_value("6")
     assert "Step" in table(studio, gait)["definitions"]["xy"]
 
 
